@@ -10,7 +10,9 @@ if TYPE_CHECKING:
     from lagrotor.proved.closed_orbits import PeriodicOrbit as PeriodicOrbit
     from lagrotor.proved.closed_orbits import periodic_orbit as periodic_orbit
     from lagrotor.proved.crossings import Crossing as Crossing
+    from lagrotor.proved.crossings import Means as Means
     from lagrotor.proved.crossings import crossing as crossing
+    from lagrotor.proved.crossings import means as means
     from lagrotor.proved.crossings import no_crossing as no_crossing
     from lagrotor.proved.enclosure import Enclosure as Enclosure
     from lagrotor.proved.enclosure import enclose as enclose

@@ -12,7 +12,7 @@ set, so that the mean-value theorem gives the rest. A step with image y of m and
 where Q₁ is orthogonal nearly and its inverse is enclosed. Lohner 1992; Zgliczyński, C¹-Lohner algorithm, 2002.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, log10
 from typing import Any
@@ -29,6 +29,7 @@ MOST = 5_000  # steps
 _SHORTER, _LONGER = 0.7, 1.2
 _WIDER, _WIDER_BY_ALL = 2**-9, 2**-28  # of a set's size and of the largest one's, added at each node
 _WIDE = 1e-7  # of a box, from which on its Taylor terms are worth the second evaluation
+_REST = 1e3  # over tol: what a step leaves out may be, with all that its bound adds
 _SLOPE_TERMS = 0.85  # of the series' terms, for derivatives: they multiply what is small already
 
 
@@ -122,10 +123,18 @@ class Accuracy:
         return ceil(-log10(self.tol) * 3.33) + 40
 
 
-def step_of(motion: Motion, node: Node, w: Balls, h: Ball, n: int, slope_terms: int, rows: Any = None) -> CarriedStep:
-    """The step of length h. Raises TailError where its rest is not bounded."""
+def step_of(
+    motion: Motion, node: Node, w: Balls, h: Ball, accuracy: Accuracy, rows: Sequence[Balls] | None = None
+) -> CarriedStep:
+    """The step of length h. Raises TailError where its rest is not bounded, or far above what may be left out.
+
+    A pulse that begins within the step is in no Taylor term at its start, but in the rest.
+    """
+    n, slope_terms = accuracy.terms, accuracy.slope_terms
     rows = taylor(motion, node.m, n) if rows is None else rows
     rests, _ = with_rest(motion, at := scaled(rows, h, n), node.m, h, n)
+    if not max_of(rests) < _REST * accuracy.tol * size_of(rows):
+        raise TailError("the rest of the Taylor series is large over the step")
     least = max_of(rests) * arb(2) ** -16  # another program's bounds of small components are not as small
     image = [
         sum(row, arb(0)) + arb(0, (SLACK * rest + least).abs_upper()) for row, rest in zip(at, rests, strict=True)
@@ -206,19 +215,19 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
 
     Raises NotProved where no step is short enough.
     """
-    node, w, n, slope_terms = start.node, start.spread, accuracy.terms, accuracy.slope_terms
+    node, w = start.node, start.spread
     limit = longest = float(exact(t))
     for _ in range(MOST):
         left = t - node.t
         try:
-            rows = taylor(motion, node.m, n)
+            rows = taylor(motion, node.m, accuracy.terms)
         except TailError as reason:
             raise NotProved(f"the enclosure ends at t = {float(node.t):.6g}: {reason}") from None
         h = min(step_length(rows, accuracy.tol), limit * _LONGER)
         while True:
             last = not (left > h * 1.0001)
             try:
-                made = step_of(motion, node, w, left if last else arb(h), n, slope_terms, rows)
+                made = step_of(motion, node, w, left if last else arb(h), accuracy, rows)
                 break
             except (TailError, ZeroDivisionError, ValueError) as error:
                 why = error if isinstance(error, TailError) else "the set is too wide for its frame"
@@ -236,8 +245,7 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
 
 def step_length(rows: list[Balls], tol: float) -> float:
     """The step at which the last Taylor terms are tol of the state's size, to a few bits."""
-    n = len(rows[0])
-    size = max(1.0, *(abs(float(row[0])) for row in rows))
+    n, size = len(rows[0]), size_of(rows)
     found = 1e6
     for k in (n - 2, n - 1):
         most = max(abs(float(exact(row[k]))) for row in rows)
@@ -245,3 +253,8 @@ def step_length(rows: list[Balls], tol: float) -> float:
             found = min(found, (tol * size / most) ** (1 / k))
     mantissa, exponent = np.frexp(found)
     return float(np.ldexp(np.floor(mantissa * 64) / 64, exponent))
+
+
+def size_of(rows: Sequence[Balls]) -> float:
+    """Of the state, at least 1."""
+    return max(1.0, *(abs(float(row[0])) for row in rows))

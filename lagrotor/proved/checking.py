@@ -6,17 +6,18 @@ rates is found by dual numbers, forward.
 """
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 from flint import arb, arb_mat, arb_poly, ctx, fmpz
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proved.family_checking import FamilyFlow, demand, rational_of
+from lagrotor.proved.family_checking import FamilyFlow
+from lagrotor.proved.recurrences import ZERO, demand, motion_terms, rational_of, slopes_of, terms_of
 from lagrotor.proved.statements import theorem_of
 
 Ball = Any
-ZERO = arb(0)
 _MORE_BITS = 64
 _WIDE = 2.0**-24  # of a box, from which on its terms are taken twice
 _POINTS = (
@@ -36,33 +37,34 @@ _POINTS = (
 
 
 class Rest:
-    """A power series on 0 ≤ s ≤ 1: n terms, and a bound of the sum of the absolute values of all further ones, which is None
-    where only the terms are sought, and no number where the series may not converge."""
+    """A power series on 0 ≤ s ≤ 1: n terms, and a bound of the sum of the absolute values of all further ones, which is no
+    number where the series may not converge."""
 
-    def __init__(self, terms: list[Ball], rest: Ball | None, n: int) -> None:
+    def __init__(self, terms: list[Ball], rest: Ball, n: int) -> None:
         self.terms, self.rest, self.n = terms[:n], rest, n
 
-    @property
-    def bound(self) -> Ball:
-        """The rest, where it was sought."""
-        return self.rest if self.rest is not None else arb("nan")
+    @cached_property
+    def total(self) -> Ball:
+        """The sum of the terms' absolute values, rounded up."""
+        return total(self.terms)
 
     def size(self) -> Ball:
         """Bound of the sum of all absolute values."""
-        return total(self.terms) + self.bound
+        return self.total + self.rest
 
     def __add__(self, other: "Rest") -> "Rest":
-        return Rest(longer(self.terms, other.terms, 1), both(self.rest, other.rest), self.n)
+        return Rest(longer(self.terms, other.terms, 1), self.rest + other.rest, self.n)
 
     def __sub__(self, other: "Rest") -> "Rest":
-        return Rest(longer(self.terms, other.terms, -1), both(self.rest, other.rest), self.n)
+        return Rest(longer(self.terms, other.terms, -1), self.rest + other.rest, self.n)
 
     def __mul__(self, other: "Rest") -> "Rest":
         product = (arb_poly(self.terms) * arb_poly(other.terms)).coeffs()
-        if self.rest is None or other.rest is None:
-            return Rest(product, None, self.n)
-        a, b = total(self.terms), total(other.terms)
-        rest = total(product[self.n :]) + a * other.rest + b * self.rest + self.rest * other.rest
+        rest = total(product[self.n :])
+        if not other.rest.is_zero():
+            rest += self.size() * other.rest
+        if not self.rest.is_zero():
+            rest += other.total * self.rest
         return Rest(product, rest, self.n)
 
     def at_start(self) -> Ball:
@@ -70,17 +72,9 @@ class Rest:
         return self.terms[0] if self.terms else ZERO
 
 
-def both(a: Ball | None, b: Ball | None) -> Ball | None:
-    """The sum of two rests."""
-    return None if a is None or b is None else a + b
-
-
 def total(terms: Sequence[Ball]) -> Ball:
     """The sum of the absolute values, rounded up."""
-    found = ZERO
-    for term in terms:
-        found += abs(term)
-    return arb(found.upper())
+    return arb(sum(map(abs, terms), ZERO).upper())
 
 
 def longer(a: list[Ball], b: list[Ball], sign: int) -> list[Ball]:
@@ -90,60 +84,9 @@ def longer(a: list[Ball], b: list[Ball], sign: int) -> list[Ball]:
     return [x + y if sign > 0 else x - y for x, y in zip(first, second, strict=True)]
 
 
-def inverse_terms(a: list[Ball]) -> list[Ball]:
-    """Of 1/a."""
-    found = [1 / a[0]]
-    for k in range(1, len(a)):
-        found.append(-sum((a[j] * found[k - j] for j in range(1, k + 1)), ZERO) / a[0])
-    return found
-
-
-def root_terms(a: list[Ball]) -> list[Ball]:
-    """Of the root of a."""
-    found = [a[0].sqrt()]
-    for k in range(1, len(a)):
-        found.append((a[k] - sum((found[j] * found[k - j] for j in range(1, k)), ZERO)) / (2 * found[0]))
-    return found
-
-
-def exp_terms(a: list[Ball]) -> list[Ball]:
-    """Of exp(a)."""
-    found = [a[0].exp()]
-    for k in range(1, len(a)):
-        found.append(sum((j * a[j] * found[k - j] for j in range(1, k + 1)), ZERO) / k)
-    return found
-
-
-def log_terms(a: list[Ball]) -> list[Ball]:
-    """Of log(a)."""
-    found = [a[0].log()]
-    for k in range(1, len(a)):
-        found.append((a[k] - sum((j * found[j] * a[k - j] for j in range(1, k)), ZERO) / k) / a[0])
-    return found
-
-
-def turning_terms(a: list[Ball], which: int) -> list[Ball]:
-    """Of sin(a) or cos(a)."""
-    s, c = [a[0].sin()], [a[0].cos()]
-    for k in range(1, len(a)):
-        s.append(sum((j * a[j] * c[k - j] for j in range(1, k + 1)), ZERO) / k)
-        c.append(-sum((j * a[j] * s[k - j] for j in range(1, k + 1)), ZERO) / k)
-    return (s, c)[which]
-
-
 def high(a: list[Ball], b: list[Ball], n: int) -> Ball:
     """What the product of two polynomials has from s^n on."""
     return total((arb_poly(a) * arb_poly(b)).coeffs()[n:])
-
-
-def slopes_of(a: list[Ball]) -> list[Ball]:
-    """The derivative's terms."""
-    return [k * x for k, x in enumerate(a)][1:]
-
-
-def padded(a: Rest) -> list[Ball]:
-    """All n terms."""
-    return a.terms + [ZERO] * (a.n - len(a.terms))
 
 
 def below_one(x: Ball) -> Ball:
@@ -154,9 +97,7 @@ def below_one(x: Ball) -> Ball:
 def inverse(a: Rest) -> Rest:
     """1/a = q/(1 − r), r = 1 − a q."""
     demand(a.at_start() > 0 or a.at_start() < 0, "a denominator is not shown to be other than zero")
-    q = inverse_terms(padded(a))
-    if a.rest is None:
-        return Rest(q, None, a.n)
+    q, _ = terms_of("divide", a.terms, a.n)
     size = total(q)
     r = high(a.terms, q, a.n) + size * a.rest
     return Rest(q, size * r / below_one(r), a.n)
@@ -165,9 +106,7 @@ def inverse(a: Rest) -> Rest:
 def root(a: Rest) -> Rest:
     """q + e with e = (a − q² − e²)/(2 q): |e| ≤ k d/(1 + √(1 − k² d)), k = |1/q|, d = |a − q²|."""
     demand(a.at_start() > 0, "a root's argument is not shown to be positive")
-    q = root_terms(padded(a))
-    if a.rest is None:
-        return Rest(q, None, a.n)
+    q, _ = terms_of("sqrt", a.terms, a.n)
     k = inverse(Rest(q, ZERO, a.n)).size()
     d = high(q, q, a.n) + a.rest
     return Rest(q, k * d / (1 + below_one(k * k * d).sqrt()), a.n)
@@ -181,9 +120,7 @@ def logarithm(a: Rest) -> Rest:
 
 def exponential(a: Rest) -> Rest:
     """q + e with e' = a' e + (a' q − q'); never more than the whole, exp(a_0 + |a − a_0|)."""
-    q, rate = exp_terms(padded(a)), slopes_of(a.terms)
-    if a.rest is None:
-        return Rest(q, None, a.n)
+    (q, _), rate = terms_of("exp", a.terms, a.n), slopes_of(a.terms)
     whole = (a.at_start() + total(a.terms[1:]) + a.rest).exp()
     if not total(rate) / (a.n + 1) < 1:
         return Rest(q, arb(whole.upper()), a.n)
@@ -191,24 +128,19 @@ def exponential(a: Rest) -> Rest:
     return Rest(q, arb(whole.upper()).min(e + (total(q) + e) * (a.rest.exp() - 1)), a.n)
 
 
-def turning(a: Rest, which: int) -> Rest:
-    """sin(a) or cos(a): the errors of both solve a linear equation with the coefficient a'."""
-    rate = slopes_of(a.terms)
-    pair = [turning_terms(padded(a), i) for i in (0, 1)]
-    if a.rest is None:
-        return Rest(pair[which], None, a.n)
+def turning(a: Rest) -> tuple[Rest, Rest]:
+    """sin(a) and cos(a): the errors of both solve a linear equation with the coefficient a'."""
+    rate, pair = slopes_of(a.terms), terms_of("sin", a.terms, a.n)
     e = sum((high(rate, q, a.n - 1) for q in pair), ZERO) / a.n / below_one(total(rate) / (a.n + 1))
-    size = sum(map(total, pair), ZERO) + 2 * e
-    return Rest(pair[which], e + size * (a.rest.exp() - 1), a.n)
+    rest = e + (sum(map(total, pair), ZERO) + 2 * e) * (a.rest.exp() - 1)
+    return Rest(pair[0], rest, a.n), Rest(pair[1], rest, a.n)
 
 
 def integral_of(a: Rest, slope: Rest, value: Ball) -> Rest:
     """g(a) from g' (a): g(a_0) + ∫ a' g'(a) ds, and the rest of a times g'."""
-    rate = [k * x for k, x in enumerate(a.terms)][1:]
+    rate = slopes_of(a.terms)
     product = (arb_poly(rate) * arb_poly(slope.terms)).coeffs()
     terms = [value, *(x / (k + 1) for k, x in enumerate(product[: a.n - 1]))]
-    if a.rest is None or slope.rest is None:
-        return Rest(terms, None, a.n)
     left = total(product[a.n - 1 :]) + total(rate) * slope.rest
     return Rest(terms, left / a.n + a.rest * slope.size(), a.n)
 
@@ -230,15 +162,14 @@ class Dual:
 
 def evaluated(tape: Any, arguments: list[Dual], n: int) -> list[Dual]:
     """The tape's outputs."""
-    none = None if arguments[0].value.rest is None else ZERO
-    one, minus = Rest([arb(1)], none, n), Rest([arb(-1)], none, n)
+    one, minus = Rest([arb(1)], ZERO, n), Rest([arb(-1)], ZERO, n)
     found: list[Dual] = []
     for name, *on in tape["operations"]:
         if name == "argument":
             found.append(arguments[on[0]])
             continue
         if name == "number":
-            found.append(Dual(Rest([rational_of(on[0])], none, n)))
+            found.append(Dual(Rest([rational_of(on[0])], ZERO, n)))
             continue
         a = found[on[0]]
         b = found[on[1]] if len(on) > 1 else a
@@ -268,8 +199,8 @@ def function(name: str, a: Dual, one: Rest, n: int) -> Dual:
     elif name == "log":
         value, slope = logarithm(x), inverse(x)
     elif name in ("sin", "cos"):
-        value = turning(x, int(name == "cos"))
-        slope = turning(x, 1) if name == "sin" else Rest([arb(-1)], one.rest, n) * turning(x, 0)
+        sine, cosine = turning(x)
+        value, slope = (sine, cosine) if name == "sin" else (cosine, Rest([arb(-1)], ZERO, n) * sine)
     elif name == "asin":
         slope = inverse(root(one - x * x))
         value = integral_of(x, slope, x.at_start().asin())
@@ -330,12 +261,11 @@ class Flow:
 
     def arguments(self, rows: list[Rest], still: Sequence[Ball], by: list[list[Rest]] | None, n: int) -> list[Dual]:
         """Series of all arguments; with derivatives by the start where `by` has those of what moves."""
-        flat = [Rest([c], ZERO if rows[0].rest is not None else None, n) for c in (*still, *self.parameters)]
+        flat = [Rest([c], ZERO, n) for c in (*still, *self.parameters)]
         if by is None:
             return [Dual(x) for x in (*rows, *flat)]
         unit_rows = [
-            [Rest([arb(int(i == j))], rows[0].rest if rows[0].rest is None else ZERO, n) for j in range(self.size)]
-            for i in range(self.moving, self.size)
+            [Rest([arb(int(i == j))], ZERO, n) for j in range(self.size)] for i in range(self.moving, self.size)
         ]
         found = [Dual(x, row) for x, row in zip(rows, by, strict=True)]
         found += [Dual(x, row) for x, row in zip(flat, unit_rows, strict=False)]
@@ -343,12 +273,8 @@ class Flow:
 
     def step(self, start: list[Ball], h: Ball, n: int, known: list[list[Ball]] | None = None) -> list[Rest]:
         """Series of what moves over one step, all starts within the balls. known: terms that are known already."""
-        moving, still = start[: self.moving], start[self.moving :]
-        terms = known or [[x] for x in moving]
-        for k in range(1, n if known is None else 1):
-            rates = self._rates([Rest(row, None, k) for row in terms], still, k)
-            for row, rate in zip(terms, rates, strict=True):
-                row.append(h * term(rate, k - 1) / k)
+        still = start[self.moving :]
+        terms = known or motion_terms(self.tape, start[: self.moving], [*still, *self.parameters], h, n)
         rests = [ZERO] * len(terms)
         for _ in range(9):
             rates = self._rates([Rest(row, rest, n) for row, rest in zip(terms, rests, strict=True)], still, n)
@@ -370,7 +296,7 @@ class Flow:
         found = [rate.by or zero for rate in evaluated(self.tape, self.arguments(rows, still, by, n), n)]
         found += [zero] * (size - n_rows)
         J = [arb_mat([[h * term(x, k) for x in row] for row in found]) for k in range(n)]
-        rest = widest([total([h * x.bound for x in row]) for row in found])
+        rest = widest([total([h * x.rest for x in row]) for row in found])
         D = [unit(size)]
         for k in range(1, n):
             D.append(sum((J[i] * D[k - 1 - i] for i in range(1, k)), J[0] * D[k - 1]) * (arb(1) / k))
@@ -414,7 +340,7 @@ def term(a: Rest, k: int) -> Ball:
 
 def left_out(rate: Rest, h: Ball, n: int) -> Ball:
     """h ∫ of what the rate has from s^(n−1) on."""
-    return arb((abs(h) * (abs(term(rate, n - 1)) / n + rate.bound / (n + 1))).upper())
+    return arb((abs(h) * (abs(term(rate, n - 1)) / n + rate.rest / (n + 1))).upper())
 
 
 def within(new: Sequence[Ball], old: Sequence[Ball]) -> bool:
@@ -424,7 +350,7 @@ def within(new: Sequence[Ball], old: Sequence[Ball]) -> bool:
 
 def end_of(a: Rest) -> Ball:
     """The value at s = 1."""
-    return sum(a.terms, ZERO) + arb(0, a.bound.upper())
+    return sum(a.terms, ZERO) + arb(0, a.rest.upper())
 
 
 def read_node(data: Any) -> tuple[Any, ...]:
@@ -480,7 +406,7 @@ class Carried:
         slope = turned * S + back * (D * C - C1)
         demand(s1.contains(point), f"node {k + 1} does not hold the motion of the middle")
         demand(S1.contains(slope), f"node {k + 1} does not hold the derivative")
-        self.boxes.append((box, h, few))
+        self.boxes.append((box, h, n))
         self.time += h
         return after
 
@@ -533,13 +459,13 @@ def check_enclosure(certificate: Any) -> None:
 
 
 def pieces_of(certificate: Any, carried: Carried) -> Any:
-    """Of each step: its begin, its length, the expression's series."""
+    """Of each step: its begin, its length, the expressions' series."""
     at = ZERO
     tape = certificate["expression"]
     for box, h, n in carried.boxes:
         rows = carried.flow.step(box, h, n)
         arguments = carried.flow.arguments(rows, box[carried.flow.moving :], None, n)
-        yield at, h, evaluated(tape, arguments, n)[0].value
+        yield at, h, [found.value for found in evaluated(tape, arguments, n)]
         at += h
 
 
@@ -548,7 +474,7 @@ def sign_over(a: Rest, low: Ball, high: Ball, depth: int = 30) -> int:
     s = low.union(high)
     middle = s.mid()
     poly = arb_poly(a.terms)
-    value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, a.bound.upper())
+    value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, a.rest.upper())
     if value > 0 or value < 0:
         return 1 if value > 0 else -1
     if not depth or poly(middle).contains(0):
@@ -565,16 +491,16 @@ def check_crossing(certificate: Any) -> None:
     signs: list[int] = []
     ends = []
     for moment in (arb(time.lower()), arb(time.upper())):
-        for at, h, series in pieces_of(certificate, carried):
+        for at, h, (series,) in pieces_of(certificate, carried):
             s = (moment - at) / h
             if s >= 0 and s <= 1 + arb(2) ** -40:
                 poly = arb_poly(series.terms)
-                value = poly(s.min(arb(1))) + arb(0, series.bound.upper())
+                value = poly(s.min(arb(1))) + arb(0, series.rest.upper())
                 ends.append(1 if value > 0 else -1 if value < 0 else 0)
                 break
     demand(len(ends) == 2 and ends[0] * ends[1] == -1, "the expression does not change its sign over the claimed time")
     if claim["first"]:
-        for at, h, series in pieces_of(certificate, carried):
+        for at, h, (series,) in pieces_of(certificate, carried):
             s = (arb(time.lower()) - at) / h
             if s > 0:
                 signs.append(sign_over(series, ZERO, s.min(arb(1))))
@@ -586,8 +512,25 @@ def check_no_crossing(certificate: Any) -> None:
     carried = Carried(certificate)
     claimed = read_ball(certificate["claim"]["time"])
     demand(carried.time.contains(claimed) or carried.time >= claimed, "the steps end before the claimed time")
-    signs = {sign_over(series, ZERO, arb(1)) for _, _, series in pieces_of(certificate, carried)}
+    signs = {sign_over(series, ZERO, arb(1)) for _, _, (series,) in pieces_of(certificate, carried)}
     demand(len(signs) == 1 and 0 not in signs, "the expression may pass zero")
+
+
+def check_means(certificate: Any) -> None:
+    """The integrals of the expressions over the spans that are claimed, step by step."""
+    carried, claims = Carried(certificate), certificate["claim"]["means"]
+    spans = [(read_ball(x["since"]), read_ball(x["until"])) for x in claims]
+    for since, until in spans:
+        demand(bool(since >= 0 and since < until), "a span has no length")
+        demand(carried.time.contains(until) or carried.time >= until, "the steps end before a span does")
+    totals = [ZERO] * len(claims)
+    for at, h, series in pieces_of(certificate, carried):
+        for i, (f, span) in enumerate(zip(series, spans, strict=True)):
+            low, high = (((x - at) / h).max(ZERO).min(arb(1)) for x in span)
+            whole = arb_poly(f.terms).integral()
+            totals[i] += h * (whole(high) - whole(low) + arb(0, ((high - low) * f.rest).abs_upper()))
+    for x, total, (since, until) in zip(claims, totals, spans, strict=True):
+        demand(read_ball(x["mean"]).contains(total / (until - since)), "a mean is another")
 
 
 def check_orbit(certificate: Any) -> None:
@@ -686,6 +629,7 @@ def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> Non
         return
     whole = carried.derivative
     D = arb_mat([[whole[i, j] for j in range(moving)] for i in range(moving)])
+    ones = certificate["ones"]
     if not first:
         values = D.eig()
         along = [z for z in values if z.contains(1)]
@@ -696,6 +640,23 @@ def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> Non
             "the multipliers are not shown to be apart from the unit circle",
         )
         return
+    pair = pair_sum(D, first, last, ones)
+    if claim["kind"] == "parabolic":
+        demand(moving == ones, "a pair of multipliers is left that need not be one")
+        return
+    demand(moving - ones == 2, "more than one pair of multipliers is left")
+    demand(read_ball(claim["pair_sum"]).contains(pair), "the multipliers' sum is another")
+    demand(claim["kind"] == kind_of(pair), f"the orbit is not shown to be {claim['kind']}")
+
+
+def kind_of(pair: Ball) -> str:
+    """By μ + 1/μ."""
+    return "elliptic" if abs(pair) < 2 else "hyperbolic" if abs(pair) > 2 else "undecided"
+
+
+def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
+    """μ + 1/μ of the multipliers that are left beside the ones, from the derivative between two reversals."""
+    moving = D.nrows()
     X = arb_mat(moving, moving, [x.mid() for x in D.entries()]).inv()
     X = arb_mat(moving, moving, [x.mid() for x in X.entries()])
     R = unit(moving) - D * X
@@ -709,18 +670,11 @@ def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> Non
     ]
     part = reflect[0] * back * reflect[1] * D
     M = part if first == last else part * part
-    ones = certificate["ones"]
     pair = sum((M[i, i] for i in range(moving)), ZERO) - ones
     left = arb_poly([1, -pair, 1]) if moving > ones else arb_poly([1])
     off = M.charpoly() - arb_poly([-1, 1]) ** ones * left
     demand(all(x.contains(0) for x in off.coeffs()), "the multipliers are not as many ones and a pair")
-    if claim["kind"] == "parabolic":
-        demand(moving == ones, "a pair of multipliers is left that need not be one")
-        return
-    demand(moving - ones == 2, "more than one pair of multipliers is left")
-    demand(read_ball(claim["pair_sum"]).contains(pair), "the multipliers' sum is another")
-    fine = abs(pair) < 2 if claim["kind"] == "elliptic" else claim["kind"] == "hyperbolic" and abs(pair) > 2
-    demand(bool(fine), f"the orbit is not shown to be {claim['kind']}")
+    return pair
 
 
 def check_family(certificate: Any) -> None:
@@ -740,7 +694,11 @@ def check_family(certificate: Any) -> None:
     low, high = (rational_of(text).atanh() for text in certificate["claim"]["r0"])
     demand(bool(low < high and pieces[0].low <= low and high <= pieces[-1].high), "the amplitudes are others")
     period = read_ball(certificate["claim"]["period"])
+    kind = certificate["claim"]["kind"]
+    demand(kind in ("elliptic", "hyperbolic", "undecided"), "the kind is unknown")
     for piece in pieces:
+        fine = kind == "undecided" or piece.is_shown(kind, certificate["reversals"], arb(-1), arb(1))
+        demand(fine, f"the orbits are not shown to be {kind}")
         pace = piece.start(piece.low.union(piece.high))[-1]
         demand(bool(pace > 0) and period.contains(4 * pace), "the period is another")
 
@@ -764,10 +722,11 @@ class CheckedPiece:
             n > 2 and all(poly.degree() <= p for poly in self.x) and all(W[i] > 0 for i in free), "a piece has no box"
         )
         self.low, self.high, self.W = self.middle - self.half, self.middle + self.half, [W[i] for i in free]
-        flow, time = FamilyFlow(motion, list(self.x), W, n, p), ZERO
+        self.flow = flow = FamilyFlow(motion, list(self.x), W, n, p)
+        time = ZERO
         for step in data["steps"]:
             h = number(step["h"])
-            flow.step(h, [number(r) for r in step["tube"]], [number(u) for u in step["units"]])
+            flow.step(h, [number(r) for r in step["tube"]])
             time += h
         demand(time.is_exact() and time == 1, "the steps are not one unit of s")
         cuts = [number(c) for c in data["cuts"]]
@@ -786,6 +745,20 @@ class CheckedPiece:
             for _ in range(2):
                 K = (unit(3) - A * slope) * K - A * column([flow.end(i, eps) for i in conditions])
             self.w = [x.union(y) for x, y in zip(self.w, K.entries(), strict=True)]
+
+    def is_shown(self, kind: str, reversals: Any, low: Ball, high: Ball, depth: int = 7) -> bool:
+        """Whether every orbit from ε = low to high is of a kind, by halves; energy and momentum leave one pair beside 4 ones."""
+        eps = low.union(high)
+        D = arb_mat([[self.flow.slope(i, j, eps) for j in range(6)] for i in range(6)])
+        try:
+            if kind_of(pair_sum(D, reversals[0], reversals[1], 4)) == kind:
+                return True
+        except (NotProved, ZeroDivisionError):
+            pass
+        middle = (low + high) / 2
+        return depth > 0 and all(
+            self.is_shown(kind, reversals, *part, depth - 1) for part in ((low, middle), (middle, high))
+        )
 
     def start(self, U: Ball) -> list[Ball]:
         """What was unknown, for the U of a ball."""
@@ -863,6 +836,7 @@ _RULES: dict[str, Callable[[Any], None]] = {
     "enclosure": check_enclosure,
     "crossing": check_crossing,
     "no crossing": check_no_crossing,
+    "means": check_means,
     "periodic orbit": check_orbit,
     "equilibrium": check_equilibrium,
     "family": check_family,

@@ -1,6 +1,6 @@
-"""Crossings proved: that an expression of the state passes zero before a time, or that it does not up to a time."""
+"""Expressions of the state along a motion: that one passes zero before a time, or does not up to a time; their means."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, exact, precision, printed
+from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, radius
 from lagrotor.proved.carried_sets import CarriedStep, Start, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, flow_data, tape_data
 from lagrotor.proved.enclosure import TOL, accuracy_of, loosened, time_ball
@@ -41,6 +41,11 @@ class Watch:
         value = self.over(low, high)
         return 1 if value > 0 else -1 if value < 0 else 0
 
+    def integral(self, low: Ball, high: Ball) -> Ball:
+        """Over s between two places."""
+        whole = self.series.poly.integral()
+        return whole(high) - whole(low) + (high - low) * arb(0, self.series.tail.abs_upper())
+
     def signs(self, low: Ball, high: Ball, depth: int = _DEPTH) -> Iterator[tuple[Ball, Ball, int]]:
         """The step cut until each piece has a sign, or is too short to go on, in order."""
         sign = self.sign(low, high)
@@ -52,15 +57,15 @@ class Watch:
             yield from self.signs(middle, high, depth - 1)
 
 
-def watch(motion: Motion, tape: Tape, step: CarriedStep, w: Balls) -> Watch:
-    """The tape's output along a step, over all starts."""
-    box, n = step.node.box(w), step.slope_terms
+def watch(motion: Motion, tape: Tape, step: CarriedStep, w: Balls) -> list[Watch]:
+    """The tape's outputs along a step, over all starts."""
+    box, n = step.node.box(w), step.n
     rows = scaled(taylor(motion, box, n), step.h, n)
     rests, _ = with_rest(motion, rows, box, step.h, n)
     moving = [Tailed(arb_poly(row), rest, n) for row, rest in zip(rows, rests, strict=True)]
     still = [*box[motion.moving :], *motion.parameters]
     evaluation = Evaluation(tape, [*moving, *(Tailed(arb_poly([c]), arb(0), n) for c in still)])
-    return Watch(evaluation.outputs[0])
+    return [Watch(series) for series in evaluation.outputs]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -102,12 +107,34 @@ class Crossing(Shown):
         return {"expression": str(self.expression), "theorem": self.theorem, "steps": str(len(self.steps))}
 
 
-def prepared(system: Any, values: Any, q0: Any, v0: Any, expression: Any) -> tuple[Field, Tape, Start]:
-    """The field, the expression as a tape of its arguments, the start."""
-    if not isinstance(expression, sp.Expr):
-        raise InputError(f"proved: event = {expression!r} must be an expression of the states, a sympy expression")
+@dataclass(frozen=True, eq=False, repr=False)
+class Means(Shown):
+    """Means of expressions over spans of time, enclosed. spans: (expression, from, to); values: a ball for each.
+
+    certificate: what `check` verifies.
+    """
+
+    spans: tuple[tuple[sp.Expr, Ball, Ball], ...]
+    values: tuple[Ball, ...]
+    certificate: Certificate
+
+    @property
+    def theorem(self) -> str:
+        """In words."""
+        return theorem_of(self.certificate)
+
+    def summary(self) -> dict[str, str]:
+        """What is proved, name → words."""
+        return {f"mean of {e}": printed(x) for (e, *_), x in zip(self.spans, self.values, strict=True)}
+
+
+def prepared(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[Any]) -> tuple[Field, Tape, Start]:
+    """The field, the expressions as a tape of its arguments, the start."""
+    for e in expressions:
+        if not isinstance(e, sp.Expr):
+            raise InputError(f"proved: event = {e!r} must be an expression of the states, a sympy expression")
     made = field_of(system, values, q0, v0)
-    return made, made.function([expression]), Start(*made.parts)
+    return made, made.function(expressions), Start(*made.parts)
 
 
 def crossing(
@@ -130,11 +157,11 @@ def crossing(
     accuracy, where = accuracy_of(tol, "crossing"), "crossing"
     with precision(accuracy.bits, accuracy.terms):
         end = time_ball(before, where)
-        made, tape, start = prepared(system, values, q0, v0, event)
+        made, tape, start = prepared(system, values, q0, v0, [event])
         known, since, pending, clear, steps = 0, arb(0), False, True, list[CarriedStep]()
         for step in steps_of(made.motion, start, end, accuracy):
             steps.append(step)
-            for low, high, sign in watch(made.motion, tape, step, start.spread).signs(arb(0), arb(1)):
+            for low, high, sign in watch(made.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
                 if not sign:
                     pending = True
                     continue
@@ -162,12 +189,59 @@ def no_crossing(
     accuracy, where = accuracy_of(tol, "no_crossing"), "no_crossing"
     with precision(accuracy.bits, accuracy.terms):
         end = time_ball(until, where)
-        made, tape, start = prepared(system, values, q0, v0, event)
+        made, tape, start = prepared(system, values, q0, v0, [event])
         steps = []
         for step in steps_of(made.motion, start, end, accuracy):
             steps.append(step)
-            for low, _, sign in watch(made.motion, tape, step, start.spread).signs(arb(0), arb(1)):
+            for low, _, sign in watch(made.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
                 if not sign:
                     at = float((step.node.t + step.h * low).mid())
                     raise NotProved(f"{where}: {event} is not shown to stay off zero beyond t = {at:.10g}")
         return Crossing(event, False, end, False, made, start, tuple(steps), accuracy.bits)
+
+
+def means(
+    system: Any,
+    values: Values | None = None,
+    q0: Any = None,
+    v0: Any = None,
+    spans: Sequence[tuple[sp.Expr, Any, Any]] = (),
+    tol: float = TOL,
+) -> Means:
+    """Means of expressions of the states over spans of time, (1/(t₂ − t₁)) ∫ e dt from t₁ to t₂, enclosed.
+
+    system, values, q0, v0: as in `enclose`; expressions as in `crossing`. spans: (expression, t₁, t₂), t in s, for each mean.
+
+    Raises InputError for what makes no sense, NotProved where the enclosure ends before the last t₂.
+    """
+    accuracy, where = accuracy_of(tol, "means"), "means"
+    with precision(accuracy.bits, accuracy.terms):
+        ends = [(ball(since, f"{where}: t"), time_ball(until, where)) for _, since, until in spans]
+        if not ends or not all(0 <= since < until for since, until in ends):
+            raise InputError(f"{where}: spans = {spans!r} must be (expression, t₁, t₂) with 0 ≤ t₁ < t₂, one at least")
+        made, tape, start = prepared(system, values, q0, v0, [e for e, *_ in spans])
+        last = ends[0][1]
+        for _, until in ends:
+            last = last.max(until)
+        steps = tuple(steps_of(made.motion, start, last, accuracy))
+        totals = [arb(0)] * len(ends)
+        for step in steps:
+            along = watch(made.motion, tape, step, start.spread)
+            for i, span in enumerate(ends):
+                low, high = (((x - step.node.t) / step.h).max(0).min(1) for x in span)
+                if low < high:
+                    totals[i] += step.h * along[i].integral(low, high)
+        found = [total / (until - since) for total, (since, until) in zip(totals, ends, strict=True)]
+        claim = [  # sixteen times as wide: another program's bounds are others
+            {
+                "of": str(e),
+                "since": ball_data(since),
+                "until": ball_data(until),
+                "mean": ball_data(x + arb(0, (15 * radius(x)).upper())),
+            }
+            for (e, *_), (since, until), x in zip(spans, ends, found, strict=True)
+        ]
+        flow = flow_data(made.motion, start, steps, accuracy.bits)
+        certificate = flow | {"kind": "means", "expression": tape_data(tape), "claim": {"means": claim}}
+        whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
+        return Means(tuple(whole), tuple(found), certificate)

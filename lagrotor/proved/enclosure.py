@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
@@ -13,6 +13,9 @@ from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, balls_data, flow_data
 from lagrotor.proved.fields import Field, Values, field_of, values_at
 from lagrotor.shown import Shown, scientific
+
+if TYPE_CHECKING:
+    from lagrotor.drawing.run_figure import RunFigure
 
 TOL = 1e-17
 
@@ -68,6 +71,27 @@ class Enclosure(Shown):
         with precision(self.bits):
             nodes = [self.start.node, *(step.end for step in self.steps)]
             return [(node.t, node.box(self.start.spread)[:n]) for node in nodes]
+
+    def plot(self, first: str = "", second: str = "") -> "RunFigure":
+        """Boxes of two states at the ends of the steps, in their plane, and their widths over time. Every motion from the start
+        passes through all boxes in turn.
+
+        first, second: names of states; without them the first two. Raises InputError for a name that is none.
+        """
+        import numpy as np
+
+        from lagrotor.drawing.run_figure import boxes_figure
+
+        names = [str(s) for s in self.field.states]
+        wanted = [first or names[0], second or names[1]]
+        if unknown := [name for name in wanted if name not in names]:
+            raise InputError(f"plot: {unknown[0]!r} is no state; the motion has {', '.join(names)}")
+        places = [names.index(name) for name in wanted]
+        low, high = (
+            np.array([[float(getattr(box[i], end)()) for i in places] for _, box in self.path])
+            for end in ("lower", "upper")
+        )
+        return boxes_figure(wanted, np.array([float(t.mid()) for t, _ in self.path]), low, high)
 
     @cached_property
     def certificate(self) -> Certificate:

@@ -1,7 +1,7 @@
 """A family of orbits proved: the motions of every ε in [−1, 1], followed together as Taylor models of s and ε.
 
 Over a step of length h in s = t/h the motion of the middle w = 0 is P(s, ε) + e. P is found by Picard's map; with its defect
-δ = x(0) + h ∫ f(P) − P and L a bound of |h J| over the tube, Gronwall's inequality gives |e| ≤ δ exp(L), in the maximum norm.
+δ = x(0) + h ∫ f(P) − P and L the bounds of |h J| over the tube, entry by entry, Gronwall's inequality gives |e| ≤ exp(L) δ.
 The derivative D by the start, D' = h J D, likewise. A node is every
 
     x(ε) + b + V(ε, w) w,   |b_i| ≤ bounds, |w_i| ≤ W_i,
@@ -15,12 +15,12 @@ from dataclasses import dataclass
 from math import floor
 from typing import Any
 
-import numpy as np
-
 from lagrotor.errors import NotProved
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly, upper
+from lagrotor.proved.carried_sets import column_matrix, entries_of
 from lagrotor.proved.closed_orbits import OrbitProblem
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
+from lagrotor.proved.multipliers import Kind, monodromy, of_pairs
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tails import ZERO, Evaluation, TailError, max_of
 from lagrotor.proved.taylor_models import Order, TaylorModel, sum_of_sizes
@@ -30,6 +30,7 @@ _TRIES = 6  # of a tube
 _LONGEST, _MOST = 0.25, 40  # step, of the whole time; steps
 _SHORTEST_CUT = 2.0**-10  # of ε
 _SHARPER = 2  # Krawczyk's map once more, of the box that it has led to
+_HALVINGS = 5  # of ε, until a part is shown to be elliptic or hyperbolic
 _FIRST, _WIDEST, _BOXES = 1e-9, 1e-4, 3  # the box: its first half width, its largest, how many are tried
 
 
@@ -41,6 +42,10 @@ class FamilyNode:
     b: Balls
     V: list[Models]
 
+    def derivative(self, eps: Ball) -> Matrix:
+        """By the start, over the box, for every ε of a ball."""
+        return arb_mat([[v.poly(eps) + arb(0, (v.rest or ZERO).abs_upper()) for v in row] for row in self.V])
+
     def wide(self, W: Balls) -> Balls:
         """Bounds of b + V w."""
         return [
@@ -51,11 +56,10 @@ class FamilyNode:
 
 @dataclass(frozen=True)
 class FamilyStep:
-    """A step of length h; bounds of how far any motion is from P over it, for states; units of Gronwall's inequality."""
+    """A step of length h; bounds of how far any motion is from P over it, for states."""
 
     h: Ball
     tube: Balls
-    units: Balls
 
 
 def first_node(x: Sequence[Any], p: int) -> FamilyNode:
@@ -85,16 +89,16 @@ def family_step(
         (TaylorModel(x.poly, ZERO, order) + f.integral(h) - TaylorModel(poly, ZERO, order)).norm
         for x, f, poly in zip(node.x, rates, P, strict=False)
     ]
-    J, tube, units, growth = _tube(motion, node, W, P, missed, h, order)
-    D = _derivative(J, h, order, units, growth)
+    J, tube, growth = _tube(motion, node, W, P, missed, h, order)
+    D = _derivative(J, h, order, growth)
     x = [TaylorModel(poly, ZERO, order).at_end() for poly in P]
-    rests = [*grown(missed, units, growth)[:moving], *[ZERO] * (len(D) - moving)]
+    rests = grown(growth, [*missed, *[ZERO] * (len(D) - moving)])
     b = [
         upper(sum((d.norm * before for d, before in zip(row, node.b, strict=True)), rest))
         for row, rest in zip(D, rests, strict=True)
     ]
     V = [[_sum([d * node.V[k][j] for k, d in enumerate(row)]) for j in range(len(D))] for row in D]
-    return FamilyStep(h, tube, units), FamilyNode([*x, *node.x[moving:]], b, V)
+    return FamilyStep(h, tube), FamilyNode([*x, *node.x[moving:]], b, V)
 
 
 def _shortening(P: list[Any], order: Order, tol: float) -> float:
@@ -139,53 +143,33 @@ def _picard(motion: Motion, node: FamilyNode, h: Ball, order: Order) -> list[Any
 
 def _tube(
     motion: Motion, node: FamilyNode, W: Balls, P: list[Any], missed: Balls, h: Ball, order: Order
-) -> tuple[list[Models], Balls, Balls, Ball]:
-    """J over all motions of the node; bounds of their distance from P; units of states and parameters; exp of |h J| in them."""
+) -> tuple[list[Models], Balls, Matrix]:
+    """J over all motions of the node; bounds of their distance from P; exp(L), L the bounds of |h J|."""
     moving, wide = motion.moving, node.wide(W)
     still = [TaylorModel(x.poly, w, order) for x, w in zip(node.x[moving:], wide[moving:], strict=True)]
     off = [*(x + y for x, y in zip(wide, missed, strict=False)), *wide[moving:]]
     tube = [upper(4 * max_of(off))] * moving
-    for _ in range(_TRIES):
+    for k in range(_TRIES):
         models = [*(TaylorModel(x, r, order) for x, r in zip(P, tube, strict=True)), *still]
         evaluation = Evaluation(motion.tape, models)
         zero = models[0].constant(ZERO)
         J = [[g if g is not None else zero for g in evaluation.gradient(i)[: len(node.x)]] for i in range(moving)]
-        sizes = [[upper(h * g.norm) for g in row] for row in J]
-        units = units_of(sizes)
-        L = max_of(
-            [
-                sum((x * u for x, u in zip(row, units, strict=True)), ZERO) / unit
-                for row, unit in zip(sizes, units, strict=False)
-            ]
-        )
-        growth = upper(L.exp())
-        needed = grown(off, units, growth)[:moving]
-        if all(x <= r for x, r in zip(needed, tube, strict=True)):
-            return J, tube, units, growth
-        tube = [upper(1.5 * x) for x in needed]
+        size = len(node.x)
+        L = arb_mat([*([upper(h * g.norm) for g in row] for row in J), *[[ZERO] * size] * (size - moving)])
+        growth = L.exp()
+        needed = grown(growth, off)[:moving]
+        if k and all(x <= r for x, r in zip(needed, tube, strict=True)):  # the first is a guess, alike in all
+            return J, tube, growth
+        tube = [upper(1.25 * x) for x in needed]
     raise TailError("the tube about the family is not bounded over the step")
 
 
-def units_of(sizes: list[Balls]) -> Balls:
-    """Units in which the rows' sums are nearly alike (Perron's vector), those of parameters such that they add a tenth."""
-    moving, size = len(sizes), len(sizes[0])
-    A = np.array([[float(x) for x in row] for row in sizes])
-    u = np.ones(moving)
-    for _ in range(30):
-        u = A[:, :moving] @ u + 1e-3 * u.max()
-        u /= u.max()
-    left = 0.1 * (A[:, :moving] @ u / u).max()
-    still = [left * (u / np.maximum(A[:, j], 1e-300)).min() for j in range(moving, size)]
-    return [arb(float(x)) for x in (*u, *np.clip(still, 1e-6, 1e6))]
+def grown(growth: Matrix, off: Balls) -> Balls:
+    """What deviations become, by Gronwall's inequality."""
+    return [upper(x) for x in entries_of(growth * column_matrix(off))]
 
 
-def grown(off: Balls, units: Balls, growth: Ball) -> Balls:
-    """What deviations become, by Gronwall's inequality in these units."""
-    most = max_of([x / unit for x, unit in zip(off, units, strict=False)])
-    return [upper(unit * most * growth) for unit in units]
-
-
-def _derivative(J: list[Models], h: Ball, order: Order, units: Balls, growth: Ball) -> list[Models]:
+def _derivative(J: list[Models], h: Ball, order: Order, growth: Matrix) -> list[Models]:
     """The step's derivative by states and parameters at s = 1, models of ε."""
     size, moving, p = len(J[0]), len(J), order.p
     parts = [[_by_powers(g, order) for g in row] for row in J]
@@ -206,7 +190,7 @@ def _derivative(J: list[Models], h: Ball, order: Order, units: Balls, growth: Ba
             rate = _sum([g * packed[m][j] for m, g in enumerate(rates)])
             one = rate.constant(arb(int(i == j)))
             missed.append((one + rate.integral(h) - packed[i][j]).norm)
-        for i, rest in enumerate(grown(missed, units, growth)[:moving]):
+        for i, rest in enumerate(grown(growth, [*missed, *[ZERO] * (size - moving)])[:moving]):
             end[i][j] = TaylorModel(end[i][j].poly, rest, end[i][j].order)
     return end
 
@@ -229,7 +213,7 @@ def _packed(parts: Sequence[Any], width: int) -> Any:
 class FamilyProof:
     """One orbit for every ε, its start and pace within W of the polynomials x of ε, where it is alone; w holds it.
 
-    n: powers of s; cuts: the ends of the parts of ε.
+    n: powers of s; cuts: the ends of the parts of ε; node: after one unit of s.
     """
 
     problem: OrbitProblem
@@ -239,6 +223,25 @@ class FamilyProof:
     n: int
     cuts: tuple[Ball, ...]
     w: tuple[Ball, ...]
+    node: FamilyNode
+
+    def kind(self, ones: int, low: Ball, high: Ball, depth: int = _HALVINGS) -> Kind:
+        """Elliptic or hyperbolic where every orbit from ε = low to high is shown to be so, by halves of the interval.
+
+        ones: multipliers that are 1, of the energy and other integrals.
+        """
+        problem, moving = self.problem, self.problem.motion.moving
+        D = self.node.derivative(low.union(high))
+        states = arb_mat([row[:moving] for row in D.tolist()[:moving]])
+        try:
+            kind = of_pairs(monodromy(states, problem.first, problem.last), ones).kind
+        except NotProved:
+            kind = "undecided"
+        if kind != "undecided" or not depth:
+            return kind
+        middle = (low + high) / 2
+        first = self.kind(ones, low, middle, depth - 1)
+        return first if first != "undecided" and first == self.kind(ones, middle, high, depth - 1) else "undecided"
 
     def pace(self, eps: Ball) -> Ball:
         """The time of one unit of s, s, for every ε of a ball."""
@@ -259,7 +262,7 @@ def prove_family(problem: OrbitProblem, x: Sequence[Any], n: int, tol: float) ->
         cuts = _tests(problem, node, W)
         if cuts is not None:
             ends, found = cuts
-            return FamilyProof(problem, tuple(x), tuple(W), tuple(steps), n, tuple(ends), tuple(found))
+            return FamilyProof(problem, tuple(x), tuple(W), tuple(steps), n, tuple(ends), tuple(found), node)
         w = [8 * upper(y) + arb(_FIRST) / 8 for y in _misses(problem, node)]
         if not max_of(w) < _WIDEST:
             break
@@ -297,7 +300,7 @@ def _tests(problem: OrbitProblem, node: FamilyNode, W: Balls) -> tuple[Balls, Ba
 
 def _at(problem: OrbitProblem, node: FamilyNode, eps: Ball) -> tuple[Balls, Matrix]:
     """What must vanish at the middle, and the conditions' derivative over the box, for every ε of a ball."""
-    D = arb_mat([[v.poly(eps) + arb(0, (v.rest or ZERO).abs_upper()) for v in row] for row in node.V])
+    D = node.derivative(eps)
     end = [x.poly(eps) + arb(0, b.abs_upper()) for x, b in zip(node.x, node.b, strict=True)]
     return problem.value([], end), problem.slope(D, problem.free)
 

@@ -39,11 +39,12 @@ _ONES = 4  # of the energy and of the momentum about the joint line
 
 @dataclass(frozen=True, eq=False)
 class FamilyPiece:
-    """The orbits of every U = middle + half ε, |ε| ≤ 1, one smooth curve. Whether they are elliptic is not looked at."""
+    """The orbits of every U = middle + half ε, |ε| ≤ 1, one smooth curve. kind: undecided unless it is shown of all."""
 
     middle: Ball
     half: Ball
     proof: FamilyProof
+    kind: Kind
 
     @property
     def ends(self) -> tuple[Ball, Ball]:
@@ -124,9 +125,9 @@ class Precession(Shown):
 
     @property
     def kind(self) -> Kind:
-        """elliptic, hyperbolic, or undecided where it is not shown: of one orbit alone."""
-        first = self.pieces[0]
-        return first.kind if isinstance(first, PeriodicOrbit) else "undecided"
+        """elliptic, hyperbolic, or undecided where it is not shown of every orbit."""
+        first = self.pieces[0].kind
+        return first if all(piece.kind == first for piece in self.pieces) else "undecided"
 
     @property
     def theorem(self) -> str:
@@ -150,7 +151,7 @@ class Precession(Shown):
                 "bits": self.bits,
                 "motion": motion_data(first.proof.problem.motion),
                 "reversals": [list(A), list(B)],
-                "claim": {"r0": ends, "period": ball_data(loosened(self.period))},
+                "claim": {"r0": ends, "period": ball_data(loosened(self.period)), "kind": self.kind},
                 "pieces": [piece_data(piece) for piece in self.pieces if isinstance(piece, FamilyPiece)],
             }
 
@@ -270,7 +271,8 @@ def prove_piece(problem: OrbitProblem, curve: QuarterPeriod, u: float, right: fl
     powers = [cheb.cheb2poly(cheb.chebfit(points, column, degree)) for column in np.array(rows).T]
     U, zero = arb_poly([arb(middle), arb(half)]), arb_poly([])
     x = [U, zero, zero, zero, *(arb_poly([arb(float(c)) for c in row]) for row in powers)]
-    return FamilyPiece(arb(middle), arb(half), prove_family(problem, x, accuracy.terms, accuracy.tol))
+    proof = prove_family(problem, x, accuracy.terms, accuracy.tol)
+    return FamilyPiece(arb(middle), arb(half), proof, proof.kind(_ONES, arb(-1), arb(1)))
 
 
 def piece_data(piece: FamilyPiece) -> dict[str, Any]:
@@ -283,9 +285,6 @@ def piece_data(piece: FamilyPiece) -> dict[str, Any]:
         "W": exact_data(proof.W),
         "terms": proof.n,
         "degree": max(poly.degree() for poly in proof.x),
-        "steps": [
-            {"h": exact_data([step.h])[0], "tube": exact_data(step.tube), "units": exact_data(step.units)}
-            for step in proof.steps
-        ],
+        "steps": [{"h": exact_data([step.h])[0], "tube": exact_data(step.tube)} for step in proof.steps],
         "cuts": exact_data(proof.cuts),
     }

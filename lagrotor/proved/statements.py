@@ -31,6 +31,13 @@ def _decimal(text: str) -> str:
     return short if Fraction(short) == value else text
 
 
+def _moment(data: Sequence[str]) -> str:
+    """A time, as a decimal where its ball holds a short one."""
+    x = _claimed(data)
+    short = f"{float(x.mid()):.12g}"
+    return short if x.contains(arb(short)) else printed(x, 15)
+
+
 def _at_states(certificate: Certificate, states: Sequence[Any], sign: str, digits: int) -> str:
     """Each state with its ball."""
     names = certificate["motion"]["arguments"]
@@ -54,8 +61,15 @@ def _crossing(certificate: Certificate) -> str:
 
 def _no_crossing(certificate: Certificate) -> str:
     """Of an expression that keeps its sign."""
-    until = printed(_claimed(certificate["claim"]["time"]), 15)
-    return f"{certificate['event']} does not pass zero from t = 0 to {until} s."
+    return f"{certificate['event']} does not pass zero from t = 0 to {_moment(certificate['claim']['time'])} s."
+
+
+def _means(certificate: Certificate) -> str:
+    """Of expressions over spans of time."""
+    rows = [
+        (x["of"], *map(_moment, (x["since"], x["until"])), _claimed(x["mean"])) for x in certificate["claim"]["means"]
+    ]
+    return " ".join(f"The mean of {e} from t = {a} to {b} s is in {printed(x, 8)}." for e, a, b, x in rows)
 
 
 def _periodic_orbit(certificate: Certificate) -> str:
@@ -91,6 +105,7 @@ _WORDS: dict[str, Callable[[Certificate], str]] = {
     "enclosure": _enclosure,
     "crossing": _crossing,
     "no crossing": _no_crossing,
+    "means": _means,
     "periodic orbit": _periodic_orbit,
     "family": _precession,
     "equilibrium": _equilibrium,

@@ -15,7 +15,7 @@ from flint import arb
 from lagrotor import Link, Scene, floquet
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
-from lagrotor.mechanics import System, coordinates
+from lagrotor.mechanics import System, coordinates, t
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proved import (
@@ -26,6 +26,7 @@ from lagrotor.proved import (
     crossing,
     enclose,
     equilibrium,
+    means,
     no_crossing,
     paired_orbits,
     periodic_orbit,
@@ -202,6 +203,36 @@ def test_false_theorems_are_never_proved() -> None:
         periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"], integrals=2)
     with pytest.raises(InputError, match="event = 'theta' must be an expression"):
         crossing(PENDULUM, {}, [1], [0], event="theta", before=1)
+
+
+def test_means_over_time() -> None:
+    """x″ = −x from x = 1: ∫ of x, x² and x x′ in closed form, also where spans begin and end within a step."""
+    c = coordinates("x")
+    (x,), (v,) = c.q, c.v
+    spring = System(c, (v**2 - x**2) / 2)
+    found = means(spring, {}, [1], [0], [(x, 0, 1), (x**2, "0.5", 2), (x * v, 1, 3)])
+    with mp.workdps(30):
+        closed = [mp.sin(1), mp.mpf(1) / 2 + (mp.sin(4) - mp.sin(1)) / 6, (mp.cos(3) ** 2 - mp.cos(1) ** 2) / 4]
+        assert all(near(ball, mp.nstr(value, 20), "1e-9") for ball, value in zip(found.values, closed, strict=True))
+    assert "The mean of x**2 from t = 0.5 to 2 s is in [0.2336210" in verified(found) == found.theorem
+    for i, (name, data) in enumerate([("mean", ["1p0", "0p0"]), ("until", ["5p0", "0p0"]), ("since", ["1p0", "0p0"])]):
+        spoiled = copy.deepcopy(found.certificate)
+        spoiled["claim"]["means"][0][name] = data
+        with pytest.raises(NotProved, match=["a mean is another", "before a span does", "a span has no length"][i]):
+            check(spoiled)
+    for spans in ((), [(x, 1, 1)], [(x, -1, 1)]):
+        with pytest.raises(InputError, match="means: "):
+            means(spring, {}, [1], [0], spans)
+
+
+def test_a_pulse_that_begins_within_a_step_leaves_the_set_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A force exp(−(t − 1)²/w²) is in no Taylor term at t = 0, but in the rest; the twin lets the rest be large."""
+    c = coordinates("x")
+    (x,), (v,) = c.q, c.v
+    pushed = System(c, (v**2 - x**2) / 2, forces=(sp.exp(-(((t - 1) * 10) ** 2)),))
+    assert float(enclose(pushed, {}, [0], [0], 2, 1e-14).states[0].rad()) < 1e-11
+    monkeypatch.setattr(carried_sets, "_REST", 1e300)
+    assert float(enclose(pushed, {}, [0], [0], 2, 1e-14).states[0].rad()) > 1e-9
 
 
 CERTIFICATE = periodic_orbit(
