@@ -36,8 +36,10 @@ class Part:
     @property
     def outcome(self) -> str:
         """In words."""
-        said = "holds" if self.holds else f"holds only if: {self.only_if}" if self.only_if else "does not hold"
-        return f"{said}, proved" if self.theorems else said
+        if self.holds or not self.only_if:
+            said = "holds" if self.holds else "does not hold"
+            return f"{said}, proved" if self.theorems else said
+        return f"holds only if: {self.only_if}{'; that it does not always is proved' if self.theorems else ''}"
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,7 @@ class Finding:
                 raise ProofError(
                     f"{where}: {part.says}: the run says that it {parts[part.says].outcome}, and a theorem that it {part.outcome}"
                 )
-            parts[part.says] = part
+            parts[part.says] = replace(parts[part.says], theorems=part.theorems)
         return replace(self, parts=tuple(parts.values()))
 
 
@@ -100,6 +102,7 @@ class ClaimTest:
         model: what is run.
         prove: case → those parts that follow from theorems, with them; a part that the runs decide otherwise, and a certificate
             that is rejected, are errors.
+        unproved: why the other parts rest on runs.
     """
 
     id: str
@@ -109,6 +112,7 @@ class ClaimTest:
     measure: Callable[[Any], Mapping[str, float]]
     decide: Callable[[Mapping[str, float]], Finding]
     prove: Callable[[Any], Iterable[Part]] | None = None
+    unproved: str = ""
 
     def evaluated(self, case: Any) -> "Result":
         """Any case, measured and decided, by theorems where there are any.
@@ -119,6 +123,8 @@ class ClaimTest:
         began = time.perf_counter()
         measured = {name: float(value) for name, value in self.measure(case).items()}
         finding = self.decide(measured)
+        if self.unproved:
+            finding = replace(finding, explanation=f"{finding.explanation} No theorem: {self.unproved}.")
         if self.prove is not None and can_prove():
             parts: list[Part] = []
             try:
@@ -126,7 +132,7 @@ class ClaimTest:
             except NotProved as refusal:
                 finding = replace(finding, explanation=f"{finding.explanation} Not proved: {refusal}.")
             finding = finding.decided_by(parts, self.id)
-            verify((theorem for _, theorem in finding.theorems), self.id)
+            verify({id(theorem): theorem for _, theorem in finding.theorems}.values(), self.id)
         return Result(self, measured, finding, time.perf_counter() - began)
 
     @cached_property

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Scene, Shock, simulate
+from lagrotor.paper import claim_tests, papers
 from lagrotor.paper.claim_tests import claim_data
 from lagrotor.paper.rotor_pair.claims.shock_drift_and_centres import Pinched
 from lagrotor.paper.rotor_pair.claims.simulator import inverted_each_time
@@ -98,9 +99,18 @@ ORACLES = [
 ]
 
 
+@pytest.fixture(scope="module", autouse=True)
+def theorems_on_record():
+    """Theorems are those on record where the runs bear them out; a slow test proves them."""
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (claim_tests, papers):
+            patch.setattr(module, "can_prove", lambda: False)
+        yield
+
+
 @pytest.fixture(scope="module")
 def results():
-    return {identifier: test.result for identifier, test in TESTS.items()}
+    return {identifier: PAPER.measured(identifier) for identifier in TESTS}
 
 
 @cache
@@ -108,6 +118,23 @@ def evaluated(identifier, part):
     test = TESTS[identifier]
     first = next(other for other in test.foreign if test.foreign[other] == test.foreign[part])
     return test.evaluated(test.foreign[part]) if first == part else evaluated(identifier, first)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("identifier", [i for i, test in TESTS.items() if test.prove])
+def test_the_theorems_of_a_claim_are_proved_and_as_on_record(identifier):
+    """Each is found, and its certificate verified, for the claim's own case; for a case that contradicts a part, none is."""
+    pytest.importorskip("flint", reason="the extra `proof` is not installed")
+    test = TESTS[identifier]
+    parts = {part.says: part for part in test.prove(test.case)}
+    claim_tests.verify([theorem for part in parts.values() for theorem in part.theorems], identifier)
+    for part in PAPER.measured(identifier).finding.parts:
+        if part.theorems:
+            proved = parts.pop(part.says)
+            assert proved.holds == part.holds and [t.says for t in part.theorems] == [t.text for t in proved.theorems]
+    assert not parts
+    for case in test.foreign.values():
+        assert not list(test.prove(case))
 
 
 def part_of(finding, says):

@@ -13,6 +13,7 @@ from lagrotor.pair.examples import HEAVY_LINK, LIGHT, STEP
 from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.rotor_pair.claims.proved_parts import coupled_rates, not_followed, single_rate
 from lagrotor.paper.rotor_pair.shocked_runs import PAPER_RUN, shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
@@ -184,7 +185,30 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
 
 _EXACT = "exact pair (spheres) and spring-linked bodies"
 C20 = ClaimTest(
-    "C20", (20, 20), {AT_16: (10, 10)}, "one rotor, exact (spheres) and with springs", measure_c20, decide_c20
+    "C20",
+    (20, 20),
+    {AT_16: (10, 10)},
+    "one rotor, exact (spheres) and with springs",
+    measure_c20,
+    decide_c20,
+    lambda spins: single_rate(AT_16, spins, SINGLE, _HALF_UNIT),
 )
-C21 = ClaimTest("C21", (20, 20), {AT_11_4: (20, -20), OF_COUPLING: (20, -20)}, _EXACT, measure_c21, decide_c21)
-C22 = ClaimTest("C22", (10, -10), {FOLLOWS: (10, 10)}, _EXACT, measure_c22, decide_c22)
+C21 = ClaimTest(
+    "C21",
+    (20, 20),
+    {AT_11_4: (20, -20), OF_COUPLING: (20, -20)},
+    _EXACT,
+    measure_c21,
+    decide_c21,
+    lambda spins: coupled_rates(AT_11_4, spins, HEAVY_LINK, COUPLED, HALF_TENTH),
+    "that the ratio is a constant is said of every spin and bar",
+)
+C22 = ClaimTest(
+    "C22",
+    (10, -10),
+    {FOLLOWS: (10, 10)},
+    _EXACT,
+    measure_c22,
+    decide_c22,
+    lambda spins: not_followed(FOLLOWS, spins, (HEAVY_LINK, LIGHT)),
+)

@@ -12,6 +12,7 @@ from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.rotor_pair.claims.proved_parts import displaced, not_without_spin
 from lagrotor.paper.rotor_pair.shocked_runs import (
     after_shock,
     angle_between,
@@ -132,7 +133,15 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
 _EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
 # C02: a bar of 1000 kg m² cannot be twisted, and keeps the axes parallel as (7) assumes. With a mass of 10 kg in the middle of
 # the bar unequal spins drift by (a − b)(G₁ + G₂)²/(2D) = 0.64 of (7), D = a(G₁² + G₂²) − 2b G₁G₂.
-C01 = ClaimTest("C01", (10, 10), {SAME_SENSE: (10, -10), REMAINS: (10, -10)}, _EXACT, measure_c01, decide_c01)
+C01 = ClaimTest(
+    "C01",
+    (10, 10),
+    {SAME_SENSE: (10, -10), REMAINS: (10, -10)},
+    _EXACT,
+    measure_c01,
+    decide_c01,
+    lambda spins: displaced(SAME_SENSE, REMAINS, spins),
+)
 C02 = ClaimTest(
     "C02",
     HEAVY_LINK,
@@ -140,4 +149,6 @@ C02 = ClaimTest(
     _EXACT,
     measure_c02,
     decide_c02,
+    lambda bar: not_without_spin(AS_WITHOUT_SPIN, bar) if bar == HEAVY_LINK else (),
+    "that the pair is one gyroscope is a likeness to one part in ten, of means over five cycles",
 )

@@ -14,7 +14,7 @@ from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STIFFNESS
 from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.proved_parts import topples
+from lagrotor.paper.rotor_pair.claims.proved_parts import topples, topples_slowly
 from lagrotor.paper.rotor_pair.shocked_runs import (
     PAPER_RUN,
     after_shock,
@@ -233,7 +233,14 @@ C10 = ClaimTest(
     measure_c10,
     decide_c10,
     lambda spins: topples(TOPPLES, spins),
+    "what follows the dead point is determined by no motion of the exact pair",
 )
 C11 = ClaimTest(
-    "C11", (10, -10), {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)}, _EXACT, measure_c11, decide_c11
+    "C11",
+    (10, -10),
+    {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)},
+    _EXACT,
+    measure_c11,
+    decide_c11,
+    lambda spins: topples_slowly(STABLE, TOPPLES_YZ, SLOWLY, spins, SEEN),
 )

@@ -162,6 +162,7 @@ C06 = ClaimTest(
     "spring-linked bodies, S = 10⁴ N/m, D = 250 kg/s",
     measure_c06,
     decide_c06,
+    unproved="it is about the springs of the paper's program",
 )
 # At 10⁻¹⁵⁰ rad/s the square is 10⁻³⁰⁰: not rounded to zero.
 # The cured rotation is NaN nowhere.
@@ -172,4 +173,5 @@ C07 = ClaimTest(
     "spring-linked bodies with the printed rotation",
     measure_c07,
     decide_c07,
+    unproved="it is about rounding in the paper's program",
 )
