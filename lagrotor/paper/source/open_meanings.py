@@ -95,6 +95,7 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             box.style in ("cal", "scr", "frak") and acts and not box.sup,
             "in script is a factor, and no operator",
         ),
+        ("laplacian", _is_delta(box) and not acts, "by itself is a letter, and no Laplacian"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
     )
     for key, is_open, what in held:
@@ -109,6 +110,11 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
         yield "index", f"the comma in the index of {box.name} parts indices, and is no derivative", ""
     if box.sup:
         yield from _raised(reader, box)
+
+
+def _is_delta(box: Box) -> bool:
+    """Whether a letter is a capital delta without marks and scripts."""
+    return box.name == "Delta" and not (box.sub or box.sup or box.marks or box.style or box.primes)
 
 
 def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:

@@ -45,7 +45,7 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
                     box.at, "whether words or indices stand below is open", "write commas between indices"
                 )
             letters = [
-                letter_of(reader, b)[0] if b.name not in ("i", "j") else Letter(b.name)
+                letter_of(reader, b)[0] if b.primes or b.name not in ("i", "j") else Letter(b.name)
                 for b in below
                 if b.kind == "letter"
             ]

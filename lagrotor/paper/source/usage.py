@@ -284,7 +284,7 @@ def _look_at_bracket(box: Box, before: Box | None, held: set[str], found: Notati
         found.seen.add("ket")
     if box.name == "[" and sum(b.kind == "comma" for b in content) == 1 and (before is None or before.kind != "letter"):
         found.matrices |= held
-    letters = [b for b in content if b.kind == "letter"]
+    letters = [b for b in content if b.kind == "letter" and any(c.kind == "comma" for c in content)]
     found.primed |= {stem_of(b) for b in letters if b.primes} & {stem_of(b) for b in letters if not b.primes}
 
 

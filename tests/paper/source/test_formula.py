@@ -299,3 +299,8 @@ def test_a_bra_ends_at_its_bar_where_a_sign_follows() -> None:
     read = said(r"X = |0\rangle\langle1| + |1\rangle\langle0|")
     assert read == "X = matmul(ket(0), bra(1)) + matmul(ket(1), bra(0))"
     assert said(r"a = \langle 1|-x|2\rangle") == "a = braket(1, -x, 2)"
+
+
+def test_a_primed_index_of_a_sum_keeps_its_prime() -> None:
+    assert said(r"a = \sum_{j'=1}^m b_{j'}") == "a = Sum(b_jprime, jprime, 1, m)"
+    assert said(r"a = \sum_{i j'} b_{i j'}").endswith("i, all, all, jprime)")
