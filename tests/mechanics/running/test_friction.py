@@ -161,6 +161,19 @@ def test_a_reaction_ends_a_run() -> None:
         assert run.q[-1, 1] == pytest.approx(2 / 3 + 0.25 / 3 / 9.81, abs=1e-8)
 
 
+def test_a_bowled_ball_slides_and_then_rolls_with_five_sevenths_of_its_speed() -> None:
+    """From t = 2 v/(7 μ g) on its lowest point is at rest."""
+    c, m, R = coordinates("x y theta"), *sp.symbols("m R", positive=True)
+    body = Frame(c).planar(*c.q).body(m, (0, 0, 2 * m * R**2 / 5))
+    slip = c.v[0] + R * c.v[2]
+    rubs = mu * reaction("floor") * abs(slip)
+    ball = System(c, body.kinetic - body.potential((0, -g, 0)), {"floor": c.q[1] - R}, dissipation=rubs)
+    run = ball.simulate({m: 2, R: 0.1, g: 9.81, mu: 0.2}, (0, 0.1, 0), (7, 0, 0), (0, 3))
+    slides = 2 * 7 / (7 * 0.2 * 9.81)
+    assert run.v[-1] == pytest.approx((5, 0, -50), abs=1e-8)
+    assert run.q[-1, 0] == pytest.approx(7 * slides - 0.2 * 9.81 * slides**2 / 2 + 5 * (3 - slides), abs=1e-8)
+
+
 def test_a_ladder_slides_with_friction_at_both_ends() -> None:
     """Newton's and Euler's equations solved at each step for θ'' and both reactions."""
     c, m, l = coordinates("x y theta"), *sp.symbols("m l", positive=True)
