@@ -57,15 +57,15 @@ class FunctionValue:
                 return one(*map(float, at))
             places = np.broadcast_arrays(*at)
             real = np.array([one(*map(float, x)) for x in zip(*(p.real.ravel() for p in places), strict=True)])
-            found = real.reshape(places[0].shape)
+            values = real.reshape(places[0].shape)
             if not any(np.iscomplexobj(p) for p in places):
-                return found
+                return values
             slopes = [
                 p.imag * self._slope(where, orders, i)(*(p.real for p in places))
                 for i, p in enumerate(places)
                 if p.imag.any()
             ]
-            return found + 1j * sum(slopes, np.zeros(found.shape))
+            return values + 1j * sum(slopes, np.zeros(values.shape))
 
         return call
 
@@ -340,8 +340,8 @@ class Piece:
         """The values of its symbols on piece i."""
         assert self.value.knots is not None and self.value.coefficients is not None
         knots, room = self.value.knots, self.value.room(i)
-        found = {str(self.start): knots[i], str(self.low): knots[i] - room, str(self.high): knots[i + 1] + room}
-        return found | dict(zip(map(str, self.coefficients), self.value.coefficients[:, i], strict=True))
+        known = {str(self.start): knots[i], str(self.low): knots[i] - room, str(self.high): knots[i + 1] + room}
+        return known | dict(zip(map(str, self.coefficients), self.value.coefficients[:, i], strict=True))
 
     def polynomial(self, order: int) -> sp.Expr:
         """U(w), or a derivative."""

@@ -161,10 +161,10 @@ class Switched:
         if not isinstance(self.values, Mapping):
             return self.values  # and are refused where a parameter is sought
         signs = {str(s.sign): float(k) for s, k in zip(self.surfaces, mode.signs, strict=True)}
-        found = {str(k): v for k, v in self.values.items()} | signs
+        known = {str(k): v for k, v in self.values.items()} | signs
         for spline, i in zip(self.splines, mode.pieces, strict=True):
-            found |= spline.numbers(i)
-        return found
+            known |= spline.numbers(i)
+        return known
 
     def phase(self, mode: ContactMode) -> Phase:
         """The phase of a mode. Which way what slips does not change its equations, only the value of a sign."""
@@ -243,13 +243,13 @@ def _pieces(h: Switched, at: Moment) -> tuple[int, ...]:
     if not h.splines:
         return ()
     places = h.evaluate(h.system, [s.argument for s in h.splines], at)
-    found = [spline.value.piece(float(w)) for spline, w in zip(h.splines, places, strict=True)]
-    for spline, w, piece in zip(h.splines, places, found, strict=True):
+    pieces = [spline.value.piece(float(w)) for spline, w in zip(h.splines, places, strict=True)]
+    for spline, w, piece in zip(h.splines, places, pieces, strict=True):
         if piece is None:
             raise InputError(
                 f"simulate: the start is outside the table of {spline.value.name}: {_outside(spline, float(w))}"
             )
-    return tuple(i for i in found if i is not None)
+    return tuple(i for i in pieces if i is not None)
 
 
 def _outside(spline: Piece, w: float) -> str:

@@ -368,9 +368,9 @@ def _regular(system: Equations, matrix: sp.Matrix) -> bool:
         at = np.array([float(point[s]) for s in letters])
         for _ in range(_NEWTON if h else 1):
             with np.errstate(all="ignore"):
-                found = np.array(program.function(*at, *calls), float)
-            M, g, slope = np.split(found, [m * m, m * m + h])
-            if np.isfinite(found).all():
+                numbers = np.array(program.function(*at, *calls), float)
+            M, g, slope = np.split(numbers, [m * m, m * m + h])
+            if np.isfinite(numbers).all():
                 at[:n] -= np.linalg.pinv(slope.reshape(h, n)) @ g
         M = M.reshape(m, m)
         size = np.sqrt(np.abs(np.diag(M)))

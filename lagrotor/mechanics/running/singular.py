@@ -59,8 +59,8 @@ def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array
 
 def rows_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
     """The rows of the constraints that multipliers keep, for u', at a state, (k, m)."""
-    found = _at(rows_program(system), system, values, state) if system.left else np.zeros(0)
-    return found.reshape(len(system.left), len(system.speeds))
+    rows = _at(rows_program(system), system, values, state) if system.left else np.zeros(0)
+    return rows.reshape(len(system.left), len(system.speeds))
 
 
 def _at(program: Generated, system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
