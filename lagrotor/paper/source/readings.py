@@ -49,7 +49,12 @@ def _reading(entry: Equation, notation: Notation) -> EquationReading:
     if entry.line:
         status = "by hand" if not entry.read else "confirmed" if entry.is_confirmed else "unconfirmed"
         status = "changed" if entry.changed and status == "unconfirmed" else status
-        return EquationReading(entry.id, entry.title, entry.latex, status, (*said, *entry.aside), entry.guesses)
+        guesses = entry.guesses
+        if guesses and status == "unconfirmed":  # what [notation] says since then
+            made = read_print(entry.latex, notation, entry.lead)
+            now = tuple(" = ".join([row["quantity"], *row["members"]]) for row in made.lines)
+            guesses = made.guesses if now == said else (*guesses, "[notation] reads it otherwise now: repeat init")
+        return EquationReading(entry.id, entry.title, entry.latex, status, (*said, *entry.aside), guesses)
     made = read_print(entry.latex, notation, entry.lead)
     if made.stop is not None:
         stopped, helps = made.stop

@@ -134,3 +134,19 @@ def test_a_notebook_of_the_older_format_is_read(tmp_path: Path) -> None:
     file.write_text('{"worksheets": []}', encoding="utf-8")
     with pytest.raises(InputError, match="it is no notebook"):
         read_source(file)
+
+
+def test_what_the_author_says_in_notation_settles_the_mark(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, folder = tmp_path / "paper.tex", tmp_path / "mine"
+    file.write_text(TEX.replace(r"p = m v", r"p' = k(m + v)"), encoding="utf-8")
+    begin_paper(folder, file)
+    shown = []
+    for said in ("", '[notation]\nusual = "prime"\nletters = "k"\n', '[notation]\nusual = "prime"\nfunctions = "k"\n'):
+        about = (folder / "paper.toml").read_text(encoding="utf-8").partition("\n[notation]")[0]
+        (folder / "paper.toml").write_text(f"{about}\n{said}", encoding="utf-8")
+        assert main(["readings", str(folder)]) == 0
+        shown.append(" ".join(capsys.readouterr().out.split()))
+    first, second, third = shown
+    assert 'p with a prime is a name, and no derivative ([notation] usual = "prime")' in first
+    assert "k before ( is a factor" in first and "guessed" not in second
+    assert "reads it otherwise now: repeat init" in third
