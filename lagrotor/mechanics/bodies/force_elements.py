@@ -16,7 +16,7 @@ from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
-from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, total_derivative
+from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, t, total_derivative
 
 
 @dataclass(frozen=True)
@@ -94,24 +94,32 @@ class Pathway:
 
     def spring(self, stiffness: Any, rest: Any = 0) -> sp.Expr:
         """The potential ½ k (ℓ − ℓ₀)², to be taken from the kinetic energy."""
+        self._check_moves("spring")
         k, free = expression("spring: stiffness", stiffness), expression("spring: rest", rest)
         return sp.Add(*(weight * k * (length - free) ** 2 / 2 for weight, length in self.lengths))
 
     def damper(self, constant: Any) -> sp.Expr:
         """Rayleigh's function ½ d ℓ'², for `dissipation`."""
+        self._check_moves("damper")
         d = expression("damper: constant", constant)
         return sp.Add(*(weight * d * total_derivative(length, self.c) ** 2 / 2 for weight, length in self.lengths))
 
     def dry_friction(self, force: Any) -> sp.Expr:
         """F |ℓ'|, for `dissipation`: Coulomb's friction of the size F, which may hold the length."""
+        self._check_moves("dry_friction")
         factors = [f for f in sp.Mul.make_args(self.rate) if not isinstance(f, sp.sign)]  # of a length along one axis
         return expression("dry_friction: force", force) * sp.Abs(sp.Mul(*factors))
 
     def actuator(self, force: Any) -> sp.Matrix:
         """Q = F ∂ℓ/∂q, (n, 1), for `forces`: a positive F pushes the ends apart, a rope pulls with a negative one."""
+        self._check_moves("actuator")
         F = expression("actuator: force", force)
         zero = sp.zeros(len(self.c.q), 1)
         return sum((gradient(length, self.c.q) * weight * F for weight, length in self.lengths), zero)
+
+    def _check_moves(self, what: str) -> None:
+        if not self.length.has(*self.c.q, t):
+            raise InputError(f"{what}: the length {self.length} depends on none of {self.c.q}: it gives no force")
 
 
 def push(frame: MovingFrame, force: Vector, at: Vector = (0, 0, 0)) -> sp.Matrix:

@@ -140,3 +140,12 @@ def test_what_is_no_element_is_refused() -> None:
     ):
         with pytest.raises(InputError, match=words):
             make()
+
+
+def test_a_path_of_other_coordinates_is_refused_and_a_moving_end_is_not() -> None:
+    other = coordinates("a b")
+    fixed = Pathway.line(C, (0, 0, 0), (*other.q, 0))
+    for element in (fixed.spring, fixed.damper, fixed.actuator, fixed.dry_friction):
+        with pytest.raises(InputError, match="depends on none of"):
+            element(1)
+    assert Pathway.line(C, (0, 0, 0), (t, 0, 0)).rate == sp.sign(t)
