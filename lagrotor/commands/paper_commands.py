@@ -203,6 +203,8 @@ def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.readable import readable
     from lagrotor.paper.source.check import FOUND, WRONG, check_source
     from lagrotor.paper.source.markup import read_source
+    from lagrotor.paper.source.usage import declared_notation
+    from lagrotor.paper.title_page import toml
 
     found, displayed = [], 0
     for file in given.sources:
@@ -210,7 +212,9 @@ def check_command(given: argparse.Namespace) -> int:
         displayed += len(source.equations)
         for note in source.notes or ([] if source.equations else ["it has no displayed equation"]):
             say(f"{file}: {note}", 0)
-        found += [(file, each) for each in check_source(source)]
+        beside = Path(file).parent / "paper.toml"
+        said = declared_notation(toml(beside).get("notation", {}), str(beside)) if beside.is_file() else None
+        found += [(file, each) for each in check_source(source, said)]
     if given.json:
         several = len(given.sources) > 1
         rows = [each.as_data() | ({"file": str(source)} if several else {}) for source, each in found]

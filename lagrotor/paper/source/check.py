@@ -77,9 +77,9 @@ class _Read:
     statement: PrintedStatement
 
 
-def check_source(source: Source) -> list[StepFinding]:
-    """The findings on the displayed equations of a source."""
-    notation = notation_of([*(each.latex for each in source.equations), *source.inline])
+def check_source(source: Source, said: Notation | None = None) -> list[StepFinding]:
+    """The findings on the displayed equations of a source; said: its [notation]."""
+    notation = notation_of([*(each.latex for each in source.equations), *source.inline], said)
     readings = [(each, read_formula(each.latex, notation, each.lead)) for each in source.equations]
     checker = _Checker(source, readings, notation)
     order = {each.id: place for place, each in enumerate(source.equations)}

@@ -188,3 +188,13 @@ def test_a_letter_with_another_meaning_in_another_section_is_no_contradiction(tm
     assert UNITS not in verdicts(tmp_path, waves + fall)
     assert verdicts(tmp_path, waves + r"\section{Fall} \[ v = a t \]").count(UNITS) == 1, "one by itself is a slip"
     assert verdicts(tmp_path, waves + fall + r"\[ l = a t^3 \]").count(UNITS) == 1, "against its own section"
+
+
+def test_notation_beside_the_source_settles_what_is_marked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "paper.tex"
+    step = r"\[ y = a\cdot x'\cdot(b + c) = a\cdot x' b - a\cdot x' c \] \[ a\,b = 2a \]"
+    file.write_text(rf"\documentclass{{article}}\begin{{document}}{step}\end{{document}}", encoding="utf-8")
+    assert main(["check", str(file)]) == 0
+    (tmp_path / "paper.toml").write_text('[notation]\nusual = "prime cdot"\nletters = "x"\n', encoding="utf-8")
+    assert main(["check", str(file)]) == 1
+    assert "would be refuted" in " ".join(capsys.readouterr().out.split())
