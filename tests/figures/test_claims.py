@@ -289,6 +289,11 @@ PAST = [
     ("m1", "a departure of the spins does as much at every order", lambda d: all(near(
         errors[d["departures"] > 0.015, 0], d["errors"][1, d["departures"] > 0.015, 0], 0.05) for errors in d["errors"]),
      ("errors", lambda errors: errors * np.array([1, 2, 3])[:, None, None])),
+    ("t13", "small swings part slowly, wider ones as an exponential", lambda d: (d["exponents"] > 2 * d["CHAOTIC"]).sum() > 8
+     and d["exponents"][:4, :2].max() < d["CHAOTIC"], ("exponents", lambda exponents: exponents[:, ::-1])),
+    ("t13", "chaotic runs are known for less time than regular ones", lambda d: d["chaotic starts of the second section"] > 1
+     and d["turns that the others are known for"] > 1.5 * d["horizons"][d["horizons"][:, 0] > d["CHAOTIC"], 1].max(),
+     ("horizons", lambda rows: np.column_stack([rows[:, 0], 100 + 0 * rows[:, 1]]))),
     ("n0", "under weight, without a brace, an odd number of bars never stands",
      lambda d: not d["stands"][(d["bars"] % 2 == 1) & d["weighed"] & (d["braces"] == 0)].any(), ("stands", np.invert)),
     ("n1", "no spin holds the loaded pair, and each of the others is held",
@@ -355,6 +360,7 @@ PLOTS = {  # key → panels, entries of the legend
         "t10": (2, 5),
         "t11": (3, 5),
         "t12": (2, 3),
+        "t13": (4, 3),
         "b1": (1, 12),
         "b2": (4, 8),
     },
@@ -362,7 +368,7 @@ PLOTS = {  # key → panels, entries of the legend
 }
 # Drawn from hundreds of exact orbits or runs; from the waves of wide strips; from every method at every tolerance. What t4
 # and n4 claim is held by a few orbits and runs in theory/test_paired_series and structures/test_damped.
-LONG = ("t4", "t5", "n4", "n5", "b1", "m1")
+LONG = ("t4", "t5", "t13", "n4", "n5", "b1", "m1")
 
 
 def marked(rows):
