@@ -123,7 +123,7 @@ def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
     function = function and (then is None or then.kind != "bracket")
     sums = box.name in ("Sigma", "Pi") and not (box.sub or box.marks)
     marked = box.name in ("D", "L", "E") and (box.sub or box.marks)
-    if sums or marked or (function and box.name.isupper()):
+    if box.name not in known.letters and (sums or marked or (function and box.name.isupper())):
         yield "operator", f"{box.name} is a factor of what follows, and no operator on it", f'letters = "{box.name}"'
 
 
@@ -152,7 +152,7 @@ def _raised(reader: FormulaReader, box: Box) -> Rivals:
     number = row[-1].kind == "number" and len(row) == 1
     inverse = [b.name for b in row] == ["-", "1"]
     if stem in known.raised or box.style == "bb" or (number and row[0].name in ("0", "1")):
-        yield "power", f"the superscript of {box.name} is a power, and no index", f'letters = "{row[0].name}"'
+        yield "power", f"the superscript of {box.name} is a power, and no index", ""
     elif inverse and (stem in known.matrices or box.name[0].isupper() or known.is_function(box)):
         yield "inverse", f"{box.name} is one over {box.name}, and no inverse function or matrix", ""
     elif number or all(b.kind in ("number", "operator") or (b.kind == "fraction" and not _letters(b)) for b in row):

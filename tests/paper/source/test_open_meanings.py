@@ -129,6 +129,14 @@ def test_the_line_that_a_mark_names_settles_it() -> None:
     assert guesses("a = x'")[0].endswith('([notation] usual = "prime")') and not guesses("a = x'", usual="prime")
 
 
+@pytest.mark.parametrize("latex", [row[0] for row in SETTLED])
+def test_each_mark_is_settled_by_its_line(latex: str) -> None:
+    for mark in guesses(latex):
+        key, _, names = mark.rpartition("([notation] ")[2].rstrip(")").split(" or ")[0].partition(" = ")
+        after = read_formula(latex, notation_of([latex], declared_notation({key: names.strip('"')})))
+        assert after.stop is not None or mark not in after.guesses, mark
+
+
 def test_no_verdict_rests_on_a_marked_reading(tmp_path: Path) -> None:
     file = tmp_path / "paper.tex"
     verdicts = []
