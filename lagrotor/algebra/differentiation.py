@@ -15,7 +15,7 @@ _FUNCTIONS = (
 
 def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """∂e/∂s of an expression e by a symbol s."""
-    return _derivative(sp.sympify(expression), symbol, {})
+    return _derivative(sp.sympify(expression, strict=True), symbol, {})
 
 
 def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.Expr]) -> sp.Expr:

@@ -142,7 +142,7 @@ class PointEnclosure:
     def _repeated(self, e: sp.Expr) -> Any:
         """A sum or a product between whole numbers."""
         body, (index, low, high), *others = e.args
-        start, end = (sp.sympify(side).xreplace(dict(self.point)) for side in (low, high))
+        start, end = (sp.sympify(side, strict=True).xreplace(dict(self.point)) for side in (low, high))
         if others or not (start.is_Integer and end.is_Integer) or end - start > _MOST_TERMS:
             raise NotExactError(f"{e} is not enclosed.")
         total = iv.mpf(0 if isinstance(e, sp.Sum) else 1)

@@ -214,7 +214,7 @@ def _solve(
     left: list[list[sp.Expr]] = []
     whole: list[sp.Expr] = []
     for e in polynomials:
-        numerator = sp.numer(sp.together(sp.sympify(e).subs(known)))
+        numerator = sp.numer(sp.together(sp.sympify(e, strict=True).subs(known)))
         if numerator == 0 or decide_zero(numerator).answer == "zero":
             continue
         whole.append(e)

@@ -47,8 +47,8 @@ def no_coordinate(where: str, given: Any, names: Iterable[sp.Symbol]) -> None:
 
 def unknown_functions(given: Any) -> list[sp.Expr]:
     """The functions U(r), y(t) … in expressions of which nothing is known but their name, in a fixed order."""
-    listed = given if isinstance(given, Iterable) else (given,)
-    return sorted(set().union(*(e.atoms(AppliedUndef) for e in map(sp.sympify, listed))), key=sp.default_sort_key)
+    listed = [sp.sympify(e, strict=True) for e in (given if isinstance(given, Iterable) else (given,))]
+    return sorted(set().union(*(e.atoms(AppliedUndef) for e in listed)), key=sp.default_sort_key)
 
 
 def put_in(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
@@ -109,8 +109,10 @@ def vector_of(where: str, given: Any, n: int) -> tuple[sp.Expr, ...]:
 
 
 def by_symbol(values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[Any, Any]:
-    """Values by symbol, where names may stand for symbols. Raises InputError for what is no mapping."""
+    """Values by symbol, where names may stand for symbols. Raises InputError for what is no mapping, and for text."""
     if not isinstance(values, Mapping):
         raise InputError(f"values = {values!r} must be {{symbol: number, …}}, a dictionary")
+    if text := next((f"{key} = {value!r}" for key, value in values.items() if isinstance(value, str)), ""):
+        raise InputError(f"{text} is text: give a number or an expression")
     names = {str(s): s for s in symbols}
     return {names.get(str(key), key): value for key, value in values.items()}

@@ -120,7 +120,7 @@ def _of_speeds(
     }
 
     def plain(e: Any) -> sp.Expr:
-        return _plain(sp.sympify(e).xreplace(put), functions, c, clock)
+        return _plain(sp.sympify(e, strict=True).xreplace(put), functions, c, clock)
 
     method = KanesMethod(frame, list(q), list(u), kd_eqs=list(equations[: len(q), :]))
     loads = [(place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in loads or ()]
@@ -183,4 +183,4 @@ def _plain(e: Any, functions: Sequence[Any], c: Coordinates, clock: sp.Symbol) -
     put: dict[Any, sp.Expr] = {}
     for f, q, v, a in zip(functions, c.q, c.v, c.a, strict=True):
         put |= {f.diff(clock, 2): a, f.diff(clock): v, f: q}
-    return sp.sympify(e).doit().xreplace(put).xreplace({clock: t})
+    return sp.sympify(e, strict=True).doit().xreplace(put).xreplace({clock: t})

@@ -84,7 +84,7 @@ class LinearSystem:
         below = np.linalg.solve(M, np.hstack([-K, -C]))
         rates, vectors = np.linalg.eig(np.vstack([np.hstack([np.zeros((d, d)), np.eye(d)]), below]))
         order = sorted(range(2 * d), key=lambda i: (round(float(abs(rates[i])), 9), rates[i].imag))
-        return tuple(Mode(sp.sympify(complex(rates[i])), sp.Matrix(basis @ vectors[:d, i])) for i in order)
+        return tuple(Mode(sp.sympify(complex(rates[i]), strict=True), sp.Matrix(basis @ vectors[:d, i])) for i in order)
 
     @property
     def stable_if(self) -> sp.Basic:
@@ -180,7 +180,7 @@ def _held_by(force: sp.Matrix, G: sp.Matrix, at: Any) -> sp.Matrix:
 
 def _value(matrix: sp.Matrix, still: Mapping[sp.Symbol, Any], q: tuple[sp.Symbol, ...]) -> sp.Matrix:
     """A matrix at the point, parameters first; an entry that is 0/0 there is reduced before."""
-    at = {s: sp.sympify(value) for s, value in still.items()}
+    at = {s: sp.sympify(value, strict=True) for s, value in still.items()}
     parameters = {s: value for s, value in at.items() if s not in q}
     rest = {s: value for s, value in parameters.items() if value == 0}
     general = any(value.free_symbols for value in at.values())

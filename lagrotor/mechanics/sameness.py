@@ -124,7 +124,7 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
     put |= {v: total_derivative(e, c) for v, e in zip(old.v, places, strict=True)}
 
     def rewritten(e: sp.Expr) -> sp.Expr:
-        return put_in(sp.sympify(e), put)
+        return put_in(sp.sympify(e, strict=True), put)
 
     slope = jacobian(places, c.q)
     forces = tuple(slope.T * sp.Matrix([rewritten(f) for f in system.forces])) if system.forces else ()

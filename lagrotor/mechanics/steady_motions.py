@@ -82,7 +82,7 @@ def state_equations(
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
     here = dict.fromkeys((*c.q, *speeds, *system.rates, *inputs), sp.S.Zero)
-    here |= {s: sp.sympify(x) for s, x in point.items()}
+    here |= {s: sp.sympify(x, strict=True) for s, x in point.items()}
 
     def there(matrix: sp.Matrix) -> sp.Matrix:
         values = matrix.applyfunc(lambda e: shortest(put_in(e, here)))

@@ -91,7 +91,7 @@ def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero
             f"δL = {variation(system, xi)} and the gauge function {gauge}; give gauge=F with δL = dF/dt, or see how "
             "p · ξ changes: noether_rate"
         )
-    integral = along(system.L, system.c.v, xi) - sp.sympify(gauge)
+    integral = along(system.L, system.c.v, xi) - sp.sympify(gauge, strict=True)
     return FirstIntegral(shortest(integral), decision.domain)
 
 
@@ -209,7 +209,7 @@ def _momenta(
     if not names or len({*map(str, names)}) != len(names):
         raise InputError(f"routh: {cyclic!r} must name at least one cyclic coordinate, each once")
     if isinstance(cyclic, Mapping):
-        return {by_name[str(name)]: sp.sympify(p) for name, p in cyclic.items()}
+        return {by_name[str(name)]: sp.sympify(p, strict=True) for name, p in cyclic.items()}
     return {by_name[str(name)]: sp.Symbol(f"p_{name}", real=True) for name in names}
 
 

@@ -68,7 +68,7 @@ class Oscillation:
         from lagrotor.mechanics.running import simulation
 
         letters = self.frequency.free_symbols | self.motion.free_symbols | self.system.motion.free_symbols
-        known = {s: sp.sympify(x) for s, x in by_symbol({**self.values, **values}, letters).items()}
+        known = {s: sp.sympify(x, strict=True) for s, x in by_symbol({**self.values, **values}, letters).items()}
         omega = self.frequency.removeO().subs(known)
         start = self.motion.removeO().subs(_PHASE, 0).subs(known)
         if missing := (omega.free_symbols | start.free_symbols):
@@ -117,7 +117,7 @@ def oscillation(
     if t in equation.free_symbols:
         raise InputError("lindstedt_poincare: the system depends on time: use averaged")
     inside = small in equation.free_symbols
-    rest = sp.sympify(at)
+    rest = sp.sympify(at, strict=True)
     equation = equation.subs(q, rest + q) if rest != 0 else equation
     if inside:
         polynomial = _series(equation, small, order)
@@ -270,7 +270,7 @@ def averaged(
     acceleration = -equation.subs(a, 0) / slope
     still = sp.expand(acceleration.subs(small, 0))
     square = -sp.diff(still, q)
-    nu = sp.sqrt(square) if frequency is None else sp.sympify(frequency)
+    nu = sp.sqrt(square) if frequency is None else sp.sympify(frequency, strict=True)
     if decide_zero(still + nu**2 * q).answer != "zero" or nu.is_nonpositive or nu.has(sp.I):
         raise InputError(
             f"averaged: for {small} = 0 it is {a} = {still}, not −ν² {q} with ν = {nu}: give frequency, or another small"
@@ -382,7 +382,7 @@ def _with_values(system: Equations, e: sp.Expr, values: Mapping[Any, Any] | None
     known = by_symbol(values or {}, e.free_symbols)
     if strangers := [str(s) for s in known if s not in e.free_symbols]:
         raise InputError(f"values name {', '.join(strangers)}, which the equation does not have: leave it out")
-    put = {s: sp.Rational(str(x)) if isinstance(x, float) else sp.sympify(x) for s, x in known.items()}
+    put = {s: sp.Rational(str(x)) if isinstance(x, float) else sp.sympify(x, strict=True) for s, x in known.items()}
     return e.subs(put)
 
 
@@ -407,4 +407,4 @@ def _field(coefficients: Sequence[sp.Expr]) -> tuple[Domain, Any]:
         field, _ = sp.construct_domain([*coefficients, sp.S.Half], field=True, extension=True)
     if field.is_EX or not field.is_Exact:
         raise DomainError(f"the coefficients {coefficients} are in no field that is decided: give values of letters")
-    return field, lambda e: field.from_sympy(sp.sympify(e))
+    return field, lambda e: field.from_sympy(sp.sympify(e, strict=True))

@@ -203,6 +203,10 @@ class Catalogue:
                 named = entry.refers.values() if isinstance(entry, Equation) else entry.equations
                 yield from (f"{where}: there is no equation {other}" for other in named if other not in self.equations)
         yield from (f"{file}: results: there is no equation {i}" for i in self.about.results if i not in self.equations)
+        model = self.about.model
+        own = model.isidentifier() and (self.folder / f"{model}.py").is_file()
+        if model and not (own or model.startswith("lagrotor.report.")):
+            yield f"{file}: model: {model!r} is no module of this folder"
 
     def _problems_of_lines(self, file: Path) -> Iterator[str]:
         """What is wrong with the printed lines and the letters of the sections."""

@@ -41,7 +41,7 @@ class Hypotheses:
 
     def on(self, side: Any) -> Any:
         """A side in the letters that are left."""
-        return replaced(sp.sympify(side), self.put)
+        return replaced(sp.sympify(side, strict=True), self.put)
 
     @cached_property
     def signed(self) -> "Hypotheses":
@@ -97,7 +97,7 @@ def _collected(
     region: set[Relational] = set()
     for premise in premises:
         for left, right in premise.equations:
-            a, b = sp.sympify(left), sp.sympify(right)
+            a, b = sp.sympify(left, strict=True), sp.sympify(right, strict=True)
             if not isinstance(a, sp.Expr) or not isinstance(b, sp.Expr):
                 raise InputError(f"premise {premise.says!r}: {left!r} = {right!r} is no equation of two expressions")
             if premise.small is not None and a.is_Symbol and a in b.free_symbols:

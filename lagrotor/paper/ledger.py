@@ -53,15 +53,17 @@ def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None
     Raises:
         InputError: text that cannot be read, a premise that is none.
     """
-    right, premises = derived if isinstance(derived, Series) else sp.sympify(derived), premises_of(given)
+    right, premises = derived if isinstance(derived, Series) else sp.sympify(derived, strict=True), premises_of(given)
     side = right.expression if isinstance(right, Series) else right
     if isinstance(printed, str):
-        sides = [sp.sympify(s) for p in premises for pair in p.equations for s in pair]
+        sides = [sp.sympify(s, strict=True) for p in premises for pair in p.equations for s in pair]
         sides += [side for p in premises for r in p.conditions for side in r.args]
         letters = {s.name: s for e in (side, *sides, *filter(None, [small])) for s in e.free_symbols}
         printed = read(printed, letters, "judge")
     known = (right.small, right.order) if isinstance(right, Series) else None
-    return decide(Statement("", (Relation(sp.sympify(printed), side, small, order, known=known),), premises))
+    return decide(
+        Statement("", (Relation(sp.sympify(printed, strict=True), side, small, order, known=known),), premises)
+    )
 
 
 def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
@@ -104,7 +106,11 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
 def _dimensions(relation: Relation, statement: Statement, glossary: Glossary) -> Dimensions | None:
     """What the units say of a line; None where no units are known."""
     assumed = (*statement.premises, *relation.scene_premises)
-    values = {sp.sympify(old): sp.sympify(new) for premise in assumed for old, new in premise.equations}
+    values = {
+        sp.sympify(old, strict=True): sp.sympify(new, strict=True)
+        for premise in assumed
+        for old, new in premise.equations
+    }
     return dimensions(relation.printed, relation.derived, glossary, values) if glossary else None
 
 
@@ -209,7 +215,9 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
     """Whether an equation of the premise is what the line says: their differences are multiples of each other."""
     gap = relation.printed - relation.derived
     entries = [e for e in (gap if isinstance(gap, sp.MatrixBase) else [gap]) if sp.expand(e) != 0]
-    equations = [e for a, b in premise.equations if sp.expand(e := sp.sympify(a) - sp.sympify(b)) != 0]
+    equations = [
+        e for a, b in premise.equations if sp.expand(e := sp.sympify(a, strict=True) - sp.sympify(b, strict=True)) != 0
+    ]
     return (
         premise.small is None
         and bool(entries)

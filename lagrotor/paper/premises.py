@@ -75,13 +75,15 @@ class Premise:
         """Its equations and conditions in LaTeX, where they are few enough to be read."""
         if len(self.formula) > _LONGEST:
             return ()
-        sides = [f"{latex(sp.sympify(a))} = {latex(sp.sympify(b))}" for a, b in self.put.items()]
+        sides = [
+            f"{latex(sp.sympify(a, strict=True))} = {latex(sp.sympify(b, strict=True))}" for a, b in self.put.items()
+        ]
         return (*sides, *map(latex, self.where))
 
     def on(self, side: Any) -> Any:
         """A side with the substitution made, all rows at once."""
         if all(isinstance(old, sp.Symbol) for old in self.put):
-            return side.xreplace({old: sp.sympify(new) for old, new in self.put.items()})
+            return side.xreplace({old: sp.sympify(new, strict=True) for old, new in self.put.items()})
         return side.subs(list(self.put.items()), simultaneous=True)
 
 
@@ -112,7 +114,9 @@ def parameter_premise(
     """
     off = []
     for left, right in put.items():
-        sides = [(side, with_meanings(sp.sympify(side), meanings or {}).subs(own)) for side in (left, right)]
+        sides = [
+            (side, with_meanings(sp.sympify(side, strict=True), meanings or {}).subs(own)) for side in (left, right)
+        ]
         (_, here), (_, there) = sides
         if here.is_number and there.is_number and here != there:
             off += [f"{sp.pretty(side)} = {float(value):g}" for side, value in sides if side != value]
@@ -122,7 +126,7 @@ def parameter_premise(
 def with_meanings(expression: Any, meanings: Mapping[sp.Symbol, sp.Expr]) -> Any:
     """The expression with each letter replaced by what it stands for, one after the other: later ones may be in earlier."""
     for letter, meaning in meanings.items():
-        expression = expression.xreplace({letter: sp.sympify(meaning)})
+        expression = expression.xreplace({letter: sp.sympify(meaning, strict=True)})
     return expression
 
 
@@ -152,7 +156,7 @@ def _of_row(old: Any, new: Any) -> tuple[Premise, ...]:
     if isinstance(old, Relational) and new in (True, False, sp.true, sp.false):
         return _of_relation(old if new in (True, sp.true) else sp.Not(old))
     if isinstance(old, sp.MatrixBase):
-        right = sp.sympify(new)
+        right = sp.sympify(new, strict=True)
         if getattr(right, "shape", None) != old.shape:
             raise InputError(f"given: {old} and {new} differ in shape: nothing says which entries are equal")
         return (Premise(_equated(old, right), dict(zip(old, right, strict=True))),)

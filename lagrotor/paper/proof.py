@@ -125,8 +125,8 @@ def _pairs(left: Any, right: Any) -> tuple[tuple[Any, Any], ...]:
         rows = list(left), list(right)
         if len(rows[0]) != len(rows[1]):
             raise ProofError(f"prove: {len(rows[0])} left sides and {len(rows[1])} right sides")
-        return tuple((sp.sympify(a), sp.sympify(b)) for a, b in zip(*rows, strict=True))
-    return ((sp.sympify(left), sp.sympify(right)),)
+        return tuple((sp.sympify(a, strict=True), sp.sympify(b, strict=True)) for a, b in zip(*rows, strict=True))
+    return ((sp.sympify(left, strict=True), sp.sympify(right, strict=True)),)
 
 
 def _through(a: Any, b: Any, small: sp.Symbol, order: int, says: str) -> None:

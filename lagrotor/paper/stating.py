@@ -181,7 +181,7 @@ def _by_quantity(given: Side | Mapping[str, Side], entry: Equation) -> dict[str,
 
 
 def _expression(side: Side) -> Side:
-    return sp.sympify(side.expression if isinstance(side, Series) else side)
+    return sp.sympify(side.expression if isinstance(side, Series) else side, strict=True)
 
 
 def _known(given: Side | Mapping[str, Side], entry: Equation) -> dict[str, tuple[sp.Symbol, int]]:
@@ -250,7 +250,9 @@ def _forms(
         if name not in quantities:
             raise InputError(f"verdict: {entry.id}: a form is given for {name}, which was not derived")
         scene = next((line.scene for line in lines if line.quantity == name), {})
-        granted = needs_premises(sp.sympify(given.value(letters)), quantities[name], stated.premises, scene)
+        granted = needs_premises(
+            sp.sympify(given.value(letters), strict=True), quantities[name], stated.premises, scene
+        )
         if granted is None:
             raise ProofError(f"verdict: {entry.id}: {name} = {given.text} is not what was derived")
         tex = _tex(given, name, _known(stated.derived, entry), letters)

@@ -71,7 +71,9 @@ class Relation:
 
 def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
     """The relations of a line `… = p_1 = p_2 = …`, each member held against the derived expression."""
-    return tuple(Relation(sp.sympify(p), sp.sympify(derived), small, claimed) for p in printed)
+    return tuple(
+        Relation(sp.sympify(p, strict=True), sp.sympify(derived, strict=True), small, claimed) for p in printed
+    )
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,7 @@ def _as_declared(values: Values) -> bool:
 
 def _satisfied(relation: Relational, values: Values) -> bool:
     """Whether a condition certainly holds at a point."""
-    between = enclosure(sp.sympify(relation.lhs - relation.rhs), values)
+    between = enclosure(sp.sympify(relation.lhs - relation.rhs, strict=True), values)
     if between is None:
         return False
     low, high = between

@@ -57,7 +57,7 @@ class Enclosure(Shown):
         """Any expression of the states, at t; of a Scene also of x_1 … z_2 and their rates."""
         with precision(self.bits):
             box = [*self.states, *self.start_values]
-            return values_at(self.field.function([sp.sympify(expression)]), box)[0]
+            return values_at(self.field.function([sp.sympify(expression, strict=True)]), box)[0]
 
     @cached_property
     def start_values(self) -> Balls:

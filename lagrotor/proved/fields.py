@@ -80,10 +80,10 @@ class Field:
         seen = self.seen or {}
         known = {*self.arguments, *seen, *(name for name, _ in self.stages)}
         for e in expressions:
-            if unknown := sorted(map(str, sp.sympify(e).free_symbols - known)):
+            if unknown := sorted(map(str, sp.sympify(e, strict=True).free_symbols - known)):
                 names = ", ".join(map(str, (*self.states, *seen)))
                 raise InputError(f"proved: {e} has the unknown {', '.join(unknown)}; the motion has {names}")
-        put = [sp.sympify(e).xreplace(dict(seen)) for e in expressions]
+        put = [sp.sympify(e, strict=True).xreplace(dict(seen)) for e in expressions]
         return tape_of(Program(self.arguments, self.stages, tuple(put), shared=True))
 
 

@@ -202,10 +202,10 @@ class Energy:
     def __add__(self, other: Any) -> "Energy":
         if isinstance(other, Energy):
             return Energy(self.terms + other.terms, self.rest + other.rest)
-        return Energy(self.terms, self.rest + sp.sympify(other))
+        return Energy(self.terms, self.rest + sp.sympify(other, strict=True))
 
     def __mul__(self, factor: Any) -> "Energy":
-        number = sp.sympify(factor)
+        number = sp.sympify(factor, strict=True)
         return Energy(tuple((body, field, number * f) for body, field, f in self.terms), number * self.rest)
 
     def __neg__(self) -> "Energy":
@@ -218,7 +218,7 @@ class Energy:
         return -self + other
 
     def __truediv__(self, factor: Any) -> "Energy":
-        return self * (1 / sp.sympify(factor))
+        return self * (1 / sp.sympify(factor, strict=True))
 
     __radd__, __rmul__ = __add__, __mul__
 

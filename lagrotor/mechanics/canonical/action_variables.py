@@ -147,7 +147,7 @@ def _in_one_freedom(
     if not (isfinite(energy) and isfinite(at)):
         raise InputError("libration: energy and at must be finite numbers, in J and as q")
     (q,), (p,) = h.q, h.p
-    H = h.H.xreplace({s: sp.sympify(v) for s, v in by_symbol(values or {}, h.H.free_symbols).items()})
+    H = h.H.xreplace({s: sp.sympify(v, strict=True) for s, v in by_symbol(values or {}, h.H.free_symbols).items()})
     curvature = sp.diff(H, p, 2)
     if decide_zero(sp.diff(curvature, p)).answer != "zero" or curvature == 0:
         raise DomainError(f"libration: H = {H} must be quadratic in {p}")

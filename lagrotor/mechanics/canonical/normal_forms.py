@@ -222,7 +222,7 @@ def normal_form_at(
         raise InputError(f"normal_form: order = {order!r} must be a whole number from 2 on")
     if not isinstance(detuning, int | float | np.number) or not 0 <= detuning < np.inf:
         raise InputError(f"normal_form: detuning = {detuning!r} must be a rate from 0 on, in rad/s")
-    letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v).free_symbols for v in at.values()))
+    letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v, strict=True).free_symbols for v in at.values()))
     try:
         return _exact(H, x, at, order, detuning)
     except NotExactError as error:
@@ -290,7 +290,7 @@ def normal_quadratic(A: Any, vectors: Any, weights: Coefficients, frequencies: C
 def _exact(
     H: sp.Expr, x: Sequence[sp.Symbol], at: Mapping[sp.Symbol, sp.Expr], order: int, detuning: float
 ) -> NormalForm:
-    if H.has(sp.Float) or any(sp.sympify(v).has(sp.Float) for v in at.values()):
+    if H.has(sp.Float) or any(sp.sympify(v, strict=True).has(sp.Float) for v in at.values()):
         raise NotExactError("normal_form: the Hamiltonian has floating-point numbers")
     n = len(x) // 2
     slope, A = sp.zeros(len(x), 1), sp.zeros(len(x), len(x))
@@ -313,7 +313,7 @@ def _exact(
 
     def value(e: sp.Expr) -> Any:
         try:
-            return elements(field)(sp.sympify(e))
+            return elements(field)(sp.sympify(e, strict=True))
         except (CoercionFailed, ValueError, NotImplementedError):
             raise NotExactError(f"normal_form: {e} is not in the field of the frequencies") from None
 

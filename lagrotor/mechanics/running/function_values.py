@@ -211,7 +211,7 @@ def with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
     if not system.bodies:
         return _with_each(system, put(system.lagrangian), put)
     energy = system.lagrangian
-    of_bodies = unknown_functions(system.L - sp.sympify(energy.rest))  # in the place of a frame
+    of_bodies = unknown_functions(system.L - sp.sympify(energy.rest, strict=True))  # in the place of a frame
     return _with_each(system, put(system.L) if of_bodies else replace(energy, rest=put(energy.rest)), put)
 
 

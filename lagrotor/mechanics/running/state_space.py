@@ -132,11 +132,11 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
         raise InputError(
             f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities{names}; others are values"
         )
-    given = [point.get(s, 0) for s in (*c.q, *system.speeds)]
-    inside = {s for e in map(sp.sympify, given) for s in e.free_symbols}
+    given = [sp.sympify(point.get(s, 0), strict=True) for s in (*c.q, *system.speeds)]
+    inside = {s for e in given for s in e.free_symbols}
     letters = {s: x for s, x in by_symbol(values, inside).items() if s in inside}
     try:
-        start = np.array([float(sp.sympify(e).subs(letters)) for e in given])
+        start = np.array([float(e.subs(letters)) for e in given])
     except (TypeError, ValueError):
         raise InputError(f"{where}: {dict(at)} must be numbers, {{coordinate: number, …}}") from None
     if not np.isfinite(start).all():

@@ -47,7 +47,7 @@ class Terms:
     def __init__(self, expressions: Iterable[Any]) -> None:
         self.names: dict[Any, str] = {}
         self.stands_for: dict[sp.Expr, sp.Symbol] = {}
-        held = [sp.sympify(e) for e in expressions]
+        held = [sp.sympify(e, strict=True) for e in expressions]
         nodes = {node for e in held for node in sp.preorder_traversal(e)}
         letters = {node for node in nodes if node.is_Symbol} | {n.func for n in nodes if isinstance(n, AppliedUndef)}
         seen: dict[str, Any] = {}
@@ -102,7 +102,7 @@ class Terms:
             return " ".join([self.names[node.func], *(self._within(each, 4) for each in node.args)]), 3
         if node.func in QUOTIENTS:
             over, under = (1 if part is None else part(*node.args, evaluate=False) for part in QUOTIENTS[node.func])
-            return f"{self._within(sp.sympify(over), 2)} / {self._within(under, 3)}", 2
+            return f"{self._within(sp.sympify(over, strict=True), 2)} / {self._within(under, 3)}", 2
         if node.func in _FUNCTIONS:
             return f"{_FUNCTIONS[node.func]} {self._within(node.args[0], 4)}", 3
         raise NotExactError(f"{getattr(node, 'func', node)} has no term over the reals")

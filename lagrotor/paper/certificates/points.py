@@ -35,7 +35,9 @@ def points_of(
         free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in letters if x not in eliminated}
         free |= {x: value for x, value in fixed.items() if x in free}
         free = {x: abs(v) if x.is_nonnegative else -abs(v) if x.is_nonpositive else v for x, v in free.items()}
-        point = free | {x: sp.sympify(value).xreplace(free) for x, value in eliminated.items() if x in letters}
+        point = free | {
+            x: sp.sympify(value, strict=True).xreplace(free) for x, value in eliminated.items() if x in letters
+        }
         if all(_holds(sign, value_at_point(e, point)) for sign, e in hold):
             yield point
             found += 1
@@ -52,7 +54,7 @@ def _holds(sign: str, value: Any) -> bool:
 def value_at_point(expression: sp.Expr, point: Mapping[sp.Symbol, sp.Expr]) -> Any:
     """The real value at the point; None where there is none."""
     try:
-        value = enclosed_at(sp.sympify(expression), dict(point), _DIGITS)
+        value = enclosed_at(sp.sympify(expression, strict=True), dict(point), _DIGITS)
     except NotExactError:
         return None
     complex_there = value.imag.a > 0 or value.imag.b < 0 or value.imag.delta > 0

@@ -67,7 +67,7 @@ def _proposition(name: str, line: LineVerdict, offered: tuple[Premise, ...]) -> 
     where = [each for premise in premises for each in premise.where]
     rows += [(str(each), each.lhs, each.rhs) for each in where if isinstance(each, sp.Eq)]
     rows += [(SCENE, old, new) for old, new in relation.scene.items()]
-    rows = [(says, sp.sympify(old), sp.sympify(new)) for says, old, new in rows]
+    rows = [(says, sp.sympify(old, strict=True), sp.sympify(new, strict=True)) for says, old, new in rows]
     held = [relation.printed, relation.derived, *where, *(side for _, *sides in rows for side in sides)]
     letters = _letters_for_operators(held)
     return Proposition(
@@ -103,4 +103,4 @@ def _unscaled(premise: Premise) -> Iterator[tuple[sp.Basic, Any]]:
     """The rows of a premise; a letter that it replaces is another one where it stands on the right."""
     scaled = {old: sp.Symbol(f"{old}_scaled", **old.assumptions0) for old in premise.put if old.is_Symbol}
     for old, new in premise.put.items():
-        yield old, sp.sympify(new).xreplace(scaled)
+        yield old, sp.sympify(new, strict=True).xreplace(scaled)

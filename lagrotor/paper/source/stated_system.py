@@ -17,6 +17,7 @@ The text is parsed by the reader of expressions; nothing in it runs. Goldstein, 
 §§1.4, 2.4, 2.7, 6.2.
 """
 
+import json
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -44,7 +45,7 @@ from lagrotor.paper.letters import read
 
 _KEYS = ("coordinates", "L", "constraints", "derives")
 _KIND = re.compile(
-    r"(L|energy|momentum|acceleration|motion|frequency(?:\^2)?)(?:\s+(?!at\b)([A-Za-z_]\w*|\d+))?(?:\s+at\s+(.*))?"
+    r"(L|energy)|(momentum|acceleration|motion)(?: +([A-Za-z_]\w*))?|(frequency)(\^2)?(?: +(\d+))?(?: +at +(.*))?"
 )
 
 
@@ -65,19 +66,19 @@ class StatedSystem:
                 f"{self.where}: derives: equation {identifier} is not there: it has {', '.join(self.derives)}"
             )
         said = self.derives[identifier]
-        match = _KIND.fullmatch(said.strip())
+        match = _KIND.fullmatch(_one_line(said))
         if match is None:
             raise InputError(
                 f"{self.where}: derives: {said!r} is not known: L, energy, momentum q, acceleration q, motion q, "
                 "or frequency at q = 0"
             )
-        kind, which, point = match.groups()
-        if kind in ("L", "energy"):
-            return self.L if kind == "L" else energy(self.L, self.c)
-        if kind.startswith("frequency"):
-            square = self._squared_frequency(int(which or 1), point or "")
-            return square if kind.endswith("^2") else sp.sqrt(square)
-        return self._of_coordinate(kind, which or "")
+        whole, kind, name, _, squared, which, point = match.groups()
+        if whole:
+            return self.L if whole == "L" else energy(self.L, self.c)
+        if kind:
+            return self._of_coordinate(kind, name or "")
+        square = self._squared_frequency(int(which or 1), point or "")
+        return square if squared else sp.sqrt(square)
 
     def _of_coordinate(self, kind: str, which: str) -> sp.Expr:
         place = next((n for n, q in enumerate(self.c.q) if q.name == which), None)
@@ -164,11 +165,15 @@ system = stated(__file__)
 """
 _CELL = """
 # %% [markdown]
-# ## ({id}): {said}
+# ## ({title}): {said}
 
 # %%
-verdict("{id}", system["{id}"])
+verdict({id}, system[{id}])
 """
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
 
 
 def write_derivation(paper: Catalogue) -> Path:
@@ -181,7 +186,9 @@ def write_derivation(paper: Catalogue) -> Path:
                 f"{system.where}: derives: {identifier} has no printed line, its print was kept aside: write it as an "
                 "[[equation.line]] in equations.toml, or leave it out here"
             )
-    text = _HEAD + "".join(_CELL.format(id=identifier, said=said) for identifier, said in system.derives.items())
+    text = _HEAD + "".join(
+        _CELL.format(title=_one_line(i), said=_one_line(said), id=json.dumps(i)) for i, said in system.derives.items()
+    )
     folder = paper.folder / "derivations"
     folder.mkdir(exist_ok=True)
     return write_text(folder / f"{paper.about.equations_in}_system.py", text)

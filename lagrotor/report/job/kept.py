@@ -1,120 +1,26 @@
 """Products of the last run, taken again where nothing that they were made from has changed.
 
-A product (what a derivation states, a claim's numbers, a figure) is kept in the report's folder as a pickle, with a digest of
-all that it was made from and the digests of its files. It is taken only if all of these still agree; whatever is missing,
-damaged or out of date is made anew.
+A product (what a derivation states, a claim's numbers, a figure) is kept in the report's folder as a pickle, with a seal on all
+that it was made from and on the digests of its files. It is taken only if all of these still agree; whatever is missing,
+damaged or out of date is made anew. A pickle can call anything, so that none is read but of this user's own runs: the seal is
+made with a key that lies in this user's folder of states, not in the report's.
 """
 
-import io
+import hmac
 import json
+import os
 import pickle
-import shutil
-from collections import Counter, OrderedDict
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, is_dataclass
-from enum import Enum
-from fractions import Fraction
-from pathlib import Path, PurePath
-from types import MappingProxyType
+import secrets
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
 from typing import Any
-
-from sympy.parsing import sympy_parser
 
 from lagrotor.files import write_beside, write_text
 from lagrotor.report.job.folder import MADE, PRODUCTS
 from lagrotor.report.job.reach import digest
-
-# What a product may be made of, and the few functions that make it again: a pickle that names anything else is not read. A
-# class may be given text; while a product is read, no text is parsed as an expression.
-_ROOMS = ("sympy.", "lagrotor.", "numpy.", "pathlib.", "collections.", "fractions.", "mpmath.", "types.")
-_SYMPY = tuple(
-    f"sympy.{room}."
-    for room in ("core", "functions", "matrices", "polys", "logic", "sets", "concrete", "integrals", "series")
-)
-_FUNCTIONS = {
-    ("copyreg", "_reconstructor"),
-    ("copyreg", "__newobj__"),
-    ("copyreg", "__newobj_ex__"),
-    ("_codecs", "encode"),
-    *((f"numpy.{core}.multiarray", name) for core in ("core", "_core") for name in ("_reconstruct", "scalar")),
-    *((f"numpy.{core}.numeric", "_frombuffer") for core in ("core", "_core")),
-}
-_BUILTINS = {
-    "dict",
-    "list",
-    "tuple",
-    "set",
-    "frozenset",
-    "int",
-    "float",
-    "complex",
-    "str",
-    "bytes",
-    "bool",
-    "slice",
-    "object",
-}
-
-
-def _is_part(module: str, value: Any) -> bool:
-    """Whether a class may be a part of a product: making one does nothing but hold its values."""
-    if not isinstance(value, type):
-        return False
-    room = module.partition(".")[0]
-    if room == "numpy":  # not its subclasses, of which one maps files
-        import numpy as np
-
-        return value is np.ndarray or issubclass(value, np.generic | np.dtype)
-    if room == "lagrotor":
-        return is_dataclass(value) or issubclass(value, Enum | tuple | dict)
-    plain = issubclass(value, PurePath | Fraction | OrderedDict | Counter | MappingProxyType)
-    return plain or module.startswith((*_SYMPY, "mpmath.ctx_mp_python"))
-
-
-class _Reader(pickle.Unpickler):
-    """Reads products, and refuses a pickle that would call anything else; of papers there is the one that is reported."""
-
-    def __init__(self, data: bytes, paper: Any) -> None:
-        super().__init__(io.BytesIO(data))
-        self.paper = paper
-
-    def _same_paper(self, folder: Any, scripts_in: Any = None) -> Any:
-        if self.paper is None or (folder, scripts_in) != (self.paper.folder, self.paper.scripts_in):
-            raise pickle.UnpicklingError("a product is of another paper")
-        return self.paper
-
-    def find_class(self, module: str, name: str) -> Any:
-        if (module, name) == ("lagrotor.paper.papers", "opened"):
-            return self._same_paper
-        known = (module, name) in _FUNCTIONS or (module == "builtins" and name in _BUILTINS)
-        if not known and not f"{module}.".startswith(_ROOMS):
-            raise pickle.UnpicklingError(f"{module}.{name} is no part of a product")
-        value = super().find_class(module, name)
-        if not known and not _is_part(module, value):
-            raise pickle.UnpicklingError(f"{module}.{name} is no part of a product")
-        return value
-
-
-def _read(data: bytes, paper: Any = None) -> Any:
-    """The product; raises UnpicklingError for one that names what it may not, or that holds text to be parsed."""
-
-    def refuse(*text: Any, **options: Any) -> Any:
-        raise pickle.UnpicklingError("a product holds text where an expression should be")
-
-    with patched(sympy_parser, "parse_expr", refuse), patched(sympy_parser, "eval_expr", refuse):
-        return _Reader(data, paper).load()
-
-
-@contextmanager
-def patched(module: Any, name: str, value: Any) -> Iterator[None]:
-    """Within the block the module's name stands for the value."""
-    before = getattr(module, name)
-    setattr(module, name, value)
-    try:
-        yield
-    finally:
-        setattr(module, name, before)
 
 
 @dataclass
@@ -137,35 +43,30 @@ class Kept:
         return name in self._last
 
     def last(self, name: str, made_from: str) -> Any:
-        """A product of the last report; None unless it was made from the same and is undamaged."""
-        try:
+        """A product of the last report; None unless it was made from the same, by this user, and is undamaged."""
+        return self._sealed(name, made_from)[0]
+
+    def _sealed(self, name: str, made_from: str) -> tuple[Any, dict[str, bytes]]:
+        """A product and its files; (None, {}) where the seal is not theirs."""
+        with suppress(
+            Exception
+        ):  # which one depends on what is damaged; what has the seal was whole when it was written
             part = self._last[name]
-            whole = part["seal"] == _seal(made_from, part["files"])
-            whole = whole and all(
-                digest((self.old / file).read_bytes()) == seen for file, seen in part["files"].items()
-            )
-            return _read((self.old / _file_of(name)).read_bytes(), self.paper) if whole else None
-        except (
-            OSError,
-            TypeError,
-            ValueError,
-            KeyError,
-            AttributeError,
-            pickle.UnpicklingError,
-            EOFError,
-            ImportError,
-            IndexError,
-        ):
-            return None
+            if not hmac.compare_digest(part["seal"], self._seal(made_from, part["files"])):
+                return None, {}
+            files = {file: (self.old / file).read_bytes() for file in part["files"]}
+            if all(digest(held) == part["files"][file] for file, held in files.items()):
+                return pickle.loads(files[_file_of(name)]), files
+        return None, {}
 
     def take(self, name: str, made_from: str) -> Any:
         """The same, and its files copied into the new report."""
-        value = self.last(name, made_from)
+        value, files = self._sealed(name, made_from)
         if value is not None:
-            part = self._parts[name] = self._last[name]
-            for file in part["files"]:
+            self._parts[name] = self._last[name]
+            for file, held in files.items():
                 (self.new / file).parent.mkdir(exist_ok=True)
-                shutil.copyfile(self.old / file, self.new / file)
+                (self.new / file).write_bytes(held)
             self.taken.append(name)
         return value
 
@@ -174,7 +75,11 @@ class Kept:
         (self.new / PRODUCTS).mkdir(exist_ok=True)
         own = write_beside(self.new / _file_of(name), lambda file: pickle.dump(value, file, protocol=5))
         seen = {path.relative_to(self.new).as_posix(): digest(path.read_bytes()) for path in sorted({own, *files})}
-        self._parts[name] = {"seal": _seal(made_from, seen), "files": seen}
+        self._parts[name] = {"seal": self._seal(made_from, seen), "files": seen}
+
+    def _seal(self, made_from: str, files: dict[str, str]) -> str:
+        place = [str(self.paper.folder), str(self.paper.scripts_in)] if self.paper else []
+        return hmac.digest(_key(), json.dumps([place, made_from, files], sort_keys=True).encode(), "sha256").hex()
 
     def write(self) -> None:
         """Write what the next run will read."""
@@ -185,5 +90,16 @@ def _file_of(name: str) -> str:
     return f"{PRODUCTS}/{name.replace(' ', '-')}.pickle"
 
 
-def _seal(made_from: str, files: dict[str, str]) -> str:
-    return digest(made_from, json.dumps(files, sort_keys=True))
+@cache
+def _key() -> bytes:
+    """This user's key, made at the first report; one for this process alone where none can be kept."""
+    new = secrets.token_bytes(32)
+    with suppress(OSError, RuntimeError):  # no home, or none that can be written to
+        states = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+        file = Path(states) / "lagrotor" / "report.key"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with suppress(FileExistsError), open(os.open(file, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600), "wb") as made:
+            made.write(new)
+        if len(key := file.read_bytes()) == len(new):
+            return key
+    return new

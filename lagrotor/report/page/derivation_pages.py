@@ -53,7 +53,11 @@ def _renderer() -> Any:
     from markdown_it import MarkdownIt
     from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-    return MarkdownIt("commonmark").enable("table").use(dollarmath_plugin, renderer=_formula, allow_space=False)
+    return (
+        MarkdownIt("commonmark", {"html": False})
+        .enable("table")
+        .use(dollarmath_plugin, renderer=_formula, allow_space=False)
+    )
 
 
 def _formula(source: str, options: Mapping[str, Any]) -> str:

@@ -166,7 +166,7 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
 
 def coefficient_field(shape: sp.Expr, ratio: sp.Expr) -> Domain:
     """The field of the coefficients: rational functions of whichever of sigma and k is left a symbol."""
-    free = sorted((sp.sympify(shape).free_symbols | sp.sympify(ratio).free_symbols), key=str)
+    free = sorted((sp.sympify(shape, strict=True).free_symbols | sp.sympify(ratio, strict=True).free_symbols), key=str)
     return sp.ZZ.frac_field(*free) if free else sp.QQ  # of whole numbers: reduced faster than of fractions
 
 
@@ -224,7 +224,7 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact:
         InputError: unless the order is a whole number, 1 or more, and at most 16 with a symbol, 32 without.
     """
     check_order(order)
-    shape, ratio = sp.sympify(shape), sp.sympify(ratio)
+    shape, ratio = sp.sympify(shape, strict=True), sp.sympify(ratio, strict=True)
     most = _MOST_WITH_SYMBOLS if shape.free_symbols | ratio.free_symbols else _MOST_OF_NUMBERS
     if order > most:
         raise InputError(

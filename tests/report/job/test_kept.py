@@ -1,7 +1,6 @@
 """A product of the last run is taken only where all that it was made from, and the product itself, are as they were."""
 
 import json
-import pickle
 from collections.abc import Callable
 from pathlib import Path
 
@@ -78,19 +77,3 @@ def edited(change: Callable[[dict], object]) -> Callable[[Path], object]:
 def test_what_is_damaged_is_not_taken(harm: Callable[[Path], object], last: Path) -> None:
     harm(last)
     assert taken(last) is None
-
-
-class Evil:
-    def __reduce__(self):
-        import os
-
-        return os.getcwd, ()
-
-
-@pytest.mark.parametrize("value", [Evil(), print])
-def test_a_pickle_that_would_call_something_is_not_read(value: object, tmp_path: Path) -> None:
-    kept = Kept(tmp_path, tmp_path)
-    kept.keep("claim C01", "inputs", value)
-    kept.write()
-    assert pickle.loads((tmp_path / PRODUCTS / "claim-C01.pickle").read_bytes()) is not None
-    assert Kept(tmp_path, tmp_path).last("claim C01", "inputs") is None
