@@ -8,16 +8,12 @@ import re
 from collections.abc import Iterable
 from fractions import Fraction
 
+from lagrotor.errors import InputError
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_vector, text_of
+from lagrotor.paper.units import dimension_of
 
 Row = dict[str, Fraction]
-_BASES = ("[time]", "[kg]", "[m]", "[A]", "[K]", "[mol]", "[cd]")
-_UNITS = {
-    "s": {"[time]": 1}, "m": {"[m]": 1}, "kg": {"[kg]": 1}, "A": {"[A]": 1}, "K": {"[K]": 1}, "g": {"[kg]": 1}, "rad": {},
-    "N": {"[kg]": 1, "[m]": 1, "[time]": -2}, "J": {"[kg]": 1, "[m]": 2, "[time]": -2}, "Hz": {"[time]": -1},
-    "W": {"[kg]": 1, "[m]": 2, "[time]": -3}, "cm": {"[m]": 1}, "mm": {"[m]": 1}, "km": {"[m]": 1}, "ms": {"[time]": 1},
-    "Pa": {"[kg]": 1, "[m]": -1, "[time]": -2}, "min": {"[time]": 1}, "h": {"[time]": 1},
-}  # fmt: skip
+_TIME = "[s]"  # a base unit in brackets, a letter without
 _NUMBERS = ("sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "exp", "log", "asin", "acos", "atan")
 
 
@@ -42,7 +38,7 @@ class FormulaDimensions:
         kept = dict(self.rows)
         for row, where in self.pending:
             reduced = self._reduced(row)
-            letters = [name for name in reduced if name not in _BASES]
+            letters = [name for name in reduced if name[0] != "["]
             if letters:
                 self._keep(letters[0], reduced)
             elif reduced:
@@ -112,7 +108,7 @@ class FormulaDimensions:
     def _analysis(self, node: Call) -> Row:
         """Derivatives, integrals, sums and rates."""
         if node.name == "rate":
-            return _plus(self._of(node.args[0]), {"[time]": Fraction(1)}, -1)
+            return _plus(self._of(node.args[0]), {_TIME: Fraction(1)}, -1)
         if node.name == "Derivative":
             times = _rational(node.args[2]) if len(node.args) > 2 else Fraction(1)
             return _plus(self._of(node.args[0]), self._of(node.args[1]), -(times or Fraction(1)))
@@ -131,15 +127,16 @@ def _letter(name: str) -> Row:
     if name in ("oo", "all", "otherwise"):
         raise _UnknownError
     if name.startswith("unit_"):
-        unit = _UNITS.get(name.removeprefix("unit_"))
-        if unit is None:
-            raise _UnknownError
-        return {base: Fraction(power) for base, power in unit.items()}
+        try:
+            powers = dimension_of(name.removeprefix("unit_")).as_powers_dict()
+        except InputError:
+            raise _UnknownError from None
+        return {f"[{base}]": Fraction(int(power)) for base, power in powers.items() if base != 1}
     if name == "t":
-        return {"[time]": Fraction(1)}
+        return {_TIME: Fraction(1)}
     dots = re.search(r"_(d*)dot$", name)
     if dots:
-        return _plus({name[: dots.start()]: Fraction(1)}, {"[time]": Fraction(1)}, -(len(dots[1]) + 1))
+        return _plus({name[: dots.start()]: Fraction(1)}, {_TIME: Fraction(1)}, -(len(dots[1]) + 1))
     return {name: Fraction(1)}
 
 
