@@ -18,14 +18,13 @@ import pytest
 import sympy as sp
 
 import lagrotor
-from lagrotor import Scene, Trajectory
+from lagrotor import Scene, Trajectory, read_scene
 from lagrotor.commands.command_line import main
 from lagrotor.errors import LagrotorError
 from lagrotor.files import read_arrays
 from lagrotor.mechanics import System, coordinates
 from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.generated import GeneratedFunction
-from lagrotor.pair.scene_document import read_scene
 from lagrotor.paper import Glossary, Paper, Premise, judge
 from lagrotor.paper.certificates.certificate import PREAMBLE
 from lagrotor.paper.certificates.certificate_folder import CERTIFICATE_LIST, read_certificates
@@ -39,7 +38,7 @@ from lagrotor.report.job import kept as kept_products
 from lagrotor.report.job.folder import PRODUCTS
 from lagrotor.report.job.kept import Kept
 from lagrotor.report.page.derivation_pages import markdown_html
-from lagrotor.structures.document import read_structure
+from lagrotor.structures import read_structure
 
 ROOT = Path(lagrotor.__file__).parent
 x, m = sp.symbols("x m", positive=True)

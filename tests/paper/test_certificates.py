@@ -24,6 +24,7 @@ from lagrotor.paper.certificates.certificate_folder import (
     read_certificates,
 )
 from lagrotor.paper.certificates.checked_by_coq import check_certificates, foreign_word
+from lagrotor.paper.certificates.cofactors import cofactors_of
 from lagrotor.paper.certificates.coq_terms import Terms, comment, conditions_of_value
 from lagrotor.paper.certificates.propositions import Proposition, _letters_for_operators
 
@@ -182,6 +183,18 @@ KINDS: dict[str, tuple[Callable[[], tuple[str, CertifiedLine]], list[tuple[str, 
         lambda: read_off(R / sp.cos(x), R * (1 + sp.sin(x) ** 2), "1/100", known=(x, 3)),
         [("(R_ / cos x) / (", "(2 * R_ / cos x) / ("), ("(sin x) ^ 2 * (", "(sin x) ^ 3 * (")],
     ),
+    "equations used together": (
+        lambda: of(x**2 + y**2, sp.Integer(5), [sp.Eq(x + y, 3), sp.Eq(x * y, 2)]),
+        [("  (premise_1 : x + y = 3)", "  (* *)"), ("x * y = 2", "x * y = 3"), ("= 5", "= 6")],
+    ),
+    "an equation between functions": (
+        lambda: of(sp.cos(x) ** 2, 1 - y**2, [sp.Eq(2 * sp.sin(x), 2 * y)]),
+        [("  (premise_1 : 2 * sin x = 2 * y)", "  (* *)"), ("2 * sin x = 2 * y", "2 * cos x = 2 * y")],
+    ),
+    "an equation between quotients": (
+        lambda: of(x / y, z / J, [sp.Eq(x * J, y * z)]),
+        [("  (premise_1 : x * J = y * z)", "  (* *)"), ("x * J = y * z", "y * J = x * z")],
+    ),
     "a number beside a vector": (
         lambda: of(x, sp.Matrix([x, y, z])),
         [("inl (x) <> (inr", "inr (x, x, x) <> (inr")],
@@ -210,6 +223,18 @@ def test_every_kind_has_its_theorems_and_a_series_of_another_function_has_none()
     assert line.verdict == "holds-to-order" and line.why_not.endswith("is a series in x")
     _, line = of(x, sp.sin(x), small=x, order=2)
     assert line.verdict == "holds-to-order" and not line.theorems
+
+
+def test_cofactors_are_those_of_the_zeros() -> None:
+    """x² + y² − 5 = (x + y + 3)(x + y − 3) − 2 (x y − 2); 1 is in no ideal with a zero."""
+    ring, a, b = sp.ring("a b", sp.QQ, sp.lex)
+    zeros = [a + b - 3, a * b - 2]
+    for target in (a**2 + b**2 - 5, a**3 * b - 2 * a**2, (a - b) ** 2 - 1):
+        cofactors, rest = cofactors_of(target, zeros)
+        assert not rest and sum(q * zero for q, zero in zip(cofactors, zeros, strict=True)) == target
+    assert cofactors_of(ring.one, zeros)[1] and cofactors_of(a - 1, zeros)[1]
+    cofactors, rest = cofactors_of(ring.one, [a, a * b - 1])
+    assert not rest and cofactors[0] * a + cofactors[1] * (a * b - 1) == 1
 
 
 CHANGED = [

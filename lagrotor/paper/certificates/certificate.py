@@ -43,6 +43,8 @@ Lemma a_letter_for (x : R) : exists y, y = x.
 Proof. exists x. reflexivity. Qed.
 Lemma by_cofactors (left right n d : R) : d <> 0 -> (left - right) * d = n -> n = 0 -> left = right.
 Proof. intros h e z. rewrite z in e. destruct (Rmult_integral _ _ e) as [w | w]; [lra | contradiction]. Qed.
+Lemma by_premise (left right d n : R) : left = right -> n = (left - right) * d -> n = 0.
+Proof. intros e h. rewrite h, e. ring. Qed.
 Lemma same_by_squares (a b : R) : 0 <= a -> 0 <= b -> a ^ 2 = b ^ 2 -> a = b.
 Proof. intros h k e. apply Rsqr_inj; [assumption | assumption | unfold Rsqr; lra]. Qed.
 Lemma sine_below (x : R) : 0 <= x -> sin x <= x.
@@ -332,7 +334,7 @@ def _refuted_at_order(p: Proposition, order: int) -> tuple[tuple[str, ...], str]
     write, name, where = h.terms.write, f"{p.name}_differs", f"{p.name}_refuted"
     head = f"{p.name}: {p.quantity}: refuted at order {order + 1} in {small}: how the sides differ, and a point where they do"
     _, text = _theorem(name, head, h, sides, claims, tactics)
-    for point in points_of(h.letters, sides.eliminated, [*h.signs, *h.defined], 24):
+    for point in points_of(h.letters, sides.eliminated, [*h.signs, *h.defined], 24, zeros=[*sides.unsolved.values()]):
         value = value_at_point(rest.at_zero, point)
         if value is not None and abs(value) > 1e-3:
             low, high = rational_bounds(value)
@@ -347,7 +349,9 @@ def _satisfied(name: str, h: _Hypotheses, sides: Sides) -> str:
     _check_enclosed([e for _, e in (*h.signs, *h.defined)] + [e for pair in h.pairs for e in pair])
     near = [{sides.small: value} for value in (sp.S.Zero, sp.Rational(1, 100))] if sides.small else []  # of a series
     for fixed in (*near, {}):
-        for point in points_of(h.letters, sides.eliminated, [*h.signs, *h.defined], fixed=fixed):
+        for point in points_of(
+            h.letters, sides.eliminated, [*h.signs, *h.defined], fixed=fixed, zeros=[*sides.unsolved.values()]
+        ):
             claim = " /\\ ".join(text for _, text, _ in h.named)
             return _at(f"{name}_has_a_case", h, point, claim)
     raise NotExactError("no point was seen at which its hypotheses hold")
@@ -389,7 +393,7 @@ def _consistent(rows: _Rows) -> list[_Rows]:
     """
     premises = list(dict.fromkeys(says for says, _, _ in rows))
     for says in premises:
-        elimination((left, right) for name, left, right in rows if name == says)
+        elimination([(left, right) for name, left, right in rows if name == says])
     found: dict[frozenset[str], _Rows] = {}
     for first in premises or [""]:
         chosen: set[str] = set()
@@ -403,7 +407,7 @@ def _consistent(rows: _Rows) -> list[_Rows]:
 
 def _solved(rows: _Rows) -> bool:
     try:
-        elimination((left, right) for _, left, right in rows)
+        elimination([(left, right) for _, left, right in rows])
     except NotExactError:
         return False
     return True
@@ -415,11 +419,11 @@ def _apart(name: str, p: Proposition) -> str:
     if p.stands_for:
         raise NotExactError("a point says nothing of a derivative or an integral")
     h = _hypotheses(p)
-    hold, values = [*h.signs, *h.defined], elimination(h.pairs)
+    hold, (values, unsolved) = [*h.signs, *h.defined], elimination(h.pairs)
     pairs = [(left, right, left - right if p.within is None else left / right - 1) for left, right in p.pairs]
     least = p.within or sp.S.Zero
     best: tuple[Any, dict[sp.Symbol, sp.Expr], tuple[sp.Expr, ...]] | None = None
-    for point in points_of(h.letters, values, hold, 24):
+    for point in points_of(h.letters, values, hold, 24, zeros=[*unsolved.values()]):
         for pair in pairs:
             value = value_at_point(pair[2], point)
             if value is not None and abs(value) > (best[0] if best else least):

@@ -106,7 +106,7 @@ def _failures_of(files: Sequence[tuple[CertifiedEquation, str]]) -> list[dict[st
 
 
 def _malformed(row: CertifiedEquation, text: str) -> str:
-    """What is wrong with a file before Coq is asked; empty where nothing is, or there is no file."""
+    """What is wrong with a file as a text; empty where nothing is, or there is no file."""
     if text and (other := foreign_word(text)):
         return f"the file holds {other}, which is no part of a certificate"
     for name in (name for line in row.lines for name in line.theorems):

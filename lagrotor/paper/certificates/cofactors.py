@@ -4,7 +4,9 @@ A generator is a letter, the cosine and the sine of a base angle, an exponential
 used. Every function in the statement is written in them by the addition theorems (`atom_n`), every denominator is factored
 (`whole_n`), each factor a letter of its own (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial
 that is the sum of q_i times relation_i: sin^2 + cos^2 - 1, root^2 - radicand, factor - polynomial. The q_i are found by
-division, since the leading terms of the relations have no letter in common; Coq checks them by `ring`.
+division, since the leading terms of the relations have no letter in common; Coq checks them by `ring`. A premise in which a
+letter stands alone is put in; the numerators of the others, a^2 + b^2 = 1, are relations too (`ideal_n`), with q_i by way of a
+Groebner basis.
 """
 
 import re
@@ -65,8 +67,9 @@ class Sides:
         small: sp.Symbol | None = None,
     ) -> None:
         self.terms, self.steps, self.small = terms, _Steps(), small
-        self.eliminated = elimination(equations)
+        self.eliminated, self.unsolved = elimination(equations)
         self.relations: list[_Relation] = []
+        self.ideal: list[_Relation] = []
         self._known: dict[sp.Expr, sp.Expr] = {}
         self._generators: dict[Any, sp.Symbol] = {}
         self._rewritten: dict[str, list[tuple[int, str, bool]]] = {"whole": [], "atom": []}
@@ -79,6 +82,17 @@ class Sides:
         for place, (sign, e) in enumerate(conditions, 1):
             if sign == "<>":
                 self._denominator(e, f"defined_{place}")
+        for place in self.unsolved:
+            self._premise(place, *equations[place - 1])
+
+    def _premise(self, place: int, left: sp.Expr, right: sp.Expr) -> None:
+        """The numerator of an equation between letters as a relation."""
+        difference = self._fraction(self.value(left - right))
+        zero, under = difference.numerator.as_expr(), difference.under
+        name, text = self._name("ideal"), self.terms.write(zero)
+        shown = f"apply (by_premise _ _ ({self.terms.write(under)}) _ premise_{place}). {self._settled()}same."
+        self.steps.show(name, f"{text} = 0", shown)
+        self.ideal.append(_Relation(name, zero, text))
 
     def _name(self, kind: str) -> str:
         self._count[kind] = self._count.get(kind, 0) + 1
@@ -369,7 +383,8 @@ class Sides:
     def _order(self, *values: sp.Expr) -> list[sp.Symbol]:
         """The generators, so that each relation leads with the square, or the letter, that it is solved for: the last first,
         since a root or a factor holds generators that were there before it."""
-        letters = set().union(*(v.free_symbols for v in values), *(r.zero.free_symbols for r in self.relations))
+        known = (*self.relations, *self.ideal)
+        letters = set().union(*(v.free_symbols for v in values), *(r.zero.free_symbols for r in known))
         near = {cosine for cosine, _ in self.small_pairs(self.small).values()} if self.small else set()
         leading = [_leading(relation.zero, near) for relation in reversed(self.relations)]
         rest = sorted(letters - set(leading), key=lambda letter: (letter.name, str(letter)))
@@ -388,9 +403,14 @@ class Sides:
         if not difference.numerator:
             return "same."
         quotients, rest = self._reduced(difference.numerator)
+        relations = self.relations
+        if rest and self.ideal:
+            relations = [*relations, *self.ideal]
+            zeros = [difference.ring.from_expr(sp.expand(r.zero)) for r in relations]
+            quotients, rest = cofactors_of(difference.numerator, zeros)
         if rest:
             raise NotExactError("the two sides differ by more than the relations that are used here account for")
-        used = [(q, r) for q, r in zip(quotients, self.relations, strict=True) if q and r.text]
+        used = [(q, r) for q, r in zip(quotients, relations, strict=True) if q and r.text]
         write = self.terms.write
         total = " + ".join(f"({write(q.as_expr())}) * ({r.text})" for q, r in used) or "0"
         names = "".join(f"rewrite {r.name}; " for _, r in used)
@@ -439,23 +459,78 @@ def _under(radicand: sp.Expr) -> sp.Expr:
     return sp.S.One if under.is_number else under
 
 
-def elimination(equations: Iterable[LetterEquation]) -> dict[sp.Symbol, sp.Expr]:
-    """letter -> its value in the letters that are left, of equations each of which has a letter alone on one side.
+def elimination(equations: Sequence[LetterEquation]) -> tuple[dict[sp.Symbol, sp.Expr], dict[int, sp.Expr]]:
+    """letter -> its value in the letters that are left, of equations in which it stands alone on one side; and of the others
+    place, from 1 -> difference of the sides.
 
-    Raises NotExactError for another equation, and for one that contradicts those before it.
+    Raises NotExactError for an equation that contradicts those before it.
     """
     found: dict[sp.Symbol, sp.Expr] = {}
-    for one, other in equations:
+    others: dict[int, sp.Expr] = {}
+    for place, (one, other) in enumerate(equations, 1):
         left, right = one.xreplace(found), other.xreplace(found)
-        if sp.expand(left - right) == 0:
-            continue
         for letter, value in ((left, right), (right, left)):
-            if letter.is_Symbol and letter not in value.free_symbols:
+            if sp.expand(left - right) != 0 and letter.is_Symbol and letter not in value.free_symbols:
                 found = {old: new.xreplace({letter: value}) for old, new in found.items()} | {letter: value}
                 break
         else:
-            raise NotExactError(f"the premise {one} = {other} is not solved for a letter")
-    return found
+            others[place] = left - right
+    left_over = {place: e for place, each in others.items() if sp.expand(e := each.xreplace(found)) != 0}
+    for place, e in left_over.items():
+        if not e.free_symbols:
+            one, other = equations[place - 1]
+            raise NotExactError(f"the premise {one} = {other} contradicts those before it")
+    return found, left_over
+
+
+# Members of a basis beyond which no cofactors are sought.
+_MOST_MEMBERS = 40
+
+
+def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[list[PolyElement], PolyElement]:
+    """q_i and the rest of target = sum q_i zero_i + rest, by Buchberger's algorithm, whose members carry their own q_i.
+
+    Becker & Weispfenning, Groebner Bases, 5.6. Raises NotExactError where the basis is too large.
+    """
+    ring = target.ring.clone(order=sp.grevlex)
+    basis: list[tuple[PolyElement, list[PolyElement]]] = []
+
+    def reduced(p: PolyElement, row: list[PolyElement]) -> tuple[PolyElement, list[PolyElement]]:
+        """What is left of p, and p - rest in the zeros added to the row."""
+        rest = ring.zero
+        while p:
+            for member, own in basis:
+                over = ring.monomial_div(p.LM, member.LM)
+                if over is not None:
+                    factor = ring.term_new(over, p.LC / member.LC)
+                    p, row = _bounded(p - factor * member), [a + factor * b for a, b in zip(row, own, strict=True)]
+                    break
+            else:
+                rest, p = rest + p.leading_term(), p - p.leading_term()
+        return rest, row
+
+    def grown(p: PolyElement, row: list[PolyElement]) -> None:
+        """Add what the basis leaves of p, which is the sum of the row."""
+        rest, used = reduced(p, [ring.zero] * len(zeros))
+        if rest:
+            pairs.extend((i, len(basis)) for i in range(len(basis)))
+            basis.append((rest, [a - b for a, b in zip(row, used, strict=True)]))
+        if len(basis) > _MOST_MEMBERS:
+            raise NotExactError("the premises have too large a basis")
+
+    pairs: list[tuple[int, int]] = []
+    for place, zero in enumerate(zeros):
+        grown(zero.set_ring(ring), [ring.one if i == place else ring.zero for i in range(len(zeros))])
+    while pairs:
+        pairs.sort(key=lambda pair: -sum(ring.monomial_lcm(basis[pair[0]][0].LM, basis[pair[1]][0].LM)))
+        (p, of_p), (q, of_q) = (basis[i] for i in pairs.pop())
+        common = ring.monomial_lcm(p.LM, q.LM)
+        if common == ring.monomial_mul(p.LM, q.LM):  # Buchberger's first criterion
+            continue
+        by_p, by_q = (ring.term_new(ring.monomial_div(common, g.LM), 1 / g.LC) for g in (p, q))
+        grown(by_p * p - by_q * q, [by_p * a - by_q * b for a, b in zip(of_p, of_q, strict=True)])
+    rest, row = reduced(target.set_ring(ring), [ring.zero] * len(zeros))
+    return [q.set_ring(target.ring) for q in row], rest.set_ring(target.ring)
 
 
 @dataclass(frozen=True)

@@ -25,16 +25,19 @@ def points_of(
     hold: Sequence[Comparison],
     most: int = 1,
     fixed: Mapping[sp.Symbol, sp.Expr] = MappingProxyType({}),
+    zeros: Sequence[sp.Expr] = (),
 ) -> Iterator[dict[sp.Symbol, sp.Expr]]:
     """Points at which the equations that eliminated letters, and the conditions, hold; the same ones at each call.
 
-    fixed: values of letters that are not eliminated.
+    fixed: values of letters that are not eliminated. zeros: what is to vanish besides, a polynomial in one of its letters.
     """
     drawn, found = random.Random(1), 0
     for _ in range(_TRIES):
         free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in letters if x not in eliminated}
         free |= {x: value for x, value in fixed.items() if x in free}
         free = {x: abs(v) if x.is_nonnegative else -abs(v) if x.is_nonpositive else v for x, v in free.items()}
+        if zeros and not _solve(free, zeros, drawn):
+            continue
         point = free | {
             x: sp.sympify(value, strict=True).xreplace(free) for x, value in eliminated.items() if x in letters
         }
@@ -43,6 +46,34 @@ def points_of(
             found += 1
             if found == most:
                 return
+
+
+def _solve(free: dict[sp.Symbol, sp.Expr], zeros: Sequence[sp.Expr], drawn: random.Random) -> bool:
+    """Change one letter for each equation so that it holds, at a rational number; whether all then do."""
+    solved: list[tuple[sp.Symbol, sp.Expr]] = []
+    for zero in zeros:
+        for letter, value in solved:
+            zero = zero.xreplace({letter: value})
+        over = sp.numer(sp.together(zero))
+        linear = [x for x in over.free_symbols if over.is_polynomial(x) and sp.degree(over, x) == 1]
+        letters = sorted(linear or over.free_symbols, key=str)
+        if not letters:
+            return False
+        letter = drawn.choice(letters)
+        if linear:
+            slope, rest = sp.Poly(over, letter).all_coeffs()
+            solved.append((letter, -rest / slope))
+            continue
+        others = {x: free[x] for x in letters if x != letter}
+        if others:  # 3/5 and 4/5 are sides of a right triangle
+            others[drawn.choice(list(others))] = drawn.choice((sp.Rational(3, 5), sp.Rational(5, 13), sp.S.One))
+        over = sp.numer(sp.together(over.xreplace(others)))
+        if not over.is_polynomial(letter) or not (roots := sp.Poly(over, letter).ground_roots()):
+            return False
+        solved += [(letter, drawn.choice(sorted(roots))), *others.items()]
+    for letter, value in reversed(solved):
+        free[letter] = value.xreplace(free)
+    return all(zero.xreplace(free) == 0 for zero in zeros)
 
 
 def _holds(sign: str, value: Any) -> bool:
