@@ -7,9 +7,11 @@ Where the antiderivative comes from does not matter: F' = f is decided, and F mu
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import sympy as sp
 from sympy.integrals.manualintegrate import manualintegrate
+from sympy.integrals.rationaltools import ratint
 from sympy.simplify.fu import TR8
 
 from lagrotor.algebra.constancy import is_continuous
@@ -35,25 +37,61 @@ def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr
         return body * (high - low)
     if body.has(sp.core.function.AppliedUndef):
         return None
-    between = where.with_(*_between(t, low, high, where))
-    try:
-        F = manualintegrate(TR8(sp.expand(body)) if body.has(sp.sin, sp.cos) else body, t)
-    except (NotImplementedError, ValueError, TypeError, AttributeError):
+    if (line := _by_half_angle(body, t, low, high)) and (value := value_of_integral(line, where, vanishes)) is not None:
+        return value
+    F = _antiderivative(body, t)
+    inside, to_high, from_low = (
+        where.with_(*_between(t, low, high, where, *kinds))
+        for kinds in ((sp.Gt, sp.Lt), (sp.Gt, sp.Le), (sp.Ge, sp.Lt))
+    )
+    if F.has(sp.Integral, sp.Piecewise) or not is_continuous(F, inside, frozenset({t})):
         return None
-    F = F.replace(lambda n: isinstance(n, sp.Piecewise), lambda n: n.args[-1][0])
-    if F.has(sp.Integral, sp.Piecewise) or not is_continuous(F, between, frozenset({t})):
+    if not vanishes(derivative(F, t) - body, inside):
         return None
-    if not vanishes(derivative(F, t) - body, between):
-        return None
-    above, below = (_at(F, t, end, where) for end in (high, low))
+    above, below = _at(F, t, high, to_high), _at(F, t, low, from_low)
     return None if above is None or below is None else above - below
 
 
-def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region) -> list[sp.Basic]:
-    """What is known of t between the limits."""
+def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
+    """What may be one; with an integral left in it where none was found."""
+    power, rest = sp.S.Zero, body
+    for factor in sp.Mul.make_args(sp.factor_terms(body)):
+        base, exponent = factor.as_base_exp()
+        if base == t and exponent.is_Integer:
+            power, rest = exponent, rest / factor
+    if power > 1 and isinstance(wave := rest.as_independent(t, as_Add=False)[1], sp.exp):
+        square = sp.Poly(wave.args[0], t) if wave.args[0].is_polynomial(t) else sp.Poly(0, t)
+        if square.monoms() == [(2,)]:  # ∫ tⁿ exp(a t²) dt = (tⁿ⁻¹ exp(a t²) − (n − 1) ∫ tⁿ⁻² exp(a t²) dt)/2a
+            shorter = _antiderivative(t ** (power - 2) * rest, t)
+            return (t ** (power - 1) * rest - (power - 1) * shorter) / (2 * square.LC())
+    if body.free_symbols == {t} and body.is_rational_function(t):
+        return ratint(body, t, real=True).replace(lambda n: isinstance(n, sp.RootSum), lambda n: sp.Integral(body, t))
+    try:
+        F = manualintegrate(TR8(sp.expand(body)) if body.has(sp.sin, sp.cos) else body, t)
+    except (NotImplementedError, ValueError, TypeError, AttributeError):
+        return sp.Integral(body, t)
+    return F.replace(lambda n: isinstance(n, sp.Piecewise), lambda n: n.args[-1][0])
+
+
+def _by_half_angle(body: sp.Expr, t: sp.Symbol, low: sp.Expr, high: sp.Expr) -> sp.Integral | None:
+    """A quotient of polynomials in sin t and cos t over a turn, half of it, or a quarter, with u = tan(t/2) (Weierstrass)."""
+    u = sp.Dummy("u", real=True)
+    put = {sp.sin(t): 2 * u / (1 + u**2), sp.cos(t): (1 - u**2) / (1 + u**2)}
+    ends = {(0, sp.pi): (0, sp.oo), (-sp.pi, 0): (-sp.oo, 0), (0, sp.pi / 2): (0, 1)}
+    limits = (-sp.oo, sp.oo) if sp.expand(high - low - 2 * sp.pi) == 0 else ends.get((low, high))
+    if limits is None or not sp.fraction(sp.together(body))[1].has(*put):
+        return None
+    rational = sp.cancel(sp.expand_trig(body).xreplace(put) * 2 / (1 + u**2))
+    if rational.has(t) or not rational.is_rational_function(u):
+        return None
+    return sp.Integral(rational, (u, *limits))
+
+
+def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, least: Any, most: Any) -> list[sp.Basic]:
+    """What is known of t between the limits: least(t, low), most(t, high)."""
     if low.is_infinite or high.is_infinite or is_nonnegative(high - low, where):
-        found = [sp.Ge(t, low)] if low.is_finite is not False else []
-        return found + ([sp.Le(t, high)] if high.is_finite is not False else [])
+        known = [least(t, low)] if low.is_finite is not False else []
+        return known + ([most(t, high)] if high.is_finite is not False else [])
     if all(is_positive(end, where) for end in (low, high)):
         return [sp.Gt(t, 0)]
     if all(is_nonnegative(end, where) for end in (low, high)):
@@ -62,10 +100,10 @@ def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region) -> list[s
 
 
 def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None:
-    """F at a limit; at ±∞ its limit, where each term has one that is certain."""
-    if end.is_finite is not False:
+    """F at a limit of what `where` knows of t, where it is continuous there; else its limit, where each term's is certain."""
+    if end.is_finite is not False and is_continuous(F, where, frozenset({t})):
         value = F.subs(t, end)
-        return None if value.has(sp.nan, sp.zoo, sp.oo) else value
+        return None if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else value
     if F.is_Add:
         values = [_at(part, t, end, where) for part in F.args]
         return None if None in values else sp.Add(*values)
@@ -73,6 +111,14 @@ def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None
     constant, rest = F.as_independent(t, as_Add=False)
     if rest == 1:
         return constant
+    if end.is_finite is not False:  # tᵃ logⁿ t → 0 at 0, a > 0
+        powers = rest.as_powers_dict()
+        known = powers.keys() == {t, sp.log(t)} and all(n.is_number and n.is_positive for n in powers.values())
+        return sp.S.Zero if end == 0 and known and powers[sp.log(t)].is_Integer else None
+    if rest.is_rational_function(t) and not rest.is_polynomial(t):
+        over, under = (sp.Poly(part, t) for part in sp.fraction(sp.together(rest)))
+        if under.LC().is_number and over.degree() < under.degree():
+            return sp.S.Zero
     if rest.is_Add and (expanded := sp.expand(F)).is_Add:
         return _at(expanded, t, end, where)
     if isinstance(rest, sp.atan | sp.erf | sp.tanh):

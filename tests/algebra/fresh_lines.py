@@ -1,6 +1,6 @@
-"""Lines that nothing was tuned against when they were drawn: (left, right, what right is not), in two sheets.
+"""Lines that nothing was tuned against when they were drawn: (left, right, what right is not), in three sheets.
 
-The first was judged before anything was mended by what it showed, the second after that. The letters are those of `textbook`.
+The first was judged before anything was mended by what it showed, the others after that. The letters are those of `textbook`.
 """
 
 # ruff: noqa: E501
@@ -8,6 +8,7 @@ from sympy import (
     Abs,
     Derivative,
     I,
+    Integer,
     Integral,
     Matrix,
     Rational,
@@ -49,12 +50,14 @@ from sympy import (
     loggamma,
     oo,
     pi,
+    re,
     root,
     sec,
     sech,
     sin,
     sinh,
     sqrt,
+    symbols,
     tan,
     tanh,
     zeta,
@@ -298,4 +301,79 @@ SECOND = [
     (binomial(n + 2, 3) - binomial(n + 1, 3), n * (n + 1) / 2, n * (n - 1) / 2),
     (Matrix([x, y, z]).cross(Matrix([u, v, t])).dot(Matrix([u, v, t])), 0, tiny * u),
     (turned(x) * turned(y), turned(x + y), turned(x - y)),
+]  # fmt: skip
+
+p_1, p_2, p_3 = symbols("p_1:4", positive=True)
+r_1, r_2, r_3, r_4 = symbols("r_1:5", real=True)
+n_1, n_2 = symbols("n_1:3", integer=True, positive=True)
+
+# Drawn after all that, from trigonometry to contour integrals. Eleven of its 120 were undecided when it was first judged.
+THIRD = [
+    # trigonometry
+    (sin(5*x),16*sin(x)**5-20*sin(x)**3+5*sin(x),16*sin(x)**5-20*sin(x)**3+4*sin(x)),
+    (tan(3*x),(3*tan(x)-tan(x)**3)/(1-3*tan(x)**2),(3*tan(x)-tan(x)**3)/(1+3*tan(x)**2)),
+    (cos(pi/5),(1+sqrt(5))/4,(1+sqrt(5))/5),
+    (sin(pi/18)*sin(5*pi/18)*sin(7*pi/18),Rational(1,8),Rational(1,9)),
+    (cos(2*pi/7)+cos(4*pi/7)+cos(6*pi/7),-Rational(1,2),-Rational(1,3)),
+    (sin(x)+sin(y)+sin(z)-sin(x+y+z),4*sin((x+y)/2)*sin((y+z)/2)*sin((z+x)/2),4*sin((x+y)/2)*sin((y+z)/2)*cos((z+x)/2)),
+    ((1-cos(x))/sin(x),tan(x/2),cot(x/2)),
+    (tan(pi/4+x/2)**2,(1+sin(x))/(1-sin(x)),(1-sin(x))/(1+sin(x))),
+    (cos(x)**6+sin(x)**6,1-3*sin(2*x)**2/4,1-sin(2*x)**2/4),
+    (tan(x)+tan(y),sin(x+y)/(cos(x)*cos(y)),sin(x-y)/(cos(x)*cos(y))),
+    (cot(x)-tan(x),2*cot(2*x),2*tan(2*x)),
+    (4*atan(Rational(1,5))-atan(Rational(1,239)),pi/4,pi/4+Rational(1,10**12)),
+    (atan(1)+atan(2)+atan(3),pi,pi*Rational(999999,1000000)),
+    (cos(3*acos(x)),4*x**3-3*x,4*x**3-2*x),
+    (sin(2*atan(x)),2*x/(1+x**2),2*x/(1-x**2)),
+    (sec(x)**2*csc(x)**2,sec(x)**2+csc(x)**2,sec(x)**2-csc(x)**2),
+    # hyperbolic
+    (sinh(3*x),4*sinh(x)**3+3*sinh(x),4*sinh(x)**3-3*sinh(x)),
+    (cosh(x+y)*cosh(x-y),cosh(x)**2+sinh(y)**2,cosh(x)**2-sinh(y)**2),
+    (tanh(x/2),(cosh(x)-1)/sinh(x),(cosh(x)+1)/sinh(x)),
+    (asinh(x),log(x+sqrt(x**2+1)),log(x-sqrt(x**2+1)+1)),
+    (sin(x+I*y),sin(x)*cosh(y)+I*cos(x)*sinh(y),sin(x)*cosh(y)-I*cos(x)*sinh(y)),
+    (cosh(2*atanh(r_4/sqrt(1+r_4**2+1))),(2+2*r_4**2)/2,(2+r_4**2)/2),
+    # algebra
+    (sqrt(11+6*sqrt(2)),3+sqrt(2),3-sqrt(2)),
+    (cbrt(7+5*sqrt(2)),1+sqrt(2),1-sqrt(2)+Rational(1,10**6)),
+    ((r_1**2+r_2**2)*(r_3**2+r_4**2),(r_1*r_3-r_2*r_4)**2+(r_1*r_4+r_2*r_3)**2,(r_1*r_3-r_2*r_4)**2+(r_1*r_4-r_2*r_3)**2),
+    (r_1**3+r_2**3+r_3**3-3*r_1*r_2*r_3,(r_1+r_2+r_3)*(r_1**2+r_2**2+r_3**2-r_1*r_2-r_2*r_3-r_3*r_1),(r_1+r_2+r_3)*(r_1**2+r_2**2+r_3**2-r_1*r_2-r_2*r_3+r_3*r_1)),
+    (1/(sqrt(p_1+p_2)+sqrt(p_1)),(sqrt(p_1+p_2)-sqrt(p_1))/p_2,(sqrt(p_1+p_2)-sqrt(p_1))/p_1),
+    ((x**4+4*y**4),(x**2+2*y**2+2*x*y)*(x**2+2*y**2-2*x*y),(x**2+2*y**2+2*x*y)*(x**2+2*y**2-x*y)),
+    (p_1**(p_2+p_3)*p_1**(p_2-p_3),p_1**(2*p_2),p_1**(p_2**2)),
+    (log(p_1**3*p_2/p_3**2),3*log(p_1)+log(p_2)-2*log(p_3),3*log(p_1)+log(p_2)-3*log(p_3)),
+    (p_1**log(p_2),p_2**log(p_1),p_2**log(p_1*p_2)),
+    (sqrt(p_1+2*sqrt(p_1-1)+0*p_2).subs(p_1,p_1+1),1+sqrt(p_1),2+sqrt(p_1)),
+    # sums
+    (Sum(n_2**3,(n_2,1,n_1)),n_1**2*(n_1+1)**2/4,n_1**2*(n_1+1)**2/4+Rational(1,10**9)),
+    (Sum(binomial(n_1,n_2),(n_2,0,n_1)),2**n_1,2**(n_1+1)),
+    (Sum(n_2*binomial(n_1,n_2),(n_2,0,n_1)),n_1*2**(n_1-1),n_1*2**n_1),
+    (Sum(1/(n_2*(n_2+1)*(n_2+2)),(n_2,1,oo)),Rational(1,4),Rational(1,3)),
+    (Sum((-1)**n_2/(2*n_2+1),(n_2,0,oo)),pi/4,pi/3),
+    (Sum(p_1**n_2/factorial(n_2),(n_2,0,oo)),exp(p_1),exp(p_1)+1),
+    # integrals
+    (Integral(x**2*exp(-x**2),(x,-oo,oo)),sqrt(pi)/2,sqrt(pi)/3),
+    (Integral(1/(1+x**2)**2,(x,-oo,oo)),pi/2,pi/3),
+    (Integral(sin(x)**4,(x,0,2*pi)),3*pi/4,pi/2),
+    (Integral(x*exp(-p_1*x),(x,0,oo)),1/p_1**2,2/p_1**2),
+    (Integral(log(x),(x,0,1)),Integer(-1),Integer(-2)),
+    (Integral(1/(p_1+cos(x)),(x,0,2*pi)).subs(p_1,2),2*pi/sqrt(3),2*pi/sqrt(5)),
+    (diff(Integral(sin(u)/u,(u,1,x)),x),sin(x)/x,cos(x)/x),
+    # special functions
+    (gamma(p_1+2),p_1*(p_1+1)*gamma(p_1),p_1*(p_1+2)*gamma(p_1)),
+    (gamma(Rational(7,2)),15*sqrt(pi)/8,15*sqrt(pi)/16),
+    (besselj(n_1-1,p_1)+besselj(n_1+1,p_1),2*n_1/p_1*besselj(n_1,p_1),n_1/p_1*besselj(n_1,p_1)),
+    (diff(besselj(0,p_1),p_1),-besselj(1,p_1),besselj(1,p_1)),
+    (beta_function(p_1, p_2).rewrite(gamma), beta_function(p_2, p_1).rewrite(gamma), beta_function(p_2, p_1 + 1).rewrite(gamma)),
+    (besselj(Rational(1,2),p_1),sqrt(2/(pi*p_1))*sin(p_1),sqrt(2/(pi*p_1))*cos(p_1)),
+    (legendre(3,x),(5*x**3-3*x)/2,(5*x**3-2*x)/2),
+    (erf(x)+erfc(x),Integer(1),Integer(2)),
+    (diff(erf(x),x),2*exp(-x**2)/sqrt(pi),exp(-x**2)/sqrt(pi)),
+    # physics
+    (sqrt(1-(tanh(x))**2),1/cosh(x),1/cosh(x)**2),
+    ((u+v)/(1+u*v)+0*x,tanh(atanh(u)+atanh(v)),tanh(atanh(u)-atanh(v))),
+    (p_1*p_2/(p_1+p_2),1/(1/p_1+1/p_2),1/(1/p_1-1/p_2)),
+    (sqrt((p_1**2+p_2**2)**2-4*p_1**2*p_2**2*sin(x)**2),sqrt(p_1**4+p_2**4+2*p_1**2*p_2**2*cos(2*x)),sqrt(p_1**4+p_2**4-2*p_1**2*p_2**2*cos(2*x))),
+    (exp(I*pi*Rational(1,3))+exp(-I*pi*Rational(1,3)),Integer(1),Integer(2)),
+    (re((1+I*x)/(1-I*x)),(1-x**2)/(1+x**2),(1+x**2)/(1-x**2)),
 ]  # fmt: skip
