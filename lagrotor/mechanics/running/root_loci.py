@@ -124,7 +124,7 @@ def _rates(
     if (
         strangers := {*names}
         - own
-        - {str(s) for e in (*places.values(), sp.sympify(turn or 0)) for s in e.free_symbols}
+        - {str(s) for e in (*places.values(), sp.sympify(turn or 0, strict=True)) for s in e.free_symbols}
     ):
         raise InputError(
             f"{where}: {min(strangers)} is no letter of the system, nor of the motion: nothing changes with it"

@@ -76,7 +76,7 @@ class Sides:
         self._apart: set[sp.Symbol] = set()
         self._factors: dict[sp.Expr, sp.Symbol] = {}
         self._count: dict[str, int] = {}
-        held = [*expressions, *(e for _, e in conditions), *self.eliminated.values()]
+        held = [*expressions, *(e for _, e in conditions), *self.eliminated.values(), *self.unsolved.values()]
         self._quotients = sorted({f.func.__name__ for e in held for f in e.atoms(sp.tan, sp.tanh)})
         self._step_of = _steps_of_angles(held, self.eliminated)
         for place, (sign, e) in enumerate(conditions, 1):
