@@ -16,7 +16,7 @@ from math import floor
 from typing import Any
 
 from lagrotor.errors import NotProved
-from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly, upper
+from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly, exact, radius, upper
 from lagrotor.proved.carried_sets import column_matrix, entries_of
 from lagrotor.proved.closed_orbits import OrbitProblem
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
@@ -93,12 +93,20 @@ def family_step(
     D = _derivative(J, h, order, growth)
     x = [TaylorModel(poly, ZERO, order).at_end() for poly in P]
     rests = grown(growth, [*missed, *[ZERO] * (len(D) - moving)])
+    x = [centred(model) for model in (*x, *node.x[moving:])]
     b = [
-        upper(sum((d.norm * before for d, before in zip(row, node.b, strict=True)), rest))
-        for row, rest in zip(D, rests, strict=True)
+        upper(sum((d.norm * before for d, before in zip(row, node.b, strict=True)), rest + model.rest))
+        for row, rest, model in zip(D, rests, x, strict=True)
     ]
-    V = [[_sum([d * node.V[k][j] for k, d in enumerate(row)]) for j in range(len(D))] for row in D]
-    return FamilyStep(h, tube), FamilyNode([*x, *node.x[moving:]], b, V)
+    V = [[centred(_sum([d * node.V[k][j] for k, d in enumerate(row)])) for j in range(len(D))] for row in D]
+    return FamilyStep(h, tube), FamilyNode([TaylorModel(model.poly, ZERO, model.order) for model in x], b, V)
+
+
+def centred(model: TaylorModel) -> TaylorModel:
+    """With exact coefficients, their balls in the rest: else these would grow from step to step as intervals do."""
+    coeffs = model.poly.coeffs()
+    rest = sum((radius(c) for c in coeffs), model.rest or ZERO)
+    return TaylorModel(arb_poly([exact(c) for c in coeffs]), rest, model.order)
 
 
 def _shortening(P: list[Any], order: Order, tol: float) -> float:

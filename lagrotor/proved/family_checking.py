@@ -247,12 +247,14 @@ class FamilyFlow:
         )
         D = self._derivative(J, h, growth)
         rests = _grown(growth, [*missed, *[ZERO] * (self.size - moving)])
+        ends = [_centred(self._full([sum(row, arb_poly([]))], ZERO)) for row in terms]
+        ends += [self._full([poly], ZERO) for poly in self.x[moving:]]
         self.b = [
-            top(sum((d.size() * x for d, x in zip(row, self.b, strict=True)), rest))
-            for row, rest in zip(D, rests, strict=True)
+            top(sum((d.size() * x for d, x in zip(row, self.b, strict=True)), rest + end.rest))
+            for row, rest, end in zip(D, rests, ends, strict=True)
         ]
-        self.V = [[self._along(row, j) for j in range(self.size)] for row in D]
-        self.x = [*(sum(row, arb_poly([])) for row in terms), *self.x[moving:]]
+        self.V = [[_centred(self._along(row, j)) for j in range(self.size)] for row in D]
+        self.x = [end.terms[0] for end in ends]
 
     def _along(self, row: list[Sheet], j: int) -> Sheet:
         total = row[0].times(self.V[0][j])
@@ -311,6 +313,12 @@ class FamilyFlow:
         """Its derivative by a start, over the box."""
         v = self.V[i][j]
         return sum(v.terms, arb_poly([]))(eps) + arb(0, v.rest.upper())
+
+
+def _centred(a: Sheet) -> Sheet:
+    """With exact coefficients, their balls in the rest."""
+    rest = sum((arb(c.rad()) for poly in a.terms for c in poly.coeffs()), a.rest)
+    return a.like([arb_poly([c.mid() for c in poly.coeffs()]) for poly in a.terms], top(rest))
 
 
 def _integral(rate: Sheet, h: Ball) -> Sheet:

@@ -33,9 +33,6 @@ from lagrotor.shown import Shown
 A, B = (1, -1, -1, -1, 1, 1), (-1, 1, -1, 1, -1, 1)
 FREE, CONDITIONS = (4, 5, 6), (0, 2, 4)
 TOL, TOL_OF_FAMILY = 1e-20, 1e-12
-_BITS_OF_FAMILY = (
-    80  # more: the coefficients of its polynomials are balls, which are carried from step to step as they are
-)
 _FIRST_WIDTH, _NARROWEST = 0.1, 1e-3  # of a family's piece, in U
 _ONES = 4  # of the energy and of the momentum about the joint line
 
@@ -198,8 +195,7 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
     """
     one = not isinstance(r0, tuple | list)
     accuracy = accuracy_of(tol or (TOL if one else TOL_OF_FAMILY), "precession")
-    bits = accuracy.bits + (0 if one else _BITS_OF_FAMILY)
-    with precision(bits, accuracy.terms):
+    with precision(accuracy.bits, accuracy.terms):
         amplitude = ball(r0, "precession: r0")
         if not (0 < amplitude < 1):
             raise DomainError(f"precession: r0 = {r0!r} must lie between 0 and 1")
@@ -211,7 +207,7 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
             orbit = orbit_of(prove_orbit(problem, start, accuracy, _ONES, "precession"), names(made))
             return Precession(scene, amplitude, (exactly(r0), exactly(r0)), (orbit,), accuracy.bits)
         pieces = tuple(family(problem, curve, ball(r0[0]), ball(r0[1]), accuracy))
-        return Precession(scene, amplitude, (exactly(r0[0]), exactly(r0[1])), pieces, bits)
+        return Precession(scene, amplitude, (exactly(r0[0]), exactly(r0[1])), pieces, accuracy.bits)
 
 
 def exactly(r0: Any) -> Fraction:

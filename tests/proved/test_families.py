@@ -142,6 +142,10 @@ def test_the_second_program_follows_the_family_and_refuses_a_narrow_tube() -> No
         flow = follow(proof)
         assert ctx.cap == before
         assert flow.end(0, arb(0)).contains(0) and abs(flow.end(0, arb(0, 1))) < 1e-6
+        # Both carry exact coefficients: as balls they would grow from step to step, as intervals do.
+        carried = [x.poly for x in proof.node.x] + [v.poly for row in proof.node.V for v in row] + list(flow.x)
+        carried += [poly for row in flow.V for v in row for poly in v.terms]
+        assert all(c.is_exact() for poly in carried for c in poly.coeffs())
         with pytest.raises(NotProved, match="the tube about a family is too narrow"):
             follow(proof, "a narrow tube")
 
