@@ -15,12 +15,11 @@ Spins that are not opposite let the axes twist apart freely, so that no motion b
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from lagrotor.errors import DomainError, SingularError
-from lagrotor.mechanics.canonical.normal_forms import NormalForm, normal_form_of_series
 from lagrotor.mechanics.canonical.polynomials import Polynomial, inverse_matrix, total, variable
 from lagrotor.models.minimal import MODEL, RATIOS
 from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, natural_units
@@ -28,6 +27,9 @@ from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Scene
+
+if TYPE_CHECKING:
+    from lagrotor.mechanics.canonical.normal_forms import NormalForm
 
 _ORDERS = (6, 8)
 FALLING = Calibrated(
@@ -47,7 +49,7 @@ class _Forms(NamedTuple):
     """A normal form about q = (lean, 0, 0), p = momentum; maps: the coordinates of H₂ in the new ones; turning: which of them
     is the azimuth's."""
 
-    form: NormalForm
+    form: "NormalForm"
     maps: tuple[Polynomial, ...]
     turning: int
     lean: float
@@ -122,6 +124,7 @@ def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lea
     import sympy as sp
 
     from lagrotor.mechanics.canonical.local_series import LocalSeries
+    from lagrotor.mechanics.canonical.normal_forms import normal_form_of_series
     from lagrotor.pair import notation
 
     numbers = dict(zip((getattr(notation, s) for s in ("a", "b", "k", "G_1", "G_2")), (a, b, k, G_1, G_2), strict=True))
