@@ -746,7 +746,7 @@ class CheckedPiece:
                 K = (unit(3) - A * slope) * K - A * column([flow.end(i, eps) for i in conditions])
             self.w = [x.union(y) for x, y in zip(self.w, K.entries(), strict=True)]
 
-    def is_shown(self, kind: str, reversals: Any, low: Ball, high: Ball, depth: int = 7) -> bool:
+    def is_shown(self, kind: str, reversals: Any, low: Ball, high: Ball, depth: int = 14) -> bool:
         """Whether every orbit from ε = low to high is of a kind, by halves; energy and momentum leave one pair beside 4 ones."""
         eps = low.union(high)
         D = arb_mat([[self.flow.slope(i, j, eps) for j in range(6)] for i in range(6)])

@@ -30,7 +30,7 @@ _TRIES = 6  # of a tube
 _LONGEST, _MOST = 0.25, 40  # step, of the whole time; steps
 _SHORTEST_CUT = 2.0**-10  # of ε
 _SHARPER = 2  # Krawczyk's map once more, of the box that it has led to
-_HALVINGS = 5  # of ε, until a part is shown to be elliptic or hyperbolic
+_HALVINGS = 12  # of ε, until a part is shown to be elliptic or hyperbolic
 _FIRST, _WIDEST, _BOXES = 1e-9, 1e-4, 3  # the box: its first half width, its largest, how many are tried
 
 
