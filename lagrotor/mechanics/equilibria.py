@@ -58,6 +58,10 @@ def equilibria(
     Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
     stays undecided, as about equilibria that are not isolated.
     """
+    if isinstance(unknowns, Mapping):
+        raise InputError(
+            "equilibria: unknowns must be names of letters: values are given as values={symbol: number, …}"
+        )
     if values is not None or box is not None:
         return _in_box(system, values or {}, box or {})
     if unknowns:

@@ -12,7 +12,7 @@ Arnold, Mathematical Methods of Classical Mechanics, §20; Goldstein, Poole & Sa
 §§2.6, 8.1, 8.3, 13.7; Noether, Invariante Variationsprobleme (1918).
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -203,6 +203,8 @@ def _momenta(
 ) -> dict[sp.Symbol, sp.Expr]:
     """The coordinates that are named, each with its momentum."""
     by_name = {str(q): q for q in c.q}
+    if not isinstance(cyclic, Iterable):
+        raise InputError(f"routh: {cyclic!r} must name cyclic coordinates, as 'phi psi'")
     names = cyclic.replace(",", " ").split() if isinstance(cyclic, str) else list(cyclic)
     if strangers := [str(name) for name in names if str(name) not in by_name]:
         raise InputError(f"routh: {', '.join(strangers)} not among the coordinates {c.q}: name some of these")

@@ -110,6 +110,9 @@ class System(Equations):
             ConstraintError: off the constraints.
             InputError: where the coefficients change with time.
         """
+        for name, listed in (("inputs", inputs), ("outputs", outputs)):
+            if isinstance(listed, str) or not isinstance(listed, Sequence | sp.MatrixBase):
+                raise InputError(f"linearise: {name} = {listed!r} must be a tuple")
         if any(isinstance(u, AppliedUndef) for u in inputs):
             from lagrotor.mechanics.running import function_values
 

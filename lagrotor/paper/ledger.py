@@ -17,7 +17,8 @@ from sympy.core.relational import Relational
 
 from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, truncated_series
 from lagrotor.algebra.evidence import points
-from lagrotor.errors import NotExactError
+from lagrotor.algebra.scalar import sympified
+from lagrotor.errors import InputError, NotExactError
 from lagrotor.mechanics.glossary import Glossary
 from lagrotor.paper.hypotheses import Hypotheses, hypotheses
 from lagrotor.paper.ideal import vanishes_on
@@ -53,7 +54,11 @@ def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None
     Raises:
         InputError: text that cannot be read, a premise that is none.
     """
-    right, premises = derived if isinstance(derived, Series) else sp.sympify(derived, strict=True), premises_of(given)
+    right, premises = derived if isinstance(derived, Series) else sympified(derived, "judge"), premises_of(given)
+    if small is not None and not isinstance(small, sp.Symbol):
+        raise InputError(f"judge: small = {small!r} must be a symbol of the expressions")
+    if not isinstance(order, int | sp.Integer) or order < 0:
+        raise InputError(f"judge: order = {order!r} must be a whole number from 0 on")
     side = right.expression if isinstance(right, Series) else right
     if isinstance(printed, str):
         sides = [sp.sympify(s, strict=True) for p in premises for pair in p.equations for s in pair]
@@ -61,9 +66,7 @@ def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None
         letters = {s.name: s for e in (side, *sides, *filter(None, [small])) for s in e.free_symbols}
         printed = read(printed, letters, "judge")
     known = (right.small, right.order) if isinstance(right, Series) else None
-    return decide(
-        Statement("", (Relation(sp.sympify(printed, strict=True), side, small, order, known=known),), premises)
-    )
+    return decide(Statement("", (Relation(sympified(printed, "judge"), side, small, order, known=known),), premises))
 
 
 def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:

@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 import sympy as sp
 from sympy.core.relational import Relational
 
+from lagrotor.algebra.scalar import sympified
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.readable import readable
@@ -33,6 +34,8 @@ class Premise:
     where: tuple[Relational, ...] = ()
 
     def __post_init__(self) -> None:
+        for side in (each for row in self.put.items() for each in row):
+            sympified(side, f"premise {self.says!r}")
         for relation in self.where:
             if not isinstance(relation, Relational):
                 raise InputError(
@@ -156,11 +159,11 @@ def _of_row(old: Any, new: Any) -> tuple[Premise, ...]:
     if isinstance(old, Relational) and new in (True, False, sp.true, sp.false):
         return _of_relation(old if new in (True, sp.true) else sp.Not(old))
     if isinstance(old, sp.MatrixBase):
-        right = sp.sympify(new, strict=True)
+        right = sympified(new, "given")
         if getattr(right, "shape", None) != old.shape:
             raise InputError(f"given: {old} and {new} differ in shape: nothing says which entries are equal")
         return (Premise(_equated(old, right), dict(zip(old, right, strict=True))),)
-    left, right = (sp.sympify(side, strict=True) for side in (old, new))
+    left, right = (sympified(side, "given") for side in (old, new))
     return (Premise(_equated(left, right), {left: right}),)
 
 

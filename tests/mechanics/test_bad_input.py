@@ -186,6 +186,8 @@ BAD: dict[str, Callable[[], Any]] = {
     "a momentum that is not conserved": lambda: pendulum.routh("theta"),
     "every coordinate ignored": lambda: point.routh("x y"),
     "a coordinate of nothing ignored": lambda: pendulum.routh("phi"),
+    "a number ignored": lambda: pendulum.routh(3),
+    "values for unknowns": lambda: pendulum.equilibria(VALUES),
     "an unknown that is none": lambda: pendulum.equilibria("phi"),
     "equilibria in time": lambda: System(A, SWING + t * q).equilibria(),
     "small motion off an equilibrium": lambda: pendulum.linearise({q: 1}),

@@ -56,3 +56,22 @@ def test_a_verdict_by_itself_is_shown_in_text_and_in_a_notebook() -> None:
     assert repr(decided).splitlines() == ["n·x: holds-if", "  n = 1"]
     html = decided._repr_html_()
     assert "holds-if<br>n = 1" in html and "<table" in html
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: judge(x, "x"),
+        lambda: judge(None, x),
+        lambda: judge([x], x),
+        lambda: judge(x, y, given={"x": "y"}),
+        lambda: judge(x, y, given={x: "y"}),
+        lambda: Premise("x is y", {x: "y"}),
+        lambda: judge(x, sp.sin(x), small="x", order=2),
+        lambda: judge(x, sp.sin(x), small=x, order="2"),
+        lambda: judge(x, sp.sin(x), small=x, order=-1),
+    ],
+)
+def test_what_is_no_expression_is_refused(wrong) -> None:
+    with pytest.raises(InputError):
+        wrong()

@@ -163,7 +163,7 @@ def test_a_family_that_is_none_is_not_proved(monkeypatch: pytest.MonkeyPatch) ->
 
 @pytest.fixture(scope="module")
 def family() -> Any:
-    return precession(Scene((10, -10)), ("0.45", "0.46"), 1e-11)
+    return precession(Scene((10, -10)), ("0.45", "0.46"), 1e-12)
 
 
 @pytest.mark.slow
@@ -171,7 +171,7 @@ def test_a_family_of_the_pair_holds_its_orbits(family: Any) -> None:
     inner = precession(Scene((10, -10)), "0.454")
     assert family.frequency_at("0.454").overlaps(inner.frequency) and family.frequency.contains(inner.frequency)
     assert float(family.frequency_at("0.454").rad()) < 1e-6
-    assert inner.kind == "hyperbolic" and family.kind in ("hyperbolic", "undecided")
+    assert inner.kind == family.kind == "hyperbolic"
     with pytest.raises(DomainError, match="is not shown to lie in"):
         family.frequency_at("0.25")
     words = check(json.loads(json.dumps(family.certificate)))
@@ -206,11 +206,11 @@ def test_a_spoiled_family_is_refused(family: Any, what: str) -> None:
 
 
 @pytest.mark.slow
-def test_the_precession_exists_for_all_amplitudes_up_to_a_half() -> None:
+def test_the_precession_exists_for_all_amplitudes_up_to_three_fifths() -> None:
     """The numbers of docs/proved.md; a heavy bar over a shorter interval."""
-    family = precession(Scene((10, -10)), ("0.001", "0.5"), 1e-11)
-    assert "for every r0 in [0.001, 0.5]" in check(json.loads(json.dumps(family.certificate)))
-    for r0 in ("0.05", "0.33", "0.49"):
+    family = precession(Scene((10, -10)), ("0.001", "0.6"), 1e-11)
+    assert "for every r0 in [0.001, 0.6]" in check(json.loads(json.dumps(family.certificate)))
+    for r0 in ("0.05", "0.33", "0.59"):
         assert family.frequency_at(r0).overlaps(precession(Scene((10, -10)), r0).frequency)
     heavy = Scene((10, -10), link=Link(1, 1, 1))
     assert "for every r0 in [0.1, 0.15]" in check(precession(heavy, ("0.1", "0.15"), 1e-9).certificate)

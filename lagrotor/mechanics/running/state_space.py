@@ -68,9 +68,6 @@ def state_space(
     outputs: Sequence[sp.Expr] = (),
 ) -> StateSpace:
     """The linear system about a point at which all accelerations vanish: see `linear_modes.linearise`."""
-    for name, listed in (("inputs", inputs), ("outputs", outputs)):
-        if isinstance(listed, str) or not isinstance(listed, Sequence | sp.MatrixBase):
-            raise InputError(f"linearise: {name} = {listed!r} must be a tuple")
     wanted = tuple(expression(f"linearise: outputs[{i}]", e) for i, e in enumerate(outputs))
     if not isinstance(values, Mapping) or len({*map(str, inputs)}) < len(inputs):
         raise InputError(
