@@ -86,18 +86,25 @@ def value_of_series(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Regio
             and power.exp > 0
         ):
             return sp.zeta(power.exp)
-        value = _entire(ratio, k, first, where)
+        value = _of_a_function(ratio, k, first, where)
         return _by_partial_sums(body, i, low, where, vanishes) if value is None else value
     c = sp.cancel(ratio * (k + 1) / (high - k))  # the binomial theorem
     return first * (1 + c) ** high if low == 0 and high.is_Symbol and not c.has(k) else None
 
 
-def _entire(ratio: sp.Expr, k: sp.Symbol, first: sp.Expr, where: Region) -> sp.Expr | None:
-    """A geometric series, and those of exp, cosh and cos, sinh and sin, by the ratio of the terms k + 1 and k."""
+def _of_a_function(ratio: sp.Expr, k: sp.Symbol, first: sp.Expr, where: Region) -> sp.Expr | None:
+    """Those of 1/(1 − c), exp, cosh and cos, sinh and sin, log, artanh and arctan, by the ratio of the terms k + 1 and k."""
     r = ratio
     if not r.has(k):
-        inside = is_positive(sp.cancel(1 - r), where) and is_positive(sp.cancel(1 + r), where)
-        return first / (1 - r) if inside else None
+        return first / (1 - r) if _converges(r, where) else None
+    for under, over in ((k + 2, k + 1), (2 * k + 3, 2 * k + 1)):  # Abel: also at c = −1
+        c = sp.cancel(r * under / over)
+        if not c.has(k) and (sp.cancel(1 + c) == 0 or _converges(c, where)):
+            if under == k + 2:
+                return -first * sp.log(1 - c) / c
+            for sign, function in ((1, sp.atanh), (-1, sp.atan)):
+                if (size := _root_of(sign * c)) is not None and sp.expand(size**2 - sign * c) == 0:
+                    return first * function(size) / size
     if not (c := sp.cancel(r * (k + 1))).has(k):
         return first * sp.exp(c)
     kinds: tuple[tuple[sp.Expr, tuple[Any, Any], bool], ...] = (
@@ -111,6 +118,10 @@ def _entire(ratio: sp.Expr, k: sp.Symbol, first: sp.Expr, where: Region) -> sp.E
             if size is not None and sp.expand(size**2 - sign * c) == 0:
                 return first * function(size) / (size if odd else 1)
     return None
+
+
+def _converges(c: sp.Expr, where: Region) -> bool:
+    return bool(is_positive(sp.cancel(1 - c), where) and is_positive(sp.cancel(1 + c), where))
 
 
 def _root_of(c: sp.Expr) -> sp.Expr | None:

@@ -1,8 +1,8 @@
 """The one reader of expressions: a text as a sympy object, by a grammar of known nodes and names. Nothing that is read runs.
 
-A text is written as in Python: numbers, names, + - * / **, calls of known functions, tuples as their arguments, `.T` of a matrix
-and `.subs(letter, value)`. There are no strings, no other attributes, no names but those that are known; what is not in the
-grammar is refused before anything is built.
+A text is written as in Python: numbers (1j is the imaginary unit), names, + - * / **, calls of known functions, tuples as their
+arguments, `.T` of a matrix and `.subs(letter, value)`. There are no strings, no other attributes, no names but those that are
+known; what is not in the grammar is refused before anything is built.
 """
 
 import ast

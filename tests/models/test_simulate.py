@@ -51,8 +51,8 @@ def test_unit_vectors_refuse_a_start_beside_the_dead_point_and_one_further_off_r
     with pytest.raises(SingularError, match=r"start 7\.1e-06 rad from where bar and axes are in line.*tilt an axis"):
         simulate(leaning(5e-6, Link(1.5)), [0, 1e-5], "spheres")
     assert simulate(leaning(5e-6, Link(1.5)), [0, 1e-5]).model == "minimal"  # which has no constraint to fail there
-    for model in ("auto", "spheres"):
-        assert simulate(leaning(5e-5, Link(1.5)), [0, 1e-5], model).model == "spheres"
+    assert simulate(leaning(5e-5, Link(1.5)), [0, 1e-5], "spheres").model == "spheres"
+    assert simulate(leaning(5e-5, Link(1.5)), [0, 1e-5]).model == "minimal"  # rounding of the constraints costs `tol`
     # Without a bar nothing is singular there.
     times, still = [0.0, 0.5], ((1, 0, 0),) * 2
     free = Scene((10, -10), link=None, axes=still, rates=((0, 1, 0), (0, 0, 1)), shock=Shock((0, 1, 0), 0.2, 0.1))

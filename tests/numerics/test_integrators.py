@@ -13,9 +13,10 @@ from lagrotor.numerics import lsoda as lsoda_module
 from lagrotor.numerics.adams import _piece as piece
 from lagrotor.numerics.adams import adams, adams_order, adams_weights
 from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrate import integrate
 from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.printers import make_rhs
+from lagrotor.numerics.printers import rhs_source
 from lagrotor.numerics.segment import Array, Segment, StopError
 from lagrotor.pair import HEAVY_LINK
 
@@ -115,7 +116,7 @@ def test_the_rate_is_the_compiled_program(module, link) -> None:
     scene = Scene((10, -7), link=link, rates=((0.4, 1, 0), (0.4, -0.5, 0)))
     program, parameters = module.MODEL.program(scene, False)
     y = module.MODEL.start(scene)
-    made = make_rhs(program, len(y))(*parameters)(0.0, y)
+    made = function_of(rhs_source(program, len(y)))(*parameters)(0.0, y)
     assert made == pytest.approx(compile_program(program)(*y.tolist(), *parameters), rel=1e-13, abs=1e-13)
 
 

@@ -38,7 +38,7 @@ def test_shapes_are_one_row_a_time(run: Trajectory) -> None:
     }  # fmt: skip
     assert {name: part.shape for name, part in run.invariants.items()} == dict.fromkeys(("G_1", "G_2", "P"), (n,))
     assert run.inclinations.shape == run.azimuths.shape == (2, n)
-    assert simulate(SCENE, 0.5).axes.shape == (2, 1, 3)
+    assert simulate(SCENE, [0.5]).axes.shape == (2, 1, 3)
 
 
 def test_the_first_row_is_the_start(run: Trajectory) -> None:

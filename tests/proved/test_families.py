@@ -186,7 +186,7 @@ SPOILS = {
     ),
     "the amplitudes are others": lambda c: c["claim"].__setitem__("r0", ["1/5", "1/4"]),
     "not one unit of s": lambda c: c["pieces"][0]["steps"].pop(),
-    "leave a part out": lambda c: c["pieces"][0]["cuts"].pop(1),
+    "leave a part out": lambda c: c["pieces"][0]["cuts"].pop(),
     "fixed set of the reversal": lambda c: c["pieces"][0]["x"].__setitem__(1, ["1p-20"]),
     "the tube about a family is too narrow": lambda c: c["pieces"][0]["x"][6].__setitem__(0, "1p-2"),
     "no precession of the pair": lambda c: c["reversals"].pop(),

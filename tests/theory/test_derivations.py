@@ -60,7 +60,7 @@ MUTANTS = [
     ("t11_slow_motion", "- G * beta_v * h**3 * (sp.Rational(1, 3) +", "- G * beta_v * h**3 * (sp.Rational(1, 6) +"),
     ("t11_slow_motion", "return -sum((spin * r.dot", "return sum((spin * r.dot"),
     ("t11_slow_motion", "sp.Rational(3, 8) * SWING**4) / c - kappa", "sp.Rational(1, 8) * SWING**4) / c - kappa"),
-    ("t11_slow_motion", "    1 + 2 / att**2 + sp.sqrt", "    1 + 1 / att**2 + sp.sqrt"),
+    ("t11_slow_motion", "threshold = 1 + 2 / att**2 + sp.sqrt", "threshold = 1 + 1 / att**2 + sp.sqrt"),
     ("t12_unequal_spins", "law -= share**2", "law += share**2"),
     (
         "t12_unequal_spins",
