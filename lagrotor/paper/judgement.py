@@ -24,6 +24,14 @@ from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain
 
 _RELATIONS = {"=": sp.Eq, "!=": sp.Ne, ">=": sp.Ge, ">": sp.Gt, "<=": sp.Le, "<": sp.Lt}
 _SIGN = re.compile(r"(==|>=|<=|!=|[=<>≥≤≠])")
+# Letters that are numbers to most who type them so.
+_OPEN = (
+    (
+        re.compile(r"(?<![\w\\])e\s*\*\*\s*(?:-?\s*[A-Za-z]|\([^()]*[A-Za-z])"),
+        "e is Euler's number is open: write exp(…)",
+    ),
+    (re.compile(r"\bexp\([^()]*\b[iI]\b"), "i is the imaginary unit is open: write 1j"),
+)
 _TYPED = {"==": "=", "≥": ">=", "≤": "<=", "≠": "!="}
 
 
@@ -112,7 +120,10 @@ def _poles(e: Any) -> set[sp.Expr]:
     factors = (
         factor.as_base_exp()[0] for b in bases for factor in sp.Mul.make_args(b.doit().together().as_numer_denom()[0])
     )
-    return {factor for factor in factors if factor.free_symbols and not factor.is_nonzero}
+    own = e.free_symbols  # and not what an integral or a sum binds
+    return {
+        factor for factor in factors if factor.free_symbols and factor.free_symbols <= own and not factor.is_nonzero
+    }
 
 
 def _strict(premises: Iterable[Premise]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
@@ -135,6 +146,9 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
     if typed:
         text = text.replace("^", "**")
     if not latex and "^" not in text:
+        for pattern, what in _OPEN:
+            if pattern.search(text):
+                raise InputError(f"{where}: {text!r}: whether {what}, or another letter")
         parts = [part.strip() for part in _SIGN.split(text)]
         yield _Text(tuple(parts[::2]), tuple(_TYPED.get(sign, sign) for sign in parts[1::2]))
         return

@@ -69,6 +69,12 @@ def column(*entries: sp.Expr) -> sp.Matrix:
     return sp.Matrix(entries)
 
 
+def integral(body: sp.Expr, *over: Any) -> sp.Expr:
+    """∫ body: between limits an integral that `algebra` decides, since sympy passes over poles; else an antiderivative."""
+    definite = bool(over) and all(isinstance(each, tuple | list | sp.Tuple) and len(each) == 3 for each in over)
+    return sp.Integral(body, *over) if definite else sp.integrate(body, *over)
+
+
 # What a printed line may call.
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{f.__name__: f for f in (rotation, cross, cross_matrix, dot, norm, rate, inverse, column)},
@@ -77,7 +83,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
         for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "Abs", "sinh", "cosh", "tanh", "asin", "acos", "atan")
     },
     **{name: getattr(sp, name) for name in ("asinh", "acosh", "atanh", "atan2", "sign", "factorial", "besselj")},
-    **{name: getattr(sp, name) for name in ("eye", "diag", "zeros", "diff", "integrate")},
+    **{name: getattr(sp, name) for name in ("eye", "diag", "zeros", "diff")},
+    "integrate": integral,
     **{name: getattr(sp, name) for name in ("pi", "oo", "Integer", "Float", "Rational")},
 }
 

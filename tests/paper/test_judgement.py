@@ -23,6 +23,9 @@ from lagrotor.paper.premises import relation_text
         (r"\cos\theta = 1 - \frac{\theta^2}{2} + O(\theta^4)", (), "holds-to-order"),
         (r"\cos\theta = 1 - \frac{\theta^2}{3} + O(\theta^4)", (), "refuted"),
         ("a = b = c", ["a = 1", "b = 1", "c = 1"], "holds-if"),
+        ("x**2*(1 - e**2) = x**2 - e**2*x**2", (), "holds"),
+        ("integrate(1/(1 + cos(x)), (x, 0, 2*pi)) = 0", (), "undecided"),
+        ("integrate(1/(2 + cos(x)), (x, 0, 2*pi)) = 2*pi/sqrt(3)", (), "holds"),
     ],
 )
 def test_verdicts_of_text(equation: str, given: list[str], verdict: str) -> None:
@@ -75,6 +78,9 @@ def test_small_letters_may_be_named_beside_the_equation() -> None:
         ("2*x = f(x)", [], r"write f\*"),
         ("2*x = __import__('os')", [], "__import__"),
         (r"\ln x^2 = 3", [], "write brackets"),
+        ("exp(x) = e^x", [], r"write exp\(…\)"),
+        ("cosh(x) = (e^x + e^(-x))/2", [], r"write exp\(…\)"),
+        ("exp(i*x) = cos(x) + i*sin(x)", [], "write 1j"),
     ],
 )
 def test_what_cannot_be_read_is_refused_in_words(equation: str, given: list[str], says: str) -> None:

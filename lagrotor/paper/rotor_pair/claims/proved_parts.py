@@ -5,7 +5,7 @@ stated time, or does not, its mean over a span of time, or the frequency of a pe
 0.2 s, of the wider ones of section 5.3 at 0.5 s.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import pi
 from typing import Any
 
@@ -49,6 +49,23 @@ def _means(system: Any, spans: Spans, says: str = "", start: Any = (None, None))
     return found.values, Theorem.of(found, says)
 
 
+def _less(a: Any, b: Any) -> bool | None:
+    """a < b of balls; None where they overlap."""
+    return True if a < b else False if a >= b else None
+
+
+def _all(answers: Iterable[bool | None]) -> bool | None:
+    """Whether all hold; None where that is open."""
+    each = {*answers}
+    return False if False in each else None if None in each else True
+
+
+def _decided(part: str, answer: bool | None, *theorems: Theorem) -> Iterator[Part]:
+    """The part with its theorems; nothing where the enclosures leave it open."""
+    if answer is not None:
+        yield Part(part, answer, theorems=theorems)
+
+
 def _turning(i: int, y: Any = 0, about: Sequence[Any] = ()) -> sp.Expr:
     """(x, y) × its rate, of an axis about the point (0, y): its sign is the sense of the precession."""
     q, v = about or (AXES.q[3 * i : 3 * i + 2], AXES.v[3 * i : 3 * i + 2])
@@ -68,11 +85,12 @@ def displaced(same_sense: str, remains: str, spins: Spins) -> Iterator[Part]:
     scene, y = shocked_scene(spins, (50, 0, 0)), _Q("0.0886")  # by equation (7)
     first, fifth = ("0.4", "1.4954"), ("4.7816", "5.877")
     both, theorem = _means(scene, [(_turning(i, y), *first) for i in (0, 1)], "A cycle takes 1.095 s.")
-    yield Part(same_sense, bool(both[0] > 0 and both[1] > 0), theorems=(theorem,))
+    yield from _decided(same_sense, _all(_less(0, x) for x in both), theorem)
     spans = [(e, *span) for span in (first, fifth) for e in (_Y1, _Y2)] + [((_Y1 - y) ** 2, *fifth)]
     found, theorem = _means(scene, spans, "A cycle takes 1.095 s; the last mean is that of the swing.")
-    stay = all(abs(n / m - 1) < 0.01 and n * n > found[4] / 50 for m, n in zip(found[:2], found[2:4], strict=True))
-    yield Part(remains, stay, theorems=(theorem,))
+    pairs = tuple(zip(found[:2], found[2:4], strict=True))
+    lasts = (*(_less(abs(n / m - 1), 0.01) for m, n in pairs), *(_less(found[4] / 50, n * n) for _, n in pairs))
+    yield from _decided(remains, _all(lasts), theorem)
 
 
 def not_without_spin(part: str, bar: Link) -> Iterator[Part]:
@@ -95,7 +113,7 @@ def energies(
         (before, after), ((0, "0.05"), ("0.4", "0.5")), printed.values(), within, strict=True
     ):
         found, theorem = _means(scene, [(energy, *span)], "The expression is the energy in J.")
-        yield Part(part, bool(abs(found[0] - value) < off), theorems=(theorem,))
+        yield from _decided(part, _less(abs(found[0] - value), off), theorem)
 
 
 def topples(part: str, spins: Spins) -> Iterator[Part]:
@@ -113,17 +131,16 @@ def topples_slowly(stable: str, topples_yz: str, slowly: str, spins: Spins, seen
     """
     if spins != (10, -10):
         return
-    theorems, holds, slow, turn = list[Theorem](), True, True, 2 * pi / natural_rate(shocked_scene(spins, (50, 0, 0)))
+    theorems, rates, turn = list[Theorem](), list[Any](), 2 * pi / natural_rate(shocked_scene(spins, (50, 0, 0)))
     for force in ((50, 0, 0), (0, 50, 0)):
         spans = [(_about_joint_line(i), "0.4", "8.2") for i in (0, 1)]
         found, theorem = _means(
             shocked_scene(spins, force), spans, f"This is after {max(force)} N along {'xy'[force.index(50)]}."
         )
         theorems.append(theorem)
-        holds &= all(abs(x) * 8 > seen for x in found)
-        slow &= all(abs(x) * turn < 1 for x in found)
-    yield Part(topples_yz, holds, theorems=tuple(theorems))
-    yield Part(slowly, slow, theorems=tuple(theorems))
+        rates += map(abs, found)
+    yield from _decided(topples_yz, _all(_less(seen, x * 8) for x in rates), *theorems)
+    yield from _decided(slowly, _all(_less(x * turn, 1) for x in rates), *theorems)
     fall = _crossing(
         shocked_scene(spins, (0, -50, 0)),
         _X1**2 - _Q(1, 4),
@@ -134,7 +151,7 @@ def topples_slowly(stable: str, topples_yz: str, slowly: str, spins: Spins, seen
 
 
 def axes_part(part: str, bar: Link) -> Iterator[Part]:
-    """C12: the angle between the axes of opposite spins passes 0.1 rad, 1 s after the start."""
+    """C12: the angle between the axes of opposite spins passes 0.1 rad within 1 s of the start."""
     event = _X1 * _X2 + _Y1 * _Y2 + _Z1 * _Z2 - sp.cos(_Q(1, 10))
     says = "Its zero is an angle of 0.1 rad between the axes."
     yield Part(part, True, theorems=(_crossing(shocked_scene((10, -10), (50, 0, 0), bar), event, "1", says),))
@@ -146,7 +163,7 @@ def mean_displacement(part: str) -> Iterator[Part]:
     found, theorem = _means(
         shocked_scene((10, -10), (0, 50, 0)), spans, "This is after 50 N along y, over four cycles."
     )
-    yield Part(part, not all(x < -0.02 for x in found), theorems=(theorem,))
+    yield from _decided(part, _all(_less(-0.02, x) for x in found), theorem)
 
 
 def single_rate(part: str, spins: Spins, printed: float, within: float) -> Iterator[Part]:
@@ -163,14 +180,14 @@ def single_rate(part: str, spins: Spins, printed: float, within: float) -> Itera
     found, theorem = _means(
         rotor, [(rate, 1, 3)], "This is the rate about its displaced position, rad/s.", ([0, 0, 1], [0, 0, 0])
     )
-    yield Part(part, bool(abs(found[0] - printed) < within), theorems=(theorem,))
+    yield from _decided(part, _less(abs(found[0] - printed), within), theorem)
 
 
 def coupled_rates(part: str, spins: Spins, bar: Link, printed: float, within: float) -> Iterator[Part]:
     """C21: the mean rate of equal spins after a small shock and after the paper's, over four cycles."""
     if spins != (20, 20):
         return
-    theorems, agree = list[Theorem](), list[bool]()
+    theorems, agree = list[Theorem](), list[bool | None]()
     for force, y in ((_Q("0.4"), _Q("0.000886")), (_Q(40), _Q("0.0886"))):
         x1, y1 = _X1, _Y1 - y
         spans = [(_turning(0, y) / (x1**2 + y1**2), "0.9", "3.1")]
@@ -180,8 +197,8 @@ def coupled_rates(part: str, spins: Spins, bar: Link, printed: float, within: fl
             f"This is the rate after {float(force):g} N, rad/s.",
         )
         theorems.append(theorem)
-        agree.append(bool(abs(found[0] - printed) < within))
-    yield Part(part, all(agree), theorems=tuple(theorems))
+        agree.append(_less(abs(found[0] - printed), within))
+    yield from _decided(part, _all(agree), *theorems)
 
 
 def not_followed(part: str, spins: Spins, bars: Sequence[Link]) -> Iterator[Part]:
@@ -193,7 +210,7 @@ def not_followed(part: str, spins: Spins, bars: Sequence[Link]) -> Iterator[Part
         _means(shocked_scene(spins, (40, 0, 0), bar, 1 / 20), [(_X1, "2.38", "2.48")], says.format(f"{bar.mass:g}"))
         for bar in bars
     ]
-    yield Part(part, not all(values[0] > 0 for values, _ in found), theorems=tuple(theorem for _, theorem in found))
+    yield from _decided(part, _all(_less(values[0], 0) for values, _ in found), *(theorem for _, theorem in found))
 
 
 def rate_changes(part: str, scene: Scene, r0: float, unchanged: float) -> Iterator[Part]:
@@ -205,8 +222,5 @@ def rate_changes(part: str, scene: Scene, r0: float, unchanged: float) -> Iterat
     orbit = precession(scene, r0)
     constant = abs(scene.momenta[0]) / (scene.rotor.J * (1 - r0**2) ** 0.5)
     change = (abs(orbit.frequency) / constant - 1) / r0**2
-    yield Part(
-        part,
-        bool(abs(change) < unchanged),
-        theorems=(Theorem.of(orbit, f"At constant inclination: {constant:.4f} rad/s."),),
-    )
+    words = f"At constant inclination: {constant:.4f} rad/s."
+    yield from _decided(part, _less(abs(change), unchanged), Theorem.of(orbit, words))
