@@ -322,9 +322,11 @@ class Equations:
 
 
 def reaction(name: str | int) -> sp.Symbol:
-    """The multiplier λ of a constraint by its name, or its number from 1, for forces and dissipation: of a gap in m it is the
-    force in N that presses. Coulomb's friction: dissipation = μ reaction("floor") |v|, or μ |reaction("wire")| |v| where a guide
-    holds on both sides."""
+    """The multiplier λ of a constraint by its name, or, where they have none, its number from 1, for forces and dissipation.
+
+    Of a gap in m it is the force in N that presses. Coulomb's friction: dissipation = μ reaction("floor") |v|, or
+    μ |reaction("wire")| |v| where a guide holds on both sides.
+    """
     return sp.Symbol(f"reaction({name})", real=True)
 
 

@@ -199,6 +199,8 @@ def _value(matrix: sp.Matrix, still: Mapping[sp.Symbol, Any], q: tuple[sp.Symbol
             raise SingularError(
                 f"linearise: {entry} is singular at {dict(still)}: use coordinates that are regular there"
             )
+        if number.has(sp.DiracDelta):
+            raise InputError(f"linearise: {entry} jumps at {dict(still)}: write the case that holds there")
         return number
 
     return matrix.applyfunc(value) if len(matrix) else matrix

@@ -82,7 +82,7 @@ def state_equations(
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
     here = dict.fromkeys((*c.q, *speeds, *system.rates, *inputs), sp.S.Zero)
-    here |= {s: sp.sympify(x, strict=True) for s, x in point.items()}
+    here |= {s: expression(f"linearise: {s}", x) for s, x in point.items()}
 
     def there(matrix: sp.Matrix) -> sp.Matrix:
         values = matrix.applyfunc(lambda e: shortest(put_in(e, here)))
@@ -90,6 +90,8 @@ def state_equations(
             raise SingularError(
                 f"linearise: the equations are singular at {dict(at)}: use coordinates that are regular there"
             )
+        if values.has(sp.DiracDelta):
+            raise InputError(f"linearise: forces jump at {dict(at)}: write the case that holds there")
         return values
 
     off = there(sp.Matrix([*system.constraints, *residual]))

@@ -211,7 +211,7 @@ def _momenta(
     if not names or len({*map(str, names)}) != len(names):
         raise InputError(f"routh: {cyclic!r} must name at least one cyclic coordinate, each once")
     if isinstance(cyclic, Mapping):
-        return {by_name[str(name)]: sp.sympify(p, strict=True) for name, p in cyclic.items()}
+        return {by_name[str(name)]: expression(f"routh: {name}", p) for name, p in cyclic.items()}
     return {by_name[str(name)]: sp.Symbol(f"p_{name}", real=True) for name in names}
 
 

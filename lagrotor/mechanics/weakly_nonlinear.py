@@ -30,7 +30,7 @@ from sympy.polys.domains.domain import Domain
 from lagrotor.algebra import decide_zero, truncated_series
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import by_symbol, shortest
+from lagrotor.mechanics.expressions import by_symbol, expression, shortest
 from lagrotor.mechanics.fourier import FourierSeries, Series, constant_series
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.perturbation import lindstedt_poincare
@@ -117,7 +117,7 @@ def oscillation(
     if t in equation.free_symbols:
         raise InputError("lindstedt_poincare: the system depends on time: use averaged")
     inside = small in equation.free_symbols
-    rest = sp.sympify(at, strict=True)
+    rest = expression("lindstedt_poincare: at", at)
     equation = equation.subs(q, rest + q) if rest != 0 else equation
     if inside:
         polynomial = _series(equation, small, order)
@@ -270,7 +270,7 @@ def averaged(
     acceleration = -equation.subs(a, 0) / slope
     still = sp.expand(acceleration.subs(small, 0))
     square = -sp.diff(still, q)
-    nu = sp.sqrt(square) if frequency is None else sp.sympify(frequency, strict=True)
+    nu = sp.sqrt(square) if frequency is None else expression("averaged: frequency", frequency)
     if decide_zero(still + nu**2 * q).answer != "zero" or nu.is_nonpositive or nu.has(sp.I):
         raise InputError(
             f"averaged: for {small} = 0 it is {a} = {still}, not −ν² {q} with ν = {nu}: give frequency, or another small"

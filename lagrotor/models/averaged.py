@@ -26,6 +26,7 @@ from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, na
 from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.generated import generated
+from lagrotor.numerics.segment import StopError
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ FALLING = Calibrated(
 _SLOWEST = 0.3  # of that ratio, beyond which the orders do not fall
 _ROUNDED = 3e-14  # rad: a turn's share of rounding, times the angle swung
 _PULSE = 1e-12, 1e-11  # local errors of the two integrations through a pulse
+_MOST = 20_000  # evaluations through a pulse
 _TRIES = 60  # to find the normal coordinates of a start
 _AT_ONCE = 256  # times
 
@@ -229,43 +231,44 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
             "motion stays small; use model='minimal'"
         )
     units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
-    one, end, begin, starts = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)]
+    one, end, begin, starts, spent = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
     if one.shock:
         begin = one.shock.end
         if begin >= end:
             raise DomainError("averaged: the run ends within the pulse; use model='minimal'")
-        starts = [_pulsed(one, np.array([begin]), k)[-1] for k in (0, 1)]
+        pulsed = [_pulsed(one, np.array([begin]), k) for k in (0, 1)]
+        starts, spent = [states[-1] for states, _ in pulsed], sum(count for _, count in pulsed)
     # At single times an error may vanish: a few swings each, all along the run.
     ends = (end - begin) * np.r_[np.geomspace(1e-3, 1, 9), np.linspace(0, 1, 9)]
     grid = np.unique(np.r_[0.0, np.clip(ends[:, None] - np.linspace(0, 8 * np.pi / PACE, 9), 0, end - begin).ravel()])
-    lean, spent = _centre(one, starts[0]), 0
+    lean = _centre(one, starts[0])
 
     def states(order: int, through: int, start: Array, t: Array) -> Array:
         nonlocal spent
-        found, evaluations = _states(one, _forms_of(one, lean, order), through, start, t)
+        sampled, evaluations = _states(one, _forms_of(one, lean, order), through, start, t)
         spent += evaluations
-        return found
+        return sampled
 
     def distance(first: Array, second: Array) -> Array:
         apart = MODEL.observe(one, first).axes - MODEL.observe(one, second).axes
         return np.asarray(np.maximum.accumulate(np.linalg.norm(apart, axis=-1).max(0)))
 
     for order in _ORDERS:
-        found = [states(order, through, starts[0], grid) for through in (order, order - 2, order - 4)]
-        last, before = distance(found[0], found[1]), distance(found[1], found[2])
+        motions = [states(order, through, starts[0], grid) for through in (order, order - 2, order - 4)]
+        last, before = distance(motions[0], motions[1]), distance(motions[1], motions[2])
         rounded = _ROUNDED * (1 + PACE * grid)
         ratio = last / (before + 10 * rounded)
         errors = np.where(ratio < _SLOWEST, FALLING.value * ratio * last, UNKNOWN) + rounded
-        if errors[-1] <= tol:
+        if errors.max() <= tol:
             break
     if one.shock:
-        errors += 3 * distance(found[0], states(order, order, starts[1], grid))
+        errors += 3 * distance(motions[0], states(order, order, starts[1], grid))
     errors = np.minimum(np.maximum.accumulate(errors), UNKNOWN)
 
     def motion(t: Array) -> tuple[Array, Array]:
         s = t * units.rate
         early, later = s[s < begin], s[s >= begin] - begin
-        parts = [_pulsed(one, early, 0)] if len(early) else []
+        parts = [_pulsed(one, early, 0)[0]] if len(early) else []
         parts += [_states(one, _forms_of(one, lean, order), order, starts[0], later)[0]] if len(later) else []
         seen = MODEL.observe(one, np.vstack(parts))
         return seen.axes, seen.rates * units.rate
@@ -279,7 +282,11 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
     )
 
 
-def _pulsed(scene: Scene, t: Array, k: int) -> Array:
-    """States of `minimal` through the pulse at times t, by the better integration (k = 0) or the other."""
+def _pulsed(scene: Scene, t: Array, k: int) -> tuple[Array, int]:
+    """States of `minimal` through the pulse at times t, by the better integration (k = 0) or the other, and the evaluations."""
     times = np.unique(np.r_[0.0, t])
-    return integrate_model(MODEL, scene, times, _PULSE[k], companion=k > 0).states[np.isin(times, t)]
+    try:
+        run = integrate_model(MODEL, scene, times, _PULSE[k], companion=k > 0, budget=_MOST)
+    except StopError:
+        raise DomainError("averaged: the motion through the pulse takes too many steps; use model='minimal'") from None
+    return run.states[np.isin(times, t)], run.evaluations

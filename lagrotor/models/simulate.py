@@ -42,10 +42,10 @@ BY_NAME = Patience(20_000, 250 * 2 * pi)
 REPLACEABLE = Patience(
     1_000, 500 * 2 * pi
 )  # where a looser run may take its place: five times as many serve none better
-LONG = Calibrated(
+LONG_RUN = Calibrated(
     300.0,
     "turns beyond which the averaged motion is tried before one is integrated",
-    "about what both take for a normal form through the eighth order and an integration",
+    "turns that an integration follows in the time in which the normal form of order 8 is made",
     "test_averaged.py::test_auto_takes_it_for_long_runs",
 )
 SHORT = Calibrated(
@@ -55,9 +55,9 @@ SHORT = Calibrated(
     "test_choose.py::test_the_fast_extra_misses_none_either_and_foresees_only_long_runs",
 )
 
-SLACKENED = Calibrated(
+MOST_SLACK = Calibrated(
     1000.0,
-    "rounding that nearly dependent constraints multiply, in a run beside a dead point, beyond which another model goes first",
+    "slack of nearly dependent constraints, in units of rounding, times which rounding may exceed tol before another goes first",
     "95 of the recorded wide scenes beside the joint line: of 11 that unit vectors do not keep within tol, 9 begin by minimal",
     "test_wide_scenes.py::test_beside_a_dead_point_the_model_that_keeps_the_tolerance_is_taken",
 )
@@ -108,7 +108,7 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
             missed = f"normal modes have an error of {scientific(error, 1)}"
         except LagrotorError as refusal:
             missed = str(refusal).split(";")[0]
-    if scene.link and scene.spins[0] == -scene.spins[1] and turns > LONG.value:
+    if scene.link and scene.spins[0] == -scene.spins[1] and turns > LONG_RUN.value:
         try:
             motion = averaged_motion(scene, t_end, tol)
             if motion.error <= tol:
@@ -167,7 +167,8 @@ def simulate(
         motion = DIRECT[model](at_zero, float(times[-1] - times[0]), tolerance, True)
         error = "not known" if np.isnan(motion.error) else scientific(motion.error, 1)
         missed = not motion.error <= tolerance
-        why = f"by name; {motion.reason}; estimated error {error}{', more than tol' if missed else ''}"
+        more = ", more than tol" if motion.error > tolerance else ""
+        why = f"by name; {motion.reason}; estimated error {error}{more}"
         trajectory = _direct(scene, model, why, times, motion, tolerance)
         if missed:
             until = f"; tol is kept up to t = {trajectory.horizon:.6g} s" if motion.errors else ""
@@ -271,13 +272,13 @@ class _Door:
             refusal.args = (f"{model.name}: {refusal}",)
             raise
 
-    def _slackened(self, name: str) -> bool:
+    def _is_slack(self, name: str) -> bool:
         """Whether the constraints of a model are so nearly dependent at the start that rounding may exceed `tol`."""
         model, axes, rates = MODELS[name], self.units.scene.axes, self.units.scene.rates
         if model.slack is None:
             return False
         start = np.concatenate([*axes, *rates])
-        return bool(SLACKENED.value * np.finfo(float).eps * model.slack(start[None])[0] > self.tol)
+        return bool(MOST_SLACK.value * np.finfo(float).eps * model.slack(start[None])[0] > self.tol)
 
     def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
         """The model that `auto` takes, why, and its run: the first of the ladder that reaches the end, from the chosen one on;
@@ -285,15 +286,15 @@ class _Door:
         begun = [model.name for model in LADDER].index(choice.model)
         # Where none reaches the end, those before the last go on where they are badly conditioned.
         tries = [(model, model is not LADDER[-1]) for model in LADDER[begun:]]
-        beyond = [(model, False) for model in LADDER[:-1] if self.units.scene.link]
-        spent, why, early = 0, choice.reason, list[tuple[str, str, EstimatedRun]]()
-        if beyond and self._slackened(choice.model):
-            tries, why = (
-                [*beyond, *tries],
-                f"beside a dead point rounding of the constraints of {choice.model} may exceed tol",
-            )
-        else:
-            tries += beyond
+        unbounded = [(model, False) for model in LADDER[:-1] if self.units.scene.link]
+        slack = bool(unbounded) and self._is_slack(choice.model)
+        tries = [*unbounded, *tries] if slack else [*tries, *unbounded]
+        why = (
+            f"beside a dead point rounding of the constraints of {choice.model} may exceed tol"
+            if slack
+            else choice.reason
+        )
+        spent, early = 0, list[tuple[str, str, EstimatedRun]]()
         refused: dict[str, IntegrationError | SingularError] = {}
         for model, bounded in tries:
             try:

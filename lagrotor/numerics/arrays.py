@@ -22,9 +22,10 @@ def finite_array(
     if shape is not None:
         lengths = zip(array.shape, shape, strict=False)
         if array.ndim != len(shape) or not all(n == m or (m == -1 and n > 0) for n, m in lengths):
-            raise InputError(f"{where} must be numbers of shape {shape}, not {array.shape}")
+            free = " (−1: any number but none)" if -1 in shape else ""
+            raise InputError(f"{where} must be numbers of shape {shape}{free}, not {array.shape}")
     if not np.isfinite(array).all():
-        raise InputError(f"{where} must be finite numbers")
+        raise InputError(f"{where} = {array.tolist()} must be finite numbers")
     return array
 
 
@@ -40,14 +41,17 @@ def real_array(given: ArrayLike) -> NDArray[np.float64] | None:
         return None
 
 
-def check_times(where: str, given: ArrayLike) -> NDArray[np.float64]:
-    """Increasing finite times (n,), the first of which is that of the start. Raises InputError for anything else."""
-    times, text = real_array(given), repr(given)
+def increasing_array(where: str, given: ArrayLike, what: str = "numbers") -> NDArray[np.float64]:
+    """Increasing finite numbers (n,), n > 0. Raises InputError for anything else."""
+    numbers, text = real_array(given), repr(given)
     text = text if len(text) < 60 else f"{text[:57]}…"
-    if times is None:
-        raise InputError(f"{where}: t = {text} must be an array of times in s")
-    if times.ndim != 1 or not len(times) or not np.isfinite(times).all() or (np.diff(times) <= 0).any():
-        raise InputError(
-            f"{where}: t = {text} must be an increasing array of finite times, t[0] that of the start: np.linspace(0, 10, 101)"
-        )
-    return times
+    if numbers is None:
+        raise InputError(f"{where} = {text} must be an array of {what}")
+    if numbers.ndim != 1 or not len(numbers) or not np.isfinite(numbers).all() or (np.diff(numbers) <= 0).any():
+        raise InputError(f"{where} = {text} must be an increasing array of finite {what}: np.linspace(0, 10, 101)")
+    return numbers
+
+
+def check_times(where: str, given: ArrayLike) -> NDArray[np.float64]:
+    """Increasing finite times in s (n,). Raises InputError for anything else."""
+    return increasing_array(f"{where}: t", given, "times")

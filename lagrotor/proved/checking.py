@@ -420,8 +420,11 @@ def box_of(node: Any, w: Sequence[Ball]) -> list[Ball]:
 def check(certificate: Any) -> str:
     """Verify a certificate; returns the theorem that it proves, in words composed from what was verified.
 
+    What an expression is called is the certificate's own: what it is, the recorded operations say.
+
     Raises:
-        InputError: for what is no certificate, NotProved with the first thing that does not hold.
+        InputError: for what is no certificate.
+        NotProved: with the first thing that does not hold.
     """
     try:
         version, kind = certificate["version"], certificate["kind"]
@@ -694,7 +697,7 @@ def check_family(certificate: Any) -> None:
     low, high = (rational_of(text).atanh() for text in certificate["claim"]["r0"])
     demand(bool(low < high and pieces[0].low <= low and high <= pieces[-1].high), "the amplitudes are others")
     period = read_ball(certificate["claim"]["period"])
-    kind = certificate["claim"]["kind"]
+    kind = certificate["claim"].get("kind", "undecided")
     demand(kind in ("elliptic", "hyperbolic", "undecided"), "the kind is unknown")
     for piece in pieces:
         fine = kind == "undecided" or piece.is_shown(kind, certificate["reversals"], arb(-1), arb(1))

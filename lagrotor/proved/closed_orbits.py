@@ -246,7 +246,8 @@ def periodic_orbit(
         integrals: how many the system has, its energy among them, each with a pair of multipliers that are 1.
 
     Raises:
-        InputError: for what makes no sense, NotProved where no orbit can be proved, with how far it came.
+        InputError: for what makes no sense.
+        NotProved: where no orbit can be proved, with how far it came.
     """
     accuracy, where = accuracy_of(tol, "periodic_orbit"), "periodic_orbit"
     with precision(accuracy.bits, accuracy.terms):

@@ -73,7 +73,8 @@ class Crossing(Shown):
     """A proved crossing, in a time that `time` holds, or a proved non-crossing up to `time`.
 
     Attributes:
-        first: whether it is proved to be the first crossing, too. certificate: what `check` verifies.
+        first: whether it is proved to be the first crossing, too.
+        certificate: what `check` verifies.
     """
 
     expression: sp.Expr
@@ -132,7 +133,7 @@ def prepared(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[A
     """The field, the expressions as a tape of its arguments, the start."""
     for e in expressions:
         if not isinstance(e, sp.Expr):
-            raise InputError(f"proved: event = {e!r} must be an expression of the states, a sympy expression")
+            raise InputError(f"proved: {e!r} must be an expression of the states, a sympy expression")
     made = field_of(system, values, q0, v0)
     return made, made.function(expressions), Start(*made.parts)
 
@@ -152,7 +153,8 @@ def crossing(
     Structure x_0, y_0, z_0, ….
 
     Raises:
-        InputError: for what makes no sense, NotProved where the sign is not shown to change, with how far the proof came.
+        InputError: for what makes no sense.
+        NotProved: where the sign is not shown to change, with how far the proof came.
     """
     accuracy, where = accuracy_of(tol, "crossing"), "crossing"
     with precision(accuracy.bits, accuracy.terms):
@@ -210,11 +212,17 @@ def means(
 ) -> Means:
     """Means of expressions of the states over spans of time, (1/(t₂ − t₁)) ∫ e dt from t₁ to t₂, enclosed.
 
-    system, values, q0, v0: as in `enclose`; expressions as in `crossing`. spans: (expression, t₁, t₂), t in s, for each mean.
+    Args:
+        system, values, q0, v0: as in `enclose`; expressions as in `crossing`.
+        spans: (expression, t₁, t₂), t in s, for each mean.
 
-    Raises InputError for what makes no sense, NotProved where the enclosure ends before the last t₂.
+    Raises:
+        InputError: for what makes no sense.
+        NotProved: where the enclosure ends before the last t₂.
     """
     accuracy, where = accuracy_of(tol, "means"), "means"
+    if not isinstance(spans, Sequence) or any(not isinstance(span, tuple | list) or len(span) != 3 for span in spans):
+        raise InputError(f"{where}: spans = {spans!r} must be a list of (expression, t₁, t₂)")
     with precision(accuracy.bits, accuracy.terms):
         ends = [(ball(since, f"{where}: t"), time_ball(until, where)) for _, since, until in spans]
         if not ends or not all(0 <= since < until for since, until in ends):
@@ -231,7 +239,7 @@ def means(
                 low, high = (((x - step.node.t) / step.h).max(0).min(1) for x in span)
                 if low < high:
                     totals[i] += step.h * along[i].integral(low, high)
-        found = [total / (until - since) for total, (since, until) in zip(totals, ends, strict=True)]
+        values_of = [total / (until - since) for total, (since, until) in zip(totals, ends, strict=True)]
         claim = [  # sixteen times as wide: another program's bounds are others
             {
                 "of": str(e),
@@ -239,9 +247,9 @@ def means(
                 "until": ball_data(until),
                 "mean": ball_data(x + arb(0, (15 * radius(x)).upper())),
             }
-            for (e, *_), (since, until), x in zip(spans, ends, found, strict=True)
+            for (e, *_), (since, until), x in zip(spans, ends, values_of, strict=True)
         ]
         flow = flow_data(made.motion, start, steps, accuracy.bits)
         certificate = flow | {"kind": "means", "expression": tape_data(tape), "claim": {"means": claim}}
         whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
-        return Means(tuple(whole), tuple(found), certificate)
+        return Means(tuple(whole), tuple(values_of), certificate)

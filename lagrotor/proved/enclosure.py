@@ -142,7 +142,8 @@ def enclose(
 
     Raises:
         InputError: for what makes no sense.
-        ConstraintError: for a start off the constraints, NotProved where the enclosure ends before t.
+        ConstraintError: for a start off the constraints.
+        NotProved: where the enclosure ends before t.
     """
     accuracy = accuracy_of(tol, "enclose")
     with precision(accuracy.bits, accuracy.terms):

@@ -191,7 +191,8 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
 
     Raises:
         InputError: unless the spins are opposite.
-        DomainError: unless 0 < r0 < 1, NotProved with how far the proof came.
+        DomainError: unless 0 < r0 < 1.
+        NotProved: with how far the proof came.
     """
     one = not isinstance(r0, tuple | list)
     accuracy = accuracy_of(tol or (TOL if one else TOL_OF_FAMILY), "precession")

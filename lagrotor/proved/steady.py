@@ -60,7 +60,8 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
     """The equilibrium near q0, proved to exist, with its stability. values: numbers or pairs (lowest, highest).
 
     Raises:
-        InputError: for what makes no sense, NotProved where none can be proved near q0.
+        InputError: for what makes no sense.
+        NotProved: where none can be proved near q0.
     """
     if not isinstance(system, Equations):
         raise InputError(f"equilibrium: {system!r} must be a System")

@@ -37,7 +37,7 @@ from lagrotor.structures.small_motion import SmallMotion, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 Of = Literal["rates", "tilts"]  # what a push gives all axes: rates from upright, rad/s, or tilts (sines) at rest
-UNITS: dict[Of, str] = {"rates": " rad/s", "tilts": " in the sine of the tilts"}
+UNIT_OF_PUSH: dict[Of, str] = {"rates": " rad/s", "tilts": " in the sine of the tilts"}
 MOST_DOF = 8  # for which the terms of fourth order are expanded
 _BARRIER = {3: 0.25, 4: sqrt(2) - 1}  # x of the module: (ρ/ρ_barrier)² of the largest start that stays
 _NEAR = 0.25  # of the largest rate: vectors with a larger detuning are no resonance
@@ -93,7 +93,7 @@ class Resonance(Shown):
         return float(sqrt(_BARRIER[d]) * barrier / self.reach)
 
     def window(self, push: float) -> tuple[float, float]:
-        """The factors on all spins between which a push of that size (rad/s) may fall, by the slope and the terms here."""
+        """The factors on all spins between which a push of that size may fall, by the slope and the terms here."""
         d, x = self.order, _BARRIER[self.order]
         half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
         return float(self.factor - half), float(self.factor + half)
@@ -119,7 +119,7 @@ class Resonance(Shown):
             "order": str(self.order),
             "at the factor on all spins": f"{self.factor:.6g}",
             "coefficient": f"{self.growth:.4g} 1/s",
-            "falls": f"from {self.push():.3g}{UNITS[self.of]} on" if self.falls else _STOPPED,
+            "falls": f"from {self.push():.3g}{UNIT_OF_PUSH[self.of]} on" if self.falls else _STOPPED,
         }
 
 
@@ -133,6 +133,12 @@ def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
     return np.sort(here.energy_signs(roots[turning], vectors[:, turning]) * roots[turning].imag)
 
 
+def check_kind_of_push(of: Any) -> None:
+    """Raises InputError for what is neither rates nor tilts."""
+    if of not in UNIT_OF_PUSH:
+        raise InputError(f"of = {of!r} must be one of {', '.join(UNIT_OF_PUSH)}")
+
+
 def resonances(
     s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4), of: Of = "rates"
 ) -> tuple[Resonance, ...]:
@@ -141,6 +147,7 @@ def resonances(
     None where the energy is definite. Raises InputError where a mode grows or has the rate zero, friction acts, or the degrees
     of freedom are too many.
     """
+    check_kind_of_push(of)
     linear = small_motion(s)
     rates = signed_rates(linear, factor)
     if not len(rates):
@@ -175,8 +182,6 @@ def _of_order(
 
 def _pushed(s: Assembly, factor: float, of: Of) -> Array:
     """(q, p) of a push of 1 along each degree of freedom, (2n, n), in units of `LocalHamiltonian`: p = m q' + C q/2."""
-    if of not in UNITS:
-        raise InputError(f"of = {of!r} must be one of {', '.join(UNITS)}")
     linear, h = small_motion(s), local_hamiltonian(s)
     n = linear.dof
     if of == "rates":
@@ -288,7 +293,10 @@ def _tilted_after(
     size = len(n.frequencies)
     push = finite_array("fall_time: push", given)
     off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
-    if np.abs(off).max() > _ON_BARS * np.abs(push).max():
+    most = np.abs(push).max()
+    if (
+        np.abs(off).max() > (_ON_BARS + (4 * most if of == "tilts" else 0)) * most
+    ):  # exact tilts are off by their squares
         raise InputError(f"fall_time: push: the bars do not allow these {of}: what each joins must keep its distance")
     start = np.linalg.inv(n.vectors) @ (_pushed(s, 1.0, of) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, order - 1)])[:size]
@@ -348,7 +356,7 @@ class LargestPush(Shown):
 
     def summary(self) -> dict[str, str]:
         """The push and what lies behind it, name → words."""
-        return {"largest push": f"{self.value:.4g}{UNITS[self.of]}", "behind": self.behind}
+        return {"largest push": f"{self.value:.4g}{UNIT_OF_PUSH[self.of]}", "behind": self.behind}
 
 
 def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
@@ -357,6 +365,7 @@ def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
     of: "rates", a push of the axes' rates from upright, or "tilts", of their tilts at rest. 0 where it does not stand to first
     order. Raises InputError as `resonances` does.
     """
+    check_kind_of_push(of)
     if small_motion(s).growth > 0:
         return LargestPush(0.0, "it falls to first order", None, of)
     first = next((r for r in resonances(s, of=of) if r.falls), None)
@@ -369,6 +378,7 @@ def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
 
 def trusted_push(s: Assembly, factor: float = 1.0, of: Of = "rates") -> float:
     """The push from which no axis tilts by more than `_TRUSTED` in the linear motion; 0 where a mode grows or drifts."""
+    check_kind_of_push(of)
     if not len(signed_rates(small_motion(s), factor)):
         return 0.0
     h = local_hamiltonian(s)
@@ -432,6 +442,7 @@ def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[fl
     enough apart for the expansion to be trusted. Empty where no spins are known to hold it. Raises InputError as
     `resonances` does.
     """
+    check_kind_of_push(of)
     push = checked_push("spin_intervals", push)
     if spin_threshold(small_motion(s)) == inf:
         return ()
@@ -496,6 +507,7 @@ def resonant_factors(
     """The factors on all spins beyond the critical one at which modes are in resonance, each with what it does."""
     from scipy.optimize import brentq
 
+    check_kind_of_push(of)
     linear = small_motion(s)
     least = spin_threshold(linear)
     if not 0 < least < inf:

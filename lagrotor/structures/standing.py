@@ -20,9 +20,10 @@ from lagrotor.structures.coefficients import Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
 from lagrotor.structures.resonances import (
     MOST_DOF,
-    UNITS,
+    UNIT_OF_PUSH,
     Of,
     Resonance,
+    check_kind_of_push,
     checked_push,
     fall_time_along,
     resonances,
@@ -126,6 +127,7 @@ class Standing(Shown):
         return self.first_order
 
     def _falls_by(self, of: Of) -> Resonance | None:
+        check_kind_of_push(of)
         return (
             self.resonance if of == "rates" else next((r for r in resonances(self.structure, of=of) if r.falls), None)
         )
@@ -151,6 +153,7 @@ class Standing(Shown):
         return self._falls(push, of)[1]
 
     def _falls(self, push: float | ArrayLike, of: Of) -> tuple[float, float]:
+        check_kind_of_push(of)
         along = np.ndim(push) > 0
         if along and np.shape(push) != (shape := (len(self.structure.joints), 2)):
             raise InputError(f"fall_time: push must be a number or {of} {shape}, not of shape {np.shape(push)}")
@@ -164,7 +167,7 @@ class Standing(Shown):
             resonance = None
         if size > (_FARTHEST if resonance else 1) * trusted:
             raise InputError(
-                f"fall_time: a push of {size:.3g}{UNITS[of]} tilts an axis too far for the expansion, which is trusted to "
+                f"fall_time: a push of {size:.3g}{UNIT_OF_PUSH[of]} tilts an axis too far for the expansion, which is trusted to "
                 f"{trusted:.3g}: simulate it"
             )
         if not resonance:
@@ -176,7 +179,7 @@ class Standing(Shown):
         time, error = fall_time_along(self.structure, push, 20 * least, 1.001 * reach, of)
         if time == inf and size > trusted:
             raise InputError(
-                f"fall_time: this push of {size:.3g}{UNITS[of]} does not fall in {20 * least:.3g} s by the expansion, "
+                f"fall_time: this push of {size:.3g}{UNIT_OF_PUSH[of]} does not fall in {20 * least:.3g} s by the expansion, "
                 f"which is trusted to {trusted:.3g}: simulate it"
             )
         return time, error

@@ -217,6 +217,8 @@ def turns_back(scene: Scene) -> bool:
 def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
     """Slow angular frequency (rad/s) of the motion beside the paired precession of amplitude r0: imaginary where it grows.
 
+    With s² = sigma r0², d = k momentum/G, kappa = (sigma − 1) k²/2 and g = G/(2 (a + b) k²),
+
         frequency² = g² (3 s⁴/2 − d²) (d + kappa s²),
 
     to leading order where r0² and d are small alike: the relative error is of second order in r0, but where a bracket nearly
@@ -224,7 +226,7 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
 
     Args:
         momentum: P about the joint line beyond the paired precession's own sigma G r0²/k (kg m²/s): a push, by which the pair
-            turns. With s² = sigma r0², d = k momentum/G, kappa = (sigma − 1) k²/2 and g = G/(2 (a + b) k²).
+            turns.
 
     Raises:
         InputError: unless the spins are opposite and there is a bar.

@@ -177,7 +177,7 @@ def test_beside_a_dead_point_the_model_that_keeps_the_tolerance_is_taken(monkeyp
     for i, run in zip(which, runs, strict=True):
         error = np.linalg.norm(run.axes - RECORDED["axes"][i], axis=-1).max() - 2 * RECORDED["own"][i].max()
         assert run.model == "minimal" and error <= run.error <= TRIALS[i].tol and "dead point" in run.why
-    monkeypatch.setattr(simulating, "SLACKENED", simulating.SLACKENED._replace(value=0.0))  # twin
+    monkeypatch.setattr(simulating, "MOST_SLACK", simulating.MOST_SLACK._replace(value=0.0))  # twin
     with pytest.warns(LagrotorWarning, match="does not keep"):
         others = [run_of(TRIALS[i]) for i in which]
     assert all(other.model == "spheres" and other.error > TRIALS[i].tol for i, other in zip(which, others, strict=True))

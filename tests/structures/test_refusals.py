@@ -36,7 +36,7 @@ BAD = [
     # Three bars whose triangle cannot close, though each alone can.
     ({"joints": [(0, 0), (1, 0), (0, 1)], "spins": 1.0, "bars": [(0, 1, 0.1), (1, 2, 0.1), (0, 2, 2.5)]}, "cannot close"),
     (SQUARE | {"joints": [(0, 0), (1, 0), (0, 1), (1, 1), (3, 2)],
-               "bars": [(i, j) for i in range(5) for j in range(i)]}, "leave no freedom"),
+               "bars": [(i, j) for i in range(5) for j in range(i)]}, "leave no degree of freedom"),
 ]  # fmt: skip
 
 

@@ -202,10 +202,10 @@ class Energy:
     def __add__(self, other: Any) -> "Energy":
         if isinstance(other, Energy):
             return Energy(self.terms + other.terms, self.rest + other.rest)
-        return Energy(self.terms, self.rest + sp.sympify(other, strict=True))
+        return Energy(self.terms, self.rest + expression("Energy: a summand", other))
 
     def __mul__(self, factor: Any) -> "Energy":
-        number = sp.sympify(factor, strict=True)
+        number = expression("Energy: a factor", factor)
         return Energy(tuple((body, field, number * f) for body, field, f in self.terms), number * self.rest)
 
     def __neg__(self) -> "Energy":
@@ -218,7 +218,7 @@ class Energy:
         return -self + other
 
     def __truediv__(self, factor: Any) -> "Energy":
-        return self * (1 / sp.sympify(factor, strict=True))
+        return self * (1 / expression("Energy: a divisor", factor))
 
     __radd__, __rmul__ = __add__, __mul__
 

@@ -61,7 +61,7 @@ def libration(h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any
     import numpy as np
     from scipy.integrate import solve_ivp
 
-    H, energy, at = _in_one_freedom(h, energy, at, values)
+    H, energy, at = _in_one_coordinate(h, energy, at, values)
     (q,), (p,) = h.q, h.p
     curvature = sp.diff(H, p, 2)
     slope = sp.diff(H, p).subs(p, 0)
@@ -132,7 +132,7 @@ def libration(h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any
     )  # fmt: skip
 
 
-def _in_one_freedom(
+def _in_one_coordinate(
     h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any] | None
 ) -> tuple[sp.Expr, float, float]:
     """H(q, p) with its values, quadratic in p, the energy and the place as numbers."""

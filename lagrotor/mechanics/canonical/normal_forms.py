@@ -148,10 +148,11 @@ def birkhoff(
 ) -> NormalForm:
     """The normal form of H(z, w), a polynomial that begins with sum_j ω_j z_j w_j + N, through an order.
 
+    Floating-point coefficients are complex; those of a `field` are its elements.
+
     Args:
         weights: {z_j, w_j}, (n,), −i of oscillations and 1 of saddles and of what has the rate zero.
-        detuning: |D| up to which terms are kept, in rad/s. Floating-point coefficients are complex; those of a `field` are its
-            elements.
+        detuning: |D| up to which terms are kept, in rad/s.
     """
     n = len(weights)
     pair = [tuple(int(i in (j, n + j)) for i in range(2 * n)) for j in range(n)]

@@ -10,19 +10,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import expression, put_in
+from lagrotor.mechanics.expressions import by_symbol, expression, put_in
 from lagrotor.mechanics.glossary import latex
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.monodromy import monodromy_matrix
 from lagrotor.mechanics.running.state_space import state_space
-from lagrotor.numerics.arrays import check_times
+from lagrotor.numerics.arrays import increasing_array
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
 
 _GROWS = 1e-6  # of the largest rate: a real part that is above rounding, of double roots too
 _ZERO = 1e-5  # of the largest rate: one that is zero but for rounding, of double ones too
-_DIGITS = 40  # halvings of the interval between two numbers
+_HALVINGS = 40  # halvings of the interval between two numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,13 +56,14 @@ def root_locus(
 
     Raises InputError where the letter has a value already, and what `linearise` raises.
     """
-    grid, name = check_times("root_locus", numbers), str(letter)
+    grid, name = increasing_array("root_locus: numbers", numbers), str(letter)
     rates_at = _rates("root_locus", system, at, values, [name])
-    boundaries = _boundaries(rates_at, grid, _DIGITS)
-    grid = np.sort(np.append(grid, boundaries))
-    return RootLocus(
-        sp.Symbol(name, real=True), grid, _followed([rates_at(x) for x in grid.tolist()]), tuple(boundaries)
-    )
+    known = [rates_at(x) for x in grid.tolist()]
+    boundaries = _boundaries(rates_at, grid, known, _HALVINGS)
+    pairs = [*zip(grid.tolist(), known, strict=True), *((x, rates_at(x)) for x in boundaries)]
+    pairs.sort(key=lambda pair: pair[0])
+    places, rates = np.array([x for x, _ in pairs]), [r for _, r in pairs]
+    return RootLocus(sp.Symbol(name, real=True), places, _followed(rates), tuple(boundaries))
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,17 +93,16 @@ def stability_chart(
 
     Raises InputError as `root_locus` does.
     """
-    if not isinstance(numbers, Mapping) or len(numbers) != 2:
+    if not isinstance(numbers, Mapping) or len({*map(str, numbers)}) != 2:
         raise InputError(f"stability_chart: numbers = {numbers!r} must be {{letter: numbers, other: numbers}}")
     names = [str(letter) for letter in numbers]
-    first, second = (check_times("stability_chart", each) for each in numbers.values())
+    first, second = (increasing_array(f"stability_chart: {name}", each) for name, each in numbers.items())
     rates_at = _rates("stability_chart", system, at, values, names, period)
-    rows = [[float(rates_at(x, y).real.max()) for x in first.tolist()] for y in second.tolist()]
-    edges = [
-        (x, y)
-        for y in second.tolist()
-        for x in _boundaries(lambda x, y=y: rates_at(x, y), first, _DIGITS // 2)  # type: ignore[misc]
-    ]
+    rows, edges = list[list[float]](), list[tuple[float, float]]()
+    for y in second.tolist():
+        known = [rates_at(x, y) for x in first.tolist()]
+        rows.append([float(rates.real.max()) for rates in known])
+        edges += [(x, y) for x in _boundaries(lambda x, y=y: rates_at(x, y), first, known, _HALVINGS // 2)]  # type: ignore[misc]
     letters = (sp.Symbol(names[0], real=True), sp.Symbol(names[1], real=True))
     return StabilityChart(letters, (first, second), np.array(rows), np.array(edges).reshape(-1, 2))
 
@@ -119,6 +119,8 @@ def _rates(
         raise InputError(f"{where}: at = {at!r} must be {{coordinate: number or expression, …}}, a dictionary")
     places = {s: expression(f"{where}: at", e) for s, e in at.items()}
     turn = None if period is None else expression(f"{where}: period", period)
+    of_period = {str(s) for s in turn.free_symbols} if turn is not None else set()
+    period_values = {s: x for s, x in values.items() if str(s) in of_period}
     acting = (system.lagrangian, *system.constraints, *system.rolling, system.dissipation, *system.forces)
     own = {*names} & {str(s) for e in acting for s in e.free_symbols}  # the others are letters of the motion alone
     if (
@@ -140,21 +142,26 @@ def _rates(
         mine = {**values, **{name: x for name, x in known.items() if name in own}}
         if turn is None:
             return state_space(system, point, mine).rates
-        T = put(turn)
+        T = put_in(put(turn), by_symbol(period_values, turn.free_symbols))
         roots = monodromy_matrix(system, point, mine, T).multipliers
         return np.asarray(np.log(roots + (roots == 0)) / float(T))
 
     return rates
 
 
-def _boundaries(rates_at: Callable[[float], NDArray[np.complex128]], grid: Array, halvings: int) -> list[float]:
+def _boundaries(
+    rates_at: Callable[[float], NDArray[np.complex128]],
+    grid: Array,
+    known: Sequence[NDArray[np.complex128]],
+    halvings: int,
+) -> list[float]:
     """Where the motion becomes stable or unstable between two numbers: where the largest real part but those of rates that stay
     zero passes zero, or rounding, where nothing is damped."""
 
     def grows(rates: NDArray[np.complex128]) -> bool:
         return bool(rates.real.max() > _GROWS * np.abs(rates).max())
 
-    known, boundaries = [rates_at(x) for x in grid.tolist()], []
+    boundaries = list[float]()
     for low, high, *ends in zip(grid.tolist(), grid[1:].tolist(), known, known[1:], strict=False):
         if grows(ends[0]) == grows(ends[1]):
             continue

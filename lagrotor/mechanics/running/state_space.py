@@ -129,7 +129,7 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
         raise InputError(
             f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities{names}; others are values"
         )
-    given = [sp.sympify(point.get(s, 0), strict=True) for s in (*c.q, *system.speeds)]
+    given = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
     inside = {s for e in given for s in e.free_symbols}
     letters = {s: x for s, x in by_symbol(values, inside).items() if s in inside}
     try:

@@ -12,11 +12,11 @@ _DEPENDENT = 1e-9  # of the largest: a smaller singular value (beyond _DENSE: pi
 
 
 def check_closure(s: Assembly) -> None:
-    """Raises InputError where no freedom is left, the bars cannot close, or the constraints are dependent."""
+    """Raises InputError where no degree of freedom is left, the bars cannot close, or the constraints are dependent."""
     N, B = len(s.joints), len(s.bars)
     if B >= 2 * N:
         raise InputError(
-            f"Structure: {B} bars leave no freedom: {N} axes have {2 * N}, and each bar takes one; leave out "
+            f"Structure: {B} bars leave no degree of freedom: {N} axes have {2 * N}, and each bar takes one; leave out "
             f"{B - 2 * N + 1} at least"
         )
     motion = exact_motion(s)

@@ -119,7 +119,7 @@ def _lowest(parabola: Array) -> Array:
 
 def _check(d: Dispersion) -> None:
     if not d.rates.size:
-        raise InputError("chern_numbers: the bars leave no freedom at any wave number: there are no bands")
+        raise InputError("chern_numbers: the bars leave no degree of freedom at any wave number: there are no bands")
     if np.isnan(d.rates).any():
         raise InputError(
             "chern_numbers: the bars leave more degrees of freedom at some wave numbers, where they "

@@ -424,7 +424,7 @@ def test_constraints_that_are_nearly_dependent_are_known_no_better_than_they_can
         return run.error, float(run.scales.distance(exact.T, np.hstack([run.q, run.v])).max())
 
     told, true = told_and_true()
-    assert told > true > 1e-8
+    assert told > true
     monkeypatch.setattr(simulation, "DEPENDENT", simulation.DEPENDENT._replace(value=0.0))  # twin
     told, true = told_and_true()
-    assert true > 1e-8 > told
+    assert true > 3 * told
