@@ -110,7 +110,7 @@ prove(
 )
 
 # %% [markdown]
-# The true peak is higher: the usual damper, $q=3\gamma^2/2$ (Brock 1946), makes none of them a maximum. The least peak $h$ is
+# The true peak is higher: the usual damper, $q=3\gamma^2/2$ (Brock 1946), makes neither of them a maximum. The least peak $h$ is
 # found exactly, as Nishihara & Asami (2002) found that of a tuned mass. Both maxima are as high as $h$ if $D-N/h^2$ is the square
 # of a quadratic in $\nu$, $\nu^2-S\nu+f^2\rho$ with $\rho^2=1-1/h^2$. Its coefficients of $\nu^3$ and $\nu$ give $S$ and the
 # damper,
@@ -142,8 +142,8 @@ prove(
 )
 
 # %% [markdown]
-# The peak is least, $\rho$ stationary, where the curve's slope in $f^2$ vanishes besides. With $f^2=(1-d)\rho$ both equations are
-# linear in what is left, and everything is a rational function of $d$:
+# The peak is least where $\rho$ is stationary along the curve: its slope in $f^2$ vanishes too. With $f^2=(1-d)\rho$ both
+# equations are linear in what is left, and everything is a rational function of $d$:
 
 # %%
 d = sp.Symbol("d", positive=True)
@@ -228,7 +228,7 @@ prove(
 )
 
 # %% [markdown]
-# In the worst case the best mass, with $s=\sqrt{4+3\mu}$, has two peaks of the same height by the same square:
+# For the worst sway the best mass, with $s=\sqrt{4+3\mu}$, has two peaks of one height too: again a square is left:
 
 # %%
 r = sp.Symbol("s", positive=True)

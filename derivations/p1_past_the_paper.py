@@ -187,9 +187,9 @@ rows = (
     (
         "further integrals",
         "none",
-        "small swings keep one more to every order, the averaged action; wider ones of a heavy bar are chaotic and have none",
+        "small swings keep one more to every order, the averaged action; on runs, wider ones of a heavy bar are chaotic",
         f"neighbours of a swing of r_0 = 0.05 part as the power {t13['power']:.2f} of time, of one of 0.3 by a factor "
-        f"e^{t13['fast'][40] / 40:.2f} a turn; such a run is known for {t13['horizon']:.0f} turns",
+        f"exp({t13['fast'][40] / 40:.2f}) per turn; such a run is known for {t13['horizon']:.0f} turns",
         FigureLink("t13"),
     ),
     (

@@ -31,8 +31,9 @@ prove(leaning_lagrangian().diff(LEANING.q[2]), 0, "the azimuth does not occur", 
 
 # %% [markdown]
 # So $E$ and $P$ leave a motion on a surface of three dimensions. One more integral would keep every start on a surface of two,
-# which a Poincaré section shows as a curve, and no two neighbours would part faster than by a power of time: $\lambda=0$. About
-# rest there is one to every order, the action of the swing (t11); its series need not converge.
+# which a Poincaré section shows as a curve, and, except on unstable orbits and what runs into them, neighbours would part no
+# faster than by a power of time: $\lambda=0$. About rest there is one to every order, the action of the swing (t11); its series
+# need not converge.
 
 
 # %%
@@ -66,14 +67,15 @@ assert power < 2.2 and fast[40] > 20
 Remark(
     "Regular and chaotic",
     f"At r_0 = 0.05, P/G = −0.3 neighbours part as the power {power:.2f} of time; at r_0 = 0.3, P/G = 0.1 as exp(λ t) with "
-    f"λ = {fast[40] / 40:.2f} a turn: no further integral holds there. Figure t13 shows both over amplitude and momentum.",
+    f"λ = {fast[40] / 40:.2f} per turn, which a motion with one more integral has beside an unstable orbit only. Figure t13 "
+    "shows both over amplitude and momentum.",
 )
 
 # %% [markdown]
 # ## The horizon
 #
 # An error of $\varepsilon$ at the start has grown to the tolerance after $\ln(\mathrm{tol}/\varepsilon)/\lambda$ turns, and the
-# run says from when on it is not known:
+# horizon of a run is that time:
 
 # %%
 with warnings.catch_warnings():
@@ -84,5 +86,5 @@ reach = float(np.interp(np.log(1e-6 / 1e-14), fast, np.arange(41)))
 assert 0.4 * reach < horizon < 2.5 * reach
 Remark(
     "How long a run is known",
-    f"tol = 10⁻⁶ is kept for {horizon:.0f} turns; 10⁻¹⁴ has grown to it after {reach:.0f}.",
+    f"tol = 10⁻⁶ is kept for {horizon:.0f} turns; an error of 10⁻¹⁴ at the start has grown to it after {reach:.0f}.",
 )

@@ -23,7 +23,7 @@ PARTS = ("mechanics", "paper", "structures", "models", "theory", "pair", "algebr
 
 def on_config(config: Any) -> Any:
     """The version in the foot of every page."""
-    config.copyright = f"lagrotor {__version__}; make docs builds the pages of another version from its tag"
+    config.copyright = f"lagrotor {__version__}. For another version check out its tag and run make docs."
     return config
 
 
@@ -145,7 +145,7 @@ def on_page_content(html: str, page: Any, config: Any, files: "Files") -> str:
 
 
 def on_post_template(output: str, template_name: str, config: Any) -> str:
-    """The page of what is not found, as any other."""
+    """The page for an address that does not exist, treated as any other."""
     return on_post_page(output, None, config) if template_name.endswith(".html") else output
 
 
@@ -160,7 +160,7 @@ def on_post_page(output: str, page: Any, config: Any) -> str:
 def on_post_build(config: Any) -> None:
     """The report beside the documentation, without what it keeps for its next run; the reader's edition where it is made."""
     if REPORT.is_dir():
-        kept = shutil.ignore_patterns("products", "made.json", "times.json")
-        shutil.copytree(REPORT, Path(config.site_dir) / "report", ignore=kept)
+        without = shutil.ignore_patterns("products", "made.json", "times.json")
+        shutil.copytree(REPORT, Path(config.site_dir) / "report", ignore=without)
     if (ROOT / "reader").is_dir():
         shutil.copytree(ROOT / "reader", Path(config.site_dir) / "reader")

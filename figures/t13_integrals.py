@@ -105,16 +105,16 @@ _small, _largest, _chaotic, _lined, _wild, _short, _long, _ = measure().values()
 ALT = (
     "Four panels. A map of amplitude and momentum with an exponent in each cell: small swings are dark, near zero, the middle "
     "is bright. Two sections of six starts each: on the first the points of each start lie along a curve of its own; on the "
-    "second some do and the others scatter over one area. Last, how long runs are known against their exponents: chaotic ones "
-    "for some twenty turns, the others to the end."
+    "second some do and the others scatter over one area. Below on the left, how long runs are known against their exponents: "
+    "chaotic ones for some twenty turns, the others to the end."
 )
 CAPTION = (
     f"Opposite spins ±10 rad/s, a bar of {PAIR.link.mass:g} kg and {PAIR.link.length:g} m. Exponents over {TURNS} turns of "
-    f"swings of amplitude r_0 with the momentum P about the joint line: at most {_small:.2f} a turn at r_0 = 0.05 with P ≤ 0, "
+    f"swings of amplitude r_0 with the momentum P about the joint line: at most {_small:.2f} per turn at r_0 = 0.05 with P ≤ 0, "
     f"what a power of time leaves, and up to {_largest:.1f}; {_chaotic:.0f} of {AMPLITUDES.size * MOMENTA.size} are beyond "
-    f"{CHAOTIC:g}, {_lined:.0f} (×) end with bar and axes in line. Sections where the mean x stops growing, a colour a "
+    f"{CHAOTIC:g}, {_lined:.0f} (×) end with bar and axes in line. Sections where the mean x stops growing, one colour for each "
     f"start, while the error is below 10⁻⁶: at r_0 = {SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} the averaged action keeps "
-    f"each on a curve; at {SECTIONS[1][0]:g}, {SECTIONS[1][1]:g} {_wild:.0f} of {PHASES.size} are chaotic: auto knows them for "
+    f"each on a curve; at {SECTIONS[1][0]:g}, {SECTIONS[1][1]:g} {_wild:.0f} of {PHASES.size} are chaotic: `tol` is kept for "
     f"{_short:.0f} turns or more, the others for all {_long:.0f}. The line is where 10⁻¹⁴ has grown to tol."
 )
 

@@ -230,7 +230,10 @@ def check_command(given: argparse.Namespace) -> int:
                     )
                 )
         counts = Counter(each.verdict for _, each in found)
-        nothing = f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: judge each by lagrotor init --from"
+        nothing = (
+            f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: lagrotor init FOLDER --from FILE makes "
+            "a paper of them, to be judged"
+        )
         say(", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or nothing, 0)
     return 1 if any(each.verdict in WRONG for _, each in found) else 0
 

@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A motion as a page of its own, shown by a notebook or written by `save`, and as a widget of a running one."""
+    """A motion: a page that a notebook shows and `save` writes, or, in a running notebook, a widget."""
 
     motion: dict[str, Any]
     title: str

@@ -4,11 +4,11 @@ const EVERY = 100; // ms
 
 export default {
   render({ model, el }) {
-    let sent = 0, shared = model.get("time");
+    let sent = 0, shared = model.get("time"), ready = false;
     el.classList.add("motion");
     el.innerHTML = model.get("parts");
     const shown = showMotion(el, model.get("motion"), ({ time, playing }) => {
-      if (playing && playing === model.get("playing") && performance.now() - sent < EVERY) return;
+      if (!ready || (playing && playing === model.get("playing") && performance.now() - sent < EVERY)) return;
       sent = performance.now();
       shared = time;
       model.set("time", time);
@@ -18,6 +18,7 @@ export default {
     const seek = () => model.get("time") !== shared && shown.seek(model.get("time"));
     const play = () => shown.play(model.get("playing"));
     shown.seek(shared);
+    ready = true;
     play();
     model.on("change:time", seek);
     model.on("change:playing", play);

@@ -39,7 +39,7 @@ class Part:
         if self.holds or not self.only_if:
             said = "holds" if self.holds else "does not hold"
             return f"{said}, proved" if self.theorems else said
-        return f"holds only if: {self.only_if}{'; that it does not always is proved' if self.theorems else ''}"
+        return f"holds only if: {self.only_if}{'; it is proved that it does not always hold' if self.theorems else ''}"
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,8 @@ class ClaimTest:
         measured = {name: float(value) for name, value in self.measure(case).items()}
         finding = self.decide(measured)
         if self.unproved:
-            finding = replace(finding, explanation=f"{finding.explanation} No theorem: {self.unproved}.")
+            what = "the rest" if self.prove else "it"
+            finding = replace(finding, explanation=f"{finding.explanation} Why {what} is no theorem: {self.unproved}.")
         if self.prove is not None and can_prove():
             parts: list[Part] = []
             try:

@@ -115,13 +115,15 @@ class LineVerdict:
     """What was decided of one member of one printed line, or of one line of a correction.
 
     Attributes:
-        premises: those that it needs; `order`, `small`: of a series; `domain`: relations that hold wherever both sides are
-            defined and real.
-        dimensions: what the units of the letters say of it; no verdict rests on them. Of what is refuted: `difference`, printed
-            less derived under the premises (of matrices the entry `place`, of series the first coefficient), `witness`, letter →
-            value, a point that satisfies the premises, and `enclosure`, two rationals of one sign between which the difference
-            lies there.
+        premises: those that it needs.
+        order, small: of a series.
+        domain: relations that hold wherever both sides are defined and real.
+        difference: of what is refuted, printed less derived under the premises; of matrices the entry `place`, of series the
+            first coefficient.
+        witness: letter → value, a point that satisfies the premises.
+        enclosure: two rationals of one sign between which the difference lies there.
         reason: why it does not hold, in words.
+        dimensions: what the units of the letters say of it; no verdict rests on them.
     """
 
     relation: Relation

@@ -123,6 +123,7 @@ document.body.innerHTML = "<pre>" + JSON.stringify(said) + "</pre>";
 @pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
 def test_the_widget_shares_its_time_with_python(tmp_path: Path) -> None:
     widget = widget_of_a_line()
+    widget.time = 1.0  # set before the cell is shown
     members = {name: getattr(widget, name) for name in ("motion", "parts", "time", "playing")}
     page = PAGE.replace("MEMBERS", json.dumps(members)).replace("ESM", json.dumps(str(widget._esm)))
     file = tmp_path / "cell.html"
@@ -133,5 +134,5 @@ def test_the_widget_shares_its_time_with_python(tmp_path: Path) -> None:
     found = re.search(r"<pre>(.*)</pre>", shown)
     assert found, shown[-500:]
     assert json.loads(found[1]) == {
-        "opened": "t = 0.00 s", "moved": "t = 1.25 s", "slid": 0.5, "playing": True, "button": "Play", "left": 0,
+        "opened": "t = 1.00 s", "moved": "t = 1.25 s", "slid": 0.5, "playing": True, "button": "Play", "left": 0,
     }  # fmt: skip

@@ -142,9 +142,7 @@ class Hamiltonian:
                 "normal_form: H must have canonical momenta, no constraints and no time: use independent coordinates"
             )
         letters = by_symbol(values or {}, self.H.free_symbols)
-        if wrong := [s for s, v in letters.items() if not expression(f"normal_form: {s}", v).is_finite]:
-            raise InputError(f"normal_form: {wrong[0]} = {letters[wrong[0]]} must be a finite number")
-        H = self.H.xreplace({s: sp.sympify(v, strict=True) for s, v in letters.items()})
+        H = self.H.xreplace({s: expression(f"normal_form: {s}", v) for s, v in letters.items()})
         point = {s: expression(f"normal_form: {s}", v) for s, v in by_symbol(at, x).items()}
         if strange := [str(s) for s in point if s not in x]:
             raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}: name coordinates and momenta")

@@ -1,4 +1,7 @@
-"""Certificates checked by Coq's kernel: `coqc` compiles each file; in it are the lemmas that all begin with, and theorems."""
+"""Certificates checked by Coq's kernel: `coqc` compiles the files, several at once.
+
+In each are the lemmas that all begin with, and theorems.
+"""
 
 import re
 import shutil

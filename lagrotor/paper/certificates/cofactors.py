@@ -5,7 +5,7 @@ used. Every function in the statement is written in them by the addition theorem
 (`whole_n`), each factor a letter of its own (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial
 that is the sum of q_i times relation_i: sin^2 + cos^2 - 1, root^2 - radicand, factor - polynomial. The q_i are found by
 division, since the leading terms of the relations have no letter in common; Coq checks them by `ring`. A premise in which a
-letter stands alone is put in; the numerators of the others, a^2 + b^2 = 1, are relations too (`ideal_n`), with q_i by way of a
+letter stands alone is put in; the numerators of the others, a^2 + b^2 = 1, are relations too (`ideal_n`), their q_i found by a
 Groebner basis.
 """
 

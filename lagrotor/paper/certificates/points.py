@@ -49,7 +49,7 @@ def points_of(
 
 
 def _solve(free: dict[sp.Symbol, sp.Expr], zeros: Sequence[sp.Expr], drawn: random.Random) -> bool:
-    """Change one letter for each equation so that it holds, at a rational number; whether all then do."""
+    """Change letters so that each equation holds at rational numbers; whether all then do."""
     solved: list[tuple[sp.Symbol, sp.Expr]] = []
     for zero in zeros:
         for letter, value in solved:

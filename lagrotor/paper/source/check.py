@@ -46,7 +46,7 @@ _MOST_TERMS, _MOST_OPERATIONS = 12, 2000
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 # Changes that are tried to find a slip; equations back to which a step may refer.
 _MOST_SLIPS, _MEMORY = 120, 60
-# A guess that no step rests on: logarithms of another base have the same laws.
+# The one guess that verdicts rest on: that log is the natural logarithm.
 _ANY_BASE = "log is"
 # Dimensions are reported where few equations break them: others are printed in units of their own.
 _FEW, _SHARE = 3, 0.05

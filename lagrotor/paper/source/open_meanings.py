@@ -1,7 +1,8 @@
 r"""What a print says by custom only: each sign that has a rival meaning which nothing in the paper settles is a guess.
 
 A sign passes where the author declares its meaning, where the paper uses it in one meaning, or where custom has no rival for it;
-all else is marked, signs that are not named here as well. A marked reading is what custom takes, and no verdict rests on it.
+all else is marked, signs that are not named here as well. A marked reading is what custom takes; no verdict rests on a mark but
+on that of log.
 """
 
 import re
@@ -24,7 +25,15 @@ from lagrotor.paper.source.rows import (
     strip,
     without_thin,
 )
-from lagrotor.paper.source.usage import Notation, is_plain_letter, name_of, power_in, simple_argument, stem_of
+from lagrotor.paper.source.usage import (
+    Notation,
+    is_plain_letter,
+    is_printed_as_vector,
+    name_of,
+    power_in,
+    simple_argument,
+    stem_of,
+)
 
 # Names that are mostly functions: before a bracket they are no factors.
 _FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
@@ -86,7 +95,7 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
         ("bar", "bar" in box.marks and known.seen & {"complex", "ket"}, "with a bar is a name, and no conjugate"),
         (
             "hat",
-            "hat" in box.marks and acts and not is_bold(box),
+            "hat" in box.marks and acts and not is_printed_as_vector(box),
             "with a hat is a factor, and no operator or direction",
         ),
         ("dot", "times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
@@ -119,7 +128,9 @@ def _is_delta(box: Box) -> bool:
 
 def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
     """A letter before a factor: D, L and E may act on it, capitals on a function, and a sigma may be a sum."""
-    function = after.kind == "letter" and stem_of(after) in known.applied and not (after.sup or is_bold(after))
+    function = (
+        after.kind == "letter" and stem_of(after) in known.applied and not (after.sup or is_printed_as_vector(after))
+    )
     function = function and (then is None or then.kind != "bracket")
     sums = box.name in ("Sigma", "Pi") and not (box.sub or box.marks)
     marked = box.name in ("D", "L", "E") and (box.sub or box.marks)
@@ -143,7 +154,7 @@ def _raised(reader: FormulaReader, box: Box) -> Rivals:
         return
     if not power_in(box):
         first = row[0].name
-        if len(row) == 1 and (first in ("dagger", "top", "intercal") or (first == "T" and is_bold(box))):
+        if len(row) == 1 and (first in ("dagger", "top", "intercal") or (first == "T" and is_printed_as_vector(box))):
             return
         if len(row) == 1 and (row[0].upright or row[0].kind == "text") and len(first) > 1:
             return
@@ -165,11 +176,6 @@ def _letters(*held: Box) -> set[str]:
     return {b.name for b in all_boxes(list(held)) if b.kind == "letter"}
 
 
-def is_bold(box: Box) -> bool:
-    """Whether a letter is printed as a vector or a matrix."""
-    return box.style == "bold" or "vec" in box.marks
-
-
 def _before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> Rivals:
     """A letter before a bracket: a function of it, or a factor."""
     known, content = reader.notation, without_thin(bracket.parts[0])
@@ -179,11 +185,8 @@ def _before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> Rivals:
         return
     called = bracket.name == "(" and is_called(reader, box, bracket) is True
     evident = None if box.sup or bracket.name != "(" else _evidence(known, box, content, bracket)
-    if box.sup and not called and bracket.name == "(" and stem_of(box) not in known.applied:
-        evident = _is_factor(known, box, content) or None
     if bracket.name != "(" and not any(b.kind == "comma" for b in content):
-        evident = (_is_factor(known, box, content) and not called) or None
-        evident = False if evident else None
+        evident = False if _is_factor(known, box, content) else None
     if evident is not called:
         what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
         yield "bracket", f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}", settles
@@ -258,7 +261,7 @@ def _number_sign(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
 def _magnitude(content: list[Box]) -> Rivals:
     only = content[0] if len(content) == 1 and content[0].kind == "letter" else None
     if any(b.kind == "comma" for b in content) or (
-        only and (only.name[0].isupper() or only.style) and not is_bold(only)
+        only and (only.name[0].isupper() or only.style) and not is_printed_as_vector(only)
     ):
         yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
 
@@ -308,8 +311,8 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
         number = any(
             b.kind in ("number", "fraction", "root", "function", "big", "nabla") or not _letters(b) for b in beside
         )
-        matrices = any(is_bold(b) and b.name[0].isupper() for b in beside)
-        hats = any("hat" in b.marks and not is_bold(b) for b in beside)
+        matrices = any(is_printed_as_vector(b) and b.name[0].isupper() for b in beside)
+        hats = any("hat" in b.marks and not is_printed_as_vector(b) for b in beside)
         if matrices or hats or not (number or "bold" in known.seen):
             yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""
     elif box.name in ("pm", "mp") and any(
@@ -446,12 +449,14 @@ def _order(reader: FormulaReader, row: list[Box]) -> Rivals:
             "!",
         ):
             held = [
-                b for b in product if b.kind == "letter" and not is_bold(b) and stem_of(b) in reader.notation.matrices
+                b
+                for b in product
+                if b.kind == "letter" and not is_printed_as_vector(b) and stem_of(b) in reader.notation.matrices
             ]
             others = [b for b in product if _letters(b)]
-            vectors = [k for k, b in enumerate(product) if b.kind == "letter" and is_bold(b)]
+            vectors = [k for k, b in enumerate(product) if b.kind == "letter" and is_printed_as_vector(b)]
             inner = product[vectors[0] : vectors[-1]] if vectors else []
-            if any(b.kind == "letter" and not is_bold(b) for b in inner):
+            if any(b.kind == "letter" and not is_printed_as_vector(b) for b in inner):
                 yield "matrix", "the letter between two vectors is a number, and no matrix", ""
             if held and len(others) > 1:
                 yield "matrix", f"{held[0].name} commutes with the factors beside it", ""

@@ -19,7 +19,7 @@ _JOINING_WORDS = (
 _JOINING = frozenset(_JOINING_WORDS.split())
 _UNIT_NAMES = (
     "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr pc kHz MHz GHz THz kPa "
-    "MPa GPa kN kJ kW MW mV kV mA nF pF mH mT l L deg degrees Ohm ohm m/s m/s^2 km/h kg/m^3 N/m Nm rad/s fm fs ps µs "
+    "MPa GPa kN kJ kW MW mV kV mA nF pF mH mT l L deg degrees Ohm ohm Nm fm fs ps µs "
     "µm um barn mb"
 )
 UNITS = frozenset(_UNIT_NAMES.split())
@@ -164,8 +164,9 @@ def is_moving(box: Box) -> bool:
 
 
 def is_unit_like(text: str) -> bool:
+    """Whether a text is a unit: km, m/s^2."""
     words = re.sub(r"[\^{}\d\-~.·]", " ", text.replace("/", " ")).split()
-    return text in UNITS or (bool(words) and all(word in UNITS for word in words))
+    return bool(words) and all(word in UNITS for word in words)
 
 
 def is_joining(text: str) -> bool:

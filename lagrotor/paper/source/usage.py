@@ -27,9 +27,10 @@ class Notation:
 
     called: letter → letters that were seen as its arguments; bare: letters seen without a bracket behind them; angles: whole
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
-    the author says, usual: kinds of guesses that she settles as custom has them. What of a letter is seen elsewhere: applied
-    before a bracket that may be its argument, among factors, apart from other letters, to a power that is a number, raised with
-    what is none, differentiated, as a matrix, with and without a prime in one list; seen: ket, bold, complex, modular, times.
+    the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
+    before what may be an argument; factors, in a product; apart, touching no other letter; powers, to a number; raised, with
+    an index above; differentiated; matrices; primed, with and without a prime in one list. seen: ket, bold, complex, modular,
+    exponent, dot, other time, times.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)

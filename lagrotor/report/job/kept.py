@@ -48,9 +48,8 @@ class Kept:
 
     def _sealed(self, name: str, made_from: str) -> tuple[Any, dict[str, bytes]]:
         """A product and its files; (None, {}) where the seal is not theirs."""
-        with suppress(
-            Exception
-        ):  # which one depends on what is damaged; what has the seal was whole when it was written
+        # Which error depends on what is damaged; what has the seal was whole when it was written.
+        with suppress(Exception):
             part = self._last[name]
             if not hmac.compare_digest(part["seal"], self._seal(made_from, part["files"])):
                 return None, {}
@@ -102,4 +101,5 @@ def _key() -> bytes:
             made.write(new)
         if len(key := file.read_bytes()) == len(new):
             return key
+        file.write_bytes(new)  # one that was cut short
     return new

@@ -106,11 +106,15 @@ function setUpFigures() {
 // Two formulas beside each other stand one below the other where one is too wide; a formula wider than its box is drawn smaller, down to letters that can be read; what is then still too wide scrolls.
 const SMALLEST = 10; // px
 function fitFormulas() {
+  for (const pair of document.querySelectorAll("[data-pair]")) pair.className = "pair";
   for (const box of document.querySelectorAll(".wide")) {
     for (const formula of box.querySelectorAll("math[display=block]")) {
       formula.style.fontSize = "";
       const pair = box.closest(".pair");
-      if (pair && formula.scrollWidth > 1.1 * box.clientWidth) pair.className = "stack";
+      if (pair && formula.scrollWidth > 1.1 * box.clientWidth) {
+        pair.className = "stack";
+        pair.dataset.pair = "";
+      }
       const natural = parseFloat(getComputedStyle(formula).fontSize);
       // Letters lean out of their boxes, and smaller ones are wider for their size: a second look.
       for (let pass = 0, share = 1; box.clientWidth && pass < 2; pass++) {
