@@ -46,7 +46,7 @@ def start(r0: float, momentum: float) -> Scene:
     )
 
 
-def parted(scene: Scene, turns: int) -> np.ndarray:
+def log_distances(scene: Scene, turns: int) -> np.ndarray:
     """ln of how far a neighbour has parted, turn by turn."""
     rate = natural_rate(scene)
     through, state, time = flow(scene), MODEL.start(scene), 2 * np.pi / rate
@@ -61,7 +61,7 @@ def parted(scene: Scene, turns: int) -> np.ndarray:
 
 
 small, wide = start(0.05, -0.3), start(0.3, 0.1)
-slow, fast = parted(small, 40), parted(wide, 40)
+slow, fast = log_distances(small, 40), log_distances(wide, 40)
 power = (slow[40] - slow[10]) / np.log(4)
 assert power < 2.2 and fast[40] > 20
 Remark(

@@ -213,7 +213,7 @@ class Equations:
         return tuple(u for u, _ in self.velocities) or self.c.v
 
     @property
-    def rates(self) -> tuple[sp.Symbol, ...]:
+    def speed_rates(self) -> tuple[sp.Symbol, ...]:
         """Their derivatives: the names of u with _dot, or a."""
         return tuple(sp.Symbol(f"{u}_dot", real=True) for u, _ in self.velocities) or self.c.a
 
@@ -305,7 +305,7 @@ class Equations:
         M, h = boltzmann_hamel(self.L, self.c, given, self.speeds)
         lam = sp.Matrix(len(given.left), 1, [self.multipliers[i] for i in given.left])
         reactions = rows_left(self)[0].T * lam
-        return M * sp.Matrix(self.rates) + h - (given.B.T * self.push + reactions).xreplace(put)
+        return M * sp.Matrix(self.speed_rates) + h - (given.B.T * self.push + reactions).xreplace(put)
 
     @property
     def energy(self) -> sp.Expr:

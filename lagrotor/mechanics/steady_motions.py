@@ -81,7 +81,7 @@ def state_equations(
         )
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
-    here = dict.fromkeys((*c.q, *speeds, *system.rates, *inputs), sp.S.Zero)
+    here = dict.fromkeys((*c.q, *speeds, *system.speed_rates, *inputs), sp.S.Zero)
     here |= {s: expression(f"linearise: {s}", x) for s, x in point.items()}
 
     def there(matrix: sp.Matrix) -> sp.Matrix:
@@ -101,18 +101,20 @@ def state_equations(
         )
     lam = [system.multipliers[i] for i in system.left]
     k = len(lam)
-    saddle = jacobian(list(F), system.rates).row_join(jacobian(list(F), lam)).col_join(G.row_join(sp.zeros(k, k)))
-    still = dict.fromkeys((*system.rates, *lam), sp.S.Zero)
+    saddle = jacobian(list(F), system.speed_rates).row_join(jacobian(list(F), lam)).col_join(G.row_join(sp.zeros(k, k)))
+    still = dict.fromkeys((*system.speed_rates, *lam), sp.S.Zero)
     free = sp.Matrix([put_in(e, still) for e in F]).col_join(gamma)
     rest = _solved(there(saddle), -there(free), at)
-    if left := [f"{a} = {e}" for a, e in zip(system.rates, rest[:m], strict=True) if decide_zero(e).answer != "zero"]:
+    if left := [
+        f"{a} = {e}" for a, e in zip(system.speed_rates, rest[:m], strict=True) if decide_zero(e).answer != "zero"
+    ]:
         raise SingularError(
             f"linearise: {dict(at)} is no steady motion: {', '.join(left)} is left over; start from one"
         )
     here |= dict(zip(lam, rest[m:], strict=True))
     state = (*c.q, *speeds)
     P, back = map(sp.Matrix, small_turns(system, state))
-    whole = sp.Matrix([put_in(e, dict.fromkeys(system.rates, sp.S.Zero)) for e in F]).col_join(gamma)
+    whole = sp.Matrix([put_in(e, dict.fromkeys(system.speed_rates, sp.S.Zero)) for e in F]).col_join(gamma)
     slope = (jacobian(list(whole), state) * P).row_join(jacobian(list(whole), inputs))
     later, clock = _course(system, here, there(V))
     for parts, name in ((whole, "forces"), ((*slope, *saddle), "coefficients")):
@@ -129,7 +131,7 @@ def state_equations(
     places, T = _tangent(there(jacobian([*held, *residual], state) * P), size, len(held), size - m)
     own = [i for i in range(size) if i not in places]
     shown = (jacobian(wanted, state) * P).row_join(jacobian(wanted, inputs))
-    y = there(shown) + there(jacobian(wanted, (*system.rates, *lam))) * moved
+    y = there(shown) + there(jacobian(wanted, (*system.speed_rates, *lam))) * moved
     names = small_states(system)
     A, B = both[own, :size] * T, both[own, size:]
     return StateEquations(
@@ -162,7 +164,7 @@ def _in_speeds(system: Equations, e: sp.Expr, put: Mapping[Any, Any]) -> sp.Expr
         raise InputError(
             f"linearise: output {e} has the reaction of a constraint that the velocities use up: leave these out"
         )
-    accelerations = given.B * sp.Matrix(system.rates) + given.alpha
+    accelerations = given.B * sp.Matrix(system.speed_rates) + given.alpha
     return e.xreplace(dict(zip(system.c.a, accelerations, strict=True))).xreplace(dict(put))
 
 

@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf, nan, pi
 
 import numpy as np
@@ -74,11 +74,13 @@ DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
 
 @dataclass(frozen=True)
 class Choice:
-    """model: its name. estimate: largest error of an axis over the run (tips: in units of R). reason: a sentence."""
+    """model: its name. estimate: largest error of an axis over the run (tips: in units of R). reason: a sentence. motion: of a
+    model without integration, where it was made to know its error."""
 
     model: str
     estimate: float
     reason: str
+    motion: ClosedMotion | None = field(default=None, repr=False, compare=False)
 
 
 def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choice:
@@ -96,7 +98,8 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
         try:
             motion = closed_form(scene, t_end, tol)
             if motion.error <= tol:
-                return Choice("closed_form", motion.error, f"{motion.reason}; error {scientific(motion.error, 1)}")
+                why = f"{motion.reason}; error {scientific(motion.error, 1)}"
+                return Choice("closed_form", motion.error, why, motion)
         except LagrotorError:
             pass
         try:
@@ -112,7 +115,7 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
         try:
             motion = averaged_motion(scene, t_end, tol)
             if motion.error <= tol:
-                return Choice("averaged", motion.error, f"{motion.reason}; error {scientific(motion.error, 1)}")
+                return Choice("averaged", motion.error, f"{motion.reason}; error {scientific(motion.error, 1)}", motion)
         except LagrotorError:
             pass
     try:
@@ -178,7 +181,7 @@ def simulate(
     if model == "auto":
         choice = choose(at_zero, float(times[-1] - times[0]), tolerance, engine)
         if choice.model in DIRECT:
-            motion = DIRECT[choice.model](at_zero, float(times[-1] - times[0]), tolerance, False)
+            motion = choice.motion or DIRECT[choice.model](at_zero, float(times[-1] - times[0]), tolerance, False)
             return _direct(scene, choice.model, choice.reason, times, replace(motion, error=choice.estimate), tolerance)
     elif model not in MODELS:
         known = "auto", *DIRECT, *MODELS

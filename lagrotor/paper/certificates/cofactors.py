@@ -495,7 +495,7 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
     ring = target.ring.clone(order=sp.grevlex)
     basis: list[tuple[PolyElement, list[PolyElement]]] = []
 
-    def reduced(p: PolyElement, row: list[PolyElement]) -> tuple[PolyElement, list[PolyElement]]:
+    def remainder(p: PolyElement, row: list[PolyElement]) -> tuple[PolyElement, list[PolyElement]]:
         """What is left of p, and p - rest in the zeros added to the row."""
         rest = ring.zero
         while p:
@@ -509,9 +509,9 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
                 rest, p = rest + p.leading_term(), p - p.leading_term()
         return rest, row
 
-    def grown(p: PolyElement, row: list[PolyElement]) -> None:
+    def add_member(p: PolyElement, row: list[PolyElement]) -> None:
         """Add what the basis leaves of p, which is the sum of the row."""
-        rest, used = reduced(p, [ring.zero] * len(zeros))
+        rest, used = remainder(p, [ring.zero] * len(zeros))
         if rest:
             pairs.extend((i, len(basis)) for i in range(len(basis)))
             basis.append((rest, [a - b for a, b in zip(row, used, strict=True)]))
@@ -520,7 +520,7 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
 
     pairs: list[tuple[int, int]] = []
     for place, zero in enumerate(zeros):
-        grown(zero.set_ring(ring), [ring.one if i == place else ring.zero for i in range(len(zeros))])
+        add_member(zero.set_ring(ring), [ring.one if i == place else ring.zero for i in range(len(zeros))])
     while pairs:
         pairs.sort(key=lambda pair: -sum(ring.monomial_lcm(basis[pair[0]][0].LM, basis[pair[1]][0].LM)))
         (p, of_p), (q, of_q) = (basis[i] for i in pairs.pop())
@@ -528,8 +528,8 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
         if common == ring.monomial_mul(p.LM, q.LM):  # Buchberger's first criterion
             continue
         by_p, by_q = (ring.term_new(ring.monomial_div(common, g.LM), 1 / g.LC) for g in (p, q))
-        grown(by_p * p - by_q * q, [by_p * a - by_q * b for a, b in zip(of_p, of_q, strict=True)])
-    rest, row = reduced(target.set_ring(ring), [ring.zero] * len(zeros))
+        add_member(by_p * p - by_q * q, [by_p * a - by_q * b for a, b in zip(of_p, of_q, strict=True)])
+    rest, row = remainder(target.set_ring(ring), [ring.zero] * len(zeros))
     return [q.set_ring(target.ring) for q in row], rest.set_ring(target.ring)
 
 

@@ -12,7 +12,7 @@ from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.proved_parts import displaced, not_without_spin
+from lagrotor.paper.rotor_pair.claims.proved_parts import lasting_displacement, not_without_spin
 from lagrotor.paper.rotor_pair.shocked_runs import (
     after_shock,
     angle_between,
@@ -140,7 +140,7 @@ C01 = ClaimTest(
     _EXACT,
     measure_c01,
     decide_c01,
-    lambda spins: displaced(SAME_SENSE, REMAINS, spins),
+    lambda spins: lasting_displacement(SAME_SENSE, REMAINS, spins),
 )
 C02 = ClaimTest(
     "C02",

@@ -78,7 +78,7 @@ def _about_joint_line(i: int) -> sp.Expr:
     return (y * z_v - z * y_v) / (y**2 + z**2)
 
 
-def displaced(same_sense: str, remains: str, spins: Spins) -> Iterator[Part]:
+def lasting_displacement(same_sense: str, remains: str, spins: Spins) -> Iterator[Part]:
     """C01: both axes of equal spins turn about a displaced point, their mean in the first cycle and in the fifth."""
     if spins != (10, 10):
         return
