@@ -160,9 +160,13 @@ def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ba
         ]
         _, evaluation = with_rest(motion, wide, box, h, n)
         D, _ = derivative_of_step(motion, evaluation, h, n)
-        # Another program's order of operations gives other widths.
-        D = arb_mat(D.nrows(), D.ncols(), [x + arb(0, (radius(x) / 4).upper()) for x in D.entries()])
+        D = by_other_orders(D)
     return D
+
+
+def by_other_orders(D: Matrix) -> Matrix:
+    """A matrix with a quarter more of each radius: another program's order of operations gives other widths."""
+    return arb_mat(D.nrows(), D.ncols(), [x + arb(0, (radius(x) / 4).upper()) for x in D.entries()])
 
 
 def narrower(x: Ball, y: Ball) -> Ball:
@@ -200,7 +204,8 @@ def carried(node: Node, h: Ball, image: Balls, D: Matrix, Q: Matrix) -> Node:
     s = entries_of(turned * column_matrix(node.s) + back * off)
     moved = D * node.C
     C = arb_mat(moved.nrows(), moved.ncols(), [exact(x) for x in moved.entries()])
-    S = turned * node.S + back * (moved - C)
+    wider = by_other_orders(D)
+    S = back * (wider * node.Q) * node.S + back * (wider * node.C - C)
     return Node(node.t + h, m, Q, widened(s), C, arb_mat(C.nrows(), C.ncols(), widened(S.entries())))
 
 

@@ -1,5 +1,6 @@
 """What the paper states of motions, as theorems with their certificates; the numbers of docs/proved.md."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -7,7 +8,7 @@ import sympy as sp
 
 pytest.importorskip("flint", reason="the extra `proof` is not installed")
 
-from lagrotor import Link, Scene, Shock, natural_rate, precession_orbit
+from lagrotor import Link, Scene, Shock, Structure, natural_rate, precession_orbit
 from lagrotor.pair.notation import AXES
 from lagrotor.proved import NotProved, check, crossing, enclose, no_crossing, precession
 
@@ -55,3 +56,20 @@ def test_without_spin_the_pair_topples() -> None:
     assert fall.first and "first passes zero" in check(fall.certificate)
     with pytest.raises(NotProved):
         crossing(shocked((0, 0), (50, 0, 0)), event=Z1 - sp.Rational(1, 2), before="1.5")
+
+
+@pytest.mark.slow
+def test_the_corner_falls_at_its_resonance_and_equal_spins_do_not() -> None:
+    """A corner of three at 1.0607 of its critical spins, pushed by 0.1 of its natural rate: 26° is passed; with equal spins not."""
+    corner = Structure(joints=[(0, 0), (1, 0), (1, 1)], bars=[(0, 1), (1, 2)], spins=[1, 0, 1], gravity=9.81, load=2.0)
+    push = [("0.0409", "-0.252"), ("0.0409", "-0.0403"), ("0.0555", "-0.0403")]  # rad/s, on the bars
+    tilt = sp.Symbol("z_0", real=True) - sp.Rational(9, 10)
+
+    def at_the_factor(spins: list[int]) -> Structure:
+        one = replace(corner, spins=spins)
+        turns = sp.Rational(str(round(1.0607 * one.critical_spin(), 6)))
+        return replace(one, spins=[turns * spin for spin in spins])
+
+    fall = crossing(at_the_factor([1, 0, 1]), v0=push, event=tilt, before="6.3")
+    assert fall.first and "first passes zero" in check(fall.certificate)
+    assert no_crossing(at_the_factor([1, 1, 1]), v0=push, event=tilt, until="6.3").theorem
