@@ -189,11 +189,12 @@ def judged(folder: Path, text: str) -> None:
         {"given": [text]},
         {"given": [{x: text}]},
         {"given": [{text: x}]},
-        {"given": [Premise("words", {x: text})]},
         {"small": text},
     ):
-        with suppress(LagrotorError, sp.SympifyError):
+        with suppress(LagrotorError):
             judge(**({"printed": x, "derived": x} | given))
+    with suppress(LagrotorError):
+        Premise("words", {x: text})
     for options in (
         [f"x = {text}"],
         [text],
@@ -408,8 +409,8 @@ def test_the_key_of_the_seals_is_this_users_alone(tmp_path: Path, monkeypatch: p
     fresh = kept_products._key.__wrapped__
     file = tmp_path / "lagrotor" / "report.key"
     assert fresh() == fresh() == file.read_bytes() and file.stat().st_mode & 0o777 == 0o600
-    file.write_bytes(b"short")
-    assert fresh() != fresh()
+    file.write_bytes(b"short")  # a key cut short is made again
+    assert fresh() == fresh() == file.read_bytes() and len(fresh()) == 32
     monkeypatch.setenv("XDG_STATE_HOME", os.devnull)
     assert fresh() != fresh() and len(fresh()) == 32
 
