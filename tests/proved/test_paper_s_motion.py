@@ -60,7 +60,7 @@ def test_without_spin_the_pair_topples() -> None:
 
 @pytest.mark.slow
 def test_the_corner_falls_at_its_resonance_and_equal_spins_do_not() -> None:
-    """A corner of three at 1.0607 of its critical spins, pushed by 0.1 of its natural rate: 26° is passed; with equal spins not."""
+    """At 1.0607 of its critical spins, pushed by 0.1 of its natural rate, a corner passes 26°; with equal spins it does not."""
     corner = Structure(joints=[(0, 0), (1, 0), (1, 1)], bars=[(0, 1), (1, 2)], spins=[1, 0, 1], gravity=9.81, load=2.0)
     push = [("0.0409", "-0.252"), ("0.0409", "-0.0403"), ("0.0555", "-0.0403")]  # rad/s, on the bars
     tilt = sp.Symbol("z_0", real=True) - sp.Rational(9, 10)
