@@ -116,7 +116,7 @@ CAPTION = (
     f"start, while the error is below 10⁻⁶: at r_0 = {SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} the averaged action keeps "
     f"each on a curve; at {SECTIONS[1][0]:g}, {SECTIONS[1][1]:g} {_wild:.0f} of {PHASES.size} are chaotic: `tol` is kept for "
     f"{_short:.0f} turns or more, the others for all {_long:.0f}. The line is where 10⁻¹⁴ has grown to tol."
-)
+).replace("-", "−")
 
 
 # %%
@@ -127,7 +127,7 @@ def figure() -> Figure:
     plane, regular, horizons, chaotic = picture.subplots(2, 2).ravel()
     plane.imshow(d["exponents"], origin="lower", aspect="auto", cmap="magma", vmin=0, vmax=1.2)
     plane.set_xticks(range(AMPLITUDES.size), [f"{r:g}" for r in AMPLITUDES])
-    plane.set_yticks(range(MOMENTA.size), [f"{p:g}" for p in MOMENTA])
+    plane.set_yticks(range(MOMENTA.size), [f"{p:g}".replace("-", "−") for p in MOMENTA])
     rows, columns = np.nonzero(np.isnan(d["exponents"]))
     plane.plot(columns, rows, "x", color=EXACT_COLOUR, label="ends with bar and axes in line")
     plane.set(xlabel="amplitude $r_0$ [1]", ylabel="momentum P/G [1]", title="Exponent in 1/turn")
@@ -142,7 +142,11 @@ def figure() -> Figure:
         for k in range(PHASES.size):
             points = d[name][d[name][:, 0] == k]
             panel.plot(points[:, 1], points[:, 2], ".", ms=3, color=colours[k])
-        panel.set(xlabel="mean x [1]", ylabel="half the twist [rad]", title=f"Section at $r_0$ = {r0:g}, P/G = {p:g}")
+        panel.set(
+            xlabel="mean x [1]",
+            ylabel="half the twist [rad]",
+            title=f"Section at $r_0$ = {r0:g}, P/G = {p:g}".replace("-", "−"),
+        )
     rate = np.linspace(0.3, 1.0, 60)
     horizons.plot(
         d["horizons"][:, 0], d["horizons"][:, 1], "o", color=EXACT_COLOUR, mfc="none", label="horizon of auto"
