@@ -41,14 +41,14 @@ MEANINGS = {
     "holds-to-order": "they agree up to and including the order that is named",
     "refuted": "they differ; the correction, where there is one, is judged by the same rules",
     "proved": "a number that is printed, within its digits of what a theorem encloses",
-    "measured": "a number read off a run, beside what it should have been",
+    "measured": "a number read off a run, which is an estimate, beside what it should have been",
     "definition": "the line only gives a name",
     "undecided": "outside what can be decided exactly; numbers are given as evidence",
     NOT_YET: "no derivation states it yet",
 }
 CLAIM_MEANINGS = {
     "proved": "each part of it follows from a theorem",
-    "confirmed": "its run agrees",
+    "confirmed": "its runs agree; they are estimates",
     "confirmed-if": "it holds under the condition that is named",
     "refuted": "its run disagrees",
 }
