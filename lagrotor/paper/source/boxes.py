@@ -54,7 +54,7 @@ RELATIONS = {
     "propto": "propto", "to": "->", "rightarrow": "->", "longrightarrow": "->", "mapsto": "->", "in": "in", "lesssim": "<~",
     "gtrsim": ">~", "doteq": "~", "triangleq": ":=", "coloneqq": ":=", "leftarrow": "<-", "notin": "not in", "subset": "subset",
     "subseteq": "subset", "longmapsto": "->", "leftrightarrow": "<->", "perp": "perp", "parallel": "parallel", "not": "!=",
-    "mid": "mid",
+    "mid": "mid", "longleftrightarrow": "<->",
     "asymp": "~", "prec": "prec", "succ": "succ", "ni": "ni", "rightleftharpoons": "<->", "thickapprox": "~", "thicksim": "~",
     "lll": "<<", "ggg": ">>", "supset": "supset", "nearrow": "nearrow", "searrow": "searrow", "hookrightarrow": "->",
     "gets": "<-",
@@ -63,7 +63,7 @@ RELATIONS = {
 ARROWS = {"Rightarrow", "implies", "iff", "Leftrightarrow", "Longrightarrow", "Longleftrightarrow", "therefore", "because",
           "impliedby", "Leftarrow", "leadsto", "land", "lor", "wedge@"}  # fmt: skip
 _WIDE = ("quad", "qquad")
-_THIN = (",", ";", ":", " ", ">", "thinspace", "medspace", "thickspace", "enspace", "\n", "nobreakspace")
+_THIN = (",", ";", ":", " ", ">", "thinspace", "medspace", "thickspace", "enspace", "enskip", "\n", "nobreakspace")
 _NOTHING = (
     "!", "displaystyle", "textstyle", "scriptstyle", "scriptscriptstyle", "limits", "nolimits", "negthinspace", "nobreak",
     "allowbreak", "strut", "null", "/", "mathop", "mathrel", "mathbin", "mathord", "mathopen", "mathclose", "mathpunct",
@@ -681,7 +681,7 @@ _COMMANDS: dict[str, tuple[str, str]] = {
 }
 Form = Callable[[_Reader, Token, str], list[Box]]
 _FORMS: dict[str, Form] = {
-    **dict.fromkeys(("frac", "dfrac", "tfrac", "cfrac"), _Reader._frac),
+    **dict.fromkeys(("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac"), _Reader._frac),
     "sqrt": _Reader._sqrt,
     "begin": _Reader._begin,
     **dict.fromkeys(("binom", "dbinom", "tbinom"), _Reader._binom),

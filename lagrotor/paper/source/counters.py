@@ -60,10 +60,11 @@ class Counters:
         self.values[name] = self.values.get(name, 0) + 1
         self._reset(name)
 
-    def _reset(self, name: str) -> None:
+    def _reset(self, name: str, above: tuple[str, ...] = ()) -> None:
         for inner in self.resets.get(name, []):
-            self.values[inner] = 0
-            self._reset(inner)
+            if inner not in (name, *above):
+                self.values[inner] = 0
+                self._reset(inner, (name, *above))
 
     def begin_appendix(self) -> None:
         r"""What \appendix does."""

@@ -26,6 +26,7 @@ _DOCUMENT_COMMANDS = (
 _ENVIRONMENTS = (r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment")
 _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
 _DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "displaymath", "subequations")
+_HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection", r"\appendix")
 _SHOWN = (r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph")
 
 
@@ -384,10 +385,15 @@ class Expander:
             self.push([Token("text", rest, token.at)] if rest else [])
 
     def _until(self, end: Token) -> list[Token]:
-        """The tokens before `end`, which is taken."""
+        """The tokens before `end`, which is taken; none where the paragraph ends first."""
         found: list[Token] = []
         depth = 0
         while (token := self.next()) is not None:
+            if (
+                token.kind == "text" and re.search(r"\n\s*\n", token.text.partition(end.text)[0])
+            ) or token.text == r"\par":
+                self.push([*found, token])
+                return []
             if depth == 0 and token.kind == end.kind == "text" and end.text in token.text:
                 before, _, rest = token.text.partition(end.text)
                 self.push([Token("text", rest, token.at)] if rest else [])
@@ -516,12 +522,17 @@ class Expander:
         name = next((t.text for t in named if t.kind == "command"), "")
         if not name or (token.text == r"\providecommand" and (name in self.macros or name in self.packages)):
             return True
-        if body and any(t.text in (r"\@ifnextchar", r"\@ifstar", r"\futurelet") for t in body):
+        if any(t.text in (r"\@ifnextchar", r"\@ifstar", r"\futurelet") for t in body) or self._is_kept(name, body):
             return True
         digits = latex_of(count or ()).strip()
         head = [Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0)]
         self.macros[name] = Macro(tuple(body), tuple(head), None if default is None else tuple(default))
         return True
+
+    @staticmethod
+    def _is_kept(name: str, body: list[Token]) -> bool:
+        """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here."""
+        return (name in _HEADINGS or name in _HANDLERS) and any("@" in t.text and t.kind == "command" for t in body)
 
     def _target(self) -> Token | None:
         r"""The command that is defined next, \csname … \endcsname too."""
@@ -546,7 +557,7 @@ class Expander:
         while (part := self.next()) is not None and part.kind != "open":
             head.append(part)
         body = self.group()
-        if target is not None and target.kind == "command":
+        if target is not None and target.kind == "command" and not self._is_kept(target.text, body):
             if token.text in (r"\edef", r"\xdef"):
                 body = self.expand(body)
             macro = Macro(tuple(body), tuple(head))

@@ -45,6 +45,7 @@ _ONE_MEANING = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
 _STATED_SIGNS = "Rightarrow implies iff Leftrightarrow Longrightarrow Longleftrightarrow therefore forall"
 _STATED = frozenset(_STATED_SIGNS.split())
 _INDICES = frozenset("abcdefghijklmnopqrsuvw") | {name[1:] for name in GREEK if name[1].islower()}
+_VARIABLES = frozenset(["x", "y", "z", "t", "r", "s", "xi", "eta", "theta", "phi"])
 # Numbers without dimension and functions whose names have two letters.
 _NUMBER_NAMES = "Re Ra Pr Nu Ma We Fr Bo Ca Pe St Sc Sh Gr Kn Ro Ek Bi Da De Le Mo Oh Ri Wi Im Tr Ad Id Ei Si Ci Li Ai"
 _NUMBERS = frozenset(_NUMBER_NAMES.split())
@@ -104,7 +105,7 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             box.style in ("cal", "scr", "frak") and acts and not box.sup,
             "in script is a factor, and no operator",
         ),
-        ("laplacian", _is_delta(box) and not acts, "by itself is a letter, and no Laplacian"),
+        ("laplacian", _is_delta(box) and (box.marks or not acts), "by itself is a letter, and no Laplacian"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
     )
     for key, is_open, what in held:
@@ -114,16 +115,28 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
         yield from _number(reader, box)
     if after is not None and acts and not (bracketed or box.sup):
         yield from _acting(known, box, after, _behind(row, place + 1))
-    below = [b.name if b.kind == "comma" or is_plain_letter(b) else "" for b in without_thin(box.sub or [])]
-    if below[:1] == [","] or (below[-2:-1] == [","] and all(below) and "".join(below).replace(",", "").islower()):
-        yield "index", f"the comma in the index of {box.name} parts indices, and is no derivative", ""
+    if box.sub:
+        yield from _lowered(known, box)
     if box.sup:
         yield from _raised(reader, box)
 
 
+def _lowered(known: Notation, box: Box) -> Rivals:
+    """Indices that may be what a letter is differentiated by."""
+    below = [b.name if b.kind == "comma" or is_plain_letter(b) else "" for b in without_thin(box.sub or [])]
+    behind = below[below.index(",") + 1 :] if "," in below else []
+    if below[:1] == [","] or (0 < len(behind) < 3 and all(below) and "".join(below).replace(",", "").islower()):
+        yield "index", f"the comma in the index of {box.name} parts indices, and is no derivative", ""
+    stem, held = stem_of(box), set(below)
+    alone = {stem, name_of(replace(box, sub=None, sup=None))} & (known.bare | known.called.keys())
+    twice = len(below) > 1 and held <= {"x", "y", "z", "t"} and alone
+    if held <= _VARIABLES and held and (twice or held <= known.varied.get(stem, set()) | known.called.get(stem, set())):
+        yield "index", f"the index of {box.name} is part of the name, and no derivative", ""
+
+
 def _is_delta(box: Box) -> bool:
-    """Whether a letter is a capital delta without marks and scripts."""
-    return box.name == "Delta" and not (box.sub or box.sup or box.marks or box.style or box.primes)
+    """Whether a letter is a capital delta without scripts."""
+    return box.name == "Delta" and not (box.sub or box.sup or box.style or box.primes)
 
 
 def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
@@ -184,9 +197,11 @@ def _before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> Rivals:
     if {box.name, key, stem_of(box)} & (known.functions | known.letters):
         return
     called = bracket.name == "(" and is_called(reader, box, bracket) is True
-    evident = None if box.sup or bracket.name != "(" else _evidence(known, box, content, bracket)
-    if bracket.name != "(" and not any(b.kind == "comma" for b in content):
-        evident = False if _is_factor(known, box, content) else None
+    if not box.sup and bracket.name == "(":
+        evident = _evidence(known, box, content, bracket)
+    else:
+        listed = any(b.kind == "comma" for b in content)
+        evident = False if not listed and _is_factor(known, box, content) else None
     if evident is not called:
         what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
         yield "bracket", f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}", settles
@@ -268,6 +283,9 @@ def _magnitude(content: list[Box]) -> Rivals:
 
 def _bar(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     """A bar that is paired where it is read."""
+    below = row[place].sub or []
+    if len(below) == 1 and below[0].kind == "letter":
+        yield "at", f"the bar with {below[0].name} says where, and not what is held constant", ""
     closing = next((k for k in range(place + 1, len(row)) if row[k].kind == "bar"), place)
     yield from _magnitude(row[place + 1 : closing])
 
@@ -297,6 +315,8 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Rivals:
 def _fraction(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     box = row[place]
     mark = derivative_mark(box)
+    if mark and any(b.kind == "letter" and b.sup and power_in(b) for b in without_thin(box.parts[0])[1:2]):
+        yield "derivative", "the power above is differentiated, and is none of the differential", ""
     if mark in ("D", "delta"):
         yield "derivative", f"the fraction with {mark} is a derivative like any other", ""
     if mark == "d" and "times" in reader.notation.seen and [b.name for b in box.parts[1]][1:] == ["t"]:
@@ -440,7 +460,7 @@ def _order(reader: FormulaReader, row: list[Box]) -> Rivals:
     """Products of what the paper uses as matrices or operators elsewhere."""
     product: list[Box] = []
     for box in [*row, Box("relation", "", 0, 0)]:
-        if box.kind in ("letter", "bracket", "fraction", "accent", "root", "group"):
+        if box.kind in ("letter", "bracket", "fraction", "accent", "root", "group", "matrix"):
             product.append(box)
             continue
         if box.kind in ("operator", "relation", "comma", "wide", "text", "arrow") and box.name not in (
@@ -458,6 +478,11 @@ def _order(reader: FormulaReader, row: list[Box]) -> Rivals:
             inner = product[vectors[0] : vectors[-1]] if vectors else []
             if any(b.kind == "letter" and not is_printed_as_vector(b) for b in inner):
                 yield "matrix", "the letter between two vectors is a number, and no matrix", ""
+            capital = next(
+                (b.name for b in product if b.kind == "letter" and b.name.isupper() and not (b.sub or b.style)), ""
+            )
+            if capital and not held and any(b.kind == "matrix" for b in product):
+                yield "matrix", f"{capital} beside a matrix is a number, and none itself", ""
             if held and len(others) > 1:
                 yield "matrix", f"{held[0].name} commutes with the factors beside it", ""
             product = []

@@ -132,6 +132,18 @@ def _function(name: str) -> Package:
     return take
 
 
+def _text(expander: Expander) -> Iterable[Token] | None:
+    r"""\text{\boldmath $u$} is \boldsymbol{u}, \text{$u$} is {u}; other words stay."""
+    following = expander.peek()
+    if following is None or following.kind != "open":
+        return None
+    inside = expander.argument()
+    formula = re.fullmatch(r"\{?\s*(\\boldmath)?\s*\{?\s*\$([^$]*)\$\s*\}*", latex_of(inside).strip())
+    if formula is None:
+        return [Token("primitive", r"\text", 0), Token("open", "{", 0), *inside, Token("close", "}", 0)]
+    return tokenize(("\\boldsymbol{" if formula[1] else "{") + formula[2] + "}")
+
+
 _UNITS = {
     "metre": "m", "meter": "m", "second": "s", "kilogram": "kg", "gram": "g", "newton": "N", "joule": "J", "watt": "W",
     "hertz": "Hz", "radian": "rad", "kelvin": "K", "ampere": "A", "volt": "V", "pascal": "Pa", "coulomb": "C", "tesla": "T",
@@ -336,10 +348,11 @@ _SMALL: dict[str, Package] = {
     r"\dif": _is(r"\,\mathrm{d}"),
     r"\diff": _is(r"\,\mathrm{d}"),
     r"\underline@": _is(""),
-    r"\mbox": _as(r"\text{#1}"),
-    r"\textnormal": _as(r"\text{#1}"),
-    r"\textrm": _as(r"\text{#1}"),
-    r"\textit": _as(r"\text{#1}"),
+    **dict.fromkeys((r"\mbox", r"\hbox", r"\textnormal", r"\textrm", r"\textit", r"\text"), _text),
+    r"\pmatrix": _as(r"\begin{pmatrix}#1\end{pmatrix}"),
+    r"\matrix": _as(r"\begin{matrix}#1\end{matrix}"),
+    r"\mathchoice": _as("#1", 4),
+    r"\lefteqn": _as("#1"),
     r"\lbrack": _is("["),
     r"\rbrack": _is("]"),
 }

@@ -198,13 +198,7 @@ def _euler(reader: FormulaReader, box: Box) -> bool:
             )
         reader.guess("e", "e is a letter, and not Euler's number", 'letters = "e" or numbers = "e"')
         return False
-    if "e" in known.bare:
-        raise FormulaError(
-            box.at,
-            "whether e is Euler's number is open",
-            'write in paper.toml [notation] numbers = "e" or letters = "e"',
-        )
-    if len(box.sup) == 1 and box.sup[0].kind == "letter" and "exponent" not in known.seen:  # e^n
+    if "e" in known.bare or (len(box.sup) == 1 and box.sup[0].kind == "letter" and "exponent" not in known.seen):  # e^n
         reader.guess("e", "e is Euler's number", 'numbers = "e" or letters = "e"')
     return True
 

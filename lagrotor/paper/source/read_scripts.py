@@ -8,6 +8,7 @@ from lagrotor.paper.source.rows import TENSOR, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of
 
+_SIGNS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _INDICES = ("i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
 _GREEK = frozenset(name.removeprefix("\\") for name in GREEK) - {"pi", "hbar"}
 
@@ -25,14 +26,16 @@ def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
     row = without_thin(box.sup or [])
     if not row:
         return None
-    if all(b.kind == "operator" and b.name in ("*", "star", "+", "-") for b in row) and len(row) == 1:
-        return [{"*": "star", "star": "star", "+": "plus", "-": "minus"}[row[0].name]]
+    if len(row) == 1 and row[0].kind == "operator" and row[0].name in _SIGNS:
+        return [_SIGNS[row[0].name]]
     if len(row) == 1 and row[0].kind == "letter" and row[0].name == "dagger":
         return ["dagger"]
     if len(row) == 1 and row[0].kind == "bracket" and row[0].name == "(" and len(row[0].parts[0]) == 1:
         inner = row[0].parts[0][0]
         if inner.kind in ("number", "letter") and inner.sup is None and inner.sub is None:
             return [inner.name]
+        if inner.kind == "operator" and inner.name in _SIGNS:  # f^{(-)}
+            return [_SIGNS[inner.name]]
     if len(row) == 1 and row[0].kind == "text":
         return [row[0].name] if row[0].name.isalnum() else None
     if len(row) == 1 and row[0].kind == "letter" and row[0].upright and len(row[0].name) > 1:

@@ -29,7 +29,8 @@ class Notation:
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
     before what may be an argument; factors, in a product; apart, touching no other letter; powers, to a number; raised, with
-    an index above; differentiated; matrices; primed, with and without a prime in one list. seen: ket, bold, complex, modular,
+    an index above; differentiated; matrices; primed, with and without a prime in one list;
+    twice, with two primes. varied: letter → letters that it is differentiated by. seen: ket, bold, complex, modular,
     exponent, dot, other time, times.
     """
 
@@ -53,6 +54,8 @@ class Notation:
     differentiated: set[str] = field(default_factory=set)
     matrices: set[str] = field(default_factory=set)
     primed: set[str] = field(default_factory=set)
+    twice: set[str] = field(default_factory=set)
+    varied: dict[str, set[str]] = field(default_factory=dict)
     seen: set[str] = field(default_factory=set)
 
     def is_function(self, box: Box) -> bool:
@@ -89,6 +92,7 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
         _look(row, found)
     if found.imaginary:
         found.seen.add("complex")
+    found.primed -= found.applied | found.twice  # y and y' of a differential equation
     if "dot" in found.seen and "other time" in found.seen:
         found.seen.add("times")
     return found
@@ -182,11 +186,11 @@ def _index(part: Box) -> list[str] | None:
     if part.kind == "infinity":
         return ["inf"]
     if part.kind == "operator":
-        named = {"+": "plus", "-": "minus", "*": "star", "cdot": "dot"}.get(part.name, part.name)
+        named = {"+": "plus", "-": "minus", "*": "star", "cdot": "dot", "/": "over"}.get(part.name, part.name)
         return [named] if named.isalpha() else None
-    if part.kind == "group":
-        inside = _plain(part.parts[0])
-        return None if inside is None else [inside]
+    if part.kind in ("group", "fraction"):  # i + 1/2
+        held = [_plain(each) for each in part.parts]
+        return None if None in held else ["over".join(map(str, held))]
     if part.kind in ("function", "unit"):
         return [part.name] if part.name.isalnum() else None
     if part.kind == "relation" and part.name == "=":
@@ -252,19 +256,26 @@ def _look_about(row: list[Box], found: Notation) -> None:
     """What the neighbours of letters say of them."""
     for place, box in enumerate(row):
         before, after = (row[place - 1] if place else None), (row[place + 1] if place + 1 < len(row) else None)
-        held = {stem_of(b) for part in box.parts for b in all_boxes(part) if b.kind == "letter"}
-        if box.sup and [b.name for b in without_thin(box.sup)] in (["T"], ["top"], ["dagger"], ["intercal"]):
+        held = {
+            stem_of(b) for part in box.parts for b in all_boxes(part) if b.kind == "letter" and "vec" not in b.marks
+        }
+        transposed = box.sup and [b.name for b in without_thin(box.sup)] in (["T"], ["top"], ["dagger"], ["intercal"])
+        if transposed and "vec" not in box.marks:
             found.matrices |= {stem_of(box)} if box.kind == "letter" else held
         if box.kind == "function" and box.name in ("Re", "Im", "arg"):
             found.seen.add("complex")
         if box.kind == "function" and box.name in ("det", "tr", "Tr", "rank", "ker", "diag") and after is not None:
-            found.matrices |= {stem_of(b) for b in all_boxes([after]) if b.kind == "letter"}
+            inside = without_thin(after.parts[0]) if after.kind == "bracket" else [after]
+            found.matrices |= {
+                stem_of(b) for b in inside if b.kind == "letter" and (len(inside) == 1 or b.name.isupper())
+            }
         if box.kind in ("nabla", "partial") and after is not None and after.kind == "letter":
             found.differentiated.add(stem_of(after))
         if box.kind == "bracket":
-            _look_at_bracket(box, before, held, found)
+            _look_at_bracket(box, before, after, held, found)
         elif box.kind == "relation" and before is not None and after is not None:
-            _look_at_relation(box, before, after, found)
+            alone = place == 1 or row[place - 2].kind in ("relation", "comma", "wide", "text", "arrow")
+            _look_at_relation(box, before if alone else box, after, found)
         elif box.kind == "fraction":
             _look_at_derivative(box, after, found)
         elif box.kind == "letter":
@@ -275,27 +286,40 @@ def _look_at_relation(box: Box, before: Box, after: Box, found: Notation) -> Non
     """A letter that is equal to a matrix, or one of R^(m x n)."""
     inside = [after, *(each for part in after.parts for each in part)]
     real = box.name == "in" and after.style == "bb" and any(b.name == "times" for b in after.sup or ())
-    if before.kind == "letter" and (real or any(b.kind == "matrix" for b in inside)):
+    if before.kind == "letter" and "vec" not in before.marks and (real or any(b.kind == "matrix" for b in inside)):
         found.matrices.add(stem_of(before))
 
 
-def _look_at_bracket(box: Box, before: Box | None, held: set[str], found: Notation) -> None:
+def _look_at_bracket(box: Box, before: Box | None, after: Box | None, held: set[str], found: Notation) -> None:
     content = box.parts[0]
     if box.closing == r"\rangle" and (box.name == "|" or any(b.kind == "bar" for b in content)):
         found.seen.add("ket")
-    if box.name == "[" and sum(b.kind == "comma" for b in content) == 1 and (before is None or before.kind != "letter"):
+    if box.name == "[" and sum(b.kind == "comma" for b in content) == 1 and _is_commutator(content, before, after):
         found.matrices |= held
     letters = [b for b in content if b.kind == "letter" and any(c.kind == "comma" for c in content)]
     found.primed |= {stem_of(b) for b in letters if b.primes} & {stem_of(b) for b in letters if not b.primes}
 
 
-def _look_at_derivative(box: Box, after: Box | None, found: Notation) -> None:
-    over, under = (without_thin(part) for part in box.parts)
+def _is_commutator(content: list[Box], before: Box | None, after: Box | None) -> bool:
+    """Whether a list of two is a factor or a side, and no interval."""
+    ends = next(arguments(content)), content[-1:]
+    if any(b.kind in ("number", "infinity") for part in ends for b in without_thin(part)[-1:] if len(part) == 1):
+        return False
+    beside = ("relation", "operator", "letter", "fraction")
+    joined = after is not None and after.kind in beside and after.name not in ("->", "subset", "times")
+    return (before is None or before.kind not in ("letter", "function")) and (
+        joined or (before is not None and before.kind in beside and before.name not in ("in", "subset", "times", "->"))
+    )
+
+
+def _look_at_derivative(fraction: Box, after: Box | None, found: Notation) -> None:
+    over, under = (without_thin(part) for part in fraction.parts)
     if not (over and len(under) > 1 and over[0].name == under[0].name and over[0].kind in ("partial", "letter")):
         return
-    found.differentiated |= {stem_of(b) for b in over[1:] if b.kind == "letter"}
-    if len(over) == 1 and after is not None:
-        found.differentiated.add(stem_of(after))
+    operands = over[1:] or ([after] if after is not None else [])
+    found.differentiated |= {stem_of(b) for b in operands if b.kind == "letter" or not over[1:]}
+    for box in operands:
+        found.varied.setdefault(stem_of(box), set()).update(b.name for b in under if b.kind == "letter")
     if over[0].name == "d" and (under[1].name in _TIMES or (under[1].name == "t" and under[1].sub)):
         found.seen.add("other time")
 
@@ -308,6 +332,8 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
         found.seen.add("dot")
     if box.primes or any(mark.endswith("dot") for mark in box.marks):
         found.differentiated.add(stem)
+    if box.primes > 1:
+        found.twice.add(stem)
     if len(sup) == 1 and sup[0].kind == "number" and sup[0].name not in ("0", "1"):
         found.powers.add(stem)
     elif sup and (sup[0].name in (*TENSOR, "0", "1") or (len(sup) > 1 and all(map(is_plain_letter, sup))) or (
@@ -316,7 +342,8 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
     called = after is not None and after.kind == "bracket" and after.name in ("(", "[")
     if called and after is not None:
         content = after.parts[0]
-        if box.sup or box.primes or (simple_argument(content) and any(b.kind == "letter" for b in content)):
+        marked = box.primes or (sup and [b.kind for b in sup] != ["number"])
+        if marked or (simple_argument(content) and any(b.kind == "letter" for b in content)):
             found.applied.add(stem)
     touching = before is not None and is_plain_letter(before) and before.end == box.at
     if not touching and not (

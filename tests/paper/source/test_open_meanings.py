@@ -79,6 +79,14 @@ SETTLED = [
     (r"G = O(3)", [], "no group"),
     (r"a = \begin{pmatrix} a & b & c\\ d & f & g\end{pmatrix}", [], "no 3j symbol"),
     (r"a = 1 \pm 2\,\mathrm{fm}", [], "the unit belongs"),
+    ("y' = f(y)", [], "y with a prime"),
+    (r"(\tilde\Delta - h)f = g", [], "no Laplacian"),
+    ("J = A_{x,yx} - A_{y,xx}", [], "the comma in the index of A"),
+    (r"\kappa = \frac{dz^2}{dt}", [], "the power above is differentiated"),
+    (r"M\begin{pmatrix} a\\ b\end{pmatrix} = v", [], "M beside a matrix"),
+    (r"u_{tt} = c u_{xx} + u", [], "the index of u is"),
+    (r"\phi_x|_l = a", [], "held constant"),
+    (r"a = m^2(b + c)", ["m v = p"], "m before ( is a factor"),
 ]
 
 
@@ -100,11 +108,34 @@ def test_what_has_a_rival_is_marked_until_the_paper_settles_it(latex: str, paper
         (r"a = \left(\frac{b}{p}\right)", r"b \equiv 1 \pmod{p}", "symbol of Legendre"),
         ("a = L f", "f(x) = b", "L is a factor"),
         ("a = x^2", r"x^\mu = b", "is a power, and no index"),
+        ("w_t = a", "w(x, t) = b", "the index of w is"),
+        ("w_t = a", r"\frac{\partial w}{\partial t} = b", "the index of w is"),
+        (r"y = e^{-a}", "a = 1 - e", "e is Euler"),
     ],
 )
 def test_another_use_in_the_paper_is_a_rival(latex: str, paper: str, words: str) -> None:
     assert not guesses(latex)
     assert any(words in each for each in guesses(latex, paper))
+
+
+@pytest.mark.parametrize(
+    ("latex", "paper"),
+    [
+        ("v = c x", r"\vec x = \begin{pmatrix} a\\ b\end{pmatrix}"),
+        ("v = c x", r"\vec x^T\vec y = 0"),
+        ("v = c t", r"t \in [0, t]"),
+        ("v = c x", r"\det(A - c I) = \det\begin{pmatrix} x & 0\\ 0 & x\end{pmatrix}"),
+        ("v_x = a", r"v = \sqrt{v_x^2 + v_y^2}"),
+        ("I_{xx} = a", "I_{xy} = b"),
+        ("a = b - x'", "K(x, x') = c"),
+    ],
+)
+def test_what_only_looks_like_another_use_is_no_rival(latex: str, paper: str) -> None:
+    assert not guesses(latex, paper)
+
+
+def test_lists_of_a_differential_equation_make_no_names_of_primes() -> None:
+    assert any("y with a prime" in each for each in guesses("a = b + y'", "F(x, y, y') = 0", "y'' = y", "y(x) = c"))
 
 
 def test_a_factor_of_another_function_s_value_settles_nothing() -> None:
