@@ -137,16 +137,18 @@ class _Progress:
 def _by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     """A segment by the solver that is fastest at this tolerance; where that stops, DOP853 goes on for a while.
 
-    The while is longer after each time that the solver took more evaluations than DOP853 does for as long a run.
+    The other one is tried again once DOP853 has taken as many evaluations as the last trial lost, and if it would take more than
+    those to the end: trials together lose no more than DOP853 takes, but for the first.
     """
     # From a velocity that is not finite a solver makes a step that is not, and retries it for ever.
     if not np.isfinite(segment.rhs(segment.left, segment.start)).all():
         raise StopError(segment.left, "the right-hand side is not finite")
-    by_dop853, per_time, progress = pulsed and tol < CROSSOVER.value, np.inf, _Progress(segment)
+    by_dop853, progress = pulsed and tol < CROSSOVER.value, _Progress(segment)
     detour = DETOUR.value / segment.typical_rate if segment.typical_rate and not by_dop853 else np.inf
-    while progress.segment.left < segment.right:
-        if not by_dop853:
-            left = progress.segment.left
+    taken, came, since, per_time = 0, 0.0, np.inf, np.inf  # by the last trial, and by DOP853 since
+    while (left := progress.segment.left) < segment.right:
+        lost = taken - per_time * came if came else taken
+        if not by_dop853 and since >= lost and per_time * (segment.right - left) > lost:
             try:
                 run = _fastest(progress.rest(segment.right), pulsed, tol)
                 progress.spent += run.evaluations
@@ -156,8 +158,7 @@ def _by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
                 if isinstance(stop, OutsideError):
                     raise progress.stopped(stop) from None
                 progress.stopped(stop)
-                if not stop.reached or stop.evaluations >= per_time * (stop.at - left):
-                    detour *= 4
+                taken, came, since = stop.evaluations, progress.segment.left - left, 0
         left = progress.segment.left
         right = min(left + detour, segment.right)
         part = progress.rest(right)
@@ -165,7 +166,7 @@ def _by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
             run = dop853(part, tol / 20)
         except StopError as stop:
             raise progress.stopped(stop) from None
-        per_time = run.evaluations / (right - left)
+        per_time, since = run.evaluations / (right - left), since + run.evaluations
         progress.spent += run.evaluations
         progress.add(right, run)
     return progress.whole()

@@ -64,36 +64,35 @@ def _on_constraints(segment: Segment, parts: list[Array], y: Array, spent: int) 
 
 def _up_to_singular(part: Segment, budget: float, error: float) -> tuple[Segment, Stretch]:
     """The part of a run, or what of it comes before its steps might pass a singular position, and its run."""
-    inside = (part.t_eval > part.left) & (part.t_eval <= part.right)
+    wanted = part.t_eval[(part.t_eval > part.left) & (part.t_eval <= part.right)]
     if part.time_to_singular is None:
-        return part, _lsoda(replace(part, t_eval=part.t_eval[inside], budget=budget), error)
-    watched = np.linspace(part.left, part.right, 66)[1:-1]
-    t_eval = np.union1d(part.t_eval[inside], watched)
+        return part, _lsoda(replace(part, t_eval=wanted, budget=budget), error)
+    count = 65 + int(2 * (part.right - part.left) / part.longest)  # two times or more in a longest step
+    t_eval = np.union1d(wanted, np.linspace(part.left, part.right, count)[1:-1])
     run = _lsoda(replace(part, t_eval=t_eval, budget=budget), error)
-    for s, y in zip(t_eval, run.states, strict=True):
-        if s < part.right and part.clear(y) < part.longest and s - part.left > part.longest:
-            shorter = replace(part, right=float(s), longest=min(part.longest, (s - part.left) / 25))
-            inside = (part.t_eval > part.left) & (part.t_eval <= s)
-            again = _lsoda(replace(shorter, t_eval=part.t_eval[inside], budget=budget), error)
-            return shorter, replace(again, evaluations=again.evaluations + run.evaluations)
-    return part, replace(run, states=run.states[np.searchsorted(t_eval, part.t_eval[inside])])
+    n = len(run.states)
+    shorter = part if n == len(t_eval) else replace(part, right=float(t_eval[n - 1]))
+    wanted = wanted[wanted <= shorter.right]
+    return shorter, replace(run, states=run.states[np.searchsorted(t_eval, wanted)])
 
 
 def _lsoda(segment: Segment, error: float) -> Stretch:
-    left, right, spent, lost, stopped = segment.left, segment.right, 0, False, False
+    """The segment, or what of it comes before a state whose next step might pass a singular position."""
+    left, right, spent, lost, near, stopped = segment.left, segment.right, 0, False, False, False
     at = done = left  # the time of the last evaluation, and one before it up to which the steps are accepted
     rest = [0.0] * len(segment.start)
 
     def watched(s: float, y: Array) -> list[float]:
         # LSODA takes NaN for a number and may step over where it came from; DOP853 does not. Once it is to stop, it is given
         # a state at rest: it soon comes to the end, and what it read off before is kept.
-        nonlocal spent, lost, stopped, at, done
+        nonlocal spent, lost, near, stopped, at, done
         if stopped:
             return rest
         at, done = s, at if s > at else done
         velocity = segment.rhs(s, y)
         spent, lost = spent + 1, velocity[0] != velocity[0]
-        stopped = lost or spent > segment.budget
+        near = s - left > segment.longest and segment.clear(y) < segment.longest
+        stopped = lost or near or spent > segment.budget
         return rest if stopped else velocity
 
     first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(left, segment.start)).max()), segment.longest, right - left)
@@ -114,6 +113,8 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
         whole = np.isfinite(states).all(1)
         states = states if whole.all() else states[: int(np.argmin(whole))]
         reached = Stretch(states, states[-1], spent) if len(states) else None
+        if near and reached:
+            return reached
         over = stopped and not lost
         reason = (
             f"{spent} evaluations spent" if over else "the right-hand side is not finite" if lost else log["message"]

@@ -297,12 +297,12 @@ def test_tolerances_within_reach_are_kept(tol: float) -> None:
     assert check_tolerance(tol) == tol
 
 
-@pytest.mark.parametrize("reached", [True, False])
+@pytest.mark.parametrize(("reached", "lost"), [(True, 0), (False, 0), (False, 200), (False, 10**6)])
 def test_where_a_solver_stops_dop853_goes_on_and_the_solver_returns(
-    monkeypatch: pytest.MonkeyPatch, reached: bool
+    monkeypatch: pytest.MonkeyPatch, reached: bool, lost: int
 ) -> None:
-    """From where it came, or from where it began and for four times as long if nothing is left of its run."""
-    begun, right = list[float](), module.lsoda
+    """From where it came, or from where it began; once as many evaluations are taken as the trial lost, if that ever pays."""
+    begun, right, taken, follow = list[float](), module.lsoda, [0], module.dop853
 
     def stops(segment: Segment, error: float) -> Stretch:
         begun.append(segment.left)
@@ -310,11 +310,22 @@ def test_where_a_solver_stops_dop853_goes_on_and_the_solver_returns(
             return right(segment, error)
         until = segment.left + 1
         part = replace(segment, right=until, t_eval=segment.t_eval[segment.t_eval <= until])
-        raise StopError(until, "no more steps", right(part, error) if reached else None)
+        raise StopError(until, "no more steps", right(part, error) if reached else None, lost)
+
+    def follows(segment: Segment, error: float) -> Stretch:
+        run = follow(segment, error)
+        taken.append(run.evaluations)
+        return run
 
     monkeypatch.setattr(module, "lsoda", stops)
+    monkeypatch.setattr(module, "dop853", follows)
     times = np.linspace(0, 20, 81)
-    problem = Problem(oscillate, START, ENOUGH, typical_rate=DETOUR.value)  # a first detour of one second
+    problem = Problem(oscillate, START, 1e8, typical_rate=DETOUR.value)  # a detour of one second
     solution = integrate(problem, times, 1e-8)
     assert solution.states[:, 0] == pytest.approx(np.cos(times), abs=1e-7)
-    assert begun[:2] == pytest.approx([0, 2] if reached else [0, 4]) and begun[-1] > 3
+    if lost == 10**6:  # to the end, where no more would be saved
+        assert begun == [0] and sum(taken) < 10_000
+    else:
+        detours = int(np.searchsorted(np.cumsum(taken), lost)) or 1
+        assert begun[1] == pytest.approx(2 if reached else detours) and begun[-1] > 3
+        assert (detours > 1) == (lost > 0)

@@ -226,6 +226,28 @@ def test_no_step_passes_a_singular_position(engine) -> None:
     assert engine(straight, 1e-9).end[0] == pytest.approx(-1)  # twin: what is not watched is passed
 
 
+def test_lsoda_does_not_run_far_beyond_where_its_steps_must_be_shorter() -> None:
+    """An oscillation that comes near a singular position each half turn; it was run to its end each time, and then anew."""
+
+    def farthest_back(drift: float) -> float:
+        back, last = [0.0], [0.0]
+
+        def rhs(s: float, y: Array) -> list[float]:
+            back[0], last[0] = max(back[0], last[0] - s), max(last[0], s)
+            return oscillate(s, y)
+
+        segment = Segment(rhs, np.array([1.0, 0.0]), 0.0, 20.0, TIMES, project=lambda y: y + drift)
+        try:
+            run = lsoda(replace(segment, time_to_singular=lambda y: 20 * abs(float(y[0]))), 1e-9)
+            assert run.states[:, 0] == pytest.approx(np.cos(TIMES), abs=1e-6)
+        except StopError:
+            assert drift
+        return back[0]
+
+    assert farthest_back(0.0) < 0.5
+    assert farthest_back(1e-3) > 1  # twin: what drifts is run again
+
+
 @pytest.mark.parametrize(("last", "budget", "cause"), [(np.inf, 500, "budget"), (37.3, 10**5, "stopped")])
 def test_lsoda_hands_back_what_it_reached(last: float, budget: int, cause: str) -> None:
     """Of an oscillation whose evaluations are spent, or whose rate is not finite from 37.3 on; twin: with enough, all of it."""
