@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
 
 CLEARANCE = 1e-5  # rad; nearer, the multipliers carry fewer than six digits
+_TOWARDS = 0.4  # cos 1.16
 _NEAR = 1e-3  # rad from there, where a solver that stops has come to it
 # Massive bar, bar, shocked rotor (0: none).
 _Kind = tuple[bool, bool, int]
@@ -72,9 +73,10 @@ def time_to_dead_point(y: Array) -> float:
     """The time after which a state (12,) that heads for r_1 = r_2 = ± e_x is there at the earliest; inf where it does not.
 
     The axes' components across the joint line move on a cone whose apex is that position: on both sides of it a straight
-    motion through it and one around it feel no force, and a step over it would pass undetected.
+    motion through it and one around it feel no force, and a step over it would pass undetected. An axis at the angle θ from the
+    line, turning at θ', has tan θ/θ' for the time θ/θ' that is left: half of it is no more than that up to θ = 1.16.
     """
-    if not y[0] * y[3] > 0.9:
+    if not (min(y[0], y[3]) > _TOWARDS or max(y[0], y[3]) < -_TOWARDS):
         return inf
     across, speed = y[[1, 2, 4, 5]], y[[7, 8, 10, 11]]
     return _across(y) / float(np.linalg.norm(speed)) if across @ speed < 0 else inf

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from lagrotor.numerics.segment import LOST, Array, RightHandSide, Segment, StopError, Stretch
+from lagrotor.numerics.segment import LOST, Array, Cause, RightHandSide, Segment, StopError, Stretch
 
 _BUDGET_OF_A_PART = 5_000  # between two projections; beyond it the solver no longer follows the motion
 _DRIFT = 200.0  # local errors that the constraints may gather between projections: the error of the run as a whole
@@ -91,12 +91,12 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
         at, done = s, at if s > at else done
         velocity = segment.rhs(s, y)
         spent, lost = spent + 1, velocity[0] != velocity[0]
-        near = s - left > segment.longest and segment.clear(y) < segment.longest
+        near = segment.clear(y) < segment.longest
         stopped = lost or near or spent > segment.budget
         return rest if stopped else velocity
 
     first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(left, segment.start)).max()), segment.longest, right - left)
-    bare = getattr(segment.rhs, "bare", None)
+    bare = None if segment.time_to_singular else getattr(segment.rhs, "bare", None)
     if bare:
         try:
             states, log = _odeint(segment, bare, error, first)
@@ -115,12 +115,15 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
         reached = Stretch(states, states[-1], spent) if len(states) else None
         if near and reached:
             return reached
-        over = stopped and not lost
-        reason = (
-            f"{spent} evaluations spent" if over else "the right-hand side is not finite" if lost else log["message"]
-        )
+        reasons = {
+            "the right-hand side is not finite": lost,
+            "the next step might pass a singular position": near,
+            f"{spent} evaluations spent": stopped,
+            log["message"]: True,
+        }
         until = float(segment.t_eval[len(states) - 1]) if reached else left
-        raise StopError(until, reason, reached, spent, "budget" if over else "stopped")
+        cause: Cause = "budget" if stopped and not (lost or near) else "stopped"
+        raise StopError(until, next(why for why, so in reasons.items() if so), reached, spent, cause)
     return Stretch(states[1:-1], states[-1], spent)
 
 

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from importlib.util import find_spec
+from math import cos, sin
 
 import numpy as np
 import pytest
@@ -37,7 +38,11 @@ from lagrotor.benchmark.throughput import displaced_family
 from lagrotor.commands.command_line import main
 from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models import euler, exact_orbit, finite_rotation, minimal, spheres
+from lagrotor.models.model import problem_of
 from lagrotor.numerics import measured_order
+from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.integrate import integrate
+from lagrotor.numerics.segment import StopError
 
 
 def test_threshold_halves_in_the_logarithm():
@@ -239,6 +244,20 @@ def test_the_command_refuses_a_missing_folder(tmp_path, capsys):
 def test_what_passes_where_bar_and_axes_are_in_line():
     assert coordinates.passes(2e-5)
     assert not coordinates.passes(5e-6), "nearer than 1e-5 rad the run is refused"
+
+
+def test_no_solver_steps_over_it_from_afar(monkeypatch):
+    """Both axes head for it from 0.6 rad: the time that is left is known before a step of half a radian is taken."""
+    swing = Scene((0.0, 0.0), axes=((cos(0.6), 0, sin(0.6)),) * 2, rates=((sin(0.6), 0, -cos(0.6)),) * 2)
+    problem = problem_of(spheres.MODEL, swing)
+
+    def run():
+        return integrate(problem, np.array([2.0]), 1e-4, lambda segment, _, error: dop853(segment, error))
+
+    with pytest.raises(StopError):
+        run()
+    monkeypatch.setattr(spheres, "_TOWARDS", 0.95)
+    assert run().states.shape == (1, 12)  # twin
 
 
 def test_spins_not_quite_equal_twist_as_their_difference():
