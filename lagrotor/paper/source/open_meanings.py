@@ -39,7 +39,7 @@ from lagrotor.paper.source.usage import (
 _FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
 _FUNCTIONS = frozenset(_FUNCTION_NAMES.split())
 _PLAIN = ("root", "infinity", "comma", "wide", "thin", "dots", "row", "rows", "group", "percent", "degree", "unit",
-          "binomial", "cases", "nabla", "partial")  # fmt: skip
+          "binomial", "cases", "partial")  # fmt: skip
 _ACTING = ("letter", "bracket", "fraction", "root", "accent", "function", "big", "nabla", "partial")
 _ONE_MEANING = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
 _STATED_SIGNS = "Rightarrow implies iff Leftrightarrow Longrightarrow Longleftrightarrow therefore forall"
@@ -105,7 +105,12 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             box.style in ("cal", "scr", "frak") and acts and not box.sup,
             "in script is a factor, and no operator",
         ),
-        ("laplacian", _is_delta(box) and (box.marks or not acts), "by itself is a letter, and no Laplacian"),
+        ("laplacian", _is_delta(box) and (box.marks or box.sup or not acts), "is a letter, and no Laplacian"),
+        (
+            "order",
+            bracketed and "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"),
+            "is a function of the bracket, and no order of magnitude",
+        ),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
     )
     for key, is_open, what in held:
@@ -135,8 +140,8 @@ def _lowered(known: Notation, box: Box) -> Rivals:
 
 
 def _is_delta(box: Box) -> bool:
-    """Whether a letter is a capital delta without scripts."""
-    return box.name == "Delta" and not (box.sub or box.sup or box.style or box.primes)
+    """Whether a letter is a capital delta without an index."""
+    return box.name == "Delta" and not (box.sub or box.style or box.primes)
 
 
 def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
@@ -144,7 +149,9 @@ def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
     function = (
         after.kind == "letter" and stem_of(after) in known.applied and not (after.sup or is_printed_as_vector(after))
     )
-    function = function and (then is None or then.kind != "bracket")
+    function = (function and (then is None or then.kind != "bracket")) or (
+        (after.name in ("psi", "Psi") and box.name != "E") or (after.name in _FUNCTIONS and box.name == "D")
+    )
     sums = box.name in ("Sigma", "Pi") and not (box.sub or box.marks)
     marked = box.name in ("D", "L", "E") and (box.sub or box.marks)
     if box.name not in known.letters and (sums or marked or (function and box.name.isupper())):
@@ -408,10 +415,15 @@ def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
         yield "array", "the brackets hold a matrix, and no 3j symbol", ""
 
 
+def _nabla(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
+    if row[place].sup and "hessian" in reader.notation.seen:
+        yield "laplacian", "\\nabla^2 is the Laplacian, and no matrix of second derivatives", ""
+
+
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Rivals]] = {
     "number": _number_sign, "letter": _letter, "bracket": _bracket, "fraction": _fraction, "operator": _operator,
     "relation": _relation, "arrow": _arrow, "text": _text, "function": _function, "accent": _accent, "big": _big,
-    "matrix": _matrix, "bar": _bar,
+    "matrix": _matrix, "bar": _bar, "nabla": _nabla,
 }  # fmt: skip
 
 
@@ -425,11 +437,14 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Rivals:
     side: list[Box] = []
     for box in [*without_thin(row), Box("relation", "", 0, 0)]:
         if box.kind in ("relation", "comma", "wide", "text", "arrow"):
+            if len(side) > 1 and side[-1].kind == "fraction" and side[-2].kind == "number":  # 9.81 m/s^2
+                side[-1:] = [b for part in side[-1].parts for b in part]
             letters = [b for b in side if b.kind == "letter"]
-            plain = all(b.kind in ("number", "letter") or b.name == "/" for b in side) and not any(
-                b.sub for b in letters
-            )
-            if letters and plain and side[0].kind == "number" and all(b.name in UNITS for b in letters):
+            plain = all(b.kind in ("number", "letter") or b.name in ("/", "times", "cdot") for b in side)
+            plain = plain and not any(b.sub for b in letters)
+            names = [b.name for b in letters]
+            named = {*names[names[:1] == ["mu"] :]} <= UNITS or "".join(names) in UNITS
+            if letters and plain and side[0].kind == "number" and named:
                 yield "unit", f"{letters[0].name} behind the number is a letter, and no unit", ""
             side = []
         else:

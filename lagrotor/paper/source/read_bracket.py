@@ -73,6 +73,8 @@ def _angles(reader: FormulaReader, box: Box) -> Node:
     if bars and bars[0] and not any(content[k].sub or content[k].sup for k in bars):
         parts = [content[a + 1 : b] for a, b in pairwise([-1, *bars, len(content)])]
         return Call("braket", tuple(_label(reader, each) for part in parts for each in arguments(part)))
+    if any(b.kind == "bracket" and b.name == "|" for b in content[1:-1]):
+        raise FormulaError(box.at, "whether bars part a bra from a ket is open", "write \\middle| for each")
     held = tuple(reader.expression(part) for part in arguments(content))
     return Call("mean" if len(held) == 1 else "inner", held)
 
@@ -217,6 +219,20 @@ def read_matrix(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     return power_of(reader, Call("matrix", tuple(Call("row", tuple(line)) for line in lines)), box), place + 1
 
 
+# Words for all that the other cases are not.
+_ELSE = (
+    "otherwise",
+    "else",
+    "elsewhere",
+    "in other cases",
+    "in all other cases",
+    "sonst",
+    "sinon",
+    "altrimenti",
+    "иначе",
+)
+
+
 def read_cases(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
     made: list[Node] = []
@@ -224,10 +240,13 @@ def read_cases(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
         if len(line.parts) != 2:
             raise FormulaError(box.at, "a case has no condition", "write the value, &, and where it holds")
         value, where = (strip(cell) for cell in line.parts)
-        where = [b for b in where if b.kind not in ("text", "wide", "thin")]
+        words = " ".join(b.name for b in where if b.kind == "text").strip(" ,.;").lower()
+        where = strip([b for b in where if b.kind not in ("text", "wide", "thin")])
         condition: Node = Letter("otherwise")
+        if not where and words not in ("", *_ELSE):
+            raise FormulaError(box.at, "the condition of a case is not read", "write one relation")
         if where:
-            stated = read_statement(reader, strip(where))
+            stated = read_statement(reader, where)
             if len(stated.relations) != 1 or stated.relations[0] not in CONDITIONS:
                 raise FormulaError(where[0].at, "the condition of a case is not read", "write one relation")
             condition = Call(CONDITIONS[stated.relations[0]], tuple(side.node for side in stated.sides))

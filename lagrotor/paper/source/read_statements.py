@@ -236,7 +236,11 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
         _check_side(side)
         latex = reader.source[side[0].at : side[-1].end].strip()
         index = (
-            not place and len(sides) == 2 and len(side) == 1 and side[0].name in ("i", "j") and side[0].kind == "letter"
+            not place
+            and len(sides) == 2
+            and len(side) == 1
+            and (side[0].kind, side[0].sup) == ("letter", None)
+            and side[0].name in ("i", "j")
         )
         read.append(Side(letter_of(reader, side[0])[0] if index else _side(reader, side), latex, side[0].at))
     degrees = {differential_degree(side.node, side.at) for side in read if not is_printed_zero(side.node)}

@@ -29,9 +29,9 @@ class Notation:
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
     before what may be an argument; factors, in a product; apart, touching no other letter; powers, to a number; raised, with
-    an index above; differentiated; matrices; primed, with and without a prime in one list;
-    twice, with two primes. varied: letter → letters that it is differentiated by. seen: ket, bold, complex, modular,
-    exponent, dot, other time, times.
+    an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two primes. varied:
+    letter → letters that it is differentiated by. seen: ket, bold, order, hessian, complex, modular, exponent, dot, other time,
+    times.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -260,6 +260,8 @@ def _look_about(row: list[Box], found: Notation) -> None:
             stem_of(b) for part in box.parts for b in all_boxes(part) if b.kind == "letter" and "vec" not in b.marks
         }
         transposed = box.sup and [b.name for b in without_thin(box.sup)] in (["T"], ["top"], ["dagger"], ["intercal"])
+        if transposed and any(b.kind == "nabla" for part in box.parts for b in part):
+            found.seen.add("hessian")
         if transposed and "vec" not in box.marks:
             found.matrices |= {stem_of(box)} if box.kind == "letter" else held
         if box.kind == "function" and box.name in ("Re", "Im", "arg"):
@@ -340,6 +342,8 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
         box.sub and is_plain_letter(sup[0]) and len(sup) == 1 and is_plain_letter(box.sub[0]))):  # fmt: skip
         found.raised.add(stem)
     called = after is not None and after.kind == "bracket" and after.name in ("(", "[")
+    if called and box.name == "O":
+        found.seen.add("order")
     if called and after is not None:
         content = after.parts[0]
         marked = box.primes or (sup and [b.kind for b in sup] != ["number"])

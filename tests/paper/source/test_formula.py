@@ -208,6 +208,16 @@ def test_a_power_behind_a_bracket_of_a_function_is_not_read() -> None:
     assert "stopped" in said(r"y = \sin(\theta)^2")
 
 
+def test_words_for_a_condition_are_no_otherwise() -> None:
+    cases = r"f = \begin{cases} 1 & \text{%s}\\ 0 & x > 0\end{cases}"
+    assert said(cases % "otherwise,") == "f = cases(case(1, otherwise), case(0, Gt(x, 0)))"
+    for words in ("if the sum is even", "inside"):
+        assert said(cases % words).startswith("stopped: the condition of a case")
+    assert (
+        said(r"f = \begin{cases} 1 & \,\\ 0 & x > 0\end{cases}") == "f = cases(case(1, otherwise), case(0, Gt(x, 0)))"
+    )
+
+
 def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
     assert said("E = V(x + h)") == "E = V*(x + h)"
     assert said("E = V(x + h)", "V(x) = x").startswith("E = V(x + h)")

@@ -86,6 +86,15 @@ SETTLED = [
     (r"M\begin{pmatrix} a\\ b\end{pmatrix} = v", [], "M beside a matrix"),
     (r"u_{tt} = c u_{xx} + u", [], "the index of u is"),
     (r"\phi_x|_l = a", [], "held constant"),
+    (r"a = 3\times 10^{-14}s", [], "s behind the number"),
+    (r"a = 9.81\frac{m}{s^2}", [], "m behind the number"),
+    (r"\lambda = 500 nm", [], "n behind the number"),
+    (r"x = 5 \mu m", [], "mu behind the number"),
+    (r"\Delta^2\Phi = 4\pi\rho", [], "no Laplacian"),
+    (r"H\psi = E\psi", [], "H is a factor"),
+    ("D f = g", [], "D is a factor"),
+    (r"\left\langle a \left| H \right| b\right\rangle = c", [], "whether bars part a bra"),
+    ("i^2 = -1", [], "whether i is the imaginary unit"),
     (r"a = m^2(b + c)", ["m v = p"], "m before ( is a factor"),
 ]
 
@@ -111,6 +120,8 @@ def test_what_has_a_rival_is_marked_until_the_paper_settles_it(latex: str, paper
         ("w_t = a", "w(x, t) = b", "the index of w is"),
         ("w_t = a", r"\frac{\partial w}{\partial t} = b", "the index of w is"),
         (r"y = e^{-a}", "a = 1 - e", "e is Euler"),
+        (r"f = \Omega(g)", "f = O(g)", "no order of magnitude"),
+        (r"a = \nabla^2 f", r"(\nabla g)^T b = c", "no matrix of second derivatives"),
     ],
 )
 def test_another_use_in_the_paper_is_a_rival(latex: str, paper: str, words: str) -> None:
