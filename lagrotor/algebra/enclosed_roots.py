@@ -11,7 +11,7 @@ import sympy as sp
 from mpmath import mp
 
 from lagrotor.algebra.differentiation import derivative
-from lagrotor.algebra.enclosures import Bounds, Point, enclosure
+from lagrotor.algebra.enclosures import Bounds, Point, enclosure, enclosures
 
 _DIGITS, _STEPS, _FAR, _NARROW = 60, 40, 1e9, sp.Rational(1, 10**25)
 _MOST_BOXES, _LEAST, _CUT = (
@@ -95,27 +95,32 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
     undecided: outside all of these there is no root.
 
     A box is left out where an equation excludes zero or Krawczyk's K(X) does not meet it, holds one root where K(X) is inside,
-    and is cut in two otherwise. A root on the rim of the box is among them.
+    and is cut in two otherwise. A root on the rim of the box is among them. Where a denominator may vanish the numerators are
+    taken in the equations' place; where it does there is no root.
     """
     unknowns = list(box)
-    slopes = [[derivative(f, s) for s in unknowns] for f in equations]
+    fractions = [sp.fraction(sp.together(e)) for e in equations]
+    below = [d for _, d in fractions if d.free_symbols & {*unknowns}]
+    whole = _Equations(equations, unknowns)
+    above = _Equations([numerator for numerator, _ in fractions], unknowns) if below else whole
     roots: list[Box] = []
     open_boxes, undecided, tried = [box], list[Box](), 0
     while open_boxes:
         X = open_boxes.pop()
         tried += 1
-        values = [enclosure(f, X) for f in equations]
-        if any(v is not None and not v[0] <= 0 <= v[1] for v in values):
-            continue
         wide = {s: (low - (high - low) / 8, high + (high - low) / 8) for s, (low, high) in X.items()}
-        K = _krawczyk(equations, slopes, unknowns, wide)
+        here = above if any(_may_vanish(d, wide) for d in below) else whole
+        if any(v is not None and not v[0] <= 0 <= v[1] for v in enclosures(here.equations, X)):
+            continue
+        K = _krawczyk(here, wide)
         if K is not None and not all(_meet(K[s], X[s]) for s in unknowns):
             continue
         if K is not None and all(wide[s][0] < K[s][0] and K[s][1] < wide[s][1] for s in unknowns):
-            root = enclosed_root(equations, unknowns, {s: sum(side) / 2 for s, side in K.items()})
+            root = enclosed_root(here.equations, unknowns, {s: sum(side) / 2 for s, side in K.items()})
             if root is not None and all(K[s][0] <= root[s][0] and root[s][1] <= K[s][1] for s in unknowns):
                 known = any(all(_meet(root[s], other[s]) for s in unknowns) for other in roots)
-                if not known and all(_meet(root[s], box[s]) for s in unknowns):
+                inside = all(_meet(root[s], box[s]) for s in unknowns)
+                if inside and not known and not any(_may_vanish(d, root) for d in below):
                     roots.append(root)
                 continue
         widest = max(unknowns, key=lambda s: (X[s][1] - X[s][0]) / (box[s][1] - box[s][0]))
@@ -130,19 +135,32 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
     return roots, undecided
 
 
-def _krawczyk(
-    equations: Sequence[sp.Expr], slopes: Sequence[Sequence[sp.Expr]], unknowns: Sequence[sp.Symbol], X: Box
-) -> Box | None:
+class _Equations:
+    """Equations, and their derivatives by the unknowns row by row."""
+
+    def __init__(self, equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> None:
+        self.equations, self.unknowns = equations, unknowns
+        self.slopes = [derivative(f, s) for f in equations for s in unknowns]
+
+
+def _may_vanish(e: sp.Expr, X: Box) -> bool:
+    bounds = enclosure(e, X)
+    return bounds is None or bounds[0] <= 0 <= bounds[1]
+
+
+def _krawczyk(system: _Equations, X: Box) -> Box | None:
     """K(X); None where something has no enclosure there, or the middle of F'(X) is singular."""
+    equations, unknowns = system.equations, system.unknowns
     middle = {s: _short((low + high) / 2) for s, (low, high) in X.items()}
-    values = [enclosure(f, middle) for f in equations]
-    spread = [[enclosure(slope, X) for slope in row] for row in slopes]
+    values, n = enclosures(equations, middle), len(unknowns)
+    flat = enclosures(system.slopes, X)
+    spread = [flat[i * n : (i + 1) * n] for i in range(n)]
     if any(v is None for v in (*values, *(v for row in spread for v in row))):
         return None
     mean = sp.Matrix([[_short((v[0] + v[1]) / 2) for v in row if v] for row in spread])
     if mean.det() == 0:
         return None
-    Y, n = mean.inv().applyfunc(_short), len(unknowns)
+    Y = mean.inv().applyfunc(_short)
     K: Box = {}
     for i, s in enumerate(unknowns):
         moved = _sum(_times((Y[i, j], Y[i, j]), v) for j, v in enumerate(values) if v)

@@ -7,7 +7,7 @@ Interval Analysis, chs. 2, 7.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import contextmanager
 from functools import reduce
 from operator import add, mul
@@ -371,15 +371,24 @@ def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
 
     None where no real enclosure is known there.
     """
+    return enclosures([e], point)[0]
+
+
+def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -> list[Bounds | None]:
+    """The enclosure of each; what they have in common is enclosed once."""
     with digits(_DIGITS):
-        try:
-            boxes = {s: value for s, value in point.items() if isinstance(value, tuple)}
-            found = PointEnclosure({s: value for s, value in point.items() if s not in boxes})
-            found.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in boxes.items()}
-            value = found.value(e)
-            return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))
-        except (NotExactError, AttributeError):
-            return None
+        boxes = {s: value for s, value in point.items() if isinstance(value, tuple)}
+        known = PointEnclosure({s: value for s, value in point.items() if s not in boxes})
+        known.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in boxes.items()}
+
+        def bounds(e: sp.Expr) -> Bounds | None:
+            try:
+                value = known.value(e)
+                return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))
+            except (NotExactError, AttributeError):
+                return None
+
+        return [bounds(e) for e in expressions]
 
 
 def _quotient(value: sp.Rational) -> Any:

@@ -12,7 +12,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import decide_zero, normal_form
-from lagrotor.algebra.enclosed_roots import roots_in_box
+from lagrotor.algebra.enclosed_roots import Box, roots_in_box
 from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, put_in
@@ -53,7 +53,7 @@ def equilibria(
     inclination. Angles in sines and cosines are found between −π and π.
 
     With values of the parameters and a box, {coordinate: (least, largest)}: all equilibria there, each alone in its
-    `enclosure`, and none elsewhere in the box, by interval Newton.
+    `enclosure`, and none elsewhere in the box, by interval Newton. Where a force has a pole none is at rest.
 
     Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
     stays undecided, as about equilibria that are not isolated.
@@ -100,19 +100,24 @@ def _in_box(
     sides = by_symbol(box, c.q)
     if {*sides} != {*c.q} or not all(isinstance(side, Sequence) and len(side) == 2 for side in sides.values()):
         raise InputError(f"equilibria: box = {box!r} must be {{coordinate: (least, largest)}} for each of {c.q}")
-    edges = {q: tuple(_rational(f"equilibria: box of {q}", x) for x in sides[q]) for q in c.q}
+    edges: Box = {
+        q: (_rational(f"equilibria: box of {q}", sides[q][0]), _rational(f"equilibria: box of {q}", sides[q][1]))
+        for q in c.q
+    }
     if empty := [str(q) for q, (low, high) in edges.items() if low >= high]:
         raise InputError(f"equilibria: the box of {', '.join(empty)} is empty: give (least, largest)")
     if left := sorted({str(s) for e in forces for s in e.free_symbols - {*c.q}}):
         raise InputError(f"equilibria: {', '.join(left)} without a value: in a box every letter has one, and time none")
-    roots, undecided = roots_in_box(forces, {q: (low, high) for q, (low, high) in edges.items()})
+    roots, undecided = roots_in_box(forces, edges)
+    middles = [{q: sp.Float(round((low + high) / 2, 20), 17) for q, (low, high) in root.items()} for root in roots]
     if undecided:
         shown = ", ".join(f"{q} = {float(sum(x) / 2):.6g}" for q, x in undecided[0].items())
+        proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
         raise SingularError(
             f"equilibria: {len(undecided)} small parts of the box are undecided, the first about {shown}: an equilibrium that is "
-            "not isolated, or degenerate, or forces that have no value; choose another box, or coordinates on which they depend"
+            "not isolated, or degenerate, or forces that have no value; choose another box, or coordinates on which they "
+            f"depend. Proved elsewhere in it: {proved or 'none'}"
         )
-    middles = [{q: sp.Float(round((low + high) / 2, 20), 17) for q, (low, high) in root.items()} for root in roots]
     return tuple(
         Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)
         for at, root in sorted(zip(middles, roots, strict=True), key=lambda pair: [float(x) for x in pair[0].values()])

@@ -7,7 +7,7 @@ from lagrotor.algebra.enclosures import jet_of
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import jets_of, shortest
 from lagrotor.mechanics.glossary import latex, letter_latex
-from lagrotor.mechanics.lagrangian import Coordinates, t
+from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.symmetry import cyclic_coordinates
 
 _MOST_COORDINATES, _MOST_OPERATIONS = 6, 400  # up to which energies of bodies are written out, and a formula is shown
@@ -17,26 +17,45 @@ def formulas(system: Equations) -> dict[str, list[str]]:
     """Heading → LaTeX of the kinetic and potential energy, what rubs, the equations of motion, the constraints, and what is
     conserved as far as that is seen at once: Jacobi's integral E, and momenta of cyclic coordinates.
 
-    A formula of more than some hundred operations is only counted.
+    In velocities of one's own, where they are short, q' = B u + b stands before the equations of Boltzmann and Hamel. A formula
+    of more than some hundred operations is only counted.
     """
     c = system.c
     if system.bodies and len(c.q) > _MOST_COORDINATES:
         return {"Bodies": [rf"{len(system.bodies)}\ \text{{bodies in {len(c.q)} coordinates}}"]}
+    short = sp.count_ops(system.L) <= _MOST_OPERATIONS
+    own = system.kinematics if short else None
+    put = dict(zip(c.v, own.velocity, strict=True)) if own and not own.stages else {}
+    rates = tuple(dict.fromkeys((*c.a, *system.speed_rates)))
+
+    def line(left: sp.Expr | str, right: sp.Expr = sp.S.Zero) -> str:
+        return " = ".join(e if isinstance(e, str) else _side(e, rates) for e in (left, right))
+
     still = system.L.subs(dict.fromkeys(c.v, 0))
-    kinetic = sp.expand(system.L - still) if sp.count_ops(system.L) <= _MOST_OPERATIONS else system.L - still
-    parts = {"Kinetic energy": [_equation("T", kinetic, c)], "Potential energy": [_equation("V", -still, c)]}
+    kinetic = sp.expand(system.L - still) if short else system.L - still
+    parts = {"Kinetic energy": [line("T", kinetic.xreplace(put))], "Potential energy": [line("V", -still)]}
     if system.dissipation != 0:
-        parts["Dissipation"] = [_equation("D", system.dissipation, c)]
-    parts["Equations of motion"] = [_equation(e, sp.S.Zero, c) for e in system.motion]
+        parts["Dissipation"] = [line("D", system.dissipation.xreplace(put))]
+    parts["Equations of motion"] = [line(e) for e in (_in_own_velocities(system) if put else system.motion)]
+    if put:
+        parts["Equations of motion"][:0] = [line(latex(v), e) for v, e in put.items() if v != e]
     if system.multipliers:
-        parts["Constraints"] = [_equation(e, sp.S.Zero, c) for e in (*system.constraints, *system.rolling)]
+        parts["Constraints"] = [line(e) for e in (*system.constraints, *system.rolling)]
     closed = not (system.forces or system.dissipation != 0 or t in system.L.free_symbols)
     steady = all(e.subs(dict.fromkeys(c.v, 0)) == 0 for e in system.residual)
-    kept = [_equation("E", system.energy, c)] if closed and steady else []
-    if sp.count_ops(system.L) <= _MOST_OPERATIONS:
+    kept = [line("E", system.energy.xreplace(put))] if closed and steady else []
+    if short:
         for q in cyclic_coordinates(system):
-            kept.append(_equation(rf"p_{{{letter_latex(q)}}}", derivative(system.L, c.v[c.q.index(q)]), c))
+            momentum = derivative(system.L, c.v[c.q.index(q)])
+            kept.append(line(rf"p_{{{letter_latex(q)}}}", momentum.xreplace(put)))
     return parts | ({"Conserved": kept} if kept else {})
+
+
+def _in_own_velocities(system: Equations) -> list[sp.Expr]:
+    """The equations of Boltzmann and Hamel, the derivative of a coordinate's velocity its acceleration."""
+    c = system.c
+    named = {rate: c.a[c.v.index(u)] for u, rate in zip(system.speeds, system.speed_rates, strict=True) if u in c.v}
+    return [e.xreplace(named) for e in system.hamel]
 
 
 def in_markdown(system: Equations) -> str:
@@ -51,16 +70,11 @@ def in_latex(system: Equations) -> str:
     """The equations of motion and the constraints as an `align` of LaTeX, with a number each."""
     parts = formulas(system)
     lines = [*parts.get("Equations of motion", parts.get("Bodies", [])), *parts.get("Constraints", [])]
-    rows = " \\\\\n".join(line.replace(" = 0", " &= 0") for line in lines)
+    rows = " \\\\\n".join(line.replace(" = ", " &= ", 1) for line in lines)
     return f"\\begin{{align}}\n{rows}\n\\end{{align}}"
 
 
-def _equation(left: sp.Expr | str, right: sp.Expr, c: Coordinates) -> str:
-    sides = [e if isinstance(e, str) else _side(e, c) for e in (left, right)]
-    return " = ".join(sides)
-
-
-def _side(e: sp.Expr, c: Coordinates) -> str:
+def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...]) -> str:
     """A formula, the accelerations in front of what they are multiplied with."""
     count = sp.count_ops(e)
     if count > _MOST_OPERATIONS:
@@ -69,13 +83,12 @@ def _side(e: sp.Expr, c: Coordinates) -> str:
     names = {jet: sp.Dummy() for jet in jets_of(e)}
     e = e.xreplace(names)
     terms = [e]
-    if accelerated := [a for a in c.a if a in e.free_symbols]:
+    if accelerated := [a for a in rates if a in e.free_symbols]:
         e = sp.expand(e)
         inertial = [a * e.coeff(a) for a in accelerated]
         terms = [*inertial, sp.expand(e - sp.Add(*inertial))]
     written = {dummy: _function(jet) for jet, dummy in names.items()}
-    others = e.free_symbols - {*c.q, *c.v, *c.a}
-    written |= {s: _multiplier(s) for s in others if str(s).startswith(("lambda_", "Lambda_"))}
+    written |= {s: _multiplier(s) for s in e.free_symbols if str(s).startswith(("lambda_", "Lambda_"))}
     parts = [latex(term, written) for term in terms if term != 0] or ["0"]
     return parts[0] + "".join(f" {part}" if part.startswith("-") else f" + {part}" for part in parts[1:])
 

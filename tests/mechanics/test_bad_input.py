@@ -156,6 +156,12 @@ BAD: dict[str, Callable[[], Any]] = {
     "an array for a value": lambda: run(values=VALUES | {m: np.ones(3)}),
     "nothing for a value": lambda: run(values=VALUES | {m: None}),
     "a misspelt name of a right-hand side": lambda: pendulum.rhs({"m": 1, "l": 1, "g": 10, "lenght": 2}),
+    "a right-hand side of three numbers": lambda: pendulum.rhs(VALUES)(0.0, [1, 2, 3]),
+    "a right-hand side of text": lambda: pendulum.rhs(VALUES)(0.0, ["a", 2]),
+    "dry friction in two directions": lambda: run(
+        System(P, FLAT, dissipation=k * sp.sqrt(u**2 + w**2)), {m: 1, k: 1}, (0, 0), (1, 2)
+    ),
+    "a list of values for a box": lambda: pendulum.equilibria(values=[1, 2], box={q: (-1, 1)}),  # type: ignore[arg-type]
     "a negative value of a right-hand side": lambda: pendulum.rhs(VALUES | {l: -1}),
     # Starts and times
     "two coordinates for one": lambda: run(q0=(1, 2)),

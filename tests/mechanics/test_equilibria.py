@@ -5,6 +5,7 @@ import pytest
 import sympy as sp
 from scipy.optimize import fsolve
 
+from lagrotor.errors import SingularError
 from lagrotor.mechanics import System, coordinates
 
 c, d = coordinates("x"), coordinates("a b")
@@ -66,3 +67,16 @@ def test_a_bead_on_a_hoop_has_those_of_the_exact_solver() -> None:
     np.testing.assert_allclose(found, sorted(exact), atol=1e-14)
     slow = hoop.equilibria(values=values | {Omega: 3}, box={x: (-3, 3)})
     assert len(slow) == 1  # Omega² < g/R: the lowest point alone
+
+
+def test_a_pole_of_a_force_is_no_equilibrium_and_what_is_proved_is_told() -> None:
+    """Beside the lesser of two primaries that turn: Lagrange's L2. A degenerate rest hides no other."""
+    nu = sp.Rational(1, 5)
+    (x, y), (X, Y) = d.q, d.v
+    far, near = sp.sqrt((x + nu) ** 2 + y**2), sp.sqrt((x - 1 + nu) ** 2 + y**2)
+    moon = System(d, (X**2 + Y**2 + x**2 + y**2) / 2 + x * Y - y * X + (1 - nu) / far + nu / near)
+    (second,) = moon.equilibria(values={}, box={x: (0.79, 1.3), y: (-0.01, 0.02)})  # the lesser primary is at 0.8
+    place = float(second.at[x])
+    assert float(second.at[y]) == 0 and abs(place - 0.8 / (place + 0.2) ** 2 - 0.2 / (place - 0.8) ** 2) < 1e-12
+    with pytest.raises(SingularError, match=r"undecided, the first about x = 1(.|\n)*Proved elsewhere in it: x = 2$"):
+        System(c, v**2 / 2, forces=((c.q[0] - 1) ** 3 * (2 - c.q[0]),)).equilibria(values={}, box={c.q[0]: (0.5, 3)})

@@ -11,6 +11,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
 from lagrotor.mechanics.running.singular import singular_position
+from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
@@ -31,7 +32,7 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
 
     engine: "core", generated Python, which gives a list, or "fast", compiled by heyoka, which gives an array.
 
-    Raises InputError for a value that is missing, another engine, and without heyoka.
+    Raises InputError for a value that is missing, another engine, and without heyoka; when called, for another y.
     """
     check_engine(engine)
     program = motion_program(system)
@@ -40,9 +41,17 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
         raise InputError("rhs: engine='fast' takes no callable and no table for a function: use engine='core'")
     fast = engine == "fast"
     function = taylor_rhs(program.program, len(program.states), parameters) if fast else program.rhs(*parameters)
-    if not depends_on_time(system):
-        return function
-    return lambda t, y: function(t, np.append(y, t))[:-1]
+    timed, shape = depends_on_time(system), (len(system.c.q) + len(system.speeds),)
+
+    def rate(t: float, y: Any) -> Any:
+        if getattr(y, "shape", None) != shape:
+            state = real_array(y)
+            if state is None or state.shape != shape:
+                raise InputError(f"rhs: y = {y!r} must be {shape[0]} numbers, q and then u")
+            y = state
+        return function(t, np.append(y, t))[:-1] if timed else function(t, y)
+
+    return rate
 
 
 def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]:

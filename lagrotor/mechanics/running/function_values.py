@@ -147,7 +147,9 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     ]
     applied = unknown_functions(parts)
     known = {str(f.func): f.func for f in applied}
-    if not isinstance(values, Mapping) or not (known or any(isinstance(key, UndefinedFunction) for key in values)):
+    if not isinstance(values, Mapping):
+        raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
+    if not (known or any(isinstance(key, UndefinedFunction) for key in values)):
         return system, values
     named = {
         str(key): value for key, value in values.items() if isinstance(key, UndefinedFunction) or str(key) in known

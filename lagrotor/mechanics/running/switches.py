@@ -132,12 +132,12 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             opposite = sp.expand(-w)
             s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
             put[atom] = _smooth(atom, w, s)
-    for root in set().union(*(e.atoms(sp.Pow) for e in system.forces)):
+    for root in system.push.atoms(sp.Pow):
         speeds = root.base.free_symbols & {*system.c.v}
         if root.exp == sp.Rational(-1, 2) and len(speeds) > 1 and root.base.subs(dict.fromkeys(speeds, 0)) == 0:
             raise InputError(
                 f"simulate: {root} is not defined at rest, and dry friction in several directions at once is not run: "
-                f"add the square of a small speed under the root"
+                f"add the square of a small speed under the root, {root.base} + v_0**2"
             )
     if not put:
         return system, ()

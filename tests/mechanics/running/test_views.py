@@ -53,6 +53,24 @@ def test_latex_has_functions_dots_and_names() -> None:
     assert lines[4] == r"- \dot{y}_s\left(t\right) + \dot{x} &= 0"
 
 
+def test_equations_are_shown_in_velocities_of_ones_own() -> None:
+    """Chaplygin's sleigh in u along the blade and omega."""
+    c, (I, a, u, omega) = coordinates("x y phi"), sp.symbols("I a u omega", positive=True)
+    (X, Y, P), phi = c.v, c.q[2]
+    L = m * ((X - a * P * sp.sin(phi)) ** 2 + (Y + a * P * sp.cos(phi)) ** 2) / 2 + I * P**2 / 2
+    blade = (Y * sp.cos(phi) - X * sp.sin(phi),)
+    own = {u: X * sp.cos(phi) + Y * sp.sin(phi), omega: P}
+    lines = System(c, L, rolling=blade, velocities=own).latex().splitlines()
+    assert lines[1:6] == [
+        r"\dot{x} &= u \cos \phi \\",
+        r"\dot{y} &= u \sin \phi \\",
+        r"\dot{\phi} &= \omega \\",
+        r"m \dot{u} - a m \omega^{2} &= 0 \\",
+        r"\dot{\omega} \left(I + a^{2} m\right) + a m \omega u &= 0 \\",
+    ]
+    assert r"\ddot" in System(c, L, rolling=blade).latex()
+
+
 def test_curves_are_those_that_are_named(spinning) -> None:
     glossary = Glossary()
     glossary.moving(C, ("azimuth", "rad"), ("inclination", "rad"), ("spin", "rad"))
