@@ -5,6 +5,7 @@ with its joints and actuators. Functions of time that are no coordinates stay fu
 
 The generalised force of a load F at a point of velocity v is F·∂v/∂q', of a torque on a frame of angular velocity ω it is
 T·∂ω/∂q'. Speeds u of Kane's that are not q' are put in as u = W(q, t) q' + w, and the equations M u' = f as Wᵀ(M u' − f) = 0.
+A speed u3 that no kinematic equation has is the rate of a coordinate of its own, q_u3.
 L is then the kinetic energy, and what acts is among the forces, as it is there. Where velocities were written with a rolling
 constraint already in them, so that the kinetic energy alone does not give the motion, the forces have what is missing.
 
@@ -108,9 +109,10 @@ def _of_speeds(
     from sympy.physics.mechanics import KanesMethod, dynamicsymbols
 
     clock = dynamicsymbols._t
-    c, functions = _coordinates(list(q), clock)
     if len(kinematic) != len(q):
         raise InputError(f"from_sympy: {len(kinematic)} kinematic equations for {len(q)} coordinates: give as many")
+    q, kinematic = _with_own_coordinates(list(q), list(u), list(kinematic))
+    c, functions = _coordinates(q, clock)
     still = dict.fromkeys(auxiliary, 0)
     equations = sp.Matrix([*kinematic, *velocity]).xreplace(still)
     speeds, left = _solved(equations, list(u))
@@ -122,7 +124,7 @@ def _of_speeds(
     def plain(e: Any) -> sp.Expr:
         return _plain(sp.sympify(e, strict=True).xreplace(put), functions, c, clock)
 
-    method = KanesMethod(frame, list(q), list(u), kd_eqs=list(equations[: len(q), :]))
+    method = KanesMethod(frame, q, list(u), kd_eqs=list(equations[: len(q), :]))
     loads = [(place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in loads or ()]
     method.kanes_equations(list(bodies), loads or None)
     energy = sp.Add(*(body.kinetic_energy(frame) for body in bodies))
@@ -146,16 +148,23 @@ def _of_speeds(
     }
 
 
+def _with_own_coordinates(q: list[Any], u: list[Any], kinematic: list[Any]) -> tuple[list[Any], list[Any]]:
+    """The coordinates and kinematic equations, and for each speed that these do not give a coordinate whose rate it is."""
+    from sympy.physics.mechanics import dynamicsymbols
+
+    rows = sp.Matrix(kinematic).jacobian(u).col_join(sp.eye(len(u)))
+    own = [u[i - len(q)] for i in independent_rows(rows, len(u)) if i >= len(q)]
+    angles = [dynamicsymbols(f"q_{s.func.__name__}") for s in own]
+    return [*q, *angles], [*kinematic, *(x.diff() - s for x, s in zip(angles, own, strict=True))]
+
+
 def _solved(equations: sp.Matrix, u: list[Any]) -> tuple[sp.Matrix, list[sp.Expr]]:
     """The speeds u in q, q' and t, from the first equations that give them, and the equations that are left to hold.
 
-    Where there are fewer speeds than coordinates, as with a quaternion, some kinematic equations are left; where there are more,
-    the constraints on velocities give them.
+    Where there are fewer speeds than coordinates, as with a quaternion, some kinematic equations are left.
     """
     K = equations.jacobian(u)
     chosen = independent_rows(K, len(u))
-    if len(chosen) < len(u):
-        raise InputError("from_sympy: the kinematic equations and the constraints do not give every speed by q'")
     rest = equations.xreplace(dict.fromkeys(u, 0))
     speeds = -K[chosen, :].LUsolve(rest[chosen, :])
     return speeds, [equations[i] for i in range(K.rows) if i not in chosen]
