@@ -18,7 +18,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate, toppling_after_shock
 from lagrotor.errors import DomainError
-from lagrotor.models import run_after, time_to_wander, turning_rate, wandering_rate
+from lagrotor.models import run_after, time_to_wander, turning_rate, wander_error, wandering_rate
 from lagrotor.numerics import measured_order
 from lagrotor.pair.notation import HALF, LEAN, P_X, SWING, G, P, a, att, b, k, p_y
 from lagrotor.paper import Remark, prove
@@ -28,7 +28,6 @@ from lagrotor.theory import (
     shock_wander,
     slow_rates,
     wander_after_shock,
-    wander_error,
 )
 
 # %% [markdown]

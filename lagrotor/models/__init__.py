@@ -6,6 +6,9 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.models.closed_form_model import closed_form as closed_form
+    from lagrotor.models.drift_error import cancelling_force_error as cancelling_force_error
+    from lagrotor.models.drift_error import toppling_error as toppling_error
+    from lagrotor.models.drift_error import wander_error as wander_error
     from lagrotor.models.linear import linear_error as linear_error
     from lagrotor.models.linear import linear_run as linear_run
     from lagrotor.models.linear import shock_response_error as shock_response_error

@@ -13,6 +13,7 @@ through N − 2 and N − 4 are parts of it; how the differences of the motions 
 Spins that are not opposite let the axes twist apart freely, so that no motion beside the orbits stays small.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -47,7 +48,7 @@ _TRIES = 60  # to find the normal coordinates of a start
 _AT_ONCE = 256  # times
 
 
-class _Forms(NamedTuple):
+class Forms(NamedTuple):
     """A normal form about q = (lean, 0, 0), p = momentum; maps: the coordinates of H₂ in the new ones; turning: which of them
     is the azimuth's."""
 
@@ -122,7 +123,7 @@ def _momenta_at(scene: Scene, q: Array) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=16)
-def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lean: float, order: int) -> _Forms:
+def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lean: float, order: int) -> Forms:
     import sympy as sp
 
     from lagrotor.mechanics.canonical.local_series import LocalSeries
@@ -149,15 +150,15 @@ def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lea
     turning = int(np.abs(form.vectors[2]).argmax())  # on which nothing depends: rounding is left out
     maps = tuple(f.where((f.exponents[:, turning] == 0) | (f.exponents.sum(1) == 1)) for f in maps)
     form = replace(form, series=form.series.where(form.series.exponents[:, turning] == 0))
-    return _Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in own]))
+    return Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in own]))
 
 
-def _forms_of(scene: Scene, lean: float, order: int) -> _Forms:
+def forms_about(scene: Scene, lean: float, order: int) -> Forms:
     (_, ratio, _), _ = MODEL.kind(scene, False)
     return _forms(ratio, *scene.inertias, scene.k, *scene.momenta, lean, order)
 
 
-def _linear(scene: Scene, forms: _Forms, state: Array) -> Any:
+def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
     """The coordinates of H₂ of a state of `minimal`, its azimuth left out."""
     M, g = _momenta_at(scene, state[None, :3])
     p = M[0] @ state[3:] + g[0]
@@ -165,17 +166,31 @@ def _linear(scene: Scene, forms: _Forms, state: Array) -> Any:
     return np.linalg.solve(forms.form.vectors, x + 0j)
 
 
-def _states(scene: Scene, forms: _Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
-    """States of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations.
+def swing_rates(forms: Forms) -> Any:
+    """The swing's own rate of the normal coordinates, (6,): they turn by exp(rate t)."""
+    form, rates = forms.form, np.zeros(6, complex)
+    rates[[0, 3]] = form.weights[0] * form.frequencies[0] * np.array([1, -1])
+    return rates
 
-    Raises DomainError where the start has no normal coordinates or the slow motion does not stay small.
+
+def slow_slopes(forms: Forms, order: int) -> tuple[_Sums, Callable[[Any], Any]]:
+    """The slopes of the normal form through an order, and from them {y, H} without the swing's own rate, of y (m, 6)."""
+    form, swing = forms.form, swing_rates(forms)
+    slopes = _sums(tuple(form.series.through(order).derivative(j) for j in range(6)))
+
+    def rate(y: Any) -> Any:
+        slope = slopes.at(y)
+        return np.hstack([form.weights * slope[:, 3:], -form.weights * slope[:, :3]]) - swing * y
+
+    return slopes, rate
+
+
+def normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
+    """Normal coordinates (6,) of a state of `minimal`, by the form through an order, its azimuth left out.
+
+    Raises DomainError where it has none.
     """
-    from scipy.integrate import solve_ivp
-
-    form, n = forms.form, 3
     maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
-    series = form.series.through(order)
-    slopes = _sums(tuple(series.derivative(j) for j in range(2 * n)))
     linear = _linear(scene, forms, start)
     y, step = linear, np.inf
     for _ in range(_TRIES):
@@ -185,33 +200,53 @@ def _states(scene: Scene, forms: _Forms, order: int, start: Array, t: Array) -> 
             break
     if not step < 1e-13 or not np.abs(y).max() < 1:
         raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
-    swing = np.zeros(2 * n, complex)
-    swing[[0, n]] = form.weights[0] * form.frequencies[0] * np.array([1, -1])
+    return y
 
-    def rate(_: float, y: Any) -> Any:
-        """{y, H} without the swing's own rate."""
-        slope = slopes.at(y[None])[0]
-        return np.concatenate([form.weights * slope[n:], -form.weights * slope[:n]]) - swing * y
+
+def states_at(scene: Scene, forms: Forms, order: int, normal: Any, azimuth: float) -> Array:
+    """States of `minimal` (m, 6) at normal coordinates (m, 6)."""
+    maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
+    old = np.concatenate([maps.at(part) for part in np.array_split(normal, len(normal) // _AT_ONCE + 1)])
+    x = (old @ forms.form.vectors.T).real
+    q = x[:, :3] + [forms.lean, 0.0, azimuth]
+    M, g = _momenta_at(scene, q)
+    return np.hstack([q, np.linalg.solve(M, (x[:, 3:] + forms.momentum - g)[..., None])[..., 0]])
+
+
+def slow_course(
+    forms: Forms, order: int, begin: Any, t: Array, local: tuple[float, float] = (1e-13, 1e-16)
+) -> tuple[Any, int]:
+    """Normal coordinates (n, 6) at times t (n,), the swing's own turning left out, and the evaluations.
+
+    Raises DomainError where the slow motion does not stay small.
+    """
+    from scipy.integrate import solve_ivp
+
+    rate, vectors = slow_slopes(forms, order)[1], forms.form.vectors[:2]
 
     def far(_: float, y: Any) -> float:
-        return 1.0 - float(np.abs(form.vectors[:2] @ y).max())
+        return 1.0 - float(np.abs(vectors @ y).max())
 
     far.terminal = True  # type: ignore[attr-defined]
     end = float(t[-1]) or 1e-9  # of the start alone
-    run = solve_ivp(rate, (0.0, end), y, "DOP853", t_eval=t, events=far, rtol=1e-13, atol=1e-16)
+    run = solve_ivp(
+        lambda _, y: rate(y[None])[0], (0.0, end), begin, "DOP853", t_eval=t, events=far, rtol=local[0], atol=local[1]
+    )
     if run.status != 0:
         raise DomainError("averaged: the swing's centre moves far from where it began; use model='minimal'")
-    new = run.y.T * np.exp(swing * t[:, None])
-    old = np.concatenate([maps.at(part) for part in np.array_split(new, len(new) // _AT_ONCE + 1)])
-    x = (old @ form.vectors.T).real
-    q = x[:, :3] + [forms.lean, 0.0, start[2]]
-    M, g = _momenta_at(scene, q)
-    return np.hstack([q, np.linalg.solve(M, (x[:, 3:] + forms.momentum - g)[..., None])[..., 0]]), int(run.nfev)
+    return run.y.T, int(run.nfev)
+
+
+def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
+    """States of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations."""
+    slow, evaluations = slow_course(forms, order, normal_start(scene, forms, order, start), t)
+    normal = slow * np.exp(swing_rates(forms) * t[:, None])
+    return states_at(scene, forms, order, normal, start[2]), evaluations
 
 
 def _centre(scene: Scene, state: Array) -> float:
     """The lean U of the centre about which a state of `minimal` swings."""
-    forms = _forms_of(scene, float(state[0]), 2)
+    forms = forms_about(scene, float(state[0]), 2)
     slow = _linear(scene, forms, state)
     slow[[0, 3]] = 0.0
     return float(state[0] + (forms.form.vectors[0] @ slow).real)
@@ -245,7 +280,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
 
     def states(order: int, through: int, start: Array, t: Array) -> Array:
         nonlocal spent
-        sampled, evaluations = _states(one, _forms_of(one, lean, order), through, start, t)
+        sampled, evaluations = _states(one, forms_about(one, lean, order), through, start, t)
         spent += evaluations
         return sampled
 
@@ -269,7 +304,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
         s = t * units.rate
         early, later = s[s < begin], s[s >= begin] - begin
         parts = [_pulsed(one, early, 0)[0]] if len(early) else []
-        parts += [_states(one, _forms_of(one, lean, order), order, starts[0], later)[0]] if len(later) else []
+        parts += [_states(one, forms_about(one, lean, order), order, starts[0], later)[0]] if len(later) else []
         seen = MODEL.observe(one, np.vstack(parts))
         return seen.axes, seen.rates * units.rate
 

@@ -41,10 +41,10 @@ class NaturalUnits:
     inertia: float
 
 
-def natural_units(scene: Scene) -> NaturalUnits:
-    """The scene in its own units. At rest, without spins or shock, the unit of rate is 1/s."""
+def natural_units(scene: Scene, rate: float = 0.0) -> NaturalUnits:
+    """The scene in its own units, `rate` (rad/s) for the unit of rate if one is given; at rest, without spins or shock, 1/s."""
     inertia, R = min(together_and_apart(scene)), scene.rotor.length
-    rate = typical_rate(scene) / PACE or 1.0
+    rate = rate or typical_rate(scene) / PACE or 1.0
     rotor, link, shock = scene.rotor, scene.link, scene.shock
     weight = R * R / inertia
     in_units = replace(

@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     from lagrotor.theory.drift_after_shock import shock_toppling as shock_toppling
     from lagrotor.theory.drift_after_shock import shock_wander as shock_wander
     from lagrotor.theory.drift_after_shock import wander_after_shock as wander_after_shock
-    from lagrotor.theory.drift_error import cancelling_force_error as cancelling_force_error
-    from lagrotor.theory.drift_error import toppling_error as toppling_error
-    from lagrotor.theory.drift_error import wander_error as wander_error
     from lagrotor.theory.impulse_response import impulse_matrices as impulse_matrices
     from lagrotor.theory.impulse_response import shock_displacement as shock_displacement
     from lagrotor.theory.impulse_response import shock_energy as shock_energy

@@ -5,13 +5,7 @@ The powers and the letters that they multiply are derived; the factors in front 
 
 from lagrotor.numerics.calibrated import Calibrated
 
-_DRIFT = "test_drift_after_shock.py::"
 _RATE = "test_natural_rate.py::"
-_SHOCKED = (
-    "1400 opposite pairs with 0.4 < k < 2.5, m up to 2 kg, K up to m ell², widths up to 1.2/Omega_0, 24 swings, and 600 with "
-    "0.3 < sigma < 3 over 8 to 60 swings; largest "
-)
-
 LARGEST_SWING = Calibrated(
     0.4,
     "amplitude beyond which the errors below are not estimated",
@@ -44,28 +38,4 @@ MOST_GROWTH = Calibrated(
     "lambda t over 20 turns: a twist that grows more takes the swing away from upright",
     _SWUNG + "4 of 83 beyond 9 missed, the least at 14",
     _RATE + "test_where_the_twist_grows_or_has_little_inertia_is_refused",
-)
-FOURTH_ORDER = Calibrated(
-    (1.0, 1.1, 0.1, 0.7),
-    "|G| q⁴ (c_1/k + c_2/k³) + |P| q² (c_3 + c_4/k²), over a + b: the toppling rate's next order",
-    _SHOCKED + "0.72 of it",
-    _DRIFT + "test_toppling_after_a_shock",
-)
-FIFTH_ORDER = Calibrated(
-    (0.4, 1.3, 6.0, 8.0),
-    "|G| q⁵ (c_1 + c_2/k⁴) + |P| q³ (c_3 + c_4/k²), over a + b: the next order of the rate of the mean x",
-    _SHOCKED + "0.86 of it",
-    _DRIFT + "test_the_mean_x_after_a_shock",
-)
-CANCELLING = Calibrated(
-    1.2,
-    "q² (1 + 1/k²): relative distance of the second order's cancelling force from that of exact runs",
-    "220 opposite pairs as above with q > 0.05, 8 to 40 swings; largest 0.65 of it",
-    _DRIFT + "test_cancelling_force_of_random_pairs",
-)
-FARTHEST_TURN = Calibrated(
-    3.0,
-    "rad turned about the joint line beyond which a rate is no longer that of the start",
-    "the same pairs; about there the estimates grow past the rates",
-    _DRIFT + "test_what_is_out_of_range_is_refused",
 )

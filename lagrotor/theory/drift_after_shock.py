@@ -131,7 +131,7 @@ def _form(
 def toppling_after_shock(scene: Scene) -> float:
     """Mean rate alpha' (rad/s) about the joint line just after the scene's shock, to second order; opposite spins.
 
-    `toppling_error` gives its error.
+    `lagrotor.models.toppling_error` gives its error.
 
     Raises:
         InputError: as `shock_response` does, and unless the spins are opposite.
@@ -142,7 +142,7 @@ def toppling_after_shock(scene: Scene) -> float:
 def wander_after_shock(scene: Scene) -> float:
     """Mean rate of x (1/s, in units of R) just after the scene's shock, to third order; opposite spins.
 
-    `wander_error` gives its error. Raises as `toppling_after_shock`.
+    `lagrotor.models.wander_error` gives its error. Raises as `toppling_after_shock`.
     """
     sign = 1.0 if scene.shock is None or scene.shock.body == 1 else -1.0
     first, *others = _arguments(scene, "wander_after_shock")
@@ -153,7 +153,7 @@ def wander_after_shock(scene: Scene) -> float:
 def cancelling_force(scene: Scene) -> float:
     """F_y (N) which, added to the scene's shock along x, leaves no mean turning about the joint line, to second order.
 
-    The force that does so on exact runs depends on how long one averages; `cancelling_force_error` bounds the distance.
+    The force that does so on exact runs depends on how long one averages; `lagrotor.models.cancelling_force_error` bounds the distance.
 
     Raises:
         InputError: as `toppling_after_shock`.

@@ -66,7 +66,7 @@ def test_the_order(through: int) -> None:
         scene = natural_units(swinging(size, Link(0.8, 0.5, 0.2))).scene
         t = np.linspace(0, 40, 81)
         start = MODEL.start(scene)
-        forms = averaged._forms_of(scene, averaged._centre(scene, start), 6)
+        forms = averaged.forms_about(scene, averaged._centre(scene, start), 6)
         states, _ = averaged._states(scene, forms, through, start, t)
         off.append(
             np.linalg.norm(MODEL.observe(scene, states).axes - simulate(scene, t, "minimal", 1e-12).axes, axis=-1).max()
