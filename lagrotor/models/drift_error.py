@@ -93,12 +93,6 @@ def _errors(scene: Scene, duration: float, where: str) -> tuple[float, float]:
         slow, _ = slow_course(forms, _ORDER, begin, t, _LOCAL)
     except DomainError as error:
         raise DomainError(f"{where}: {error}") from None
-    swing = swing_rates(forms)
-    turns = np.exp(swing * (2 * np.pi / np.abs(swing).max() * np.arange(_PHASES) / _PHASES)[:, None])
-    states = states_at(one, forms, _ORDER, (slow[:, None] * turns).reshape(-1, 6), 0.0)
-    x = MODEL.observe(one, states).axes[..., 0].mean(0)
-    means = np.stack([states[:, 2], x], axis=1).reshape(len(t), _PHASES, 2).mean(1)
-    off = np.abs(np.diff(means, axis=0) / (t[1] - t[0]) * units.rate - laws).max(0)
     lower, higher = (_largest(forms, part, slow) for part in (range(2, _ORDER - 1), range(_ORDER - 1, _ORDER + 1)))
     ratio = float((higher / lower).max())
     if not ratio < _SLOWEST:
@@ -106,6 +100,12 @@ def _errors(scene: Scene, duration: float, where: str) -> tuple[float, float]:
             f"{where}: the orders of the averaged motion fall by {ratio:.2g} each, less than by {_SLOWEST:g}: it is not small; "
             "take a smaller shock or a shorter duration, or run it with lagrotor.simulate"
         )
+    swing = swing_rates(forms)
+    turns = np.exp(swing * (2 * np.pi / np.abs(swing).max() * np.arange(_PHASES) / _PHASES)[:, None])
+    states = states_at(one, forms, _ORDER, (slow[:, None] * turns).reshape(-1, 6), 0.0)
+    x = MODEL.observe(one, states).axes[..., 0].mean(0)
+    means = np.stack([states[:, 2], x], axis=1).reshape(len(t), _PHASES, 2).mean(1)
+    off = np.abs(np.diff(means, axis=0) / (t[1] - t[0]) * units.rate - laws).max(0)
     turning, wander = off + (off + higher * units.rate) * ratio / (1 - ratio)
     return float(turning), float(wander)
 
