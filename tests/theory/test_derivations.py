@@ -53,7 +53,7 @@ MUTANTS = [
     ("t5_floquet", "later.times(-sign if i == 0 else sign)", "later.times(sign if i == 0 else -sign)"),
     pytest.param("t5_floquet", "sp.Rational(3, 16) * sigma**2", "sp.Rational(3, 8) * sigma**2", marks=pytest.mark.slow),
     pytest.param("t5_floquet", "swung * 2 * sp.sqrt(sigma) / G", "swung * sp.sqrt(sigma) / G", marks=pytest.mark.slow),
-    ("t6_shock_drift", "(2 + att**2) * P_X**2 + att**2 * sigma", "(2 - att**2) * P_X**2 + att**2 * sigma"),
+    ("t6_shock_drift", "(2 + att**2) * P_X**2 + att**2 * shape", "(2 - att**2) * P_X**2 + att**2 * shape"),
     ("t6_shock_drift", "-k * apart + (y1 - y2) ** 2 / 2", "-k * apart + (y1 - y2) ** 2"),
     ("t7_duration", "bracket = (2 * HALF**2 + SWING**2", "bracket = (2 * HALF**2 - SWING**2"),
     ("t7_duration", "2 * G * (HALF**2 + SWING**2 / 2) / k)", "2 * G * (HALF**2 + SWING**2) / k)"),
