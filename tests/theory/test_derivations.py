@@ -55,6 +55,7 @@ MUTANTS = [
     pytest.param("t5_floquet", "swung * 2 * sp.sqrt(sigma) / G", "swung * sp.sqrt(sigma) / G", marks=pytest.mark.slow),
     ("t6_shock_drift", "(2 + att**2) * P_X**2 + att**2 * shape", "(2 - att**2) * P_X**2 + att**2 * shape"),
     ("t6_shock_drift", "-k * apart + (y1 - y2) ** 2 / 2", "-k * apart + (y1 - y2) ** 2"),
+    pytest.param("t6_shock_drift", "- 87 * sigma) / (16", "- 78 * sigma) / (16", marks=pytest.mark.slow),
     ("t7_duration", "bracket = (2 * HALF**2 + SWING**2", "bracket = (2 * HALF**2 - SWING**2"),
     ("t7_duration", "2 * G * (HALF**2 + SWING**2 / 2) / k)", "2 * G * (HALF**2 + SWING**2) / k)"),
     ("t11_slow_motion", "- G * beta_v * h**3 * (sp.Rational(1, 3) +", "- G * beta_v * h**3 * (sp.Rational(1, 6) +"),
