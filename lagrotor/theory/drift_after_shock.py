@@ -153,7 +153,7 @@ def wander_after_shock(scene: Scene) -> float:
 def cancelling_force(scene: Scene) -> float:
     """F_y (N) which, added to the scene's shock along x, leaves no mean turning about the joint line, to second order.
 
-    The force that does so on exact runs depends on how long one averages; `lagrotor.models.cancelling_force_error` bounds the distance.
+    The force that does so on exact runs depends on how long one averages: `lagrotor.models.cancelling_force_error`.
 
     Raises:
         InputError: as `toppling_after_shock`.
