@@ -14,6 +14,7 @@ from flint import arb, arb_mat, arb_poly, ctx, fmpz
 
 from lagrotor.errors import InputError, NotProved
 from lagrotor.proved.family_checking import FamilyFlow
+from lagrotor.proved.near_rest_checking import FlowNearRest
 from lagrotor.proved.recurrences import ZERO, demand, motion_terms, rational_of, slopes_of, terms_of
 from lagrotor.proved.statements import theorem_of
 
@@ -695,7 +696,8 @@ def check_family(certificate: Any) -> None:
         ]
         demand(any(same), "two pieces have other orbits at their common end")
     low, high = (rational_of(text).atanh() for text in certificate["claim"]["r0"])
-    demand(bool(low < high and pieces[0].low <= low and high <= pieces[-1].high), "the amplitudes are others")
+    fits = low >= 0 and low < high and pieces[0].low <= low and high <= pieces[-1].high
+    demand(bool(fits), "the amplitudes are others")
     period = read_ball(certificate["claim"]["period"])
     kind = certificate["claim"].get("kind", "undecided")
     demand(kind in ("elliptic", "hyperbolic", "undecided"), "the kind is unknown")
@@ -715,8 +717,10 @@ class CheckedPiece:
         self.x = [arb_poly([number(c) for c in poly]) for poly in data["x"]]
         n, p, W = int(data["terms"]), int(data["degree"]), [number(w) for w in data["W"]]
         still = all(self.x[i].degree() < 0 and W[i].is_zero() for i in (1, 2, 3)) and W[0].is_zero()
-        line = self.x[0].coeffs()
-        straight = len(line) == 2 and (line[0] - self.middle).is_zero() and (line[1] - self.half).is_zero()
+        self.near_rest = data["near rest"] is True
+        U = arb_poly([self.middle, self.half])
+        off = self.x[0] - (arb_poly([1]) if self.near_rest else U)
+        straight = all(c.is_zero() for c in off.coeffs())
         demand(
             len(self.x) == len(W) == 7 and still and straight and bool(self.half > 0),
             "a piece does not start in the fixed set of the reversal",
@@ -725,7 +729,9 @@ class CheckedPiece:
             n > 2 and all(poly.degree() <= p for poly in self.x) and all(W[i] > 0 for i in free), "a piece has no box"
         )
         self.low, self.high, self.W = self.middle - self.half, self.middle + self.half, [W[i] for i in free]
-        self.flow = flow = FamilyFlow(motion, list(self.x), W, n, p)
+        demand(not self.near_rest or self.low.is_zero(), "the piece near the rest does not begin there")
+        made = (motion, list(self.x), W, n, p)
+        self.flow = flow = FlowNearRest(*made, U) if self.near_rest else FamilyFlow(*made)
         time = ZERO
         for step in data["steps"]:
             h = number(step["h"])
@@ -765,13 +771,16 @@ class CheckedPiece:
 
     def start(self, U: Ball) -> list[Ball]:
         """What was unknown, for the U of a ball."""
-        eps = (U - self.middle) / self.half
-        return [poly(eps) + w for poly, w in zip(self.x[4:], self.w, strict=True)]
+        return self._about(U, self.w)
 
     def box(self, U: Ball) -> list[Ball]:
         """Where it is alone."""
+        return self._about(U, [arb(0, w) for w in self.W])
+
+    def _about(self, U: Ball, off: Sequence[Ball]) -> list[Ball]:
         eps = (U - self.middle) / self.half
-        return [poly(eps) + arb(0, w) for poly, w in zip(self.x[4:], self.W, strict=True)]
+        *rates, pace = (poly(eps) + w for poly, w in zip(self.x[4:], off, strict=True))
+        return [*(U * x if self.near_rest else x for x in rates), pace]
 
 
 def check_equilibrium(certificate: Any) -> None:

@@ -22,7 +22,7 @@ from lagrotor.proved.closed_orbits import OrbitProblem
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
 from lagrotor.proved.multipliers import Kind, monodromy, of_pairs
 from lagrotor.proved.stepping import Motion
-from lagrotor.proved.tails import ZERO, Evaluation, TailError, max_of
+from lagrotor.proved.tails import ZERO, TailError, max_of
 from lagrotor.proved.taylor_models import Order, TaylorModel, sum_of_sizes
 
 Models = list[TaylorModel]
@@ -84,7 +84,7 @@ def family_step(
     shorter = _shortening(P, order, tol)
     h = left if shorter >= 1 and longest >= left else longest * shorter
     P = [_scaled(poly, h / longest, order.width) for poly in P]
-    rates = Evaluation(motion.tape, [*(TaylorModel(x, ZERO, order) for x in P), *still]).outputs
+    rates = motion.evaluation([*(TaylorModel(x, ZERO, order) for x in P), *still]).outputs
     missed = [
         (TaylorModel(x.poly, ZERO, order) + f.integral(h) - TaylorModel(poly, ZERO, order)).norm
         for x, f, poly in zip(node.x, rates, P, strict=False)
@@ -144,7 +144,7 @@ def _picard(motion: Motion, node: FamilyNode, h: Ball, order: Order) -> list[Any
     for n in range(2, order.n + 1):
         now = Order(n, p)
         models = [TaylorModel(x, None, now) for x in (*P, *(x.poly for x in node.x[moving:]))]
-        rates = Evaluation(motion.tape, models).outputs
+        rates = motion.evaluation(models).outputs
         P = [x.poly + f.integral(h).poly for x, f in zip(node.x, rates, strict=False)]
     return P
 
@@ -159,7 +159,7 @@ def _tube(
     tube = [upper(4 * max_of(off))] * moving
     for k in range(_TRIES):
         models = [*(TaylorModel(x, r, order) for x, r in zip(P, tube, strict=True)), *still]
-        evaluation = Evaluation(motion.tape, models)
+        evaluation = motion.evaluation(models)
         zero = models[0].constant(ZERO)
         J = [[g if g is not None else zero for g in evaluation.gradient(i)[: len(node.x)]] for i in range(moving)]
         size = len(node.x)

@@ -226,13 +226,10 @@ class FamilyFlow:
 
     def _step(self, h: Ball, tube: list[Ball]) -> None:
         moving = self.moving
-        series = [arb_series(x.coeffs(), self.p + 1) for x in self.x]
-        rows = motion_terms(self.tape, series[:moving], series[moving:], h, self.n)
-        terms = [[_poly(x) for x in row] for row in rows]
+        terms = [[_poly(x) for x in row] for row in self.series(h)]
         missed = []
         still = [self._full([x], ZERO) for x in self.x[moving:]]
-        rates = outputs_of(self.tape, [(x, None) for x in (*(self._full(row, ZERO) for row in terms), *still)])
-        for row, (rate, _) in zip(terms, rates, strict=True):
+        for row, rate in zip(terms, self.rates([*(self._full(row, ZERO) for row in terms), *still]), strict=True):
             change = _integral(rate, h).plus(self._full(row, ZERO), -1).plus(self._full([row[0]], ZERO))
             missed.append(change.size())
         wide = [
@@ -256,6 +253,22 @@ class FamilyFlow:
         self.V = [[_centred(self._along(row, j)) for j in range(self.size)] for row in D]
         self.x = [end.terms[0] for end in ends]
 
+    def series(self, h: Ball) -> list[list[Any]]:
+        """Terms in s of what moves, each a series of ε."""
+        x = [arb_series(poly.coeffs(), self.p + 1) for poly in self.x]
+        return motion_terms(self.tape, x[: self.moving], x[self.moving :], h, self.n)
+
+    def rates(self, x: list[Sheet]) -> list[Sheet]:
+        """Of what moves."""
+        return [rate for rate, _ in outputs_of(self.tape, [(sheet, None) for sheet in x])]
+
+    def jacobian(self, x: list[Sheet]) -> list[list[Sheet]]:
+        """The rates' derivatives by x."""
+        zero = self._full([], ZERO)
+        by = [[zero.number(arb(int(i == j))) for j in range(self.size)] for i in range(self.size)]
+        rows = outputs_of(self.tape, list(zip(x, by, strict=True)))
+        return [slopes or [zero] * self.size for _, slopes in rows]
+
     def _along(self, row: list[Sheet], j: int) -> Sheet:
         total = row[0].times(self.V[0][j])
         for d, v in zip(row[1:], self.V[1:], strict=True):
@@ -271,9 +284,7 @@ class FamilyFlow:
         """J over the tube, and exp of the bounds of |h J|."""
         rows = [self._full(row, r) for row, r in zip(terms, tube, strict=True)]
         rows += [self._full([poly], w) for poly, w in zip(self.x[self.moving :], wide[self.moving :], strict=True)]
-        zero = self._full([], ZERO)
-        by = [[zero.number(arb(int(i == j))) for j in range(self.size)] for i in range(self.size)]
-        J = [slopes or [zero] * self.size for _, slopes in outputs_of(self.tape, list(zip(rows, by, strict=True)))]
+        J = self.jacobian(rows)
         sizes = [[top(h * x.size()) for x in row] for row in J] + [[ZERO] * self.size] * (self.size - self.moving)
         return J, arb_mat(sizes).exp()
 

@@ -6,8 +6,8 @@ B = diag(−1, 1, −1, 1, −1, 1) where the spins are opposite. An orbit from 
 period (lagrotor.models.orbits.floquet). Energy and the momentum about the joint line leave one pair of multipliers.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -25,6 +25,7 @@ from lagrotor.proved.enclosure import accuracy_of, loosened
 from lagrotor.proved.families import FamilyProof, prove_family
 from lagrotor.proved.fields import Field, scene_field
 from lagrotor.proved.multipliers import Kind
+from lagrotor.proved.near_rest import MotionNearRest
 from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
@@ -39,12 +40,16 @@ _ONES = 4  # of the energy and of the momentum about the joint line
 
 @dataclass(frozen=True, eq=False)
 class FamilyPiece:
-    """The orbits of every U = middle + half ε, |ε| ≤ 1, one smooth curve. kind: undecided unless it is shown of all."""
+    """The orbits of every U = middle + half ε, |ε| ≤ 1, one smooth curve. kind: undecided unless it is shown of all.
+
+    near_rest: from U = 0 on, where the states are proved in units of U.
+    """
 
     middle: Ball
     half: Ball
     proof: FamilyProof
     kind: Kind
+    near_rest: bool
 
     @property
     def ends(self) -> tuple[Ball, Ball]:
@@ -53,9 +58,13 @@ class FamilyPiece:
 
     def start(self, U: Ball) -> Balls:
         """The states at Phi = 0 and the quarter period, s, of the U of a ball, which its piece must hold."""
-        eps = (U - self.middle) / self.half
         off = dict(zip(self.proof.problem.free, self.proof.w, strict=True))
-        return [poly(eps) + off.get(i, arb(0)) for i, poly in enumerate(self.proof.x)]
+        return self._about(U, [off.get(i, arb(0)) for i in range(len(self.proof.x))])
+
+    def _about(self, U: Ball, off: Sequence[Ball]) -> Balls:
+        eps = (U - self.middle) / self.half
+        *states, pace = (poly(eps) + w for poly, w in zip(self.proof.x, off, strict=True))
+        return [*(U * x if self.near_rest else x for x in states), pace]
 
     @property
     def period(self) -> Ball:
@@ -64,8 +73,7 @@ class FamilyPiece:
 
     def box(self, U: Ball) -> Balls:
         """Where the start and the quarter period of the orbit of U are alone."""
-        eps = (U - self.middle) / self.half
-        return [poly(eps) + arb(0, W.upper()) for poly, W in zip(self.proof.x, self.proof.W, strict=True)]
+        return self._about(U, [arb(0, W.upper()) for W in self.proof.W])
 
     def joins(self, after: "FamilyPiece") -> bool:
         """Whether the orbit at this piece's end is that of the next piece: one of them lies where the other is alone."""
@@ -198,8 +206,8 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
     accuracy = accuracy_of(tol or (TOL if one else TOL_OF_FAMILY), "precession")
     with precision(accuracy.bits, accuracy.terms):
         amplitude = ball(r0, "precession: r0")
-        if not (0 < amplitude < 1):
-            raise DomainError(f"precession: r0 = {r0!r} must lie between 0 and 1")
+        if not (0 < amplitude < 1 if one else 0 <= ball(r0[0]) < ball(r0[1]) < 1):
+            raise DomainError(f"precession: r0 = {r0!r} must lie between 0 and 1, the lowest of a pair first")
         curve = QuarterPeriod(scene)
         made = scene_field(curve.scene)
         problem = problem_of_pair(made)
@@ -241,8 +249,9 @@ def guess(curve: QuarterPeriod, r0: float, u: Ball) -> Balls:
 def family(
     problem: OrbitProblem, curve: QuarterPeriod, low: Ball, high: Ball, accuracy: Accuracy
 ) -> Iterator[FamilyPiece]:
-    """Pieces of the family from r0 = low to high, each as wide as its proof allows."""
-    u, last = np.nextafter(float(low.atanh().lower()), 0), np.nextafter(float(high.atanh().upper()), 1e9)
+    """Pieces of the family from r0 = low to high, each as wide as its proof allows; the first from 0 on where that is near."""
+    u, last = max(np.nextafter(float(low.atanh().lower()), 0), 0), np.nextafter(float(high.atanh().upper()), 1e9)
+    u = 0 if u < min(_FIRST_WIDTH, last) / 2 else u
     width, before = _FIRST_WIDTH, None
     while u < last:
         right = min(u + width, last)
@@ -260,26 +269,34 @@ def family(
 
 
 def prove_piece(problem: OrbitProblem, curve: QuarterPeriod, u: float, right: float, accuracy: Accuracy) -> FamilyPiece:
-    """The orbits between two U, about polynomials of ε that go through those of floats at Chebyshev's points."""
+    """The orbits between two U, about polynomials of ε that go through those of floats at Chebyshev's points.
+
+    From U = 0 on it is the motion of the states over U, whose orbit at U = 0 is that of the linear motion.
+    """
     degree = 3 * accuracy.terms // 4
-    middle, half = (u + right) / 2, np.nextafter((right - u) / 2 * (1 + 1e-15), 1)
+    middle, half = (u + right) / 2, np.nextafter((right - u) / 2 * (1 + 1e-15), 1) if u else right / 2
     points = -np.cos(np.pi * (np.arange(degree + 3) + 0.5) / (degree + 3))
     z, rows = None, []
     for x in points:
         z = curve.follow(z, np.tanh(middle + half * x))
-        rows.append([*curve.state(z)[4:], z[3] / abs(curve.natural)])
+        scale = 1 if u else middle + half * x
+        rows.append([*curve.state(z)[4:] / scale, z[3] / abs(curve.natural)])
     cheb = np.polynomial.chebyshev
     powers = [cheb.cheb2poly(cheb.chebfit(points, column, degree)) for column in np.array(rows).T]
     U, zero = arb_poly([arb(middle), arb(half)]), arb_poly([])
-    x = [U, zero, zero, zero, *(arb_poly([arb(float(c)) for c in row]) for row in powers)]
+    x = [U if u else arb_poly([1]), zero, zero, zero, *(arb_poly([arb(float(c)) for c in row]) for row in powers)]
+    if not u:
+        problem = replace(problem, motion=MotionNearRest(problem.motion.tape, problem.motion.parameters, U))
     proof = prove_family(problem, x, accuracy.terms, accuracy.tol)
-    return FamilyPiece(arb(middle), arb(half), proof, proof.kind(_ONES, arb(-1), arb(1)))
+    kind = proof.kind(_ONES, arb(-1), arb(1))
+    return FamilyPiece(arb(middle), arb(half), proof, kind, not u)
 
 
 def piece_data(piece: FamilyPiece) -> dict[str, Any]:
     """Of a certificate."""
     proof = piece.proof
     return {
+        "near rest": piece.near_rest,
         "middle": exact_data([piece.middle])[0],
         "half": exact_data([piece.half])[0],
         "x": [exact_data(poly.coeffs()) for poly in proof.x],

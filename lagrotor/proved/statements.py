@@ -27,6 +27,8 @@ def _claimed(data: Sequence[str]) -> Ball:
 def _decimal(text: str) -> str:
     """A rational number as a decimal, where a short one is exact."""
     value = Fraction(text)
+    if value.denominator == 1:
+        return str(value)
     short = repr(float(value))
     return short if Fraction(short) == value else text
 
@@ -88,7 +90,8 @@ def _precession(certificate: Certificate) -> str:
     """Of one amplitude or of a family."""
     claim = certificate["claim"]
     low, high = map(_decimal, claim["r0"])
-    every = f"at r0 = {low}" if low == high else f"for every r0 in [{low}, {high}]"
+    opening = "[" if Fraction(claim["r0"][0]) else "("
+    every = f"at r0 = {low}" if low == high else f"for every r0 in {opening}{low}, {high}]"
     stable = f", {claim['kind']}" if claim.get("kind", "undecided") != "undecided" else ""
     frequency = printed(2 * arb.pi() / _claimed(claim["period"]), 22)
     turning = "it turns at" if low == high else "they are one smooth curve and turn at frequencies in"

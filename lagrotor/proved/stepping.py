@@ -41,6 +41,10 @@ class Motion:
         """States that move, and parameters that vary."""
         return len(self.tape.arguments) - len(self.parameters)
 
+    def evaluation(self, arguments: Sequence[Any]) -> Any:
+        """The rates over series or Taylor models of the states and parameters, with their derivatives."""
+        return Evaluation(self.tape, arguments)
+
 
 def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
     """The first n Taylor coefficients of every moving state in t."""

@@ -6,7 +6,7 @@ satisfy: 1/a by 1 − a q, a root by a − q², exp, log, sin and cos by Taylor'
 Makino & Berz, Int. J. Pure Appl. Math. 4 (2003) 379.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, log2
 from typing import Any
@@ -167,6 +167,17 @@ class TaylorModel:
         sine = d._series([ring[m % 4] / arb(m).fac() for m in range(count)], left)
         return sine, d._series([ring[(m + 1) % 4] / arb(m).fac() for m in range(count)], left)
 
+    def ratio(self, name: str) -> "TaylorModel":
+        """(e^a − 1)/a, sin(a)/a, (1 − cos a)/a or log(1 + a)/a, by its series about 0."""
+        size, logarithm = self.norm, name == "log"
+        whole = 1 / _below_one(size) if logarithm else size.exp()
+
+        def left(m: int) -> Ball:
+            return upper(size**m / (m + 1 if logarithm else arb(m + 1).fac()) * whole)
+
+        count = self._terms(size, left)
+        return self._series([_RATIOS[name](m) for m in range(count)], left(count))
+
     def by_slope(self, name: str, slope: "TaylorModel") -> "TaylorModel":
         """log a = log c + Σ (−1)^(m+1) (d/c)^m/m with a = c + d."""
         if name != "log":
@@ -191,6 +202,14 @@ class TaylorModel:
         width, coeffs = self.order.width, self.poly.coeffs()
         found = [sum(coeffs[j::width], ZERO) for j in range(self.order.p + 1)]
         return TaylorModel(arb_poly(found), self.rest, Order(1, self.order.p))
+
+
+_RATIOS: dict[str, Callable[[int], Ball]] = {  # coefficients of a^m
+    "exp": lambda m: 1 / arb(m + 1).fac(),
+    "sin": lambda m: ZERO if m % 2 else (-1) ** (m // 2) / arb(m + 1).fac(),
+    "cos": lambda m: (-1) ** (m // 2) / arb(m + 1).fac() if m % 2 else ZERO,
+    "log": lambda m: arb((-1) ** m) / (m + 1),
+}
 
 
 def _nonzero(a: TaylorModel, what: str) -> Ball:

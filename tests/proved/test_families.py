@@ -3,6 +3,7 @@
 import copy
 import json
 import random
+from dataclasses import replace
 from typing import Any
 
 import mpmath as mp
@@ -16,11 +17,12 @@ from flint import arb, arb_poly, ctx
 from lagrotor import Link, Scene
 from lagrotor.errors import DomainError
 from lagrotor.mechanics import System, coordinates
-from lagrotor.proved import NotProved, check, families, family_checking, precession
+from lagrotor.proved import NotProved, check, families, family_checking, near_rest_checking, precession
 from lagrotor.proved.balls import exact, precision, upper
 from lagrotor.proved.closed_orbits import OrbitProblem
 from lagrotor.proved.families import FamilyProof, prove_family
 from lagrotor.proved.fields import field_of
+from lagrotor.proved.near_rest import MotionNearRest, NearRest
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
 from lagrotor.proved.taylor_models import Order, TaylorModel
@@ -102,8 +104,12 @@ def pendulum_family(low: str, high: str) -> tuple[FamilyProof, dict[str, Any]]:
         slopes = mp.taylor(quarter_period, mp.mpf(str(float(middle))), 8)
         pace = arb_poly([arb(mp.nstr(c, 25)) * half**k for k, c in enumerate(slopes)])
     pace = arb_poly([exact(c) for c in pace.coeffs()])
-    proof = prove_family(problem, [arb_poly([middle, half]), arb_poly([]), pace], 14, 1e-11)
-    return proof, {"middle": middle, "half": half}
+    U, first = arb_poly([middle, half]), arb_poly([middle, half])
+    if low == "0":
+        problem = replace(problem, motion=MotionNearRest(problem.motion.tape, (), U))
+        first = arb_poly([1])
+    proof = prove_family(problem, [first, arb_poly([]), pace], 14, 1e-11)
+    return proof, {"middle": middle, "half": half, "U": U}
 
 
 def quarter_period(amplitude: Any) -> Any:
@@ -124,11 +130,12 @@ def test_the_pendulum_s_family_holds_every_period() -> None:
         assert not whole.overlaps(arb("1.9"))
 
 
-def follow(proof: FamilyProof, change: str = "") -> family_checking.FamilyFlow:
-    """The second program along the family's steps."""
+def follow(proof: FamilyProof, change: str = "", U: Any = None) -> family_checking.FamilyFlow:
+    """The second program along the family's steps; near the rest where U is given."""
     tape = {"operations": proof.problem.motion.tape.operations, "outputs": proof.problem.motion.tape.outputs}
     tape |= {"arguments": proof.problem.motion.tape.arguments}
-    flow = family_checking.FamilyFlow(tape, list(proof.x), list(proof.W), proof.n, 8)
+    made = (tape, list(proof.x), list(proof.W), proof.n, 8)
+    flow = family_checking.FamilyFlow(*made) if U is None else near_rest_checking.FlowNearRest(*made, U)
     for k, step in enumerate(proof.steps):
         narrow = 1e-4 if change == "a narrow tube" and k == 1 else 1
         flow.step(step.h, [exact(r * narrow) for r in step.tube])
@@ -148,6 +155,75 @@ def test_the_second_program_follows_the_family_and_refuses_a_narrow_tube() -> No
         assert all(c.is_exact() for poly in carried for c in poly.coeffs())
         with pytest.raises(NotProved, match="the tube about a family is too narrow"):
             follow(proof, "a narrow tube")
+
+
+def test_a_family_from_the_rest_on_holds_every_period_and_that_of_the_linear_motion() -> None:
+    with precision(70, 14), mp.workdps(30):
+        proof, data = pendulum_family("0", "0.3")
+        assert proof.pace(arb(-1)).contains(arb.pi() / 2) and float(proof.pace(arb(-1)).rad()) < 1e-8
+        for eps in ("-0.999", "-0.5", "1"):
+            amplitude = mp.mpf(str(float(data["middle"]))) + mp.mpf(eps) * mp.mpf(str(float(data["half"])))
+            assert proof.pace(arb(eps)).overlaps(arb(mp.nstr(quarter_period(amplitude), 20)))
+        flow = follow(proof, U=data["U"])
+        assert flow.end(0, arb(0)).contains(0) and abs(flow.end(0, arb(0, 1))) < 1e-6
+        with pytest.raises(NotProved, match="the tube about a family is too narrow"):
+            follow(proof, "a narrow tube", data["U"])
+
+
+def test_a_rest_that_is_none_is_refused_by_both_programs() -> None:
+    """The pendulum with a weight to one side: its rates at 0 are not zero; and one that is zero to rounding only."""
+    for weight in (sp.Rational(1, 10), sp.Rational(1, 10**40)):
+        made = field_of(System(C, RATE**2 / 2 + sp.cos(THETA) + weight * THETA), {}, [1], [0])
+        U, tape = arb_poly([arb(0.125), arb(0.125)]), paced(made.motion.tape, 2)
+        x = [arb_poly([1]), arb_poly([]), arb_poly([arb.pi() / 2])]
+        with precision(70, 14):
+            problem = OrbitProblem(MotionNearRest(tape, (), U), (2,), (0,), (1, -1), (-1, 1))
+            with pytest.raises(NotProved, match="do not vanish at rest"):
+                prove_family(problem, x, 14, 1e-11)
+            data = {"operations": tape.operations, "outputs": tape.outputs, "arguments": tape.arguments}
+            flow = near_rest_checking.FlowNearRest(data, x, [arb(0)] * 3, 14, 8, U)
+            with pytest.raises(NotProved, match="do not vanish at rest"):
+                flow.step(arb(0.25), [arb(1), arb(1)])
+
+
+NEAR_REST = {"sqrt": (2.0, lambda v: v.sqrt()), "log": (1.5, lambda v: v.log()), "exp": (0.4, lambda v: v.exp())}
+NEAR_REST |= {"sin": (0.7, lambda v: v.sin()), "cos": (0.7, lambda v: v.cos()), "divide": (2.0, lambda v: 1 / v)}
+
+
+@pytest.mark.parametrize("name", NEAR_REST)
+@pytest.mark.parametrize("rest", [0.0, 1e-6])
+def test_both_programs_keep_the_bounds_of_functions_near_a_rest(name: str, rest: float) -> None:
+    """(f(v₀ + u w) − f(v₀))/u at random points, u = 0.1 (1 + ε), also where w differs from its polynomial by its rest."""
+    at, truth = NEAR_REST[name]
+    rng = random.Random(name)
+    with precision(80, ORDER.p + 1):
+        for _ in range(2):
+            w, none = table(rng, 0.3), [[0.0]]
+            u, sheet_u = model([[0.1, 0.1]], 0.0), sheet([[0.1, 0.1]], 0.0)
+            v = NearRest(model([[at]], 0.0), model(w, rest), u)
+            if name in ("sin", "cos"):
+                mine = v.sin_cos()[name == "cos"].off
+            elif name == "divide":
+                mine = v.inverse().off
+            else:
+                mine = (v.by_slope(name, v.inverse()) if name == "log" else getattr(v, name)()).off
+            split = (sheet([[at]], 0.0), sheet(w, rest))
+            one = (sheet([[1.0]], 0.0), sheet(none, 0.0))
+            if name == "divide":
+                other = near_rest_checking._joined(name, one, split, sheet_u)[1]
+            else:
+                other = near_rest_checking._moved(name, split, sheet_u)[1]
+            needed = arb(0)
+            for s, eps in [(arb(1), arb(1)), (arb(1), arb("-0.99")), (arb("0.6"), arb("0.9")), (arb("0.9"), arb("-0.8"))]:
+                moved = value(w, s, eps) + rng.choice([-1, 1]) * rest
+                wide = (1 + eps) * arb(0.1)
+                true = (truth(arb(at) + wide * moved) - truth(arb(at))) / wide
+                coeffs, width = mine.poly.coeffs(), ORDER.width
+                first = abs(true - value([coeffs[k : k + width] for k in range(0, len(coeffs), width)], s, eps))
+                assert first <= mine.rest
+                assert abs(true - value([poly.coeffs() for poly in other.terms], s, eps)) <= other.rest
+                needed = needed.max(upper(first))
+            assert needed > 0 and mine.rest < 1000 * needed
 
 
 def test_a_family_that_is_none_is_not_proved(monkeypatch: pytest.MonkeyPatch) -> None:
