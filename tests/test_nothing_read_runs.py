@@ -279,7 +279,7 @@ def certificates(folder: Path, text: str) -> None:
 def theorem(folder: Path, text: str) -> None:
     """A certificate of a theorem about motion, with the text for each of its operations, numbers and words."""
     pytest.importorskip("flint", reason="python-flint is not installed")
-    checking = import_module("lagrotor.proved.checking")
+    checking = import_module("lagrotor.proved.verification.checking")
     claim = {"kind": "crossing", "r0": [text, text], "stability": text}
     motion = {"operations": [[text, 0], ["add", 0, text]], "numbers": [text]}
     for made in ({"claim": claim, "motion": motion, "steps": [text]}, {"claim": text}, {text: text}, [text]):

@@ -55,7 +55,7 @@ def verify(theorems: Iterable[Theorem], where: str) -> None:
 
     Raises ProofError where a theorem has none, where `lagrotor.proved.check` rejects it, or where it proves something else.
     """
-    from lagrotor.proved.checking import check
+    from lagrotor.proved.verification.checking import check
 
     for theorem in theorems:
         if theorem.certificate is None:

@@ -6,7 +6,6 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.errors import NotProved as NotProved
-    from lagrotor.proved.checking import check as check
     from lagrotor.proved.closed_orbits import PeriodicOrbit as PeriodicOrbit
     from lagrotor.proved.closed_orbits import periodic_orbit as periodic_orbit
     from lagrotor.proved.crossings import Crossing as Crossing
@@ -20,5 +19,6 @@ if TYPE_CHECKING:
     from lagrotor.proved.paired_orbits import precession as precession
     from lagrotor.proved.steady import ProvedEquilibrium as ProvedEquilibrium
     from lagrotor.proved.steady import equilibrium as equilibrium
+    from lagrotor.proved.verification.checking import check as check
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, radius
+from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, radius, rational
 from lagrotor.proved.carried_sets import CarriedStep, Start, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, flow_data, tape_data
 from lagrotor.proved.enclosure import TOL, accuracy_of, loosened, time_ball
@@ -77,11 +77,12 @@ class Crossing(Shown):
         certificate: what `check` verifies.
     """
 
-    expression: sp.Expr
+    expression: sp.Basic
     crosses: bool
     time: Ball
     first: bool
     field: Field
+    tape: Tape
     start: Start
     steps: tuple[CarriedStep, ...]
     bits: int
@@ -96,16 +97,23 @@ class Crossing(Shown):
         """Plain data that `check` verifies."""
         with precision(self.bits):
             flow = flow_data(self.field.motion, self.start, self.steps, self.bits)
-            return flow | {
-                "kind": "crossing" if self.crosses else "no crossing",
-                "event": str(self.expression),
-                "expression": tape_data(self.field.function([self.expression])),
-                "claim": {"time": ball_data(loosened(self.time) if self.crosses else self.time), "first": self.first},
-            }
+            expression = expression_data(self.field, self.tape)
+            return (
+                flow
+                | expression
+                | {
+                    "kind": "crossing" if self.crosses else "no crossing",
+                    "event": words(self.expression),
+                    "claim": {
+                        "time": ball_data(loosened(self.time) if self.crosses else self.time),
+                        "first": self.first,
+                    },
+                }
+            )
 
     def summary(self) -> dict[str, str]:
         """What is proved, name → words."""
-        return {"expression": str(self.expression), "theorem": self.theorem, "steps": str(len(self.steps))}
+        return {"expression": words(self.expression)["of"], "theorem": self.theorem, "steps": str(len(self.steps))}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -115,7 +123,7 @@ class Means(Shown):
     certificate: what `check` verifies.
     """
 
-    spans: tuple[tuple[sp.Expr, Ball, Ball], ...]
+    spans: tuple[tuple[sp.Basic, Ball, Ball], ...]
     values: tuple[Ball, ...]
     certificate: Certificate
 
@@ -126,16 +134,33 @@ class Means(Shown):
 
     def summary(self) -> dict[str, str]:
         """What is proved, name → words."""
-        return {f"mean of {e}": printed(x) for (e, *_), x in zip(self.spans, self.values, strict=True)}
+        return {f"mean of {words(e)['of']}": printed(x) for (e, *_), x in zip(self.spans, self.values, strict=True)}
 
 
 def prepared(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[Any]) -> tuple[Field, Tape, Start]:
     """The field, the expressions as a tape of its arguments, the start."""
-    for e in expressions:
+    plain = [e.rhs if isinstance(e, sp.Eq) and e.lhs.is_Symbol else e for e in expressions]
+    for e in plain:
         if not isinstance(e, sp.Expr):
             raise InputError(f"proved: {e!r} must be an expression of the states, a sympy expression")
     made = field_of(system, values, q0, v0)
-    return made, made.function(expressions), Start(*made.parts)
+    return made, made.function(plain), Start(*made.parts)
+
+
+def words(expression: sp.Basic) -> dict[str, str]:
+    """What an expression is called, and what that means where it is named; decimals are the rational numbers that they mean."""
+    exactly = {x: sp.Rational(str(rational(x, "a number"))) for x in expression.atoms(sp.Float)}
+    written = expression.xreplace(exactly)
+    if isinstance(written, sp.Eq):
+        return {"of": str(written.lhs), "means": str(written.rhs)}
+    return {"of": str(written)}
+
+
+def expression_data(made: Field, tape: Tape) -> dict[str, Any]:
+    """Of a certificate: the expressions' operations, and those of what is observed, by name."""
+    seen = made.seen or {}
+    observed = tape_data(made.function([*seen])) | {"names": [str(s) for s in seen]} if seen else None
+    return {"expression": tape_data(tape), "observed": observed}
 
 
 def crossing(
@@ -150,7 +175,7 @@ def crossing(
     """A proof that the expression `event` of the states passes zero before the time `before` (s), with when.
 
     system, values, q0, v0: as in `enclose`; of a Scene the expression may have x_1 … z_2 of the axes and their rates, of a
-    Structure x_0, y_0, z_0, ….
+    Structure x_0, y_0, z_0, …. A long one may have a name, Eq(E, expression).
 
     Raises:
         InputError: for what makes no sense.
@@ -169,10 +194,12 @@ def crossing(
                     continue
                 if known and sign != known:
                     time = since.union(step.node.t + step.h * low)
-                    return Crossing(event, True, time, clear, made, start, tuple(steps), accuracy.bits)
+                    return Crossing(event, True, time, clear, made, tape, start, tuple(steps), accuracy.bits)
                 clear = clear and not pending
                 known, since, pending = sign, step.node.t + step.h * high, False
-        raise NotProved(f"{where}: {event} keeps its sign, or is not shown to change it, up to t = {printed(end, 10)}")
+        raise NotProved(
+            f"{where}: {words(event)['of']} keeps its sign, or is not shown to change it, up to t = {printed(end, 10)}"
+        )
 
 
 def no_crossing(
@@ -198,8 +225,8 @@ def no_crossing(
             for low, _, sign in watch(made.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
                 if not sign:
                     at = float((step.node.t + step.h * low).mid())
-                    raise NotProved(f"{where}: {event} is not shown to stay off zero beyond t = {at:.10g}")
-        return Crossing(event, False, end, False, made, start, tuple(steps), accuracy.bits)
+                    raise NotProved(f"{where}: {words(event)['of']} is not shown to stay off zero beyond t = {at:.10g}")
+        return Crossing(event, False, end, False, made, tape, start, tuple(steps), accuracy.bits)
 
 
 def means(
@@ -207,7 +234,7 @@ def means(
     values: Values | None = None,
     q0: Any = None,
     v0: Any = None,
-    spans: Sequence[tuple[sp.Expr, Any, Any]] = (),
+    spans: Sequence[tuple[sp.Basic, Any, Any]] = (),
     tol: float = TOL,
 ) -> Means:
     """Means of expressions of the states over spans of time, (1/(t₂ − t₁)) ∫ e dt from t₁ to t₂, enclosed.
@@ -241,8 +268,8 @@ def means(
                     totals[i] += step.h * along[i].integral(low, high)
         values_of = [total / (until - since) for total, (since, until) in zip(totals, ends, strict=True)]
         claim = [  # sixteen times as wide: another program's bounds are others
-            {
-                "of": str(e),
+            words(e)
+            | {
                 "since": ball_data(since),
                 "until": ball_data(until),
                 "mean": ball_data(x + arb(0, (15 * radius(x)).upper())),
@@ -250,6 +277,6 @@ def means(
             for (e, *_), (since, until), x in zip(spans, ends, values_of, strict=True)
         ]
         flow = flow_data(made.motion, start, steps, accuracy.bits)
-        certificate = flow | {"kind": "means", "expression": tape_data(tape), "claim": {"means": claim}}
+        certificate = flow | expression_data(made, tape) | {"kind": "means", "claim": {"means": claim}}
         whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
         return Means(tuple(whole), tuple(values_of), certificate)

@@ -113,6 +113,4 @@ class MotionNearRest(Motion):
         *states, pace = arguments
         zero = pace.constant(ZERO)
         u = TaylorModel(self.u, zero.rest, pace.order)
-        return RestEvaluation(
-            Evaluation(self.tape, [*(NearRest(zero, x, u) for x in states), NearRest(pace, zero, u)])
-        )
+        return RestEvaluation(Evaluation(self.tape, [*(NearRest(zero, x, u) for x in states), NearRest(pace, zero, u)]))

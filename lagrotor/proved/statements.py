@@ -1,6 +1,6 @@
 """The theorem of a certificate in words, composed from the claim that `check` verifies.
 
-What the states, an expression and a scene are called are the certificate's own words; every number and every kind is claimed.
+What the states and a scene are called are the certificate's own words; every number, kind and expression is claimed.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -58,12 +58,16 @@ def _crossing(certificate: Certificate) -> str:
     """Of an expression that passes zero."""
     claim = certificate["claim"]
     passes = "first passes" if claim["first"] else "passes"
-    return f"{certificate['event']} {passes} zero at a time t in {printed(_claimed(claim['time']), 15)} s."
+    event = certificate["event"]
+    return (
+        f"{event['of']} {passes} zero at a time t in {printed(_claimed(claim['time']), 15)} s.{_definitions([event])}"
+    )
 
 
 def _no_crossing(certificate: Certificate) -> str:
     """Of an expression that keeps its sign."""
-    return f"{certificate['event']} does not pass zero from t = 0 to {_moment(certificate['claim']['time'])} s."
+    event, end = certificate["event"], _moment(certificate["claim"]["time"])
+    return f"{event['of']} does not pass zero from t = 0 to {end} s.{_definitions([event])}"
 
 
 def _means(certificate: Certificate) -> str:
@@ -71,7 +75,13 @@ def _means(certificate: Certificate) -> str:
     rows = [
         (x["of"], *map(_moment, (x["since"], x["until"])), _claimed(x["mean"])) for x in certificate["claim"]["means"]
     ]
-    return " ".join(f"The mean of {e} from t = {a} to {b} s is in {printed(x, 8)}." for e, a, b, x in rows)
+    means = " ".join(f"The mean of {e} from t = {a} to {b} s is in {printed(x, 8)}." for e, a, b, x in rows)
+    return means + _definitions(certificate["claim"]["means"])
+
+
+def _definitions(named: Sequence[Mapping[str, Any]]) -> str:
+    """What the names of expressions mean, each once."""
+    return "".join(dict.fromkeys(f" {each['of']} = {each['means']}." for each in named if "means" in each))
 
 
 def _periodic_orbit(certificate: Certificate) -> str:

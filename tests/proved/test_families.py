@@ -17,7 +17,7 @@ from flint import arb, arb_poly, ctx
 from lagrotor import Link, Scene
 from lagrotor.errors import DomainError
 from lagrotor.mechanics import System, coordinates
-from lagrotor.proved import NotProved, check, families, family_checking, near_rest_checking, precession
+from lagrotor.proved import NotProved, check, families, precession
 from lagrotor.proved.balls import exact, precision, upper
 from lagrotor.proved.closed_orbits import OrbitProblem
 from lagrotor.proved.families import FamilyProof, prove_family
@@ -26,6 +26,7 @@ from lagrotor.proved.near_rest import MotionNearRest, NearRest
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
 from lagrotor.proved.taylor_models import Order, TaylorModel
+from lagrotor.proved.verification import family_checking, near_rest_checking
 
 ORDER = Order(9, 7)
 FUNCTIONS = {
@@ -214,7 +215,12 @@ def test_both_programs_keep_the_bounds_of_functions_near_a_rest(name: str, rest:
             else:
                 other = near_rest_checking._moved(name, split, sheet_u)[1]
             needed = arb(0)
-            for s, eps in [(arb(1), arb(1)), (arb(1), arb("-0.99")), (arb("0.6"), arb("0.9")), (arb("0.9"), arb("-0.8"))]:
+            for s, eps in [
+                (arb(1), arb(1)),
+                (arb(1), arb("-0.99")),
+                (arb("0.6"), arb("0.9")),
+                (arb("0.9"), arb("-0.8")),
+            ]:
                 moved = value(w, s, eps) + rng.choice([-1, 1]) * rest
                 wide = (1 + eps) * arb(0.1)
                 true = (truth(arb(at) + wide * moved) - truth(arb(at))) / wide
@@ -265,6 +271,9 @@ SPOILS = {
     "leave a part out": lambda c: c["pieces"][0]["cuts"].pop(),
     "fixed set of the reversal": lambda c: c["pieces"][0]["x"].__setitem__(1, ["1p-20"]),
     "the tube about a family is too narrow": lambda c: c["pieces"][0]["x"][6].__setitem__(0, "1p-2"),
+    "the piece near the rest does not begin there": lambda c: c["pieces"][0].update(
+        {"near rest": True, "x": [["1p0"], *c["pieces"][0]["x"][1:]]}
+    ),
     "no precession of the pair": lambda c: c["reversals"].pop(),
     "time reversed is no motion": lambda c: next(
         o for o in c["motion"]["operations"] if o[0] == "subtract"
@@ -281,12 +290,23 @@ def test_a_spoiled_family_is_refused(family: Any, what: str) -> None:
         check(certificate)
 
 
+def test_a_pair_of_amplitudes_that_is_none_is_refused() -> None:
+    for r0 in (("-0.1", "0.1"), ("0.1", "0.1"), (0, 1), (0, 0)):
+        with pytest.raises(DomainError, match="must lie between 0 and 1, the lowest of a pair first"):
+            precession(Scene((10, -10)), r0)
+
+
 @pytest.mark.slow
 def test_the_precession_exists_for_all_amplitudes_up_to_three_fifths() -> None:
-    """The numbers of docs/proved.md; a heavy bar over a shorter interval."""
-    family = precession(Scene((10, -10)), ("0.001", "0.6"), 1e-11)
-    assert "for every r0 in [0.001, 0.6]" in check(json.loads(json.dumps(family.certificate)))
-    for r0 in ("0.05", "0.33", "0.59"):
+    """The numbers of docs/proved.md, a hole, a missing beginning; a heavy bar over a shorter interval."""
+    family = precession(Scene((10, -10)), (0, "0.6"), 1e-11)
+    certificate = json.loads(json.dumps(family.certificate))
+    assert "for every r0 in (0, 0.6]" in check(certificate)
+    for r0 in ("1e-9", "0.05", "0.33", "0.59"):
         assert family.frequency_at(r0).overlaps(precession(Scene((10, -10)), r0).frequency)
+    for what, place in {"there is a gap between two pieces": 2, "the amplitudes are others": 0}.items():
+        spoiled = certificate | {"pieces": [x for i, x in enumerate(certificate["pieces"]) if i != place]}
+        with pytest.raises(NotProved, match=what):
+            check(spoiled)
     heavy = Scene((10, -10), link=Link(1, 1, 1))
     assert "for every r0 in [0.1, 0.15]" in check(precession(heavy, ("0.1", "0.15"), 1e-9).certificate)

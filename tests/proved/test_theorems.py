@@ -2,6 +2,7 @@
 
 import copy
 import json
+from dataclasses import replace
 from typing import Any
 
 import mpmath as mp
@@ -22,7 +23,6 @@ from lagrotor.proved import (
     NotProved,
     carried_sets,
     check,
-    checking,
     crossing,
     enclose,
     equilibrium,
@@ -33,6 +33,8 @@ from lagrotor.proved import (
     precession,
 )
 from lagrotor.proved.balls import as_text, precision
+from lagrotor.proved.carried_sets import Accuracy, Start, steps_of
+from lagrotor.proved.verification import certified_sets
 
 C = coordinates("theta")
 (THETA,), (RATE,) = C.q, C.v
@@ -52,6 +54,14 @@ HENON_HEILES = System(PLANE, (U**2 + V**2 - X**2 - Y**2) / 2 - X**2 * Y + Y**3 /
 def verified(theorem: Any) -> str:
     """The certificate goes through JSON, and the second program follows it."""
     return check(json.loads(json.dumps(theorem.certificate)))
+
+
+def moved(number: list[str], by: str) -> list[str]:
+    """A ball [midpoint, radius] moved."""
+    with precision(300):
+        from lagrotor.proved.balls import of_text
+
+        return [as_text((of_text(number[0]) + arb(by)).mid()), number[1]]
 
 
 def near(ball: Any, number: str, within: str) -> bool:
@@ -225,6 +235,62 @@ def test_means_over_time() -> None:
             means(spring, {}, [1], [0], spans)
 
 
+SWING = means(PENDULUM, {}, [1], [0], [(sp.Eq(sp.Symbol("E"), RATE**2 / 2 - sp.cos(THETA)), 0, 2), (THETA, 1, 2)])
+MISS = crossing(Scene((10, -10), rates=((0.1, 0, 0),) * 2), event=AXES.q[0] - sp.Rational(1, 500), before="0.03")
+
+
+def test_a_name_is_defined_once_and_what_is_written_is_what_is_computed() -> None:
+    words = verified(SWING)
+    assert (
+        words.startswith("The mean of E from t = 0 to 2 s is in [-0.54030231 +/- ") and words.count("cos(theta)") == 1
+    )
+    assert "x_1 - 1/500 first passes zero" in verified(MISS)
+
+
+FALSE_WORDS = {
+    "called what it is not": [
+        lambda c: c["claim"]["means"][1].__setitem__("of", "9**9**9**9**9"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1/10**25"),
+        lambda c: c["claim"]["means"][0].__setitem__("means", "theta_dot**2/2 + cos(theta)"),
+        lambda c: c["claim"]["means"].reverse(),
+        lambda c: c["expression"]["outputs"].reverse(),
+    ],
+    "cannot be read": [
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta # and it topples"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta\n"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "__import__('os').getcwd()"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "omega"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "(" * 5000 + "theta" + ")" * 5000),
+    ],
+    "more than 20000 characters": [lambda c: c["claim"]["means"][1].__setitem__("of", "theta" + " + 0" * 10_000)],
+    "the name of an expression is no name": [lambda c: c["claim"]["means"][0].__setitem__("of", "E, and it topples")],
+    "a mean is another": [
+        lambda c: c["claim"]["means"][0].__setitem__("mean", moved(c["claim"]["means"][0]["mean"], "1e-8")),
+        lambda c: c["claim"]["means"][0].__setitem__("mean", [c["claim"]["means"][0]["mean"][0], "0p0"]),
+        lambda c: c["claim"]["means"][1].__setitem__("since", ["3p-1", "0p0"]),
+    ],
+}
+
+
+@pytest.mark.parametrize(("says", "k"), [(says, k) for says, rows in FALSE_WORDS.items() for k in range(len(rows))])
+def test_a_mean_of_something_else_is_refused(says: str, k: int) -> None:
+    spoiled = json.loads(json.dumps(SWING.certificate))
+    FALSE_WORDS[says][k](spoiled)
+    with pytest.raises(NotProved, match=says):
+        check(spoiled)
+
+
+@pytest.mark.parametrize("by", ["1e-4", "-1e-4", "0.01"])
+def test_a_crossing_that_just_misses_its_time_is_refused(by: str) -> None:
+    spoiled = json.loads(json.dumps(MISS.certificate))
+    spoiled["claim"]["time"] = moved(spoiled["claim"]["time"], by)
+    with pytest.raises(NotProved, match="does not change its sign over the claimed time"):
+        check(spoiled)
+    spoiled = copy.deepcopy(MISS.certificate) | {"event": {"of": "x_2 - 1/500"}}
+    with pytest.raises(NotProved, match="called what it is not"):
+        check(spoiled)
+
+
 def test_a_pulse_that_begins_within_a_step_leaves_the_set_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
     """A force exp(−(t − 1)²/w²) is in no Taylor term at t = 0, but in the rest; the twin lets the rest be large."""
     c = coordinates("x")
@@ -238,14 +304,6 @@ def test_a_pulse_that_begins_within_a_step_leaves_the_set_narrow(monkeypatch: py
 CERTIFICATE = periodic_orbit(
     HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"]
 ).certificate
-
-
-def moved(number: list[str], by: str) -> list[str]:
-    """A ball [midpoint, radius] moved."""
-    with precision(300):
-        from lagrotor.proved.balls import of_text
-
-        return [as_text((of_text(number[0]) + arb(by)).mid()), number[1]]
 
 
 LEFT_OUT = {"a node is left out": 2, "the last node is left out": -1}
@@ -279,6 +337,31 @@ def spoil(certificate: dict[str, Any], what: str) -> None:
         claim["pair_sum"] = moved(claim["pair_sum"], "1e-3")
     else:
         certificate["motion"]["operations"][0] = ["__import__", 0]
+
+
+def test_an_orbit_of_another_amplitude_in_the_box_is_refused() -> None:
+    """The test is held at the middle: a box that is wide in what is not sought says nothing of the rest of it."""
+    scene = Scene((10, -10))
+    orbit = precession(scene, "0.2", 1e-12).pieces[0]
+    with precision(orbit.proof.bits, 30):
+        off = arb(0, 1e-7)
+        spread = [off, *orbit.proof.start.spread[1:]]
+        start = Start(orbit.proof.start.middle, spread)
+        accuracy = Accuracy(1e-12)
+        steps = tuple(steps_of(orbit.proof.problem.motion, start, arb(1), accuracy))
+        wide = replace(orbit, proof=replace(orbit.proof, start=start, steps=steps)).certificate
+    false = wide | {"who": "It", "claim": wide["claim"] | {"r0": ["20000001/100000000"] * 2}}
+    with pytest.raises(NotProved, match="at the middle of what is not sought"):
+        check(false)
+
+
+def test_a_precession_that_is_hyperbolic_is_not_parabolic() -> None:
+    """At r0 = 0.02 the multipliers are so near to 1 that six ones fit them, too."""
+    certificate = precession(Scene((10, -10)), "0.02", 1e-14).certificate
+    assert certificate["claim"]["kind"] == "undecided"
+    false = certificate | {"ones": 6, "claim": certificate["claim"] | {"kind": "parabolic"}}
+    with pytest.raises(NotProved, match="energy and momentum leave one pair"):
+        check(false)
 
 
 @pytest.mark.parametrize(
@@ -324,15 +407,15 @@ def test_a_certificate_that_is_not_spoiled_is_verified() -> None:
 
 def test_a_check_that_skips_a_node_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """The twin of the spoiled nodes: without the test of one node each of them would be verified."""
-    carried, whole = checking.Carried._step, checking.demand
+    carried, whole = certified_sets.Carried._step, certified_sets.demand
     spoiled = copy.deepcopy(CERTIFICATE)
     spoil(spoiled, "a node is moved by 1e-17")
 
     def skipping(self: Any, node: Any, data: Any, k: int) -> Any:
-        monkeypatch.setattr(checking, "demand", (lambda *_: None) if k in (1, 2) else whole)
+        monkeypatch.setattr(certified_sets, "demand", (lambda *_: None) if k in (1, 2) else whole)
         return carried(self, node, data, k)
 
-    monkeypatch.setattr(checking.Carried, "_step", skipping)
+    monkeypatch.setattr(certified_sets.Carried, "_step", skipping)
     assert "elliptic" in check(spoiled)
 
 

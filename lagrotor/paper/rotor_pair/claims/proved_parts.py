@@ -109,11 +109,10 @@ def energies(
     scene = shocked_scene(spins, (50, 0, 0))
     put = {s: _Q(str(x)) for s, x in zip((a, b), scene.inertias, strict=True)}
     energy = axes_pair().L.xreplace(put) + sum(_Q(str(w)) ** 2 for w in spins) * _Q(str(scene.rotor.I3)) / 2
-    for part, span, value, off in zip(
-        (before, after), ((0, "0.05"), ("0.4", "0.5")), printed.values(), within, strict=True
-    ):
-        found, theorem = _means(scene, [(energy, *span)], "The expression is the energy in J.")
-        yield from _decided(part, _less(abs(found[0] - value), off), theorem)
+    spans = [(sp.Eq(sp.Symbol("E"), energy), *span) for span in ((0, "0.05"), ("0.4", "0.5"))]
+    found, theorem = _means(scene, spans, "E is the energy in J.")
+    for part, mean, value, off in zip((before, after), found, printed.values(), within, strict=True):
+        yield from _decided(part, _less(abs(mean - value), off), theorem)
 
 
 def topples(part: str, spins: Spins) -> Iterator[Part]:
@@ -224,3 +223,14 @@ def rate_changes(part: str, scene: Scene, r0: float, unchanged: float) -> Iterat
     change = (abs(orbit.frequency) / constant - 1) / r0**2
     words = f"At constant inclination: {constant:.4f} rad/s."
     yield from _decided(part, _less(abs(change), unchanged), Theorem.of(orbit, words))
+
+
+def over_cosine(part: str, scene: Scene, r0: float) -> Iterator[Part]:
+    """C23: the paired precession is slower than the natural rate, which over a cosine is faster."""
+    from lagrotor.proved import precession
+
+    if scene.spins[0] != -scene.spins[1]:
+        return
+    orbit, natural = precession(scene, r0), natural_rate(scene)
+    words = f"The natural rate is {natural:g} rad/s; over the cosine of an inclination it is more."
+    yield from _decided(part, _less(natural, abs(orbit.frequency)), Theorem.of(orbit, words))

@@ -16,9 +16,11 @@ from lagrotor.paper.rotor_pair.claims.precession_runs import (
     EQUAL,
     MASSLESS,
     OPPOSITE,
+    PAPER_R0,
     once_round,
     precession_scene,
 )
+from lagrotor.paper.rotor_pair.claims.proved_parts import over_cosine
 from lagrotor.paper.rotor_pair.shocked_runs import shock_of, shocked_scene
 from lagrotor.theory.natural_rate import natural_rate
 
@@ -99,5 +101,5 @@ C23 = ClaimTest(
     "exact orbits; exact pair (minimal)",
     measure_c23,
     decide_c23,
-    unproved="it is about a coefficient in the limit of small inclination; families of orbits are proved at finite ones",
+    lambda spins: over_cosine(_COSINE, Scene(spins, link=MASSLESS), PAPER_R0),
 )

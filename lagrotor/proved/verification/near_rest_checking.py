@@ -5,7 +5,7 @@ from typing import Any
 
 from flint import arb, arb_series, ctx
 
-from lagrotor.proved.family_checking import (
+from lagrotor.proved.verification.family_checking import (
     FamilyFlow,
     Sheet,
     exponential,
@@ -14,7 +14,7 @@ from lagrotor.proved.family_checking import (
     root,
     turning,
 )
-from lagrotor.proved.recurrences import ZERO, demand, motion_terms, rational_of
+from lagrotor.proved.verification.recurrences import ZERO, demand, motion_terms, rational_of
 
 Ball = Any
 Split = tuple[Sheet, Sheet]  # v₀ and w of v₀ + u w

@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
-from lagrotor.proved.recurrences import ZERO, demand, motion_terms, rational_of, terms_of
+from lagrotor.proved.verification.recurrences import ZERO, demand, motion_terms, rational_of, terms_of
 
 Ball = Any
 

@@ -1,0 +1,248 @@
+"""`check`: a small second program that verifies a certificate. It shares no arithmetic of series with the search.
+
+It looks for no step, frame, order or orbit: all are in the certificate. At each node the set is carried through the step by
+this program's own Taylor terms, found by recurrences, and must lie within the certificate's next set. The derivative of the
+rates is found by dual numbers, forward.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from flint import arb, arb_mat, arb_poly, ctx
+
+from lagrotor.errors import InputError, NotProved
+from lagrotor.proved.statements import theorem_of
+from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
+from lagrotor.proved.verification.certified_sets import Carried, Flow, balls, column, matrix, number, read_ball, unit
+from lagrotor.proved.verification.orbit_checking import check_family, check_orbit
+from lagrotor.proved.verification.recurrences import ZERO, demand
+from lagrotor.proved.verification.written import value_of
+
+Ball = Any
+_MORE_BITS = 64
+_SHIFTS = ("0.00137", "-0.00219", "0.00083", "0.00311", "-0.00171", "0.00059", "-0.00263")  # off the motion, over 2^30
+
+
+def check(certificate: Any) -> str:
+    """Verify a certificate; returns the theorem that it proves, in words composed from what was verified.
+
+    What an expression is called is held to its recorded operations, near points of the motion; the names of states, of what is
+    observed and of a scene are the certificate's own.
+
+    Raises:
+        InputError: for what is no certificate.
+        NotProved: with the first thing that does not hold.
+    """
+    try:
+        version, kind = certificate["version"], certificate["kind"]
+        rule = _RULES[kind]
+    except (KeyError, TypeError, IndexError):
+        raise InputError(
+            "check: a certificate is the dictionary of `.certificate`, with a known version and kind"
+        ) from None
+    if version != 1:
+        raise InputError(f"check: version {version} of certificates is unknown; this program reads 1")
+    before = ctx.prec
+    try:
+        ctx.prec = int(certificate.get("bits", 64)) + _MORE_BITS
+        rule(certificate)
+        words = theorem_of(certificate)
+    except (KeyError, TypeError, IndexError, ValueError, ZeroDivisionError):
+        raise NotProved(
+            "check: the certificate cannot be followed: an entry is missing, is no number, or has another shape"
+        ) from None
+    finally:
+        ctx.prec = before
+    return words
+
+
+def check_enclosure(certificate: Any) -> None:
+    """The last box lies within the states that are claimed, at the time that is claimed."""
+    carried, claim = Carried(certificate), certificate["claim"]
+    demand(carried.time.contains(read_ball(claim["t"])), "the steps do not end at the time that is claimed")
+    claimed = balls(claim["states"])
+    demand(0 < len(claimed) <= len(carried.box), "no states are claimed")
+    demand(
+        all(y.contains(x) for x, y in zip(carried.box, claimed, strict=False)),
+        "the states are not those that are claimed",
+    )
+
+
+def pieces_of(certificate: Any, carried: Carried) -> Any:
+    """Of each step: its begin, its length, the expressions' series."""
+    at = ZERO
+    tape = certificate["expression"]
+    for box, h, n in carried.boxes:
+        rows = carried.flow.step(box, h, n)
+        arguments = carried.flow.arguments(rows, box[carried.flow.moving :], None, n)
+        yield at, h, [found.value for found in evaluated(tape, arguments, n)]
+        at += h
+
+
+def check_words(certificate: Any, carried: Carried, named: Sequence[Any]) -> None:
+    """What an expression is called, or its name is said to mean, has the value of its operations near nodes along the motion.
+
+    What is observed has the names of the certificate, and the values of its operations.
+    """
+    flow, nodes = carried.flow, certificate["steps"]
+    names, observed = certificate["motion"]["arguments"], certificate["observed"]
+    rest = carried.middle[flow.moving :]
+    for k, step in enumerate([nodes[0], nodes[len(nodes) // 2], nodes[-1]]):
+        at = [
+            number(x) + arb(_SHIFTS[(i + k) % len(_SHIFTS)]) / 2**30
+            for i, x in enumerate(step["node"]["m"][: flow.moving])
+        ]
+        arguments = flow.arguments([Rest([x], ZERO, 1) for x in at], rest, None, 1)
+        values = dict(zip(names, [x.value.at_start() for x in arguments], strict=True))
+        if observed:
+            seen = evaluated(observed, arguments, 1)
+            values |= dict(zip(observed["names"], [x.value.at_start() for x in seen], strict=True))
+        for each, e in zip(named, evaluated(certificate["expression"], arguments, 1), strict=True):
+            demand("means" not in each or str(each["of"]).isidentifier(), "the name of an expression is no name")
+            off = value_of(each.get("means", each["of"]), values) - e.value.at_start()
+            demand(bool(off.contains(0) and off.is_finite()), "an expression is called what it is not")
+
+
+def sign_over(a: Rest, low: Ball, high: Ball, depth: int = 30) -> int:
+    """The sign of a series between two places of a step; 0 where it has none."""
+    s = low.union(high)
+    middle = s.mid()
+    poly = arb_poly(a.terms)
+    value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, a.rest.upper())
+    if value > 0 or value < 0:
+        return 1 if value > 0 else -1
+    if not depth or poly(middle).contains(0):
+        return 0
+    half = (low + high) / 2
+    first = sign_over(a, low, half, depth - 1)
+    return first if first and sign_over(a, half, high, depth - 1) == first else 0
+
+
+def check_crossing(certificate: Any) -> None:
+    """Opposite signs at both ends of the claimed time; up to its begin one sign, where it is the first."""
+    carried, claim = Carried(certificate), certificate["claim"]
+    check_words(certificate, carried, [certificate["event"]])
+    time = read_ball(claim["time"])
+    ends = []
+    for moment in (arb(time.lower()), arb(time.upper())):
+        signs = set()
+        for at, h, (series,) in pieces_of(certificate, carried):
+            s = (moment - at) / h
+            if not (s < 0 or s > 1):  # a moment at a node may be in either step
+                value = arb_poly(series.terms)(within_step(s)) + arb(0, series.rest.upper())
+                signs.add(1 if value > 0 else -1 if value < 0 else 0)
+        ends.append(signs)
+    changes = ends in ([{1}, {-1}], [{-1}, {1}])
+    demand(changes, "the expression does not change its sign over the claimed time")
+    if claim["first"]:
+        signs = set()
+        for at, h, (series,) in pieces_of(certificate, carried):
+            s = (arb(time.lower()) - at) / h
+            if not s <= 0:
+                signs.add(sign_over(series, ZERO, within_step(s)))
+        demand(signs == ends[0], "the expression may pass zero before the claimed time")
+
+
+def within_step(s: Ball) -> Ball:
+    """The part of a ball between 0 and 1."""
+    return s.max(ZERO).min(arb(1))
+
+
+def check_no_crossing(certificate: Any) -> None:
+    """One sign over every step."""
+    carried = Carried(certificate)
+    check_words(certificate, carried, [certificate["event"]])
+    claimed = read_ball(certificate["claim"]["time"])
+    demand(carried.time.contains(claimed) or carried.time >= claimed, "the steps end before the claimed time")
+    signs = {sign_over(series, ZERO, arb(1)) for _, _, (series,) in pieces_of(certificate, carried)}
+    demand(len(signs) == 1 and 0 not in signs, "the expression may pass zero")
+
+
+def check_means(certificate: Any) -> None:
+    """The integrals of the expressions over the spans that are claimed, step by step."""
+    carried, claims = Carried(certificate), certificate["claim"]["means"]
+    check_words(certificate, carried, claims)
+    spans = [(read_ball(x["since"]), read_ball(x["until"])) for x in claims]
+    for since, until in spans:
+        demand(bool(since >= 0 and since < until), "a span has no length")
+        demand(carried.time.contains(until) or carried.time >= until, "the steps end before a span does")
+    totals = [ZERO] * len(claims)
+    for at, h, series in pieces_of(certificate, carried):
+        for i, (f, span) in enumerate(zip(series, spans, strict=True)):
+            low, high = (within_step((x - at) / h) for x in span)
+            whole = arb_poly(f.terms).integral()
+            totals[i] += h * (whole(high) - whole(low) + arb(0, ((high - low) * f.rest).abs_upper()))
+    for x, total, (since, until) in zip(claims, totals, spans, strict=True):
+        demand(read_ball(x["mean"]).contains(total / (until - since)), "a mean is another")
+
+
+def check_equilibrium(certificate: Any) -> None:
+    """Krawczyk's test for the forces at rest; definite energy, or an eigenvalue with a positive real part."""
+    flow = Flow(certificate["motion"])
+    n = flow.moving // 2
+    middle, box = [number(x) for x in certificate["middle"]], balls(certificate["box"])
+    demand(len(middle) == len(box) == n, "the equilibrium has other coordinates")
+    A = matrix(certificate["A"])
+    wide = [x + y for x, y in zip(middle, box, strict=True)]
+    at = gradients(flow.tape, flow, [*middle, *[ZERO] * n])
+    J = gradients(flow.tape, flow, [*wide, *[ZERO] * n])
+    value = column([f.value.at_start() for f in at[n:]])
+    slope = arb_mat([[x.at_start() for x in (f.by or [])[:n]] for f in J[n:]])
+    w = column(box)
+    K = (unit(n) - A * slope) * w - A * value
+    for x, y in zip(K.entries(), box, strict=True):
+        demand(y.contains_interior(x), "Krawczyk's test does not close")
+    states = [x + y for x, y in zip(middle, K.entries(), strict=True)]
+    demand(
+        all(y.contains(x) for x, y in zip(states, balls(certificate["claim"]["q"]), strict=True)),
+        "the coordinates are others",
+    )
+    claim = certificate["claim"]["stability"]
+    demand(claim in ("stable", "stable to first order", "unstable", "undecided"), "the stability is unknown")
+    if claim == "stable":
+        demand(not grows(J, n), "an eigenvalue has a positive real part")
+        state = [Dual(Rest([x], ZERO, 1)) for x in (*wide, *[ZERO] * n, *flow.parameters)]
+        H = [f.value.at_start() for f in evaluated(certificate["energy"], state, 1)]
+        for k in range(1, 2 * n + 1):
+            minor = arb_mat([[H[2 * n * i + j] for j in range(k)] for i in range(k)])
+            demand(minor.det() > 0, "the energy is not shown to be definite")
+    elif claim != "undecided":
+        values = linear(J, n).eig()
+        if claim == "unstable":
+            demand(any(z.real > 0 for z in values), "no eigenvalue is shown to have a positive real part")
+        else:
+            apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
+            fine = certificate["conservative"] and apart and all(z.real.contains(0) for z in values)
+            demand(fine, "the eigenvalues are not shown to be imaginary")
+
+
+def grows(J: Sequence[Dual], n: int) -> bool:
+    """Whether an eigenvalue of the linear motion is shown to have a positive real part."""
+    try:
+        return any(z.real > 0 for z in linear(J, n).eig())
+    except ValueError:  # Not apart.
+        return False
+
+
+def linear(J: Sequence[Dual], n: int) -> Any:
+    """The matrix of the linear motion in (q, v)."""
+    zero = Rest([ZERO], ZERO, 1)
+    return arb_mat([[x.at_start() for x in (f.by or [zero] * 2 * n)] for f in J])
+
+
+def gradients(tape: Any, flow: Flow, state: list[Ball]) -> list[Dual]:
+    """The tape's outputs with their derivatives by the states."""
+    rows = [Rest([x], ZERO, 1) for x in state]
+    by = [[Rest([arb(int(i == j))], ZERO, 1) for j in range(len(state))] for i in range(len(state))]
+    return evaluated(tape, flow.arguments(rows, [], by, 1), 1)
+
+
+_RULES: dict[str, Callable[[Any], None]] = {
+    "enclosure": check_enclosure,
+    "crossing": check_crossing,
+    "no crossing": check_no_crossing,
+    "means": check_means,
+    "periodic orbit": check_orbit,
+    "equilibrium": check_equilibrium,
+    "family": check_family,
+}

@@ -1,0 +1,267 @@
+"""Periodic orbits and families of them: Krawczyk's test, reversals, period and multipliers of a certificate."""
+
+from collections.abc import Sequence
+from hashlib import sha512
+from itertools import pairwise
+from typing import Any
+
+from flint import arb, arb_mat, arb_poly, ctx
+
+from lagrotor.errors import NotProved
+from lagrotor.proved.verification.bounded_series import Rest, evaluated, total
+from lagrotor.proved.verification.certified_sets import Carried, Flow, balls, column, matrix, number, read_ball, unit
+from lagrotor.proved.verification.family_checking import FamilyFlow
+from lagrotor.proved.verification.near_rest_checking import FlowNearRest
+from lagrotor.proved.verification.recurrences import ZERO, demand, rational_of
+
+Ball = Any
+
+
+def check_orbit(certificate: Any) -> None:
+    """Krawczyk's test at the end of the steps; the reversals; the period; the multipliers."""
+    carried = Carried(certificate)
+    free, conditions = certificate["free"], certificate["conditions"]
+    first, last = certificate["reversals"]
+    size, moving = carried.flow.size, carried.flow.moving
+    demand(
+        size == moving + 1 and len(free) == len(conditions) and moving in free, "the conditions do not fit the unknowns"
+    )
+    still = all(x.is_zero() for i, x in enumerate(carried.w) if i not in free)
+    demand(still, "the test is held at the middle of what is not sought")
+    demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps are not one unit of s")
+    check_conditions(carried, first, last, free, conditions)
+    A, D = matrix(certificate["A"]), carried.derivative
+    back = 0 if first else 1
+
+    def slope(columns: Sequence[int]) -> Any:
+        return arb_mat([[D[i, j] - back * int(i == j) for j in columns] for i in conditions])
+
+    miss = column([carried.point[i] - back * carried.middle[i] for i in conditions])
+    w = column([carried.w[i] for i in free])
+    K = (unit(len(free)) - A * slope(free)) * w - A * miss
+    for x, box in zip(K.entries(), w.entries(), strict=True):
+        demand(box.contains_interior(x), "Krawczyk's test does not close")
+    start = list(carried.middle)
+    for i, x in zip(free, K.entries(), strict=True):
+        start[i] += x
+    turns = 1 if not first else 2 if first == last else 4
+    claim = certificate["claim"]
+    states = balls(claim["start"])
+    demand(
+        len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False)),
+        "the start is another",
+    )
+    demand(start[moving] > 0 and read_ball(claim["period"]).contains(turns * start[moving]), "the period is another")
+    check_kind(certificate, carried, first, last)
+    if "r0" in claim:
+        check_amplitude(certificate, claim["r0"])
+
+
+def check_amplitude(certificate: Any, claimed: Any) -> None:
+    """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line."""
+    check_pair(certificate)
+    demand(certificate["ones"] == 4, "energy and momentum leave one pair of multipliers")
+    U = read_ball(certificate["start"]["middle"][0]) + read_ball(certificate["start"]["spread"][0])
+    demand(claimed[0] == claimed[1] and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
+
+
+def check_pair(certificate: Any) -> None:
+    """The states and reversals are the pair's."""
+    demand(
+        certificate["motion"]["arguments"][0] == "U"
+        and certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]],
+        "it is no precession of the pair",
+    )
+
+
+def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any) -> None:
+    """The start lies in the fixed set of the first reversal; the conditions put the end into that of the last."""
+    moving = carried.flow.moving
+    if not first:
+        demand(sorted(conditions) == list(range(moving)), "the orbit is not followed to its start")
+        return
+    demand(
+        sorted(conditions) == [i for i, s in enumerate(last) if s < 0], "the conditions are not those of the reversal"
+    )
+    for i, s in enumerate(first):
+        fixed = carried.middle[i].is_zero() and carried.w[i].is_zero()
+        demand(s > 0 or (fixed and i not in free), "the start is not in the fixed set of the reversal")
+    for signs in (first, last):
+        check_reversal(carried.flow, signs)
+
+
+def check_reversal(flow: Flow, signs: Any) -> None:
+    """f(A x) = −A f(x), at points that depend on all of f, to more digits than anything else is known. The identity itself is
+    proved where the certificate is made, from the Lagrangian."""
+    moving, before = flow.moving, ctx.prec
+    ctx.prec = 4 * before
+    for k in range(3):
+        digits = sha512(f"{k}{flow.tape}".encode()).digest()
+        x = [(arb(digits[i % 64]) - 128) / 512 for i in range(moving)]
+        pace = [arb(1)] * (flow.size - moving)
+        values = []
+        for state in (x, [s * y for s, y in zip(signs, x, strict=True)]):
+            rows = [Rest([y], ZERO, 1) for y in state]
+            values.append([f.value.at_start() for f in evaluated(flow.tape, flow.arguments(rows, pace, None, 1), 1)])
+        for s, a, b in zip(signs, *values, strict=True):
+            off = s * a + b
+            demand(off.contains(0), "time reversed is no motion")
+    ctx.prec = before
+
+
+def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> None:
+    """The trace of the monodromy less the ones, against ±2."""
+    claim, moving = certificate["claim"], carried.flow.moving
+    demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
+    if claim["kind"] == "undecided":
+        return
+    whole = carried.derivative
+    D = arb_mat([[whole[i, j] for j in range(moving)] for i in range(moving)])
+    ones = certificate["ones"]
+    if not first:
+        values = D.eig()
+        along = [z for z in values if z.contains(1)]
+        others = [abs(z) for z in values if not z.contains(1)]
+        fine = all(x < 1 for x in others) if claim["kind"] == "attracting" else all(x < 1 or x > 1 for x in others)
+        demand(
+            len(along) == 1 and fine and claim["kind"] in ("attracting", "hyperbolic"),
+            "the multipliers are not shown to be apart from the unit circle",
+        )
+        return
+    pair = pair_sum(D, first, last, ones)
+    if claim["kind"] == "parabolic":
+        demand(moving == ones, "a pair of multipliers is left that need not be one")
+        return
+    demand(moving - ones == 2, "more than one pair of multipliers is left")
+    demand(read_ball(claim["pair_sum"]).contains(pair), "the multipliers' sum is another")
+    demand(claim["kind"] == kind_of(pair), f"the orbit is not shown to be {claim['kind']}")
+
+
+def kind_of(pair: Ball) -> str:
+    """By μ + 1/μ."""
+    return "elliptic" if abs(pair) < 2 else "hyperbolic" if abs(pair) > 2 else "undecided"
+
+
+def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
+    """μ + 1/μ of the multipliers that are left beside the ones, from the derivative between two reversals."""
+    moving = D.nrows()
+    X = arb_mat(moving, moving, [x.mid() for x in D.entries()]).inv()
+    X = arb_mat(moving, moving, [x.mid() for x in X.entries()])
+    R = unit(moving) - D * X
+    size = max((total(row) for row in R.tolist()), key=lambda x: float(x.upper()))
+    demand(size < 1, "the derivative cannot be inverted")
+    rest = (size**2 / (1 - size)).upper()
+    back = X * (unit(moving) + R + arb_mat(moving, moving, [arb(0, rest)] * moving**2))
+    reflect = [
+        arb_mat(moving, moving, [s[i] if i == j else 0 for i in range(moving) for j in range(moving)])
+        for s in (first, last)
+    ]
+    part = reflect[0] * back * reflect[1] * D
+    M = part if first == last else part * part
+    pair = sum((M[i, i] for i in range(moving)), ZERO) - ones
+    left = arb_poly([1, -pair, 1]) if moving > ones else arb_poly([1])
+    off = M.charpoly() - arb_poly([-1, 1]) ** ones * left
+    demand(all(x.contains(0) for x in off.coeffs()), "the multipliers are not as many ones and a pair")
+    return pair
+
+
+def check_family(certificate: Any) -> None:
+    """Krawczyk's test over every piece; each begins where the one before ends, with the same orbit."""
+    check_pair(certificate)
+    flow = Flow(certificate["motion"])
+    for signs in certificate["reversals"]:
+        check_reversal(flow, signs)
+    pieces = [CheckedPiece(certificate["motion"], piece) for piece in certificate["pieces"]]
+    for one, other in pairwise(pieces):
+        demand(other.low <= one.high and one.high <= other.high, "there is a gap between two pieces")
+        same = [
+            all(y.contains_interior(x) for x, y in zip(a.start(one.high), b.box(one.high), strict=True))
+            for a, b in ((one, other), (other, one))
+        ]
+        demand(any(same), "two pieces have other orbits at their common end")
+    low, high = (rational_of(text).atanh() for text in certificate["claim"]["r0"])
+    fits = low >= 0 and low < high and pieces[0].low <= low and high <= pieces[-1].high
+    demand(bool(fits), "the amplitudes are others")
+    period = read_ball(certificate["claim"]["period"])
+    kind = certificate["claim"].get("kind", "undecided")
+    demand(kind in ("elliptic", "hyperbolic", "undecided"), "the kind is unknown")
+    for piece in pieces:
+        fine = kind == "undecided" or piece.is_shown(kind, certificate["reversals"], arb(-1), arb(1))
+        demand(fine, f"the orbits are not shown to be {kind}")
+        pace = piece.start(piece.low.union(piece.high))[-1]
+        demand(bool(pace > 0) and period.contains(4 * pace), "the period is another")
+
+
+class CheckedPiece:
+    """One piece of the pair's family: unknown are the rates of chi and alpha and the pace; U is middle + half ε."""
+
+    def __init__(self, motion: Any, data: Any) -> None:
+        free, conditions = (4, 5, 6), (0, 2, 4)
+        self.middle, self.half = number(data["middle"]), number(data["half"])
+        self.x = [arb_poly([number(c) for c in poly]) for poly in data["x"]]
+        n, p, W = int(data["terms"]), int(data["degree"]), [number(w) for w in data["W"]]
+        still = all(self.x[i].degree() < 0 and W[i].is_zero() for i in (1, 2, 3)) and W[0].is_zero()
+        self.near_rest = data["near rest"] is True
+        U = arb_poly([self.middle, self.half])
+        off = self.x[0] - (arb_poly([1]) if self.near_rest else U)
+        straight = all(c.is_zero() for c in off.coeffs())
+        demand(
+            len(self.x) == len(W) == 7 and still and straight and bool(self.half > 0),
+            "a piece does not start in the fixed set of the reversal",
+        )
+        demand(
+            n > 2 and all(poly.degree() <= p for poly in self.x) and all(W[i] > 0 for i in free), "a piece has no box"
+        )
+        self.low, self.high, self.W = self.middle - self.half, self.middle + self.half, [W[i] for i in free]
+        demand(not self.near_rest or self.low.is_zero(), "the piece near the rest does not begin there")
+        made = (motion, list(self.x), W, n, p)
+        self.flow = flow = FlowNearRest(*made, U) if self.near_rest else FamilyFlow(*made)
+        time = ZERO
+        for step in data["steps"]:
+            h = number(step["h"])
+            flow.step(h, [number(r) for r in step["tube"]])
+            time += h
+        demand(time.is_exact() and time == 1, "the steps are not one unit of s")
+        cuts = [number(c) for c in data["cuts"]]
+        demand(
+            bool(cuts[0] == -1 and cuts[-1] == 1 and all(a < b for a, b in pairwise(cuts))), "the cuts leave a part out"
+        )
+        self.w = [ZERO] * 3
+        box = column([arb(0, w) for w in self.W])
+        for a, b in pairwise(cuts):
+            eps = a.union(b)
+            slope = arb_mat([[flow.slope(i, j, eps) for j in free] for i in conditions])
+            A = arb_mat(3, 3, [x.mid() for x in arb_mat(3, 3, [x.mid() for x in slope.entries()]).inv().entries()])
+            K = (unit(3) - A * slope) * box - A * column([flow.end(i, eps) for i in conditions])
+            for x, y in zip(K.entries(), box.entries(), strict=True):
+                demand(y.contains_interior(x), "Krawczyk's test does not close over a family")
+            for _ in range(2):
+                K = (unit(3) - A * slope) * K - A * column([flow.end(i, eps) for i in conditions])
+            self.w = [x.union(y) for x, y in zip(self.w, K.entries(), strict=True)]
+
+    def is_shown(self, kind: str, reversals: Any, low: Ball, high: Ball, depth: int = 14) -> bool:
+        """Whether every orbit from ε = low to high is of a kind, by halves; energy and momentum leave one pair beside 4 ones."""
+        eps = low.union(high)
+        D = arb_mat([[self.flow.slope(i, j, eps) for j in range(6)] for i in range(6)])
+        try:
+            if kind_of(pair_sum(D, reversals[0], reversals[1], 4)) == kind:
+                return True
+        except (NotProved, ZeroDivisionError):
+            pass
+        middle = (low + high) / 2
+        return depth > 0 and all(
+            self.is_shown(kind, reversals, *part, depth - 1) for part in ((low, middle), (middle, high))
+        )
+
+    def start(self, U: Ball) -> list[Ball]:
+        """What was unknown, for the U of a ball."""
+        return self._about(U, self.w)
+
+    def box(self, U: Ball) -> list[Ball]:
+        """Where it is alone."""
+        return self._about(U, [arb(0, w) for w in self.W])
+
+    def _about(self, U: Ball, off: Sequence[Ball]) -> list[Ball]:
+        eps = (U - self.middle) / self.half
+        *rates, pace = (poly(eps) + w for poly, w in zip(self.x[4:], off, strict=True))
+        return [*(U * x if self.near_rest else x for x in rates), pace]
