@@ -82,7 +82,7 @@ def difference(given: dict) -> float:
     """Of the bead in space from the textbook's one equation, m."""
     rate = given[Omega]
     start = (0.5 * np.sin(1.2), 0, -0.5 * np.cos(1.2)), (0, 0.5 * rate * np.sin(1.2), 0)
-    run = wire.simulate(given, *start, times, tol=1e-12)
+    run = wire.simulate(given, *start, times, tol=1e-10)
     angle = solve_ivp(textbook, (0, 5), [1.2, 0], "DOP853", times, rtol=1e-13, atol=1e-13).y[0]
     other = 0.5 * np.stack([np.sin(angle) * np.cos(6 * times), np.sin(angle) * np.sin(6 * times), -np.cos(angle)], 1)
     return float(np.abs(run.q - other).max())

@@ -57,7 +57,7 @@ times, twin = np.linspace(0, 120, 601), {Omega: 0.0201}
 
 def difference(given: dict) -> float:
     """The largest distance of the two, m."""
-    run = pendulum.simulate(given, (3.0, 0), (0, 0), times, tol=1e-12)
+    run = pendulum.simulate(given, (3.0, 0), (0, 0), times, tol=1e-10)
     rate, frequency = 0.02 * np.sin(0.85), np.sqrt(9.81 / 67)
     in_space = 3 * np.cos(frequency * times) + 3j * rate * np.sin(frequency * times) / frequency
     return float(np.abs(run.q[:, 0] + 1j * run.q[:, 1] - np.exp(-1j * rate * times) * in_space).max())

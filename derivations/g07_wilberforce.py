@@ -50,7 +50,7 @@ first, second = (np.sqrt(36 + sign * 1e-2 / (2 * np.sqrt(0.5e-4))) for sign in (
 
 def difference(given: dict) -> float:
     """The largest difference of the stretches, m."""
-    run = pendulum.simulate(given, (0.1, 0), (0, 0), times, tol=1e-12)
+    run = pendulum.simulate(given, (0.1, 0), (0, 0), times, tol=1e-11)
     return float(np.abs(run.q[:, 0] - 0.05 * (np.cos(first * times) + np.cos(second * times))).max())
 
 

@@ -67,7 +67,7 @@ eccentricity = 0.6
 def difference(given: dict) -> float:
     """The largest distance of the two, for a semi-major axis of one."""
     run = kepler.simulate(
-        given, (1 - eccentricity, 0), (0, np.sqrt((1 + eccentricity) / (1 - eccentricity))), times, 1e-12
+        given, (1 - eccentricity, 0), (0, np.sqrt((1 + eccentricity) / (1 - eccentricity))), times, 1e-9
     )
     u = times.copy()
     for _ in range(60):

@@ -74,7 +74,7 @@ def difference(given: dict) -> float:
     """The largest difference of the gimbals' angles."""
     inertia = 0.3 + 0.5 * np.cos(0.4) ** 2 + 0.15 * np.sin(0.4) ** 2
     rate = 0.3 / inertia
-    run = gimbals.simulate(given, (0, 0.4, 0), (rate, 0, 10 - rate * np.sin(0.4)), times, tol=1e-12)
+    run = gimbals.simulate(given, (0, 0.4, 0), (rate, 0, 10 - rate * np.sin(0.4)), times, tol=1e-11)
     other = solve_ivp(by_hand, (0, 5), [0, 0.4, 0], "DOP853", times, rtol=1e-13, atol=1e-13).y[:2].T
     return float(np.abs(run.q[:, :2] - other).max())
 

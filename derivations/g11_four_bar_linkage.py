@@ -69,7 +69,7 @@ def by_hand(_: float, y: np.ndarray) -> np.ndarray:
 def difference(given: dict) -> float:
     """The largest difference of an angle."""
     start = linkage.consistent(given, q0, v0)
-    run = linkage.simulate(given, *start, times, tol=1e-12)
+    run = linkage.simulate(given, *start, times, tol=1e-11)
     begin = np.concatenate([np.cumsum(q0), np.cumsum(v0)])
     other = solve_ivp(by_hand, (0, 2), begin, "DOP853", times, rtol=1e-13, atol=1e-13).y[:3].T
     return float(np.abs(np.cumsum(run.q, axis=1) - other).max())

@@ -71,7 +71,7 @@ def newton_euler(_: float, state: np.ndarray) -> np.ndarray:
 def difference(given: dict) -> float:
     """The largest distance of the two centres, m."""
     start = rolling.consistent(given, q0, v0)
-    run = rolling.simulate(given, *start, times, tol=1e-12)
+    run = rolling.simulate(given, *start, times, tol=1e-10)
     at = dict(zip((*c.q, *c.v), (*q0, *v0), strict=True)) | values
     origin = wheel.place()
     Q = np.column_stack([np.array((wheel.place(e) - origin).subs(at), float) for e in np.eye(3, dtype=int).tolist()])

@@ -77,7 +77,7 @@ def tilts(count: int) -> np.ndarray:
 
 def difference(given: dict) -> float:
     """Of the largest tilts, rad."""
-    run = block.simulate(given, (0.25,), (0,), times, 1e-10, events=rocking)
+    run = block.simulate(given, (0.25,), (0,), times, 1e-9, events=rocking)
     largest = np.abs(run.crossings(rate).q[:6, 0])
     return float(np.abs(largest - tilts(6)).max())
 

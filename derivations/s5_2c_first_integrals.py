@@ -97,12 +97,12 @@ prove(
 # %%
 def swing_on_orbit(amplitude: float) -> float:
     orbit = exact_orbit(Scene(spins=(10, -10)), amplitude)
-    return swing(ansatz_A(simulate(orbit.scene, np.linspace(0, 2 * np.pi / orbit.frequency, 201), "minimal", 1e-13)))
+    return swing(ansatz_A(simulate(orbit.scene, np.linspace(0, 2 * np.pi / orbit.frequency, 201), "minimal", 1e-12)))
 
 
 def swing_after_shock(scale: float) -> float:
     scene = Scene(spins=(10, -10), shock=Shock((40 * scale, -11 * scale, 0), at=0.5, width=0.05))
-    return swing(ansatz_A(simulate(scene, [0.0, *np.linspace(1.0, 3.0, 401)], "minimal", 1e-13).after(1.0)))
+    return swing(ansatz_A(simulate(scene, [0.0, *np.linspace(1.0, 3.0, 401)], "minimal", 1e-12).after(1.0)))
 
 
 amplitudes, scales = (0.05, 0.1, 0.2), (0.0025, 0.005, 0.01)

@@ -11,7 +11,8 @@ from tests import pages
 HEAD = '<!doctype html><html lang="en"><head><title>t</title><link rel="icon" href="data:,"></head><body><main><h1 id="a">t</h1>'
 FAULTY = f"""{HEAD}<p style="width: 2000px">x</p>
 <math style="font-size: 8px"><mi>a</mi></math><img src="data:," width="9" height="9">
-<a href="no.html">n</a><a href="#nowhere">m</a><button>A</button><button style="margin-left: -10px">B</button></main>
+<style>@media (prefers-color-scheme: dark) {{ .a {{ color: #eee }} }} @media print {{ .b {{ color: #eee }} }}</style><p class="a">dark</p>
+<p class="b">paper</p><div style="overflow: auto; height: 9px"><p>scrolls<p>and scrolls</div><a href="no.html">n</a><a href="#nowhere">m</a><button>A</button><button style="margin-left: -10px">B</button></main>
 <script>undefined_name()</script></body></html>"""
 WHOLE = f'{HEAD}<a href="#a">up</a></main></body></html>'
 
@@ -28,10 +29,13 @@ def test_every_kind_of_fault_is_found(tmp_path: Path, capsys: pytest.CaptureFixt
     said = capsys.readouterr().out
     kinds = (
         "script: ",
-        "formula under 10 px",
+        "letters under 10 px",
         "buttons overlap: A / B",
         "wider than the window",
         "image-alt",
+        "1300 px, print, light: color-contrast",
+        "390 px, screen, dark: color-contrast",
+        "390 px, screen, dark: scrollable-region-focusable",
         "no file",
         "no place",
     )

@@ -260,8 +260,11 @@ def normal_form(expression: sp.Expr) -> sp.Expr:
     """Return the expression as a coprime quotient P/Q in sin and cos of the base angles.
 
     P is of degree below two in every squared generator and Q is free of them, which makes P/Q unique for given base
-    angles (x itself, or x/n if the expression has n-th parts of x) and roots.  Raises NotExactError outside the class
-    and for roots whose sign differs between regions, InputError for what is not a scalar expression.
+    angles (x itself, or x/n if the expression has n-th parts of x) and roots.
+
+    Raises:
+        NotExactError: outside the class, and for roots whose sign differs between regions.
+        InputError: for what is not a scalar expression.
     """
     expression = scalar(expression, "normal_form")
     found = survey(expression, largest=inf)

@@ -9,9 +9,14 @@ from lagrotor.errors import InputError
 
 
 def check_names(where: str, *given: Any) -> None:
-    """Raise InputError, which begins with `where`, if two symbols in what is given have one name and other assumptions.
+    """Refuse symbols of one name and other assumptions.
 
-    given: expressions, matrices, relations, rows and mappings of them; anything else is passed over, and so are dummies.
+    Args:
+        where: how the error begins.
+        given: expressions, matrices, relations, rows and mappings of them; anything else is passed over, and so are dummies.
+
+    Raises:
+        InputError: if there are two.
     """
     seen: dict[str, sp.Symbol] = {}
     for symbol in _symbols(given):

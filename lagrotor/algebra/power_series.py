@@ -73,7 +73,12 @@ class LeadingTerm:
 
 
 def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
-    """Return the series of the expression in `small` about 0, through small**order, with its principal part.
+    """Return the series of an expression, with its principal part.
+
+    Args:
+        expression: a scalar.
+        small: the symbol about whose 0 it is expanded.
+        order: through small**order.
 
     Raises:
         NotExactError: if the expression is not known to have one there.
@@ -88,10 +93,13 @@ def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Ex
 
 
 def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> LeadingTerm:
-    """Return the first term of the series in `small` that does not vanish, looking below small**(through + 1).
+    """Return the first term of a series that does not vanish.
 
-    Where there is none the expression is O(small**(through + 1)): a term small**(through + 1) * log(small)**k is looked at,
-    too.
+    Args:
+        expression: a scalar.
+        small: the symbol about whose 0 it is expanded.
+        through: the order below which is looked, terms small**(through + 1) * log(small)**k included; where there is none
+            the expression is O(small**(through + 1)).
 
     Raises:
         NotExactError: if a coefficient met on the way is undecided, or the expression has no series at small = 0.
@@ -110,6 +118,12 @@ def agreement_order(printed: sp.Expr, derived: sp.Expr, small: sp.Symbol, throug
     """Return the leading term of printed - derived, which agree through order `vanishes_through`.
 
     The order is absolute, also where the sides have a pole: 1/sin(e) and 1/e agree through order 0 and part by e/6.
+
+    Args:
+        printed: one side.
+        derived: the other.
+        small: the symbol about whose 0 both are expanded.
+        through: the order through which is looked.
 
     Raises:
         NotExactError: as `leading_term` does.

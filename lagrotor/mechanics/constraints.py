@@ -24,7 +24,14 @@ WORST_CONDITION = 1e12
 
 
 def solve_constrained(M: Array, h: Array, G: Array, gamma: Array, Q: Array) -> tuple[Array, Array]:
-    """(a, λ) at one state, shapes (n,) and (k,), from M (n, n), h (n,), G (k, n), γ (k,), Q (n,).
+    """(a, λ) at one state, shapes (n,) and (k,).
+
+    Args:
+        M: mass matrix (n, n).
+        h: the other terms of M a + h = Q + Gᵀ λ, (n,).
+        G: Jacobian (k, n) of the constraints.
+        gamma: γ of G a + γ = 0, (k,).
+        Q: generalised forces (n,).
 
     Raises:
         SingularError: when M is singular or the rows of G are linearly dependent.
@@ -48,9 +55,16 @@ def project_position(
 ) -> Array:
     """The configuration with g = 0 reached from q by Newton's method along M⁻¹ Gᵀ: q ← q − M⁻¹ Gᵀ S⁻¹ g.
 
-    To first order in the distance it is the nearest one in the mass metric (M = 1 when none is given). The steps end
-    when one is shorter than tol (1 + |q|), a length in q, whatever the units of g, or when g is below the rounding of its
-    terms, 4 eps |G| |q|: beside dependent constraints that rounding alone moves q by more than tol.
+    To first order in the distance it is the nearest one in the mass metric.
+
+    Args:
+        g_fun: q → g, (k,).
+        G_fun: q → G, (k, n).
+        q: where it begins, (n,).
+        mass: M, (n, n); 1 when none is given.
+        tol: the steps end when one is shorter than tol (1 + |q|), a length in q, whatever the units of g, or when g is below
+            the rounding of its terms, 4 eps |G| |q|: beside dependent constraints that rounding alone moves q by more than tol.
+        max_steps: after which it is given up.
 
     Raises:
         ConstraintError: with the residual left after max_steps.
@@ -72,7 +86,12 @@ def project_position(
 
 
 def project_velocity(G: Array, v: Array, mass: Array | None = None) -> Array:
-    """v − M⁻¹ Gᵀ S⁻¹ G v, shape (n,): the velocity with G v = 0 nearest to v in the mass metric (M = 1 if none).
+    """v − M⁻¹ Gᵀ S⁻¹ G v, shape (n,): the velocity with G v = 0 nearest to v in the mass metric.
+
+    Args:
+        G: Jacobian (k, n) of the constraints.
+        v: (n,).
+        mass: M, (n, n); 1 when none is given.
 
     Raises:
         SingularError: when M is singular or the rows of G are linearly dependent.

@@ -110,6 +110,8 @@ def characteristic_exponents(
     """A and B through eps**order, for an orbit through at least that order.
 
     Args:
+        residual: the equations, over `field`, as `lindstedt_poincare` takes them.
+        exchange: the sign that p and q take where the equations use half a period later.
         sines: which unknowns of the orbit are sine series; p has the same parities, q the opposite ones.
         neutral: the numbers of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged.
         numeric: the same equations with floating-point coefficients, for an orbit that has those.

@@ -24,7 +24,14 @@ class Glossary(dict[sp.Symbol, Entry]):
     """Symbol → what it means, in the order in which the letters are declared."""
 
     def letter(self, name: str, meaning: str, unit: str, **assumptions: bool) -> sp.Symbol:
-        """A symbol with sympy's assumptions, such as positive=True, that enters the glossary as it is declared."""
+        """A symbol that enters the glossary as it is declared.
+
+        Args:
+            name: as sympy takes it.
+            meaning: in words.
+            unit: as in "kg m^2"; 1 for a number.
+            assumptions: sympy's, such as positive=True.
+        """
         symbol = sp.Symbol(name, **assumptions)
         self[symbol] = Entry(symbol, meaning, unit)
         return symbol

@@ -106,7 +106,12 @@ def euler_lagrange(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
 
 def accelerations(L: sp.Expr, c: Coordinates, forces: Sequence[sp.Expr] | None = None) -> sp.Matrix:
-    """a = M⁻¹ (Q − h), shape (n, 1), with Q = forces (zero when none are given).
+    """a = M⁻¹ (Q − h), shape (n, 1).
+
+    Args:
+        L: the Lagrangian.
+        c: its coordinates.
+        forces: Q, zero when none are given.
 
     Raises:
         SingularError: when det M vanishes identically.

@@ -89,7 +89,14 @@ class Unknowns:
         return made
 
     def put(self, series: GrowingSeries, n: int, h: int, value: Coefficient) -> None:
-        """The coefficient of eps**n of an unknown's harmonic h; `forget` what was computed without it."""
+        """Set a coefficient of an unknown; `forget` what was computed without it.
+
+        Args:
+            series: the unknown.
+            n: of eps**n.
+            h: its harmonic.
+            value: the coefficient.
+        """
         if value:
             self._known[series][n][h] = value
 

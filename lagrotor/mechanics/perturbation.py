@@ -49,18 +49,20 @@ def lindstedt_poincare(
     numeric: Residual | None = None,
     begins_at: int = 1,
 ) -> PeriodicSeries:
-    """The series of the periodic orbit that starts as rest + eps mode, with frequency 1 + omega_2 eps² + …, all through
-    eps^order.
-
-    residual(unknowns, frequency): the equations of motion as Fourier series, zero on the orbit; derivatives by the
-    phase, time derivatives carried by the frequency. rest: unknowns at equilibrium; mode: {harmonic: coefficient} of
-    each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's parity by its sign; an unknown
-    without a first-order part is a cosine series. eps is the value of unknown number `amplitude` at Phi = 0, less rest.
+    """The series of the periodic orbit that starts as rest + eps mode, with frequency 1 + omega_2 eps² + ….
 
     At order n the coefficients of eps^n enter linearly, harmonic by harmonic, by the operator of the linear mode; where
     that is singular (the mode's own harmonic) the frequency's correction omega_{n − begins_at} makes the system solvable.
 
     Args:
+        residual: (unknowns, frequency) → the equations of motion as Fourier series, zero on the orbit; derivatives by the
+            phase, time derivatives carried by the frequency.
+        rest: unknowns at equilibrium.
+        mode: {harmonic: coefficient} of each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's
+            parity by its sign; an unknown without a first-order part is a cosine series.
+        order: through eps^order.
+        field: that of the coefficients.
+        amplitude: the number of the unknown whose value at Phi = 0, less rest, is eps.
         numeric: the same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
         begins_at: the power of eps of the mode; 0 where eps is another small quantity, at which the equations are linear, and the
             mode an amplitude.

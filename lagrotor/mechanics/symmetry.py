@@ -136,6 +136,11 @@ def _rate_along_speeds(system: Equations, f: sp.Expr) -> sp.Expr:
 def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
     """H(q, p) = p · v − L at p = ∂L/∂v: for L = ½ v·M v + b·v − V,  H = ½ (p − b)·M⁻¹(p − b) + V. Goldstein §8.1.
 
+    Args:
+        L: the Lagrangian.
+        c: its coordinates.
+        p: names of the momenta, or n symbols.
+
     Raises:
         DomainError: when L is not quadratic in v.
         SingularError: when det M vanishes identically.

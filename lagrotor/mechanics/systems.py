@@ -98,12 +98,16 @@ class System(Equations):
         inputs: Sequence[sp.Symbol] = (),
         outputs: Sequence[sp.Expr] = (),
     ) -> "linear_modes.LinearSystem | steady_motions.StateEquations | StateSpace":
-        """Small motion about an equilibrium or a steady motion, the coordinates and velocities `at` it.
+        """Small motion about an equilibrium or a steady motion, also where bodies roll.
 
         Without values: M a + C v + K q = 0 in symbols, see `linear_modes.linearise`; for inputs and outputs, and about a motion
-        that rolls, A, B, C, D in symbols, see `steady_motions.state_equations`. With values of the parameters: the
-        numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u, also where bodies roll, for inputs u, parameters
-        or functions F(t) (zero unless they have a value), and outputs y, expressions in q, v, a and the multipliers.
+        that rolls, A, B, C, D in symbols. With values: the numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u.
+
+        Args:
+            at: the equilibrium, or the coordinates and velocities of the motion.
+            values: of the parameters.
+            inputs: u, parameters or functions F(t), zero unless they have a value.
+            outputs: y, expressions in q, v, a and the multipliers.
 
         Raises:
             SingularError: where accelerations are left.
@@ -132,7 +136,17 @@ class System(Equations):
         return state_space.state_space(self, point, values, inputs, outputs)
 
     def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
-        """The monodromy matrix of the periodic motion through `at`, and its multipliers: see `running.monodromy`."""
+        """The monodromy matrix of a periodic motion, and its multipliers.
+
+        Args:
+            at: coordinates and velocities at t = 0, or at the value of t. A rest in a system that is driven is a motion, too.
+            values: of the parameters.
+            period: s; at rest that of what drives.
+
+        Raises:
+            InputError: where the motion has not come back after the period, or forces jump.
+            ConstraintError: as `linearise`.
+        """
         from lagrotor.mechanics.running import function_values, monodromy
 
         self, values = function_values.put_functions("floquet", self, values)
@@ -141,7 +155,17 @@ class System(Equations):
     def root_locus(
         self, at: "Mapping[Any, Any]", values: "Values", letter: sp.Symbol | str, numbers: "ArrayLike"
     ) -> "RootLocus":
-        """The rates of small motion about `at` as one letter takes numbers: see `running.root_loci`."""
+        """The rates of small motion as one letter takes numbers.
+
+        Args:
+            at: coordinates and velocities, which may be expressions in the letter.
+            values: of the other parameters.
+            letter: the one that changes.
+            numbers: increasing, (n,).
+
+        Raises:
+            InputError: where the letter has a value already, and as `linearise`.
+        """
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("root_locus", self, values)
@@ -150,14 +174,30 @@ class System(Equations):
     def stability_chart(
         self, at: "Mapping[Any, Any]", values: "Values", numbers: "Mapping[Any, ArrayLike]", period: Any = None
     ) -> "StabilityChart":
-        """Where small motion about `at` grows, over two letters: see `running.root_loci`."""
+        """The largest growth of small motion over two letters: as many evaluations as numbers, and twenty for each boundary.
+
+        Args:
+            at: coordinates and velocities, which may be expressions in the letters.
+            values: of the other parameters.
+            numbers: {letter: increasing numbers, …}.
+            period: of a periodic motion, which grows by its multipliers: a number or an expression in the letters.
+
+        Raises:
+            InputError: as `root_locus`.
+        """
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("stability_chart", self, values)
         return root_loci.stability_chart(self, at, values, numbers, period)
 
     def consistent(self, values: "Values", q0: "ArrayLike", v0: "ArrayLike", t: float = 0.0) -> "tuple[Array, Array]":
-        """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t.
+        """The state (q, v) on the constraints that is nearest to a start in the mass metric.
+
+        Args:
+            values: of the parameters.
+            q0: (N,).
+            v0: (N,).
+            t: the time, s.
 
         Raises:
             ConstraintError: when it is not reached.
@@ -186,7 +226,30 @@ class System(Equations):
         engine: "Engine" = "core",
         events: "Event | Impact | Sequence[Event | Impact]" = (),
     ) -> "SystemRun":
-        """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s: see `running.simulation`."""
+        """Integrate the equations of motion. Forces that jump with sign(w) or |w| stick and slip.
+
+        A run that cannot reach its last time is handed back up to where it came; `run.ending` says why, with a LagrotorWarning.
+        One also names the time where it passed a position at which its constraints are dependent.
+
+        Args:
+            values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,
+                callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: no step
+                passes one of its knots, and outside it the run ends.
+            q0: at t[0], (N,).
+            v0: at t[0], (N,); u (m,) for velocities of one's own.
+            t: increasing times (n,), s.
+            tol: the largest error of the whole run, relative to the sizes of coordinates and velocities. It is estimated;
+                where it is not kept, a LagrotorWarning says up to which time it is, and what the error is: as `run.error`,
+                `run.errors` and `run.horizon`.
+            engine: "core", or "fast" with heyoka.
+            events: what changes the velocities or ends the run.
+
+        Raises:
+            InputError: for a value that is missing or makes no sense.
+            ConstraintError: for a start off the constraints.
+            SingularError: for a singular mass matrix.
+            IntegrationError: where nothing can be reached.
+        """
         from lagrotor.mechanics.running import simulation
 
         return simulation.simulate_system(self, values, q0, v0, t, tol, engine, events)

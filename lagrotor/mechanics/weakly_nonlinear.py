@@ -213,7 +213,13 @@ class AveragedMotion:
         return shortest(sp.expand(grown)), shortest(sp.expand(turned))
 
     def run(self, values: Mapping[Any, Any], q0: float, v0: float, times: Any) -> Any:
-        """(q, q') at the times (n,), (2, n), from q0 and q0' at times[0], in numbers; values: of all letters.
+        """(q, q') at the times, (2, n), in numbers.
+
+        Args:
+            values: of all letters.
+            q0: at times[0].
+            v0: q' there.
+            times: (n,).
 
         Raises:
             InputError: for a letter without a value.
@@ -238,8 +244,14 @@ class AveragedMotion:
         return np.array([np.broadcast_to(e, grid.shape) for e in there(*Y.T, grid)])
 
     def error(self, values: Mapping[Any, Any], q0: float, v0: float, times: Any) -> float:
-        """The largest difference of q from an exact run over the times (n,), measured, m or rad: O(small**order) through times
-        of 1/small."""
+        """The largest difference of q from an exact run, measured, m or rad: O(small**order) through times of 1/small.
+
+        Args:
+            values: of all letters.
+            q0: at times[0].
+            v0: q' there.
+            times: (n,).
+        """
         import numpy as np
 
         from lagrotor.mechanics.running import simulation

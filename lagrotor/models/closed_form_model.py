@@ -21,10 +21,16 @@ _MAY_PART = 1e-9  # what rounding may have grown to
 
 
 def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
-    """The closed form that holds the scene up to t_end (s); a series through the order that `tol` needs, at most 15.
+    """The closed form that holds a scene.
 
-    The answer's error may exceed `tol`; with `best` it is then the least that can be had, from a series through r0^21.
-    Raises DomainError, with the reason, where no closed form holds the scene.
+    Args:
+        scene: any.
+        t_end: up to which it must hold, s.
+        tol: the error that the order of a series, at most 15, is for; the answer's may exceed it.
+        best: take the least error that can be had, from a series through r0^21.
+
+    Raises:
+        DomainError: with the reason, where no closed form holds the scene.
     """
     if scene.shock_until(t_end):
         raise DomainError("closed_form: no closed form goes through a shock; use model='linear' or 'minimal'")

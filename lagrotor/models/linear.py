@@ -152,7 +152,12 @@ def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[A
 
 
 def linear_run(scene: Scene, t: Array) -> Observed:
-    """Axes and rates of the linear motion at times t (n,). Raises as `linear_states`."""
+    """Axes and rates of the linear motion at times t (n,).
+
+    Raises:
+        SingularError: without a bar, or for an axis along the joint line.
+        DomainError: where the motion leaves |U|, |chi| <= pi/3.
+    """
     return MODEL.observe(scene, linear_states(scene, t))
 
 
@@ -179,7 +184,10 @@ def linear_error(scene: Scene, t_end: float) -> float:
     two differ is added for the orders beyond. A pair that turns far about the joint line carries this from one coordinate
     into the other, and may leave the turning exponentially: `_spread` is by how much. LINEAR_MARGIN times the sum is given,
     2 where that is not small: two axes are at most opposite.
-    Raises as `linear_states`, and DomainError for a run of so many turns that the sum would cost more than it saves.
+
+    Raises:
+        SingularError: as `linear_states`.
+        DomainError: as `linear_states`, and for a run of so many turns that the sum would cost more than it saves.
     """
     linear, shock = pair_modes(scene), scene.shock_until(t_end)
     points = 17 + int(_A_TURN * linear.frequency * t_end / (2 * pi))

@@ -21,7 +21,11 @@ _SAMPLES = 32  # a turn of the swing
 
 
 def mean_over(t: Array, values: Array) -> float:
-    """Mean of values (n,) at evenly spaced times t (n,), oscillations averaged out. Raises DomainError for n < 8."""
+    """Mean of values (n,) at evenly spaced times t (n,), oscillations averaged out.
+
+    Raises:
+        DomainError: for n < 8.
+    """
     if len(t) < 8:
         raise DomainError(f"mean_over: {len(t)} values are too few for a mean")
     u = (t[1:-1] - t[0]) / (t[-1] - t[0])
@@ -54,7 +58,12 @@ def wandering_rate(run: Trajectory) -> float:
 
 
 def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
-    """An exact run over `turns` swings from the end of the scene's shock, evenly sampled.
+    """An exact run from the end of a scene's shock, evenly sampled.
+
+    Args:
+        scene: with a shock.
+        turns: swings that it lasts.
+        tol: as in `simulate`.
 
     Raises:
         InputError: without a shock or spin.
@@ -70,8 +79,11 @@ def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
 def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
     """F_y (N) beside the scene's force along x for which the exact mean turning over `turns` swings vanishes.
 
-    To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time. Raises as `cancelling_force`,
-    and DomainError where no such force is found.
+    To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time.
+
+    Raises:
+        InputError: as `cancelling_force`.
+        DomainError: where no such force is found.
     """
     from scipy.optimize import newton
 
@@ -95,8 +107,13 @@ def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     """Time (s) from the shock's peak until the mean of both x, averaged over six swings, reaches ± `bound`.
 
+    Args:
+        scene: with a shock.
+        bound: of x, in units of R.
+        longest: s, after which it is given up.
+
     Raises:
-        DomainError: when it does not within `longest` s.
+        DomainError: when it does not within `longest`.
     """
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:

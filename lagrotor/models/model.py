@@ -308,10 +308,14 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
 
 
 def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> float:
-    """The error of axes and rates that would explain how far a run at times t (n,) is from conserving what it must.
+    """The error of axes and rates that would explain how far a run is from conserving what it must.
 
-    The scene is in natural units; `nodes`, where there is a shock, are among the times. Without them its work is not known, and
-    what comes after it is held to the first state after it.
+    Args:
+        scene: in natural units.
+        t: the run's times (n,).
+        seen: its states at them.
+        nodes: times of a shock, among t. Without them its work is not known, and what comes after it is held to the first state
+            after it.
     """
     (a, b), (v1, v2) = scene.inertias, seen.rates
     size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())

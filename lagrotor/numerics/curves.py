@@ -36,7 +36,14 @@ def peak(rate: Array, amplitude: Array) -> float:
 
 
 def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
-    """Mean of x (n,) or (n, k), given at times t (n,), from `start` to `end`: of whole turns, it is their centre."""
+    """Mean of x: of whole turns, it is their centre.
+
+    Args:
+        t: times (n,).
+        x: (n,) or (n, k).
+        start: from this time.
+        end: to this.
+    """
     times = np.linspace(start, end, 400, endpoint=False)
     columns = x.reshape(len(t), -1).T
     return np.array([np.interp(times, t, column).mean() for column in columns]).reshape(x.shape[1:])
@@ -74,7 +81,14 @@ class Harmonics:
 
 
 def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
-    """The fit of `count` harmonics of a given rate (rad/s) to x (n, k) or (n,) at times t (n,) in s."""
+    """The fit of harmonics of a given rate.
+
+    Args:
+        t: times (n,), s.
+        x: (n,) or (n, k).
+        rate: rad/s.
+        count: of harmonics.
+    """
     s, columns = t - t[0], x.reshape(len(t), -1)
     waves = [wave(n * rate * s) for n in range(1, count + 1) for wave in (np.cos, np.sin)]
     table = np.column_stack([np.ones_like(s), s - s.mean(), *waves])
@@ -83,9 +97,18 @@ def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
 
 
 def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: float = 1.3, count: int = 2) -> Harmonics:
-    """The fit that leaves least, its rate sought from `low` to `high` times a guess (rad/s).
+    """The fit that leaves least.
 
-    On a grid first, five cells to a turn of the phase over the whole run; then within the best cell and its neighbour.
+    Its rate is sought on a grid, five cells to a turn of the phase over the whole run; then within the best cell and its
+    neighbour.
+
+    Args:
+        t: times (n,), s.
+        x: (n,) or (n, k).
+        guess: of the rate, rad/s.
+        low: times the guess, from which it is sought.
+        high: times the guess, to which.
+        count: of harmonics.
     """
     from scipy.optimize import minimize_scalar
 

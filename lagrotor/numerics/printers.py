@@ -122,8 +122,11 @@ def program_source(program: Program, module: str = "math") -> str:
 def compile_program(program: Program, module: str = "math", doc: str = "") -> Callable[..., Any]:
     """The program as a function of its arguments, returning a list of outputs.
 
-    `module="math"` takes Python floats, one state at a time (the fastest where a solver calls one state at a time);
-    `module="numpy"` takes arrays that broadcast together; `module="mpmath"` numbers of any precision.
+    Args:
+        program: what is computed.
+        module: "math" takes Python floats, one state at a time (the fastest where a solver calls one state at a time); "numpy"
+            arrays that broadcast together; "mpmath" numbers of any precision.
+        doc: the function's docstring.
     """
     function = function_of(program_source(program, module))
     function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(program.outputs)} numbers"

@@ -29,14 +29,19 @@ def turn_between(u: Array, v: Array) -> Array:
 def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
     """Rotation of each body along its run, (k, n, 3, 3), body to world: Q' = [Omega]× Q, Omega = r × r' + omega r.
 
-    t (n,) in s; axes, rates (k, n, 3): unit vectors r and r' (1/s); spins (k,): omega in rad/s, constant. At t[0] the
-    body is turned the shortest way from e_z to r (by way of ±e_x where r hangs down).
+    At t[0] the body is turned the shortest way from e_z to r (by way of ±e_x where r hangs down).
 
     From sample to sample r is carried along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q, where
     `area` is what the path encloses with that circle. For the great circle's own frame it grows at the rate
     p·(u × u')/(1 + p·u) of the pole p = r_0; at p itself that rate is zero to first order, which gives h/3 of its value
     at the other end, and the mean with the same from the pole r_1 leaves an error of order h⁵ a step. Hence: r and
     orthogonality to rounding, the angle about r to O(h⁴).
+
+    Args:
+        t: times (n,), s.
+        axes: unit vectors r, (k, n, 3).
+        rates: r', (k, n, 3), 1/s.
+        spins: omega, constant, (k,), rad/s.
 
     Raises:
         InputError: where an axis turns by pi between two samples.
@@ -54,7 +59,13 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
 
 
 def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[Array, Array]:
-    """Unit axes and their tangent rates (k, m, 3) at `times` (m,) between the samples t (n,): Hermite cubics, O(h⁴).
+    """Unit axes and their tangent rates (k, m, 3) between samples: Hermite cubics, O(h⁴).
+
+    Args:
+        t: the samples' times (n,).
+        axes: unit vectors at them, (k, n, 3).
+        rates: their rates, (k, n, 3).
+        times: the others, (m,).
 
     Raises:
         InputError: for times outside the samples, or fewer than two of these.

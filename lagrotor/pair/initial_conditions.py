@@ -33,7 +33,15 @@ def consistent_scene(
     link: Link | None = None,
     shock: Shock | None = None,
 ) -> Scene:
-    """The scene whose start is nearest, in the mass metric, to the given axes and rates (2, 3) and satisfies the bar.
+    """The scene whose start is nearest, in the mass metric, to what is given and satisfies the bar.
+
+    Args:
+        spins: rad/s.
+        axes: (2, 3).
+        rates: (2, 3), 1/s.
+        rotor: as in `Scene`.
+        link: as in `Scene`.
+        shock: as in `Scene`.
 
     Raises:
         ConstraintError: when the axes cannot be brought onto the bar.

@@ -214,7 +214,11 @@ class Scene:
 
     @property
     def k(self) -> float:
-        """ell/R, the bar's length in lengths of an axis. Raises InputError without a bar."""
+        """ell/R, the bar's length in lengths of an axis.
+
+        Raises:
+            InputError: without a bar.
+        """
         if self.link is None:
             raise InputError("Scene: k = ell/R needs a bar; give the scene a link")
         return self.link.length / self.rotor.length

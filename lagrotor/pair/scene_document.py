@@ -34,7 +34,11 @@ def read_document(path: str | Path, make: Callable[[dict[str, Any]], Kind]) -> K
 
 
 def scene_of(given: Mapping[str, Any]) -> Scene:
-    """The scene of a table with the fields' names. Raises InputError for names that are none, or values that make no sense."""
+    """The scene of a table with the fields' names.
+
+    Raises:
+        InputError: for names that are none, or values that make no sense.
+    """
     check_fields(given, Scene, "a scene")
     if "spins" not in given:
         raise InputError("spins is missing: give the axial angular velocities in rad/s, spins = [10, -10]")
@@ -76,7 +80,11 @@ def scene_toml(scene: Scene) -> str:
 
 
 def write_scene(scene: Scene, path: str | Path) -> Path:
-    """Write the scene as TOML, whole or not at all. Raises InputError where that cannot be."""
+    """Write the scene as TOML, whole or not at all.
+
+    Raises:
+        InputError: where that cannot be.
+    """
     if not isinstance(scene, Scene):
         raise InputError(f"write_scene: scene = {scene!r} must be a Scene")
     return write_text(Path(path), scene_toml(scene))

@@ -115,7 +115,13 @@ class Trajectory(Run):
         return run_figure(self.t, self.tips, self.energy, title)
 
     def animate(self, path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None) -> Path:
-        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there; see `lagrotor.drawing.film.film_motion`."""
+        """Write the motion as a film.
+
+        Args:
+            path: a `.gif`, or an `.mp4` where ffmpeg is there.
+            fps: pictures per second.
+            step: called with each second of the film as it begins.
+        """
         from lagrotor.drawing.film import check_film, film_motion, frame_times
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)

@@ -65,8 +65,15 @@ class Paper(Catalogue):
         """Judge every equation, or one.
 
         One equation runs its own derivation only; whether its error reaches a result of the paper is then taken from the
-        record of the last whole audit. `progress` is called with the name of each script before it runs. Raises InputError
-        for an equation that the paper does not have, or that no derivation states, and ScriptError for a script that fails.
+        record of the last whole audit.
+
+        Args:
+            identifier: of the one.
+            progress: called with the name of each script before it runs.
+
+        Raises:
+            InputError: for an equation that the paper does not have, or that no derivation states.
+            ScriptError: for a script that fails.
         """
         self.check_scripts()
         if identifier is not None:
@@ -107,7 +114,11 @@ class Paper(Catalogue):
         return self.scripts.executed("derivations", stem).shown(Stated)
 
     def statements(self, stem: str) -> list[Statement]:
-        """What one derivation states, beside the print. Raises InputError with file and line where it does not fit."""
+        """What one derivation states, beside the print.
+
+        Raises:
+            InputError: with file and line where it does not fit.
+        """
         statements = []
         for each in self.stated(stem):
             try:
@@ -118,7 +129,11 @@ class Paper(Catalogue):
         return statements
 
     def statement(self, stated: Stated) -> Statement:
-        """What a derivation states, beside the print. Raises InputError where it does not fit the paper."""
+        """What a derivation states, beside the print.
+
+        Raises:
+            InputError: where it does not fit the paper.
+        """
         return statement(stated, self)
 
     def judged(self, stem: str, progress: Progress | None = None) -> list[Verdict]:

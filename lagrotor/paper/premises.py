@@ -112,6 +112,8 @@ def parameter_premise(
     """A premise about parameters, such as ell = R: how far the paper's own values break it is computed from them.
 
     Args:
+        says: in words.
+        put: letter → what is put in for it.
         own: letter → the value of the paper's own scene.
         meanings: letters that stand for expressions in other letters.
     """

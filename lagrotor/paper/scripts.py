@@ -4,6 +4,7 @@ import ast
 import re
 import sys
 import traceback
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
@@ -12,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal
 
-from lagrotor.errors import InputError, LagrotorError, ScriptError
+from lagrotor.errors import InputError, LagrotorError, LagrotorWarning, ScriptError
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _CELL = re.compile(r"^# %%.*$", re.MULTILINE)
@@ -29,11 +30,13 @@ def beside(name: str) -> Path:
 
 @dataclass(frozen=True)
 class ScriptCell:
-    """One cell of a script: prose in Markdown, or code with the values of its bare expressions, which a notebook shows."""
+    """One cell of a script: prose in Markdown, or code with the values of its bare expressions, which a notebook shows, and
+    what the package warned of in it, once each."""
 
     kind: Literal["prose", "code"]
     text: str
     shown: tuple[Any, ...] = ()
+    warned: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -180,8 +183,13 @@ def run_file(path: Path) -> Script:
         else:
             first, last = (1 + source.count("\n", 0, place) for place in (start, end))
             here = (statement for statement in statements if first <= statement.lineno <= last)
-            shown = (value for statement in here for value in _execute(statement, path, defined))
-            cells.append(ScriptCell("code", body.strip(), tuple(shown)))
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always", LagrotorWarning)
+                shown = tuple(value for statement in here for value in _execute(statement, path, defined))
+            for each in caught:
+                warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
+            warned = dict.fromkeys(str(each.message) for each in caught if issubclass(each.category, LagrotorWarning))
+            cells.append(ScriptCell("code", body.strip(), shown, tuple(warned)))
     return Script(tuple(cells), defined)
 
 

@@ -75,10 +75,13 @@ def verdict(
     Args:
         derived: the quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is given
             without any premise put in, as a `Series` where it is known through some order only.
+        premises: without which the line does not hold.
         correction: likewise, what should be printed; it is judged against `derived`, which may hold quantities besides the
             printed ones.
+        wrong: what is wrong with the line, in words.
         uses: ids of equations that this one rests on, or what was stated of them, which gives the letters that are defined there
             their derived meaning.
+        evidence: sentences beside the verdict.
         written: what was derived, as a physicist writes it; a correction may be given as a form too. It is checked against the
             paper when it is judged.
         prove: for a number that is read off a run, what proves its bounds, called when it is judged; the theorem decides then.

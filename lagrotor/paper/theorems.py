@@ -33,7 +33,13 @@ class Theorem:
 
     @classmethod
     def of(cls, proved: Any, encloses: str = "", bounds: tuple[Any, Any] | None = None) -> "Theorem":
-        """That of an orbit, a crossing, an enclosure or an equilibrium of `lagrotor.proved`, which needs python-flint."""
+        """That of a proof of `lagrotor.proved`, which needs python-flint.
+
+        Args:
+            proved: an orbit, a crossing, an enclosure or an equilibrium.
+            encloses: the quantity of which it is.
+            bounds: the numbers it says, if others than the proof's.
+        """
         from lagrotor.proved.statements import theorem_of
 
         ends = None if bounds is None else (sp.Rational(bounds[0]), sp.Rational(bounds[1]))

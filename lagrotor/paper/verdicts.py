@@ -70,7 +70,14 @@ class Relation:
 
 
 def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
-    """The relations of a line `… = p_1 = p_2 = …`, each member held against the derived expression."""
+    """The relations of a line `… = p_1 = p_2 = …`, each member held against the derived expression.
+
+    Args:
+        derived: the expression.
+        small: the small quantity of a line that holds to an order.
+        claimed: that order.
+        printed: p_1, p_2, ….
+    """
     return tuple(
         Relation(sp.sympify(p, strict=True), sp.sympify(derived, strict=True), small, claimed) for p in printed
     )

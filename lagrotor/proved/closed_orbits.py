@@ -239,6 +239,8 @@ def periodic_orbit(
     """The periodic orbit near the start q0, v0 and the period (s), proved to exist.
 
     Args:
+        values: as in `enclose`.
+        tol: as in `enclose`.
         reversals: one or two rows of signs ±1, one for each state (q, v): time reversed under the first is a motion, and the
             start lies in its fixed set; likewise the second, if any, at a quarter period instead of the first at half of it.
         held: states that keep their value, by symbol or name; where orbits come in families, as many as the family has parameters

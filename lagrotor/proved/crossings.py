@@ -172,10 +172,17 @@ def crossing(
     before: Any = None,
     tol: float = TOL,
 ) -> Crossing:
-    """A proof that the expression `event` of the states passes zero before the time `before` (s), with when.
+    """A proof that an expression of the states passes zero, with when.
 
-    system, values, q0, v0: as in `enclose`; of a Scene the expression may have x_1 … z_2 of the axes and their rates, of a
-    Structure x_0, y_0, z_0, …. A long one may have a name, Eq(E, expression).
+    Args:
+        system: as in `enclose`.
+        values: as in `enclose`.
+        q0: as in `enclose`.
+        v0: as in `enclose`.
+        event: the expression; of a Scene it may have x_1 … z_2 of the axes and their rates, of a Structure x_0, y_0, z_0, ….
+            A long one may have a name, Eq(E, expression).
+        before: s.
+        tol: as in `enclose`.
 
     Raises:
         InputError: for what makes no sense.
@@ -211,9 +218,19 @@ def no_crossing(
     until: Any = None,
     tol: float = TOL,
 ) -> Crossing:
-    """A proof that the expression `event` of the states does not pass zero from t = 0 to the time `until` (s).
+    """A proof that an expression of the states does not pass zero from t = 0 on.
 
-    Arguments as in `crossing`. Raises NotProved with the time up to which it is proved.
+    Args:
+        system: as in `enclose`.
+        values: as in `enclose`.
+        q0: as in `enclose`.
+        v0: as in `enclose`.
+        event: as in `crossing`.
+        until: s.
+        tol: as in `enclose`.
+
+    Raises:
+        NotProved: with the time up to which it is proved.
     """
     accuracy, where = accuracy_of(tol, "no_crossing"), "no_crossing"
     with precision(accuracy.bits, accuracy.terms):
@@ -240,8 +257,12 @@ def means(
     """Means of expressions of the states over spans of time, (1/(t₂ − t₁)) ∫ e dt from t₁ to t₂, enclosed.
 
     Args:
-        system, values, q0, v0: as in `enclose`; expressions as in `crossing`.
-        spans: (expression, t₁, t₂), t in s, for each mean.
+        system: as in `enclose`.
+        values: as in `enclose`.
+        q0: as in `enclose`.
+        v0: as in `enclose`.
+        spans: (expression, t₁, t₂) for each mean, t in s, expressions as in `crossing`.
+        tol: as in `enclose`.
 
     Raises:
         InputError: for what makes no sense.

@@ -76,7 +76,12 @@ class Enclosure(Shown):
         """Boxes of two states at the ends of the steps, in their plane, and their widths over time. Every motion from the start
         passes through all boxes in turn.
 
-        first, second: names of states; without them the first two. Raises InputError for a name that is none.
+        Args:
+            first: name of a state; without it the first.
+            second: likewise.
+
+        Raises:
+            InputError: for a name that is none.
         """
         import numpy as np
 
@@ -134,11 +139,16 @@ def time_ball(t: Any, where: str) -> Ball:
 def enclose(
     system: Any, values: Values | None = None, q0: Any = None, v0: Any = None, t: Any = None, tol: float = TOL
 ) -> Enclosure:
-    """Balls of the state at the time t (s) of the motion that starts at t = 0 from q0, v0, by a validated integration.
+    """Balls of the state of a motion, by a validated integration from t = 0.
 
-    system: a `System`; a `Scene`, with its own start; a `Structure`, q0 its tilt and v0 the axes' rates; or a `Program`
-    with its states first. values, q0, v0: numbers, exact decimals as they are written, or pairs (lowest, highest). tol: what
-    a step may leave out, relative to the state's size: order, steps and precision follow from it.
+    Args:
+        system: a `System`; a `Scene`, with its own start; a `Structure`, q0 its tilt and v0 the axes' rates; or a `Program` with
+            its states first.
+        values: numbers, exact decimals as they are written, or pairs (lowest, highest).
+        q0: likewise.
+        v0: likewise.
+        t: s.
+        tol: what a step may leave out, relative to the state's size: order, steps and precision follow from it.
 
     Raises:
         InputError: for what makes no sense.

@@ -105,7 +105,11 @@ class Precession(Shown):
             return self._signed(self.period)
 
     def frequency_at(self, r0: Any) -> Ball:
-        """rad/s, of one amplitude of the family. Raises DomainError where it is none of them."""
+        """rad/s, of one amplitude of the family.
+
+        Raises:
+            DomainError: where it is none of them.
+        """
         with precision(self.bits):
             U = ball(r0, "frequency_at: r0").atanh()
             for piece in self.pieces:
@@ -193,6 +197,7 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
     """The paired precession of amplitude r0 = sin(theta), theta the inclination when the axes are parallel, proved to exist.
 
     Args:
+        scene: with opposite spins and a bar.
         r0: a number, exact as the decimal that it is written in, or a pair (lowest, highest): then for every amplitude between
             them one orbit is proved, all of them one smooth curve.
         tol: what a step may leave out.

@@ -57,7 +57,13 @@ class ProvedEquilibrium(Shown):
 
 
 def equilibrium(system: Equations, values: Values | None = None, q0: Any = None, tol: float = TOL) -> ProvedEquilibrium:
-    """The equilibrium near q0, proved to exist, with its stability. values: numbers or pairs (lowest, highest).
+    """An equilibrium proved to exist, with its stability.
+
+    Args:
+        system: a `System`.
+        values: numbers or pairs (lowest, highest).
+        q0: near which it lies.
+        tol: as in `enclose`.
 
     Raises:
         InputError: for what makes no sense.

@@ -15,12 +15,20 @@ _PARTS = {"rotor": Rotor, "link": Link, "braces": Brace}
 
 
 def read_structure(path: str | Path) -> Structure:
-    """The structure that a TOML file describes. Raises InputError with the reason where there is none."""
+    """The structure that a TOML file describes.
+
+    Raises:
+        InputError: with the reason where there is none.
+    """
     return read_document(path, structure_of)
 
 
 def structure_of(given: dict[str, Any]) -> Structure:
-    """The structure of a table with the fields' names. Raises InputError for other names and for values out of range."""
+    """The structure of a table with the fields' names.
+
+    Raises:
+        InputError: for other names and for values out of range.
+    """
     check_fields(given, Assembly, "a structure")
     if "joints" not in given:
         raise InputError("joints is missing: give the ground joints, joints = [[0, 0], [1, 0]]")
@@ -47,5 +55,9 @@ def toml_of(s: Assembly) -> str:
 
 
 def write_structure(s: Assembly, path: str | Path) -> Path:
-    """Write the structure as TOML, whole or not at all. Raises InputError where that cannot be."""
+    """Write the structure as TOML, whole or not at all.
+
+    Raises:
+        InputError: where that cannot be.
+    """
     return write_text(Path(path), toml_of(s))

@@ -78,7 +78,11 @@ GALLERY = {
 
 @cache
 def example(name: str) -> Structure:
-    """The structure of that name. Raises InputError where there is none."""
+    """The structure of that name.
+
+    Raises:
+        InputError: where there is none.
+    """
     if name not in GALLERY:
         raise InputError(
             f"structure: {name!r} is neither a .toml file nor one of {', '.join(GALLERY)}{near(name, GALLERY)}"

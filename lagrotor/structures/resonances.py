@@ -265,7 +265,14 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
 
 @lru_cache(maxsize=16)
 def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
-    """The normal form of a structure about upright with all spins multiplied, in units of its `LocalHamiltonian`."""
+    """The normal form of a structure about upright, in units of its `LocalHamiltonian`.
+
+    Args:
+        s: the structure.
+        factor: by which all spins are multiplied.
+        detuning: up to which resonances are kept, rad/s.
+        order: through which.
+    """
     return normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
 
 
@@ -504,7 +511,13 @@ def _colliding(r: Resonance) -> bool:
 def resonant_factors(
     s: Assembly, orders: Sequence[int] = (3, 4), of: Of = "rates"
 ) -> tuple[tuple[float, Resonance], ...]:
-    """The factors on all spins beyond the critical one at which modes are in resonance, each with what it does."""
+    """The factors on all spins beyond the critical one at which modes are in resonance, each with what it does.
+
+    Args:
+        s: the structure.
+        orders: of the resonances.
+        of: "rates" or "tilts", what a push gives.
+    """
     from scipy.optimize import brentq
 
     check_kind_of_push(of)

@@ -184,9 +184,12 @@ def _motion(scene: Scene, lean: float, half: float, swing: float, momentum: floa
 def time_to_reach(scene: Scene, x: float) -> float:
     """Time (s) from the peak of the scene's shock until the mean |x| of opposite spins reaches `x`; inf where it turns back.
 
-    By quadrature over the averaged motion, to leading order in the shock at any x: the relative error is of second order in
-    it. Raises as `slow_motion`; DomainError unless 0 < x < 1, and where the bar comes to tilt by more than 30 degrees
-    before, sin = (|eta| + s)/(k sqrt(1 − x²)).
+    By quadrature over the averaged motion, to leading order in the shock at any x: the relative error is of second order in it.
+
+    Raises:
+        InputError: as `slow_motion`.
+        DomainError: as `slow_motion`, unless 0 < x < 1, and where the bar comes to tilt by more than 30 degrees before,
+            sin = (|eta| + s)/(k sqrt(1 − x²)).
     """
     if not 0 < x < 1:
         raise DomainError(f"time_to_reach: x = {x:g} must lie between 0 and 1")
@@ -209,7 +212,11 @@ def turns_back(scene: Scene) -> bool:
 
         (sigma − 1) k² > 1 + 2/A² + sqrt(3/2),
 
-    3 + sqrt(3/2) for a short pulse. Below it x grows until bar and axes come into line. Raises as `slow_motion`.
+    3 + sqrt(3/2) for a short pulse. Below it x grows until bar and axes come into line.
+
+    Raises:
+        InputError: as `slow_motion`.
+        DomainError: likewise.
     """
     return slow_motion(scene).farthest < pi / 2
 
@@ -225,6 +232,7 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
     vanishes.
 
     Args:
+        scene: with opposite spins and a bar.
         momentum: P about the joint line beyond the paired precession's own sigma G r0²/k (kg m²/s): a push, by which the pair
             turns.
 

@@ -75,8 +75,11 @@ class ClosedForm:
     def error(self, *values: ArrayLike) -> Array | tuple[Array, ...]:
         """Bounds of the outputs' errors at these argument values, in the form of the outputs; rounding is not counted.
 
-        Zero for an exact form (order None), under its assumptions. Raises as a call does, InputError for a series of
-        which no bound is known, and DomainError where the series is beyond its range.
+        Zero for an exact form (order None), under its assumptions.
+
+        Raises:
+            InputError: as a call does, and for a series of which no bound is known.
+            DomainError: as a call does, and where the series is beyond its range.
         """
         flat, shape = self._check_arguments(values)
         if self.order is None:

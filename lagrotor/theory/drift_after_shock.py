@@ -142,7 +142,10 @@ def toppling_after_shock(scene: Scene) -> float:
 def wander_after_shock(scene: Scene) -> float:
     """Mean rate of x (1/s, in units of R) just after the scene's shock, to third order; opposite spins.
 
-    `lagrotor.models.wander_error` gives its error. Raises as `toppling_after_shock`.
+    `lagrotor.models.wander_error` gives its error.
+
+    Raises:
+        InputError: as `toppling_after_shock`.
     """
     sign = 1.0 if scene.shock is None or scene.shock.body == 1 else -1.0
     first, *others = _arguments(scene, "wander_after_shock")

@@ -113,9 +113,12 @@ def lyapunov_criterion() -> sp.Rel:
 
 
 def parallel_scene(scene: Scene, angle: float, twist_rate: float = 0.0) -> Scene:
-    """`scene` started in parallel steady precession on a cone of half-angle `angle` (rad) about the vertical.
+    """A scene started in parallel steady precession, at x = sin(angle), of rate G / ((a + b) cos angle).
 
-    x = sin(angle) at t = 0; rate G / ((a + b) cos angle). twist_rate: Delta' at the start (rad/s), small.
+    Args:
+        scene: with equal spins and a bar.
+        angle: half that of the cone about the vertical, rad.
+        twist_rate: Delta' at the start, small, rad/s.
 
     Raises:
         InputError: unless the spins are equal and there is a bar.
@@ -160,7 +163,10 @@ def twist_multiplier_growth(scene: Scene, angle: float) -> float:
 def twist_bounded(scene: Scene, angle: float) -> bool:
     """Whether the parallel precession of equal spins on a cone of half-angle `angle` (rad) keeps a small twist bounded:
 
-    b > 0, that is K < m ell²/4, and Lyapunov's criterion holds. Raises as `parallel_scene`.
+    b > 0, that is K < m ell²/4, and Lyapunov's criterion holds.
+
+    Raises:
+        InputError: as `parallel_scene`.
     """
     inertia_a, inertia_b, _ = _equal(scene, angle, "twist_bounded")
     criterion = lyapunov_criterion().subs({a: inertia_a, b: inertia_b, rho: sin(angle)})

@@ -22,12 +22,24 @@ from lagrotor.pair.scene import Scene
 
 
 def shift_coefficient(sigma: Any, k: Any, share: Any) -> Any:
-    """c, of numbers or symbols."""
+    """c of Omega = Omega_0 (1 + c r0² + …), of numbers or symbols.
+
+    Args:
+        sigma: shape of the bar.
+        k: ell / R.
+        share: as `opposite_share` has it.
+    """
     return (2 + 3 * share * (sigma - 1) - share**2 * (sigma**2 - 1) - 3 * share**2 * sigma / k**2) / 4
 
 
 def drift_coefficient(sigma: Any, k: Any, root: Any) -> Any:
-    """alpha'/(Omega_0 r0⁴), of numbers or symbols; root = sqrt(share/sigma), of the sign of G_1 − G_2."""
+    """alpha'/(Omega_0 r0⁴), of numbers or symbols.
+
+    Args:
+        sigma: shape of the bar.
+        k: ell / R.
+        root: sqrt(share/sigma), of the sign of G_1 − G_2.
+    """
     return root**3 * sigma**2 * (sigma - 5) / (16 * k)
 
 
@@ -51,7 +63,10 @@ def opposite_share(scene: Scene) -> float:
 def frequency_shift(scene: Scene) -> float:
     """c of Omega = Omega_0 (1 + c r0² + …): the relative shift of the natural rate over the square of the amplitude.
 
-    For any two spins, any bar: 1/2 for equal ones, as 1/cos has it. Raises as `opposite_share`.
+    For any two spins, any bar: 1/2 for equal ones, as 1/cos has it.
+
+    Raises:
+        InputError: without a bar, and without any spin.
     """
     return float(shift_coefficient(scene.sigma, scene.k, opposite_share(scene)))
 
@@ -60,7 +75,10 @@ def azimuth_drift(scene: Scene) -> float:
     """alpha'/r0⁴ (rad/s): how fast an orbit about upright turns about the joint line, which keeps it from closing.
 
     Leading order for r0² well below |G_1 + G_2|/|G_1 − G_2|. Zero for equal spins; zero for opposite ones, of whose orbits, with
-    any rate of turning, this is the paired precession. Raises as `opposite_share`.
+    any rate of turning, this is the paired precession.
+
+    Raises:
+        InputError: without a bar, and without any spin.
     """
     share, (first, second) = opposite_share(scene), scene.momenta
     if first == -second:

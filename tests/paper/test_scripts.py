@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from lagrotor.errors import LagrotorWarning
 from lagrotor.paper.scripts import Scripts
 
 
@@ -30,3 +31,23 @@ def test_outside_the_block_the_script_runs(scripts: Scripts) -> None:
     with scripts.ran_elsewhere({"t1_one": {"rate": 5}}):
         pass
     assert scripts.run("derivations", "t1_one")["rate"] == 2
+
+
+WARNS = """# %%
+import warnings
+from lagrotor.errors import LagrotorWarning
+def run():
+    warnings.warn("tol = 1e-13 is not kept", LagrotorWarning)
+    warnings.warn("of another tool")
+run()
+run()
+# %%
+1 + 1
+"""
+
+
+def test_what_a_run_warns_of_stays_with_its_cell_and_is_warned_of(scripts: Scripts) -> None:
+    (scripts.base / "derivations" / "t2_two.py").write_text(WARNS)
+    with pytest.warns(LagrotorWarning, match="not kept"), pytest.warns(UserWarning, match="another tool"):
+        script = scripts.executed("derivations", "t2_two")
+    assert [cell.warned for cell in script.cells] == [("tol = 1e-13 is not kept",), ()]

@@ -36,7 +36,16 @@ class Pathway:
 
     @classmethod
     def line(cls, c: Coordinates, P: Vector, Q: Vector) -> "Pathway":
-        """The straight line from P to Q. Raises InputError for what is no point."""
+        """The straight line between two points.
+
+        Args:
+            c: the coordinates.
+            P: where it begins.
+            Q: where it ends.
+
+        Raises:
+            InputError: for what is no point.
+        """
         return cls(c, ((sp.S.One, _distance(*_points(P, Q))),))
 
     @classmethod
@@ -50,10 +59,16 @@ class Pathway:
         axis: Vector = (0, 0, 1),
         side: int = 1,
     ) -> "Pathway":
-        """The shortest path from P to Q that does not enter a cylinder about the line through `centre` along `axis`, on the side
-        on which it turns about the axis in its positive sense from P to Q (side = 1) or in the other (−1).
+        """The shortest path that does not enter a cylinder; straight where the straight line passes on that side.
 
-        It may turn by up to 3/2 π; where the straight line passes the cylinder on that side it is straight.
+        Args:
+            c: the coordinates.
+            P: where it begins.
+            Q: where it ends.
+            radius: of the cylinder.
+            centre: a point of its axis.
+            axis: the axis' direction.
+            side: 1 where the path turns about the axis in its positive sense from P to Q, −1 in the other, by up to 3/2 π.
 
         Raises:
             InputError: for an axis that is none, or another side.

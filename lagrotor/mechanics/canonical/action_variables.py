@@ -50,7 +50,13 @@ class Libration:
 
 
 def libration(h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any] | None = None) -> Libration:
-    """The libration of that energy about the place `at`, where it can be.
+    """The libration of an energy about a place.
+
+    Args:
+        h: of one degree of freedom.
+        energy: E = H.
+        at: where it can be.
+        values: of all letters.
 
     Raises:
         DomainError: for more than one degree of freedom or an H that is not quadratic in p.

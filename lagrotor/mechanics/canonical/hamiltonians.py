@@ -189,6 +189,12 @@ def rotational_bracket(f: sp.Expr, g: sp.Expr, momentum: Sequence[sp.Symbol], *v
 
     so that M' = {M, H} = M × ∂H/∂M + γ × ∂H/∂γ are Euler's equations. Marsden & Ratiu, ch. 15.
 
+    Args:
+        f: of M and γ.
+        g: of M and γ.
+        momentum: M, three symbols.
+        vectors: each γ, three symbols.
+
     Raises:
         InputError: for a vector that is not three symbols, and for another symbol of the name of one of them.
     """

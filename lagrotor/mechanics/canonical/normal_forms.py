@@ -104,7 +104,11 @@ class NormalForm(Shown):
         return f
 
     def in_numbers(self) -> "NormalForm":
-        """The same with floating-point coefficients, and w_j = z̄_j. Raises InputError where letters have no values."""
+        """The same with floating-point coefficients, and w_j = z̄_j.
+
+        Raises:
+            InputError: where letters have no values.
+        """
         if self.field is None:
             return self
         n = len(self.frequencies)
@@ -153,6 +157,7 @@ def birkhoff(
     Args:
         weights: {z_j, w_j}, (n,), −i of oscillations and 1 of saddles and of what has the rate zero.
         detuning: |D| up to which terms are kept, in rad/s.
+        vectors: x − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂, handed on.
     """
     n = len(weights)
     pair = [tuple(int(i in (j, n + j)) for i in range(2 * n)) for j in range(n)]

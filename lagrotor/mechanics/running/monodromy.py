@@ -44,11 +44,7 @@ class MonodromyMatrix:
 
 
 def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, period: float) -> MonodromyMatrix:
-    """The monodromy matrix of the periodic motion through `at`, coordinates and velocities at t = 0 (or at the value of t).
-
-    A rest in a system that is driven is one, at the period of what drives.
-    Raises InputError where the motion has not come back after the period, or forces jump; ConstraintError as `linearise`.
-    """
+    """`System.floquet`."""
     try:
         duration = np.nan if isinstance(period, str | bool) else float(period)
     except (TypeError, ValueError):

@@ -51,11 +51,7 @@ class RootLocus:
 def root_locus(
     system: Equations, at: Mapping[Any, Any], values: Values, letter: sp.Symbol | str, numbers: ArrayLike
 ) -> RootLocus:
-    """The rates of small motion about `at`, whose coordinates and velocities may be expressions in the letter, at the increasing
-    numbers of the letter.
-
-    Raises InputError where the letter has a value already, and what `linearise` raises.
-    """
+    """`System.root_locus`."""
     grid, name = increasing_array("root_locus: numbers", numbers), str(letter)
     rates_at = _rates("root_locus", system, at, values, [name])
     known = [rates_at(x) for x in grid.tolist()]
@@ -87,12 +83,7 @@ class StabilityChart:
 def stability_chart(
     system: Equations, at: Mapping[Any, Any], values: Values, numbers: Mapping[Any, ArrayLike], period: Any = None
 ) -> StabilityChart:
-    """The largest growth of small motion about `at` over two letters, numbers = {letter: increasing numbers, …}; of a periodic
-    motion with its period, a number or an expression in the letters, by its multipliers. As many evaluations as numbers, and
-    twenty for each boundary.
-
-    Raises InputError as `root_locus` does.
-    """
+    """`System.stability_chart`."""
     if not isinstance(numbers, Mapping) or len({*map(str, numbers)}) != 2:
         raise InputError(f"stability_chart: numbers = {numbers!r} must be {{letter: numbers, other: numbers}}")
     names = [str(letter) for letter in numbers]

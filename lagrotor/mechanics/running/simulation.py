@@ -54,8 +54,13 @@ class SystemRun(SampledMotion):
 
     @staticmethod
     def load(path: str | Path, system: Equations, events: Any = (), functions: Values | None = None) -> "SystemRun":
-        """The run of `system`, with the events and the values of functions it was run with, that `save` wrote as .npz: a file
-        holds no equations.
+        """The run that `save` wrote; a file holds no equations.
+
+        Args:
+            path: the .npz file.
+            system: what it was a run of.
+            events: those it was run with.
+            functions: the values of functions it was run with.
 
         Raises:
             InputError: where it is no such file, or one of another system.
@@ -102,21 +107,7 @@ def simulate_system(
     engine: Engine = "core",
     events: Event | Impact | Sequence[Event | Impact] = (),
 ) -> SystemRun:
-    """Integrate from q0, v0 (N,) at t[0] through the increasing times t (n,), in s; v0 (m,) are u for velocities of one's own.
-
-    values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable, callables
-    (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: no step passes one of its knots,
-    and outside it the run ends. tol: the largest error of the whole run, relative to the sizes of coordinates and velocities.
-    It is estimated; where it is not kept, a LagrotorWarning says up to which time it is, and what the error is: as
-    `run.error`, `run.errors` and `run.horizon`. engine: "core", or "fast" with heyoka. events: what changes the velocities or
-    ends the run (`Event`, `Impact`). Forces that jump with sign(w) or |w| stick and slip.
-
-    A run that cannot reach its last time is handed back up to where it came; `run.ending` says why, with a LagrotorWarning.
-
-    Raises InputError for a value that is missing or makes no sense, ConstraintError for a start off the constraints,
-    SingularError for a singular mass matrix, IntegrationError where nothing can be reached. A LagrotorWarning names the time
-    where it passed a position at which its constraints are dependent.
-    """
+    """`System.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     given = check_events(system, events)

@@ -73,6 +73,7 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     """Floquet multipliers of the paired precession of amplitude r0, through the variational equations, with their error.
 
     Args:
+        scene: with opposite spins and a bar.
         momentum: about the joint line beyond the orbit's own (kg m²/s), a push: the orbit then closes up to a turn about that
             line.
 

@@ -21,9 +21,14 @@ _SAMPLES = (16, 32, 64, 128, 256)  # of a quarter period
 def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOrbit:
     """The paired precession of amplitude r0, its axes within `tol` at equal phase and its frequency within tol Omega_0.
 
-    A series through as many orders as that needs, at most r0^13; beyond, the exact periodic orbit, found by shooting and
-    sampled as harmonics. The answer has its own bounds, `error` and `frequency_error`, and says how it was found.
+    The answer has its own bounds, `error` and `frequency_error`, and says how it was found.
     Source: 5.21 and 5.22 of the paper, corrected.
+
+    Args:
+        scene: with opposite spins and a bar.
+        r0: sine of the inclination when the axes are parallel.
+        tol: a series through as many orders as that needs, at most r0^13; beyond, the exact periodic orbit, found by shooting and
+            sampled as harmonics.
 
     Raises:
         InputError: unless the spins are opposite, there is a bar, and 0 < tol < 1.
@@ -90,9 +95,15 @@ def _harmonics(exact: ExactOrbit, n: int) -> Array:
 
 
 def paired_scene(scene: Scene, r0: float, tol: float = 1e-9) -> Scene:
-    """`scene` started on its paired precession of amplitude r0 at Phi = 0: `precession_orbit(scene, r0, tol).start`.
+    """A scene started on its paired precession at Phi = 0: `precession_orbit(scene, r0, tol).start`.
 
-    The start is exact on the bar; its axes are within 2 tol of the periodic orbit, its velocities within 2 tol Omega_0.
-    Raises as precession_orbit.
+    Args:
+        scene: with opposite spins and a bar.
+        r0: amplitude.
+        tol: the start is exact on the bar; its axes are within 2 tol of the periodic orbit, its velocities within 2 tol Omega_0.
+
+    Raises:
+        InputError: as `precession_orbit`.
+        DomainError: likewise.
     """
     return precession_orbit(scene, r0, tol).start

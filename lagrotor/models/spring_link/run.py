@@ -101,7 +101,11 @@ class SpringRun(Run):
 
     @staticmethod
     def load(path: str | Path) -> "SpringRun":
-        """The run that `save` wrote as `.npz`. Raises InputError where that is not what the file is."""
+        """The run that `save` wrote as `.npz`.
+
+        Raises:
+            InputError: where that is not what the file is.
+        """
         _, held, known = read_run(path)
         n = len(known["t"])
         sizes: dict[str, int] = {"t": n, "rotor": 2, "component": 3, "row": 3}
@@ -139,11 +143,16 @@ _QUANTITIES: dict[str, tuple[tuple[str, ...], str]] = {
 
 
 def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: float) -> SpringRun:
-    """Move a copy of `system` from t[0] by the paper's step and read it at the times `t` (n,), whole multiples of dt.
+    """Move a copy of a system by the paper's step, the shock of step k with its strength at k dt, as in the paper's loop.
 
-    The shock of step k has its strength at k dt, as in the paper's loop. `step_limit` says which dt is stable; one
-    above it is run all the same, for as long as it lasts: until the state is not a number, or beyond LOST. What was reached
-    is handed back with its ending, and a LagrotorWarning. The error of a fixed step is not estimated.
+    A step above `step_limit` is run all the same, for as long as it lasts: until the state is not a number, or beyond LOST. What
+    was reached is handed back with its ending, and a LagrotorWarning. The error of a fixed step is not estimated.
+
+    Args:
+        system: the bodies and links.
+        shock: on a vertex.
+        t: the times (n,) that are read, whole multiples of dt, s.
+        dt: the step, s.
 
     Raises:
         InputError: for dt not above zero, times between the steps, or a step longer than the shock is wide (it could miss it).
@@ -188,12 +197,19 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
 def run_solver(
     system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: float = 1e-8, method: str = "LSODA"
 ) -> SpringRun:
-    """Move a copy of `system` from t[0] by one of scipy's solvers, the same forces without the error of a fixed step.
+    """Move a copy of a system by one of scipy's solvers, the same forces without the error of a fixed step.
 
-    State X, U, R, L of every body, with R' = [Omega]× R. tol: the largest error of the whole run, estimated as of every run: of
-    the places in units of the largest body, and of R; a LagrotorWarning says where it is not kept. The run is cut at
-    the shock's edges, ± 6.5 widths, within which no step is longer than the width. LSODA changes to a stiff
-    method where damping requires it; "Radau" and "BDF" are stiff throughout, "DOP853" nowhere.
+    State X, U, R, L of every body, with R' = [Omega]× R. The run is cut at the shock's edges, ± 6.5 widths, within which no step
+    is longer than the width.
+
+    Args:
+        system: the bodies and links.
+        shock: on a vertex.
+        t: the times (n,), s.
+        tol: the largest error of the whole run, estimated as of every run: of the places in units of the largest body, and of
+            R; a LagrotorWarning says where it is not kept.
+        method: LSODA changes to a stiff method where damping requires it; "Radau" and "BDF" are stiff throughout, "DOP853"
+            nowhere.
 
     Raises:
         InputError: for bad times, tolerance or method.

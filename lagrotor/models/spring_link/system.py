@@ -31,9 +31,14 @@ LinkForce = Callable[[Array, Array, float, float], Array]
 def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
     """Force on vertex 1 of each link, −S (X_1 − X_2) − D (U_1 − U_2), (n, 3) in N; on vertex 2 its opposite (3.20).
 
-    gap = X_1 − X_2 (n, 3) in m, rate = U_1 − U_2 (n, 3) in m/s. The sound reading of 3.19: linear, smooth where the
-    vertices coincide, which is where a joint is kept, and damping every relative motion. Its damper is not central: it
-    exerts the couple D gap × rate, which vanishes with the gap.
+    The sound reading of 3.19: linear, smooth where the vertices coincide, which is where a joint is kept, and damping every
+    relative motion. Its damper is not central: it exerts the couple D gap × rate, which vanishes with the gap.
+
+    Args:
+        gap: X_1 − X_2, (n, 3), m.
+        rate: U_1 − U_2, (n, 3), m/s.
+        S: stiffness, N/m.
+        D: damping, kg/s.
     """
     return -S * gap - D * rate
 
@@ -44,6 +49,12 @@ def printed_link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
     Read as the only signs that hold together: F_12 is what vertex 1 does to 2, ê_21 points from 2 to 1, and the spring
     term lacks its ê_21. The spring is that of `link_force`; the damper acts along the line of separation only. It
     leaves a gap that circles undamped, and at gap = 0, where every joint starts, e is 0/0 (here 0: no damping there).
+
+    Args:
+        gap: X_1 − X_2, (n, 3), m.
+        rate: U_1 − U_2, (n, 3), m/s.
+        S: stiffness, N/m.
+        D: damping, kg/s.
     """
     size = np.linalg.norm(gap, axis=1, keepdims=True)
     e = gap / (size + (size == 0))
@@ -97,7 +108,14 @@ class RigidBodySystem:
         self.external[self._body(body)] += finite_array("add_external: force", force, (3,))
 
     def link(self, body1: int, body2: int, vertex1: int, vertex2: int) -> None:
-        """Join `vertex1` of `body1` to `vertex2` of `body2`."""
+        """Join two bodies.
+
+        Args:
+            body1: one.
+            body2: the other.
+            vertex1: of the one.
+            vertex2: of the other.
+        """
         self._join(self._end(body1, vertex1), self._end(body2, vertex2))
 
     def ground(self, body: int, vertex: int) -> None:
@@ -106,7 +124,14 @@ class RigidBodySystem:
         self._join((i, arm), (len(self.vertices), self.X[i] + self.R[i] @ arm))
 
     def push(self, body: int, vertex: int, force: ArrayLike, strength: float = 1.0) -> None:
-        """`strength` × a force (3,) in N on `vertex` of `body` for the step to come: after `compute_forces`, before `step`."""
+        """Push a body for the step to come: after `compute_forces`, before `step`.
+
+        Args:
+            body: which.
+            vertex: of it.
+            force: (3,) in N.
+            strength: by which it is multiplied.
+        """
         i, arm = self._end(body, vertex)
         given = finite_array("push: force", force, (3,)) * strength
         self.F[i] += given
@@ -282,10 +307,14 @@ def _bar(scene: Scene, link: Link, height: float | None) -> RigidBody:
 def paper_system(
     scene: Scene, stiffness: float, damping: float, bar_height: float | None = None, **laws: Callable[..., Array]
 ) -> RigidBodySystem:
-    """The paper's program for `scene`: its `paper_bodies`, vertex 1 of each rotor grounded, the bar linked to both tips.
+    """The paper's program for a scene: its `paper_bodies`, vertex 1 of each rotor grounded, the bar linked to both tips.
 
-    stiffness S in N/m, damping D in kg/s. A scene without a bar gives two rotors and two links. `laws`: the `force`,
-    `rotation` and `transform` of RigidBodySystem.
+    Args:
+        scene: without a bar it gives two rotors and two links.
+        stiffness: S, N/m.
+        damping: D, kg/s.
+        bar_height: as in `paper_bodies`, m.
+        laws: the `force`, `rotation` and `transform` of RigidBodySystem.
     """
     system = RigidBodySystem(paper_bodies(scene, bar_height), stiffness, damping, **laws)
     system.ground(2, 1)

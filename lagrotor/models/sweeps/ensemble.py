@@ -74,7 +74,11 @@ class Ensemble(Shown):
         return np.flatnonzero([ending.early for ending in self.endings])
 
     def trajectory(self, i: int) -> Trajectory:
-        """Number i up to its end, with all that can be read off it. Raises InputError where nothing of it was reached."""
+        """Number i up to its end, with all that can be read off it.
+
+        Raises:
+            InputError: where nothing of it was reached.
+        """
         n = int(np.isfinite(self.errors[i]).sum())
         if not n:
             raise InputError(f"trajectory: of scene {i} nothing was reached: {self.endings[i]}")
@@ -101,6 +105,7 @@ def sweep(
     """Run every scene from its start, which holds at t[0], and read it at the times `t` (m,) in s.
 
     Args:
+        scenes: as many as there are runs.
         tol: the largest error of an axis over each whole run, as of `simulate` and by the same estimate. A LagrotorWarning says
             how many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
         engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.

@@ -69,6 +69,7 @@ def _convert(source: str, display: bool) -> str:
             if not node.get("href", "https://").startswith(("https://", "http://")):
                 del node.attrib["href"]  # a link to a page is kept, one that would run is not
         _tidy(tree)
+        _keep_readable(tree, 0, compact=not display)
         element = Element("math", {"display": "block"} if display else {})
         element.extend(tree)
         made.append(tostring(element, encoding="unicode"))
@@ -120,6 +121,18 @@ def _tidy(element: Element) -> None:
         ):
             _space(element, child)
         before = child
+
+
+def _keep_readable(element: Element, depth: int, compact: bool) -> None:
+    """Scripts of scripts as large as scripts: browsers know no smallest size of a letter. depth, compact: as in MathML Core."""
+    for place, child in enumerate(element):
+        fraction = element.tag == "mfrac"
+        script = element.tag in _SCRIPTS and not fraction and place > 0 and "accent" not in element.attrib
+        below = depth + (compact if fraction else script)
+        if below > 1:
+            child.set("scriptlevel", "1")
+        set_small = (compact or fraction or script) and child.get("displaystyle") != "true"
+        _keep_readable(child, min(below, 1), set_small)
 
 
 def _leaf(child: Element, text: str, before: Element | None) -> None:

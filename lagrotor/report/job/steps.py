@@ -1,11 +1,13 @@
 """The steps of the main job: each derivation, claim and figure by itself, what it is made from and what it gives."""
 
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from lagrotor.errors import LagrotorWarning
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.proof import Remark
 from lagrotor.paper.tables import Table
@@ -52,9 +54,11 @@ class JobStep:
 
 
 def derive(paper: Paper, stem: str, folder: Path) -> Derived:
-    """Run a derivation and judge what it states."""
-    verdicts = paper.judged(stem)
-    script = paper.scripts.executed("derivations", stem)
+    """Run a derivation and judge what it states; what its runs warn of is said on its page."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", LagrotorWarning)
+        verdicts = paper.judged(stem)
+        script = paper.scripts.executed("derivations", stem)
     remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
     tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})

@@ -23,9 +23,12 @@ if TYPE_CHECKING:
 
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
     """One derivation, cell by cell, without its title; `answers` holds the verdicts by equation."""
-    prose = (re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "" for cell in script.cells)
-    shown = ("".join(_value_html(value, answers) for value in cell.shown) for cell in script.cells)
-    return "".join(markdown_html(text) + result for text, result in zip(prose, shown, strict=True))
+    html = ""
+    for cell in script.cells:
+        html += markdown_html(re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "")
+        html += "".join(_value_html(value, answers) for value in cell.shown)
+        html += "".join(f"<p><small>The run warns: {prose(text)}.</small></p>" for text in cell.warned)
+    return html
 
 
 def title(script: Script, stem: str) -> str:

@@ -104,7 +104,7 @@ function setUpFigures() {
 }
 
 // Two formulas beside each other stand one below the other where one is too wide; a formula wider than its box is drawn smaller, down to letters that can be read; what is then still too wide scrolls.
-const SMALLEST = 10; // px
+const SMALLEST = 14.4; // px, of a formula: its scripts have 0.7 of it
 function fitFormulas() {
   for (const pair of document.querySelectorAll("[data-pair]")) pair.className = "pair";
   for (const box of document.querySelectorAll(".wide")) {

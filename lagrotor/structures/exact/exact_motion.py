@@ -173,7 +173,13 @@ class ExactMotion:
 
 
 def exact_motion(s: Assembly, force: Drive | None = None, ground: Drive | None = None) -> ExactMotion:
-    """The exact model of a structure, driven by forces on its tips and by its ground."""
+    """The exact model of a structure.
+
+    Args:
+        s: the structure.
+        force: t → forces on its tips, (N, 3), N.
+        ground: t → accelerations of its ground.
+    """
     return ExactMotion(coefficients(s), saddle(s), force, ground)
 
 

@@ -59,10 +59,14 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
 
 
 def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-9, of: Of = "rates") -> float:
-    """The time (s) at which an axis of the exact motion first tilts by the sine 0.95, inf where none does within the `longest`.
+    """The time (s) at which an axis of the exact motion first tilts by the sine 0.95, inf where none does.
 
-    From upright with the axes' rates (N, 2), rad/s, or at rest with their tilts (N, 2), brought onto the bars; tol: of each
-    step, relative.
+    Args:
+        s: the structure.
+        push: the axes' rates (N, 2), rad/s, from upright, or tilts (N, 2) at rest, brought onto the bars.
+        longest: s.
+        tol: of each step, relative.
+        of: "rates" or "tilts", what the push is.
 
     Raises:
         InputError: for tilts from 0.95 on, and what is no push.

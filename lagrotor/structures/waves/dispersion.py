@@ -163,9 +163,12 @@ def _slopes(b: Bloch, q: Array, k: int, rates: Array, shapes: Complex) -> Array:
 
 
 def long_wave_speeds(p: Cell, direction: ArrayLike = (1.0,), small: float = 1e-3) -> Array:
-    """Speeds dω/d|k| (m/s) at q → 0 along a direction of q (d,), of the bands that begin there at rate zero in proportion to q.
+    """Speeds dω/d|k| (m/s) at q → 0 of the bands that begin there at rate zero in proportion to q; k . step = q. Fourth order.
 
-    k is the wave vector with k . step = q. To fourth order in `small`, the largest q (rad a cell) at which the bands are read.
+    Args:
+        p: the pattern.
+        direction: of q, (d,).
+        small: the largest q at which the bands are read, rad a cell.
     """
     along = np.asarray(direction, dtype=float)
     along = along / np.abs(along).max()

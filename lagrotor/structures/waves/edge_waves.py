@@ -29,7 +29,13 @@ class EdgeWaves:
 
 
 def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> EdgeWaves:
-    """The waves of the strip of `width` cells at a rate (rad/s) inside a gap of the bulk.
+    """The waves of a strip inside a gap of the bulk.
+
+    Args:
+        p: the pattern.
+        rate: rad/s.
+        width: cells.
+        points: wave numbers that are tried.
 
     Raises:
         InputError: for a pattern with one step.
@@ -44,9 +50,14 @@ def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> Edge
 
 
 def border_packet(p: Cell, count: int, gap: tuple[float, float]) -> tuple[Structure, Array, Array]:
-    """A piece of count × count cells, and tilts and rates (N, 2) at which a packet starts from the middle of its lower border.
+    """A piece of cells, and tilts and rates (N, 2) at which a packet starts from the middle of its lower border.
 
     The packet is a push on that rotor, of which the piece's modes at rates in the gap are kept; its largest tilt is 0.01.
+
+    Args:
+        p: the pattern.
+        count: the piece has count × count cells.
+        gap: (lowest, highest), rad/s.
 
     Raises:
         InputError: where none is in the gap.

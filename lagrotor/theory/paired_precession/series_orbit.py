@@ -53,7 +53,11 @@ class PrecessionOrbit(Shown):
         return self.at_phase(self.frequency * np.asarray(t, dtype=float))
 
     def at_phase(self, phase: ArrayLike) -> Array:
-        """Axes at phases (…) in rad: (2, …, 3), as of a run. Raises DomainError for a phase that is not finite."""
+        """Axes at phases (…) in rad: (2, …, 3), as of a run.
+
+        Raises:
+            DomainError: for a phase that is not finite.
+        """
         phases = np.asarray(phase, dtype=float)
         if not np.isfinite(phases).all():
             raise DomainError("precession_orbit: a time is not finite")
@@ -99,11 +103,15 @@ def amplitude_of(r0: object, where: str) -> float:
 
 
 def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
-    """The paired precession of amplitude r0 by its series through r0**order, of whatever error that has.
+    """The paired precession of amplitude r0 by its series, of whatever error that has.
 
     At equal phase the error is O(r0**(order + 1)), the frequency's O(r0**(order + 1)) for an odd order. Both are infinite
-    for order < 5, whose terms are too few for an estimate.
-    Source: 5.21 and 5.22 of the paper, corrected.
+    for order < 5, whose terms are too few for an estimate. Source: 5.21 and 5.22 of the paper, corrected.
+
+    Args:
+        scene: with opposite spins and a bar.
+        r0: sine of the inclination when the axes are parallel.
+        order: through r0**order.
 
     Raises:
         InputError: unless the spins are opposite, there is a bar, and order is at least 1.

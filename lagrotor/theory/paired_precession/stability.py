@@ -27,7 +27,14 @@ _X, _TWIST = 0, 1  # the unknowns whose displacement changes nothing at rest
 
 
 def exponent_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> ExponentSeries:
-    """A and B through r_0**order for sigma = `shape`, k = `ratio`, rational numbers or symbols; `exact` as `paired_series`."""
+    """A and B through r_0**order.
+
+    Args:
+        order: a whole number.
+        shape: sigma, a rational number or symbol.
+        ratio: k, likewise.
+        exact: as in `paired_series`.
+    """
     return _exponents(paired_series(order, shape, ratio, exact), exact)
 
 
@@ -140,9 +147,14 @@ def _least_root(coefficients: Array) -> float:
 
 
 def most_growth(r0: float, sigma: float, k: float) -> float:
-    """An empirical bound on lambda per radian of phase, r_0 ≤ 0.5: both leading laws together, where positive.
+    """An empirical bound on lambda per radian of phase: both leading laws together, where positive.
 
     lambda² ≤ (3/16) sigma² (1 − sigma) r_0⁶ / k² + (9/32) r_0⁸ / k⁴. The terms are derived (`growth_squared`); that their
     sum is a bound is not: the tests hold it to the exact multipliers of random bars, 0.4 < sigma < 1.8, 0.5 < k < 2.
+
+    Args:
+        r0: amplitude, at most 0.5.
+        sigma: shape.
+        k: ell / R.
     """
     return sqrt(max(3 * sigma**2 * (1 - sigma) * r0**6 / (16 * k**2), 0.0) + 9 * r0**8 / (32 * k**4))

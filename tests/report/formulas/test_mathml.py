@@ -151,3 +151,18 @@ def test_a_link_that_would_run_is_not_kept(address: str) -> None:
     drawn = mathml_latex.mathml(rf"\href{{{address}}}{{x}} + 1")
     assert drawn and "href" not in drawn and "<mi>x</mi>" in drawn
     assert 'href="https://example.org"' in (mathml_latex.mathml(r"\href{https://example.org}{x}") or "")
+
+
+@pytest.mark.parametrize(
+    ("source", "levels"),
+    [
+        (r"x^{a_b}", 1),  # a script of a script
+        (r"\frac{\frac{a_1}{b}}{c}", 1),  # in a fraction within a fraction
+        (r"\frac{a_1}{b_2}", 0),
+        (r"\hat{x}^2 + a_{b}", 0),
+        (r"e^{\frac{a}{b}}", 2),
+    ],
+)
+def test_scripts_of_scripts_are_no_smaller_than_scripts(source: str, levels: int) -> None:
+    drawn = mathml_latex.mathml(source) or ""
+    assert drawn.count('scriptlevel="1"') == levels, drawn

@@ -46,7 +46,8 @@ function measure(view) {
     const scrolls = ["auto", "scroll"].includes(view.getComputedStyle(box).overflowX);
     (scrolls ? scrolled : tooWide).push(formula.textContent.slice(0, 60));
   }
-  const sizes = [...page.querySelectorAll("math")].map(formula => parseFloat(view.getComputedStyle(formula).fontSize));
+  const letters = [...page.querySelectorAll("math :is(mi, mn, mtext)")].filter(letter => letter.textContent.trim());
+  const sizes = letters.map(letter => parseFloat(view.getComputedStyle(letter).fontSize));
   return {formulas: page.querySelectorAll("math").length, smallest: Math.min(...sizes), tooWide, scrolled,
           width: page.documentElement.scrollWidth, room: view.innerWidth, failures: view.failures,
           font: page.fonts.check("16px 'FAMILY'")};

@@ -6,6 +6,7 @@ from base64 import b64decode
 import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.scripts import Script, ScriptCell
 from lagrotor.report.page.derivation_pages import derivation_html, markdown_html, title
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
@@ -33,3 +34,8 @@ def test_a_displayed_formula_is_one_wherever_it_stands(text: str) -> None:
     pytest.importorskip("mdit_py_plugins.dollarmath", reason="markdown-it reads the prose")
     html = markdown_html(text)
     assert "$" not in html and html.count('display="block"') >= 1 and "<math><" in html
+
+
+def test_what_a_run_warns_of_is_said_below_it() -> None:
+    script = Script((ScriptCell("code", "run", (), ("tol = 1e-13 is not kept",)), ScriptCell("code", "2", (2,))), {})
+    assert derivation_html(script, {}) == "<p><small>The run warns: tol = 10⁻¹³ is not kept.</small></p>"
