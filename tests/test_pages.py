@@ -9,10 +9,12 @@ import pytest
 from tests import pages
 
 HEAD = '<!doctype html><html lang="en"><head><title>t</title><link rel="icon" href="data:,"></head><body><main><h1 id="a">t</h1>'
-FAULTY = f"""{HEAD}<p style="width: 2000px">x</p>
+STYLE = """<style>@media (prefers-color-scheme: dark) { .a { color: #eee } }
+@media print { .b { color: #eee } }</style>"""
+FAULTY = f"""{HEAD}{STYLE}<p style="width: 2000px">x</p><p class="a">dark</p><p class="b">paper</p>
 <math style="font-size: 8px"><mi>a</mi></math><img src="data:," width="9" height="9">
-<style>@media (prefers-color-scheme: dark) {{ .a {{ color: #eee }} }} @media print {{ .b {{ color: #eee }} }}</style><p class="a">dark</p>
-<p class="b">paper</p><div style="overflow: auto; height: 9px"><p>scrolls<p>and scrolls</div><a href="no.html">n</a><a href="#nowhere">m</a><button>A</button><button style="margin-left: -10px">B</button></main>
+<div style="overflow: auto; height: 9px"><p>scrolls<p>and scrolls</div>
+<a href="no.html">n</a><a href="#nowhere">m</a><button>A</button><button style="margin-left: -10px">B</button></main>
 <script>undefined_name()</script></body></html>"""
 WHOLE = f'{HEAD}<a href="#a">up</a></main></body></html>'
 
