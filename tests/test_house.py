@@ -1,6 +1,7 @@
 """The house as CONTRIBUTING.md draws it: every import runs downward, no room and no module lies on a circle."""
 
 import ast
+import re
 import tomllib
 from collections import Counter
 from functools import cache
@@ -293,3 +294,64 @@ def test_the_guide_draws_this_house() -> None:
     drawing = (ROOT / "CONTRIBUTING.md").read_text().split("\nlagrotor/\n")[1].split("\nderivations/")[0]
     drawn = [word.rstrip("/") for line in drawing.splitlines() for word in line[:25].split()]
     assert drawn == [room for room in FLOORS if room]
+
+
+def public_functions() -> dict[str, ast.FunctionDef]:
+    """Each function and method that the reference shows."""
+    functions = {}
+    for face in (ROOT / "lagrotor/__init__.py", *(ROOT / "lagrotor").glob("*/__init__.py")):
+        for name, module in names_of_face(face).items():
+            tree = ast.parse((ROOT / (module.replace(".", "/") + ".py")).read_text(encoding="utf-8"))
+            for node in (node for node in tree.body if getattr(node, "name", "") == name):
+                inside = node.body if isinstance(node, ast.ClassDef) else [node]
+                functions |= {
+                    f"{module}.{name}.{each.name}": each for each in inside if isinstance(each, ast.FunctionDef)
+                }
+    return {name: each for name, each in functions.items() if not each.name.startswith("_") and ast.get_docstring(each)}
+
+
+def arguments(function: ast.FunctionDef) -> list[str]:
+    """Names of what it takes, without the object or class it belongs to."""
+    taken = function.args
+    names = [each.arg for each in (*taken.posonlyargs, *taken.args, taken.vararg, *taken.kwonlyargs) if each]
+    return [name for name in names if name not in ("self", "cls")]
+
+
+def explained(docstring: str, section: str) -> set[str]:
+    """What a section of a docstring in Google's form has entries of."""
+    found = re.search(rf"^{section}:\n((?: {{4}}.*\n?|\n)*)", docstring, re.MULTILINE)
+    return set(re.findall(r"^ {4}(\w+):", found[1], re.MULTILINE)) if found else set()
+
+
+def test_arguments_and_what_is_raised_have_sections_that_the_reference_sets_as_lists() -> None:
+    """One or two arguments are named in the sentence; of three and more each has an entry or is in it by its name."""
+    functions = public_functions()
+    lacking = {
+        name: arguments(each)
+        for name, each in functions.items()
+        if len(arguments(each)) > 2
+        and (
+            "Args:" not in (text := ast.get_docstring(each) or "")
+            or [a for a in arguments(each) if a not in explained(text, "Args") and not re.search(rf"\b{a}\b", text)]
+        )
+    }
+    assert len(functions) > 300 and lacking == {}
+    unknown = {
+        name: extra
+        for name, each in functions.items()
+        if (
+            extra := explained(ast.get_docstring(each) or "", "Args")
+            - {*arguments(each), getattr(each.args.kwarg, "arg", "")}
+        )
+    }
+    assert unknown == {}, "entries of arguments that there are not"
+    prose = [name for name, each in functions.items() if re.search(r"\bRaises [A-Za-z]", ast.get_docstring(each) or "")]
+    assert prose == []
+
+
+def test_a_docstring_without_its_sections_is_seen() -> None:
+    text = "What it is.\n\nArgs:\n    a: one.\n        b: more of it.\n    c: another.\n\nRaises:\n    InputError: no."
+    assert explained(text, "Args") == {"a", "c"} and explained(text, "Raises") == {"InputError"}
+    assert explained("What it is. Args: a: one.", "Args") == set()
+    function = ast.parse("def f(self, a, *b, c=1, **d): ...").body[0]
+    assert isinstance(function, ast.FunctionDef) and arguments(function) == ["a", "b", "c"]

@@ -30,8 +30,9 @@ _SLOWEST = 0.5  # ratio beyond which the orders do not fall
 def toppling_error(scene: Scene, duration: float) -> float:
     """Error (rad/s) of `toppling_after_shock` as the mean rate over `duration` s from the pulse's peak.
 
-    Raises as `toppling_after_shock`; DomainError where the orders of the averaged motion do not fall, or the duration ends
-    within the pulse.
+    Raises:
+        InputError: as `toppling_after_shock`.
+        DomainError: where the orders of the averaged motion do not fall, or the duration ends within the pulse.
     """
     return _errors(scene, duration, "toppling_error")[0]
 
@@ -39,7 +40,9 @@ def toppling_error(scene: Scene, duration: float) -> float:
 def wander_error(scene: Scene, duration: float) -> float:
     """Error (1/s) of `wander_after_shock` as the mean rate of x over `duration` s from the pulse's peak.
 
-    Raises as `toppling_error`.
+    Raises:
+        InputError: as `toppling_error`.
+        DomainError: likewise.
     """
     return _errors(scene, duration, "wander_error")[1]
 
@@ -47,8 +50,11 @@ def wander_error(scene: Scene, duration: float) -> float:
 def cancelling_force_error(scene: Scene, duration: float) -> float:
     """How far (N) `cancelling_force` may lie from the force that leaves no mean turning over `duration` s after the pulse's peak.
 
-    That far on either side `toppling_after_shock` is beyond its error, of opposite signs. Raises as `toppling_error`, and
-    DomainError where it is nowhere.
+    That far on either side `toppling_after_shock` is beyond its error, of opposite signs.
+
+    Raises:
+        InputError: as `toppling_error`.
+        DomainError: as `toppling_error`, and where it is nowhere.
     """
     force = cancelling_force(scene)
     shock = scene.shock
