@@ -27,6 +27,15 @@ ONE_PROCESS = (
         "tests/report/test_",
     ),
 )
+# What takes longest, begun first: a long file that is begun last is waited for by one process alone.
+FIRST = (
+    "tests/report/job/test_reproduce",
+    *ONE_PROCESS[0],
+    *ONE_PROCESS[1],
+    "tests/paper/",
+    "tests/models/",
+    "tests/derivations/test_gallery",
+)
 
 
 def exploring(marks: str) -> bool:
@@ -40,7 +49,8 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """With the slow tests go those that hypothesis draws the values of."""
+    """With the slow tests go those that hypothesis draws the values of; the longest files come first."""
+    items.sort(key=lambda item: next((i for i, file in enumerate(FIRST) if item.nodeid.startswith(file)), len(FIRST)))
     if exploring(config.option.markexpr):
         for item in items:
             if getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
@@ -57,8 +67,10 @@ def audit() -> Any:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """`--dist=loadfile`, files that run the same scripts as if they were one."""
+    """`--dist=loadfile`, files that run the same scripts as if they were one, in the order of collection."""
     from xdist.scheduler import LoadFileScheduling
+
+    config.option.loadscopereorder = False
 
     class ByScripts(LoadFileScheduling):
         def _split_scope(self, nodeid: str) -> str:

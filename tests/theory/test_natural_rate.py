@@ -65,7 +65,7 @@ def any_pair(rng):
     return Scene((spins[0] / scale, spins[1] / scale), one.rotor, link)
 
 
-@pytest.mark.parametrize("count", [40, pytest.param(10_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [15, pytest.param(10_000, marks=pytest.mark.slow)])
 def test_natural_rate(count):
     """Swings on the linear mode in any phase. Of amplitudes beyond the range, refused ones are drawn again."""
     rng, held_so_far = np.random.default_rng(1), 0
@@ -91,7 +91,7 @@ def test_natural_rate(count):
         held_so_far += len(scenes)
 
 
-@pytest.mark.parametrize("count", [40, pytest.param(2_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [15, pytest.param(2_000, marks=pytest.mark.slow)])
 def test_the_rate_of_an_orbit_about_upright(count):
     rng, pairs, refused = np.random.default_rng(3), [], 0
     while len(pairs) < count:
