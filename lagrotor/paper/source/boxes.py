@@ -644,7 +644,11 @@ def _joins(before: Box, made: list[Box]) -> bool:
 def _is_unit(word: str) -> bool:
     """Whether upright letters are a unit of several parts, such as m/s^2."""
     parts = re.search(r"[A-Za-z].*[A-Za-z/^]|\\[,.%]|[/]|%", word) and not word.startswith("{")
-    return bool(parts and re.fullmatch(r"[A-Za-z\d\s/^{}.,\\\-~·%]+", word) and not re.search(r"\\[A-Za-z]", word))
+    return bool(
+        parts
+        and re.fullmatch(r"[A-Za-z\d\s/^{}.,\\\-~·%]+(?:/\([A-Za-z\d\s^{}.,\\\-~·]+\))?", word)
+        and not re.search(r"\\[A-Za-z]", word)
+    )
 
 
 def _letter_of(text: str) -> str | None:

@@ -105,19 +105,24 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             box.style in ("cal", "scr", "frak") and acts and not box.sup,
             "in script is a factor, and no operator",
         ),
-        ("laplacian", _is_delta(box) and (box.marks or box.sup or not acts), "is a letter, and no Laplacian"),
+        (
+            "laplacian",
+            _is_delta(box) and (box.marks or box.sup or not acts or box.name == "triangle"),
+            "is a letter, and no Laplacian",
+        ),
         (
             "order",
             bracketed and "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"),
             "is a function of the bracket, and no order of magnitude",
         ),
+        ("sign", box.name in ("uparrow", "downarrow", "emptyset", "complement"), "is a letter"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
     )
     for key, is_open, what in held:
         if is_open:
             yield key, f"{box.name} {what}", ""
     if not (box.sub or box.marks or box.style) and box.name not in known.functions | known.letters | known.numbers:
-        yield from _number(reader, box)
+        yield from _number(reader, box, after)
     if after is not None and acts and not (bracketed or box.sup):
         yield from _acting(known, box, after, _behind(row, place + 1))
     if box.sub:
@@ -135,13 +140,15 @@ def _lowered(known: Notation, box: Box) -> Rivals:
     stem, held = stem_of(box), set(below)
     alone = {stem, name_of(replace(box, sub=None, sup=None))} & (known.bare | known.called.keys())
     twice = len(below) > 1 and held <= {"x", "y", "z", "t"} and alone
+    rates = alone and {f"{box.name}_t", f"{box.name}_x"} <= known.spelled.keys()  # u_t + u u_x = 0
+    twice = twice or (rates and held <= {"x", "t"})
     if held <= _VARIABLES and held and (twice or held <= known.varied.get(stem, set()) | known.called.get(stem, set())):
         yield "index", f"the index of {box.name} is part of the name, and no derivative", ""
 
 
 def _is_delta(box: Box) -> bool:
-    """Whether a letter is a capital delta without an index."""
-    return box.name == "Delta" and not (box.sub or box.style or box.primes)
+    """Whether a letter is a capital delta or a triangle, without an index."""
+    return box.name in ("Delta", "triangle") and not (box.sub or box.style or box.primes)
 
 
 def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
@@ -158,10 +165,11 @@ def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
         yield "operator", f"{box.name} is a factor of what follows, and no operator on it", f'letters = "{box.name}"'
 
 
-def _number(reader: FormulaReader, box: Box) -> Rivals:
+def _number(reader: FormulaReader, box: Box, after: Box | None) -> Rivals:
     """Letters that may be numbers."""
     settles = f'letters = "{box.name}" or numbers = "{box.name}"'
-    if box.name in ("j", "imath", "jmath") and "complex" in reader.notation.seen and box.name not in reader.lowered:
+    turned = "complex" in reader.notation.seen or (after is not None and after.name == "omega")
+    if box.name in ("j", "imath", "jmath") and turned and box.name not in reader.lowered:
         yield "j", f"{box.name} is a letter, and not the imaginary unit", settles
     if box.name == "e" and not (box.sup or box.upright) and reader.notation.exponential:
         yield "e", "e is a letter, and not Euler's number", settles
@@ -338,7 +346,9 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
         number = any(
             b.kind in ("number", "fraction", "root", "function", "big", "nabla") or not _letters(b) for b in beside
         )
-        matrices = any(is_printed_as_vector(b) and b.name[0].isupper() for b in beside)
+        matrices = any(
+            is_printed_as_vector(b) and b.name[0].isupper() and stem_of(b) not in known.crossed for b in beside
+        )
         hats = any("hat" in b.marks and not is_printed_as_vector(b) for b in beside)
         if matrices or hats or not (number or "bold" in known.seen):
             yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""
@@ -443,7 +453,8 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Rivals:
             plain = all(b.kind in ("number", "letter") or b.name in ("/", "times", "cdot") for b in side)
             plain = plain and not any(b.sub for b in letters)
             names = [b.name for b in letters]
-            named = {*names[names[:1] == ["mu"] :]} <= UNITS or "".join(names) in UNITS
+            joined = "".join(" " * (a.end != b.at) + b.name for a, b in pairwise([*letters[:1], *letters])).split()
+            named = {*names[names[:1] == ["mu"] :]} <= UNITS or {*joined} <= UNITS
             if letters and plain and side[0].kind == "number" and named:
                 yield "unit", f"{letters[0].name} behind the number is a letter, and no unit", ""
             side = []
@@ -473,6 +484,12 @@ def _words(reader: FormulaReader, row: list[Box]) -> Rivals:
 
 def _order(reader: FormulaReader, row: list[Box]) -> Rivals:
     """Products of what the paper uses as matrices or operators elsewhere."""
+    known = reader.notation
+    for a, b in pairwise(row):
+        capitals = sum(each.name.isupper() and stem_of(each) not in known.matrices for each in (a, b))
+        side = a.kind == b.kind == "letter" and is_printed_as_vector(a) and is_printed_as_vector(b)
+        if side and (capitals == 2 or stem_of(a) in known.crossed):
+            yield "matrix", f"{a.name} and {b.name} side by side are matrices, and no vectors", ""
     product: list[Box] = []
     for box in [*row, Box("relation", "", 0, 0)]:
         if box.kind in ("letter", "bracket", "fraction", "accent", "root", "group", "matrix"):
@@ -486,7 +503,7 @@ def _order(reader: FormulaReader, row: list[Box]) -> Rivals:
             held = [
                 b
                 for b in product
-                if b.kind == "letter" and not is_printed_as_vector(b) and stem_of(b) in reader.notation.matrices
+                if b.kind == "letter" and not is_printed_as_vector(b) and stem_of(b) in known.matrices
             ]
             others = [b for b in product if _letters(b)]
             vectors = [k for k, b in enumerate(product) if b.kind == "letter" and is_printed_as_vector(b)]
@@ -524,7 +541,7 @@ def _repeated(row: list[Box]) -> Rivals:
     counts = [_indices(term) for term in terms if any(b.kind == "letter" for b in all_boxes(term))]
     names = {name for count in counts for name, times in count.items() if times > 1} - bound - set(TENSOR)
     for name in sorted(names):
-        if not all(count[name] for count in counts):
+        if not all(count[name] for count in counts) or all(count[name] > 1 for count in counts):
             yield "sum", f"the index {name} is not summed over", ""
 
 

@@ -95,6 +95,8 @@ def _reach(reader: FormulaReader, row: list[Box], start: int, function: Box) -> 
         _after_one(reader, run[0], row, end, function)
         return end
     if run[0].kind == "number" and len(run) == 2 and run[1].kind == "letter" and not is_moving(run[1]):
+        if FUNCTIONS.get(function.name) in ("log", "log10", "exp"):
+            reader.guess("argument", f"the argument of {function.name} is the product that follows it")
         return end
     return start + _within(reader, run, function)
 

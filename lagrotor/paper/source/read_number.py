@@ -69,8 +69,9 @@ def read_unit(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, 
 
 def _units(reader: FormulaReader, box: Box) -> Node:
     """A unit such as m/s^2 as letters unit_m, unit_s."""
-    parts = _UNIT.findall(box.name)
-    if "".join(parts).replace(" ", "") != box.name.replace(" ", "") or not parts:
+    name = re.sub(r"/\(([^()/]*)\)$", r"/\1", box.name)  # kJ/(kg K)
+    parts = _UNIT.findall(name)
+    if "".join(parts).replace(" ", "") != name.replace(" ", "") or not parts:
         raise FormulaError(box.at, f"{box.name} is no unit", "write it as \\mathrm{m/s^2}")
     factors: list[Node] = []
     below = False

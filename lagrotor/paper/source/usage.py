@@ -31,7 +31,7 @@ class Notation:
     before what may be an argument; factors, in a product; apart, touching no other letter; powers, to a number; raised, with
     an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two primes. varied:
     letter → letters that it is differentiated by. seen: ket, bold, order, hessian, complex, modular, exponent, dot, other time,
-    times.
+    times. crossed: vectors, beside a cross or a nabla.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -55,6 +55,7 @@ class Notation:
     matrices: set[str] = field(default_factory=set)
     primed: set[str] = field(default_factory=set)
     twice: set[str] = field(default_factory=set)
+    crossed: set[str] = field(default_factory=set)
     varied: dict[str, set[str]] = field(default_factory=dict)
     seen: set[str] = field(default_factory=set)
 
@@ -278,6 +279,8 @@ def _look_about(row: list[Box], found: Notation) -> None:
         elif box.kind == "relation" and before is not None and after is not None:
             alone = place == 1 or row[place - 2].kind in ("relation", "comma", "wide", "text", "arrow")
             _look_at_relation(box, before if alone else box, after, found)
+        elif box.name == "times" or (box.name == "cdot" and before is not None and before.kind == "nabla"):
+            found.crossed |= {stem_of(b) for b in (before, after) if b is not None and is_printed_as_vector(b)}
         elif box.kind == "fraction":
             _look_at_derivative(box, after, found)
         elif box.kind == "letter":
