@@ -71,6 +71,8 @@ def _row(reader: FormulaReader, row: list[Box]) -> Rivals:
             yield "sign", f"{reader.source[box.at : box.end]} has its usual meaning", ""
         for part in box.parts:
             yield from _row(reader, part)
+        if box.kind == "big":
+            yield from _words(reader, without_thin(box.sub or []))
         if box.sup and power_in(box):
             yield from _row(reader, box.sup)
     yield from _apart(reader, row)
@@ -115,6 +117,7 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             bracketed and "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"),
             "is a function of the bracket, and no order of magnitude",
         ),
+        ("operator", box.name == "D" and not box.sub and "P(D)" in known.seen, "is a number, and no derivative"),
         ("sign", box.name in ("uparrow", "downarrow", "emptyset", "complement"), "is a letter"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
     )

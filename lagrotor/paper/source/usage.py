@@ -30,7 +30,7 @@ class Notation:
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
     before what may be an argument; factors, in a product; apart, touching no other letter; powers, to a number; raised, with
     an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two primes. varied:
-    letter → letters that it is differentiated by. seen: ket, bold, order, hessian, complex, modular, exponent, dot, other time,
+    letter → letters that it is differentiated by. seen: ket, bold, order, hessian, P(D), complex, modular, exponent, dot, other time,
     times. crossed: vectors, beside a cross or a nabla.
     """
 
@@ -345,8 +345,9 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
         box.sub and is_plain_letter(sup[0]) and len(sup) == 1 and is_plain_letter(box.sub[0]))):  # fmt: skip
         found.raised.add(stem)
     called = after is not None and after.kind == "bracket" and after.name in ("(", "[")
-    if called and box.name == "O":
-        found.seen.add("order")
+    if called and after is not None:
+        found.seen |= {"order"} if box.name == "O" else set()
+        found.seen |= {"P(D)"} if [b.name for b in after.parts[0]] == ["D"] else set()
     if called and after is not None:
         content = after.parts[0]
         marked = box.primes or (sup and [b.kind for b in sup] != ["number"])
