@@ -30,8 +30,8 @@ class Notation:
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
     before what may be an argument; factors, in a product; apart, touching no other letter; powers, to a number; raised, with
     an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two primes. varied:
-    letter → letters that it is differentiated by. seen: ket, bold, order, hessian, P(D), complex, modular, exponent, dot, other time,
-    times. crossed: vectors, beside a cross or a nabla.
+    letter → letters that it is differentiated by. seen: ket, bold, order, hessian, P(D), complex, modular, exponent, dot,
+    other time, times. crossed: vectors, beside a cross or a nabla.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
