@@ -46,13 +46,15 @@ def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
     return target
 
 
-def read_text(path: str | Path) -> str:
-    """The UTF-8 text of a file. Raises InputError where there is none."""
+def read_text(path: str | Path, otherwise: str = "") -> str:
+    """The UTF-8 text of a file; otherwise: the encoding of one that is not. Raises InputError where there is none."""
     try:
         return Path(path).read_text(encoding="utf-8")
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}: give a file that can be read") from None
     except UnicodeDecodeError:
+        if otherwise:
+            return Path(path).read_text(encoding=otherwise)
         raise InputError(f"{path} is no text in UTF-8: give a file that is") from None
 
 

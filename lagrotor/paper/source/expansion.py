@@ -532,7 +532,8 @@ class Expander:
     @staticmethod
     def _is_kept(name: str, body: list[Token]) -> bool:
         """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here."""
-        return (name in _HEADINGS or name in _HANDLERS) and any("@" in t.text and t.kind == "command" for t in body)
+        known = name in _HEADINGS or name in _HANDLERS
+        return any(t.text == r"\@setfontsize" or (known and "@" in t.text and t.kind == "command") for t in body)
 
     def _target(self) -> Token | None:
         r"""The command that is defined next, \csname … \endcsname too."""
@@ -710,7 +711,7 @@ class Expander:
             for folder in (self.file.parent, self.file.parent.parent):
                 path = folder / f"{name}{suffix}"
                 if path.is_file() and path.suffix in (".tex", ".sty", ".cls", ".ltx", ".def", ".inp"):
-                    self._take_in(read_text(path), path.name)
+                    self._take_in(read_text(path, "latin-1"), path.name)
                     return True
         if suffixes[0] == ".tex":
             self.notes.append(f"{name} is missing")
@@ -749,7 +750,7 @@ class Expander:
         if name and self.file is not None:
             path = self.file.parent / (name if name.endswith(".tex") else f"{name}.tex")
             if path.is_file():
-                preamble = read_text(path).partition(r"\begin{document}")[0]
+                preamble = read_text(path, "latin-1").partition(r"\begin{document}")[0]
                 self.document_class = ""
                 self._take_in(preamble, path.name)
 

@@ -32,7 +32,8 @@ class Reading:
 def _lowered(row: list[Box]) -> Iterator[str]:
     """The letters that stand in an index, in a mark, in a ket or by themselves on a side: no factors."""
     for box in all_boxes(row):
-        held = [*(box.sub or []), *(box.sup or [])] if box.kind != "partial" else []
+        raised = box.sup or [] if box.name != "e" else []
+        held = [*(box.sub or []), *raised] if box.kind != "partial" else []
         if box.kind == "bracket" and {box.name, box.closing} & {"|", r"\langle", r"\rangle", "<", ">"}:
             held += box.parts[0]
         if box.kind == "binomial":

@@ -22,7 +22,7 @@ def read_source(file: Path) -> Source:
     """The displayed equations of a .tex, .md or .ipynb file. Raises InputError for another one."""
     if file.suffix not in SUFFIXES:
         raise InputError(f"--from {file}: give a .tex, .md or .ipynb file")
-    text = read_text(file)
+    text = read_text(file, "latin-1")
     if file.suffix == ".ipynb":
         text = _cells(text, file)
     if file.suffix in (".tex", ".ltx", ".latex"):

@@ -42,6 +42,7 @@ _PLAIN = ("root", "infinity", "comma", "wide", "thin", "dots", "row", "rows", "g
           "binomial", "cases", "partial")  # fmt: skip
 _ACTING = ("letter", "bracket", "fraction", "root", "accent", "function", "big", "nabla", "partial")
 _ONE_MEANING = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
+_BOUNDS = frozenset(("<", ">", "<=", ">="))
 _STATED_SIGNS = "Rightarrow implies iff Leftrightarrow Longrightarrow Longleftrightarrow therefore forall"
 _STATED = frozenset(_STATED_SIGNS.split())
 _INDICES = frozenset("abcdefghijklmnopqrsuvw") | {name[1:] for name in GREEK if name[1].islower()}
@@ -76,6 +77,11 @@ def _row(reader: FormulaReader, row: list[Box]) -> Rivals:
         if box.sup and power_in(box):
             yield from _row(reader, box.sup)
     yield from _apart(reader, row)
+    signs = [b.name for b in row if b.kind == "relation"]
+    between = row[next((k for k, b in enumerate(row) if b.name == "="), 0) :]
+    condition = next((k for k, b in enumerate(between) if b.name in _BOUNDS and b.kind == "relation"), 0)
+    if "=" in signs and {*signs} & _BOUNDS and any(b.kind == "thin" for b in strip(between[1:condition])):
+        yield "spaces", "what a space parts are factors, and no condition", ""
     yield from _words(reader, inner)
     yield from _order(reader, inner)
 
@@ -141,7 +147,7 @@ def _lowered(known: Notation, box: Box) -> Rivals:
     if below[:1] == [","] or (0 < len(behind) < 3 and all(below) and "".join(below).replace(",", "").islower()):
         yield "index", f"the comma in the index of {box.name} parts indices, and is no derivative", ""
     stem, held = stem_of(box), set(below)
-    alone = {stem, name_of(replace(box, sub=None, sup=None))} & (known.bare | known.called.keys())
+    alone = bool({stem, name_of(replace(box, sub=None, sup=None))} & (known.bare | known.called.keys()))
     twice = len(below) > 1 and held <= {"x", "y", "z", "t"} and alone
     rates = alone and {f"{box.name}_t", f"{box.name}_x"} <= known.spelled.keys()  # u_t + u u_x = 0
     twice = twice or (rates and held <= {"x", "t"})
@@ -253,6 +259,10 @@ def _bracket(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
     before = row[place - 1] if place else None
     if box.name in ("(", "[", r"\{", r"\lbrace"):
         yield from _enclosed(reader, box, before, content)
+    after = _behind(row, place)
+    free = "D" not in reader.notation.letters and any(b.name == "D" and not b.sub for b in content)
+    if free and after is not None and after.kind in _ACTING and len(content) > 1:
+        yield "operator", "D is a number, and no derivative", 'letters = "D"'
     inverse = [b.name for b in box.sup or ()] == ["-", "1"]
     if inverse and any(name.isupper() or name in reader.notation.matrices for name in _letters(*content)):
         yield "inverse", "the bracket with -1 is turned over, and no inverse matrix or function", ""

@@ -20,6 +20,12 @@ def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     if name in ("max", "min", "sup", "inf") and box.sub is not None:
         raise FormulaError(box.at, f"{box.name} over a set is not read", "write its value")
     inner, behind = _argument(reader, row, place)
+    if behind < len(row) and row[behind].name == "!":
+        if name not in ("log", "log10"):
+            raise FormulaError(
+                row[behind].at, "whether ! is of the argument or of the function is open", "write brackets"
+            )
+        inner, behind = (Call("factorial", inner[:1]),), behind + 1  # ln n!
     node = _applied(reader, name, box, inner)
     if box.sup is None:
         return node, behind

@@ -228,6 +228,11 @@ def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
     assert said(r"y = e^{-t}", "a = 1 - e", numbers="e") == "y = exp(-t)"
     assert said(r"x = i\omega", numbers="i") == "x = imaginary_unit*omega"
     assert said("E = mc^2") == "E = m*c**2" and said("I = mr^2") == "I = m*r**2", "energy and inertia, no numbers"
+    assert (
+        said(r"s = \ln N!") == "s = log(factorial(N))"
+        and said(r"s = \ln(N + 1)! - c") == "s = log(factorial(N + 1)) - c"
+    )
+    assert "stopped" in said(r"s = \sin(x)!")
     assert said(r"c = 1.0\,\mathrm{kJ/(kg\,K)}") == "c = 1*unit_kJ*unit_kg**(-1)*unit_K**(-1)"
     assert said(r"x = \sfrac{1}{2} y + \nicefrac12") == "x = 1/2*y + 1/2"
     assert said("x = 1{,}500", decimal_comma=True) == "x = 3/2"
