@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrotor.errors import NotExactError
 from lagrotor.paper.catalogue import Equation
-from lagrotor.paper.certificates.cofactors import LetterEquation, Sides, elimination, in_one
+from lagrotor.paper.certificates.cofactors import LetterEquation, elimination
 from lagrotor.paper.certificates.coq_terms import (
     Comparison,
     Terms,
@@ -27,6 +27,7 @@ from lagrotor.paper.certificates.coq_terms import (
 from lagrotor.paper.certificates.points import points_of, rational_bounds, value_at_point
 from lagrotor.paper.certificates.propositions import SCENE, Proposition, propositions
 from lagrotor.paper.certificates.remainders import SeriesRest, remainder, value_at_zero
+from lagrotor.paper.certificates.sides import Sides, in_one
 from lagrotor.paper.verdicts import Verdict
 
 PREAMBLE = """From Coq Require Import Reals Lra.

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrotor.errors import NotExactError
-from lagrotor.paper.certificates.cofactors import Sides
+from lagrotor.paper.certificates.sides import Sides
 
 _MOST_TERMS = 4000
 
