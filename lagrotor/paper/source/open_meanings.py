@@ -236,7 +236,11 @@ def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bo
     letters = any(b.kind == "letter" for b in content)
     listed = any(b.kind == "comma" for b in content)
     if simple_argument(content) and letters and not bracket.sup and (listed or len(content) == 1):
-        return True
+        numbers = (
+            listed and stem_of(box) in known.factors and any(b.kind == "number" for b in content)
+        )  # gamma(1, beta)
+        other = known.called.get(name_of(replace(box, primes=0)), set()) - _letters(*content)
+        return None if numbers and not other else True
     if stem_of(box) in known.applied:
         return None if stem_of(box) in known.factors or bracket.sup else True
     return False if _is_factor(known, box, content) else None
@@ -552,7 +556,9 @@ def _repeated(row: list[Box]) -> Rivals:
     every = list(all_boxes(row))
     bound = {each.name for box in every if box.kind == "big" for each in box.sub or ()}
     counts = [_indices(term) for term in terms if any(b.kind == "letter" for b in all_boxes(term))]
-    names = {name for count in counts for name, times in count.items() if times > 1} - bound - set(TENSOR)
+    lowered = [[b.name for box in all_boxes(term) for b in box.sub or ()] for term in terms]
+    tensor = {name for name in TENSOR if not any(part.count(name) > 1 for part in lowered)}
+    names = {name for count in counts for name, times in count.items() if times > 1} - bound - tensor
     for name in sorted(names):
         if not all(count[name] for count in counts) or all(count[name] > 1 for count in counts):
             yield "sum", f"the index {name} is not summed over", ""

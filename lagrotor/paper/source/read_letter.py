@@ -157,7 +157,11 @@ def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
         why = f"whether {box.sup[0].name} is an upper index or a power is open"  # type: ignore[index]
         raise FormulaError(box.at, why, "write both indices below, or brackets around the power")
     name = name_of(box, index_parts(reader, box), mark_of(reader, box) or ())
-    if tuple(given) == (Letter("t"),) and not (reader.notation.called.get(name, {"t"}) - {"t"}):
+    if (
+        tuple(given) == (Letter("t"),)
+        and "t" not in reader.bound
+        and not (reader.notation.called.get(name, {"t"}) - {"t"})
+    ):
         node: Node = named
     else:
         node = Call(f"{name}", tuple(given))
