@@ -18,6 +18,8 @@ from lagrotor.theory.shock_response import shock_response
 
 Array = NDArray[np.float64]
 _SAMPLES = 32  # a turn of the swing
+_AT_ENDS = 185.51  # 2 sqrt(pi)/(e Z), Z = 0.0070298584
+_ROUNDED = 1e-15
 
 
 def mean_over(t: Array, values: Array) -> float:
@@ -34,15 +36,25 @@ def mean_over(t: Array, values: Array) -> float:
 
 
 def mean_error(values: Array, turns: float) -> float:
-    """What an oscillation of `turns` periods within the window can add to `mean_over`: 12 exp(−sqrt(4 pi turns)) of half the
-    range of the values. The run's own tolerance comes on top.
+    """What an oscillation of `turns` periods within the window can add to `mean_over` of values (…, n).
+
+    The amplitude, at most half the range of the values over cos(pi turns/n), times the weight's Fourier transform, which comes
+    from both ends of the window, where the weight is exp(−1/u − 1):
+
+        2 sqrt(pi)/(e Z) (2 pi turns)^(−3/4) exp(−sqrt(4 pi turns)),    Z = ∫ exp(−1/(u (1 − u))) du,
+
+    whose next term, −0.57/sqrt(2 pi turns) of it, is negative. The run's own tolerance comes on top.
 
     Raises:
-        DomainError: below 4 turns, where it is no bound.
+        DomainError: below 4 turns, or with fewer than 3 values a turn, where it is no bound.
     """
-    if turns < 4:
-        raise DomainError(f"mean_error: {turns:g} turns are too few to average over: take 4 or more")
-    return float(12 * np.exp(-np.sqrt(4 * np.pi * turns)) * np.ptp(values) / 2)
+    if not 4 <= turns <= values.shape[-1] / 3:
+        raise DomainError(
+            f"mean_error: {values.shape[-1]} values over {turns:g} turns: take 4 turns or more, and 3 values or more of each"
+        )
+    left = _AT_ENDS * (2 * np.pi * turns) ** -0.75 * np.exp(-np.sqrt(4 * np.pi * turns))
+    amplitude = np.ptp(values) / 2 / np.cos(np.pi * turns / values.shape[-1])
+    return float(left * amplitude + _ROUNDED * np.abs(values).max())
 
 
 def turning_rate(run: Trajectory) -> float:

@@ -11,7 +11,9 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import characteristic_exponents
 from lagrotor.pair.notation import k, r0, sigma
 from lagrotor.theory import elliptic_edge, exponent_series, growth_squared, most_growth, paired_series
+from lagrotor.theory.paired_precession import stability
 from lagrotor.theory.paired_precession.series import equations, shape_of
+from tests.theory.random_pairs import held
 
 BARS = {"b = 0": Link(1), "b < 0": Link(1, 0.01, 0.1), "b > 0": Link(0.9, 0.8, 0.05), "edge": Link(1.3, 0.35, 0.11)}
 SHOWN = [pytest.param(name, marks=pytest.mark.slow) if name == "b > 0" else name for name in BARS]
@@ -124,3 +126,24 @@ def test_the_floquet_numbers_hold_together() -> None:
     found = floquet(Scene(spins=(10, -10), link=Link(1, 0.01, 0.1)), 0.204)
     assert 2 * cosh(found.growth) == pytest.approx(found.pair_sum, rel=1e-14)
     assert 0 < found.exponent_error < 1e-9
+
+
+@pytest.mark.parametrize(("bars", "amplitudes"), [(2, 10), pytest.param(200, 50, marks=pytest.mark.slow)])
+def test_growth_and_turning_are_within_their_error(bars: int, amplitudes: int) -> None:
+    """Of random bars, against the series through r0^20 where that is known better, down to amplitudes at which rounding hides the
+    kind."""
+    rng, pairs = np.random.default_rng(8), []
+    for _ in range(bars):
+        length, mass = np.exp(rng.uniform(-1.2, 1.2)), rng.choice([0.0, np.exp(rng.uniform(-4.6, 1.2))])
+        scene = Scene(spins=(10, -10), link=Link(length, mass, mass * length**2 * rng.uniform(0, 0.6)))
+        series = paired_series(20, *shape_of(scene), exact=False)
+        A, B = stability._numbers(series, series.order)
+        for amplitude in 10 ** rng.uniform(-2, -0.6, amplitudes):
+            square = np.polynomial.polynomial.polyval(amplitude, A) * np.polynomial.polynomial.polyval(amplitude, B)
+            exact, found = 2 * pi * np.sqrt(complex(square)), floquet(scene, amplitude)
+            if 2 * pi * sqrt(stability._square_rest(series, amplitude)) < found.exponent_error / 10:
+                off = max(abs(found.growth - exact.real), abs(found.turning - exact.imag))
+                pairs.append((off, 1.1 * found.exponent_error))
+    assert len(pairs) > 0.8 * bars * amplitudes
+    held(pairs, 0, len(pairs), 0)
+    assert max(off / error for off, error in pairs) > 0.05  # twin: a twentieth of it is no bound
