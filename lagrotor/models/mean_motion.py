@@ -38,7 +38,7 @@ def mean_over(t: Array, values: Array) -> float:
 def mean_error(values: Array, turns: float) -> float:
     """What an oscillation of `turns` periods within the window can add to `mean_over` of values (…, n).
 
-    The amplitude, at most half the range of the values over cos(pi turns/n), times the weight's Fourier transform, which comes
+    The amplitude, at most half the range of the values over cos(pi turns/(n − 1)), times the weight's Fourier transform, which comes
     from both ends of the window, where the weight is exp(−1/u − 1):
 
         2 sqrt(pi)/(e Z) (2 pi turns)^(−3/4) exp(−sqrt(4 pi turns)),    Z = ∫ exp(−1/(u (1 − u))) du,
@@ -48,12 +48,12 @@ def mean_error(values: Array, turns: float) -> float:
     Raises:
         DomainError: below 4 turns, or with fewer than 3 values a turn, where it is no bound.
     """
-    if not 4 <= turns <= values.shape[-1] / 3:
+    if not 4 <= turns <= (values.shape[-1] - 1) / 3:
         raise DomainError(
             f"mean_error: {values.shape[-1]} values over {turns:g} turns: take 4 turns or more, and 3 values or more of each"
         )
     left = _AT_ENDS * (2 * np.pi * turns) ** -0.75 * np.exp(-np.sqrt(4 * np.pi * turns))
-    amplitude = np.ptp(values) / 2 / np.cos(np.pi * turns / values.shape[-1])
+    amplitude = np.ptp(values) / 2 / np.cos(np.pi * turns / (values.shape[-1] - 1))
     return float(left * amplitude + _ROUNDED * np.abs(values).max())
 
 
