@@ -17,6 +17,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Structure
+from lagrotor.numerics import measured_order
 from lagrotor.paper import Remark, prove
 from lagrotor.structures import local_hamiltonian, measured_fall, resonant_factors
 
@@ -177,4 +178,39 @@ Remark(
     "Equal spins do not fall by it",
     "On the same corner with three equal spins the rates add up at the same factor, but the coefficient vanishes: at 1.0607 "
     f"times the critical spins no push below {holding.resonance.push() / rate:.2f} √(κ/a) makes it fall.",
+)
+
+# %% [markdown]
+# ## How long it holds
+#
+# In the coordinates of the normal form through order $N$ what it leaves begins with degree $N+1$, and with resonances kept in
+# degree $d\le N$. A term $c\,z^\alpha\bar z^\beta$ changes $Q=\sum_j|z_j|^2$ by
+# $|\dot Q|\le\big||\alpha|-|\beta|\big|\,|c|\,|z|^d$, so that with the sizes $g_d$ of what changes $Q$
+#
+# $$|\dot Q|\le\sum_d g_d\,Q^{d/2},\qquad t\ge\int_{\rho^2}^{2\rho^2}\frac{dQ}{\sum_d g_dQ^{d/2}},$$
+#
+# without resonances $g_d=0$ but for $d=N+1$:
+
+# %%
+g, Q, rho = sp.symbols("g Q rho", positive=True)
+degree = 6
+alone = sp.integrate(1 / (g * Q ** sp.Rational(degree, 2)), (Q, rho**2, 2 * rho**2))
+prove(alone, sp.Rational(3, 8) / (g * rho**4), "the time to double without resonances, N = 5", names="t")
+
+# %%
+unequal = replace(corner, spins=(1, 0.3, 1.2))
+unequal = replace(unequal, spins=tuple(1.5 * unequal.critical_spin() * w for w in unequal.spins))
+unit = unequal.modes().rates.max()
+small, times = (0.002, 0.004, 0.008), []
+for push in small:
+    times.append(unequal.stands().hold_time(push * rate) * unit / (2 * np.pi))
+assert abs(measured_order(small, times) + 4) < 0.1
+Remark(
+    "How long it holds",
+    "With spins as 1 : 0.3 : 1.2 and 1.5 times the critical ones no resonance is near. By the normal form of fifth order no push "
+    "of "
+    + ", ".join(f"{push:g}" for push in small)
+    + " √(κ/a) grows to √2 times its size in "
+    + ", ".join(f"{time:.1e}" for time in times)
+    + f" turns of the fastest mode: slope {measured_order(small, times):.2f} against −4.",
 )

@@ -38,8 +38,8 @@ def mean_over(t: Array, values: Array) -> float:
 def mean_error(values: Array, turns: float) -> float:
     """What an oscillation of `turns` periods within the window can add to `mean_over` of values (…, n).
 
-    The amplitude, at most half the range of the values over cos(pi turns/(n − 1)), times the weight's Fourier transform, which comes
-    from both ends of the window, where the weight is exp(−1/u − 1):
+    The amplitude, at most half the range of the values over cos(pi turns/(n − 1)), times the weight's Fourier transform, to
+    which the ends of the window contribute, where the weight is exp(−1/u − 1):
 
         2 sqrt(pi)/(e Z) (2 pi turns)^(−3/4) exp(−sqrt(4 pi turns)),    Z = ∫ exp(−1/(u (1 − u))) du,
 

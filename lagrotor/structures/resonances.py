@@ -168,7 +168,7 @@ def _of_order(
 ) -> Iterator[Resonance]:
     """Groups of vectors of one order whose detunings are near each other."""
     h = local_hamiltonian(s)
-    pushed = _pushed(s, factor, of)
+    pushed = start_of_push(s, factor, of)
     vectors = sorted(_vectors(rates, order), key=lambda k: abs(np.dot(k, rates)))
     while vectors:
         least = max(abs(np.dot(vectors[0], rates)), 1e-9 * rates[-1])
@@ -180,7 +180,7 @@ def _of_order(
             yield replace(resonance, of=of)
 
 
-def _pushed(s: Assembly, factor: float, of: Of) -> Array:
+def start_of_push(s: Assembly, factor: float, of: Of) -> Array:
     """(q, p) of a push of 1 along each degree of freedom, (2n, n), in units of `LocalHamiltonian`: p = m q' + C q/2."""
     linear, h = small_motion(s), local_hamiltonian(s)
     n = linear.dof
@@ -305,7 +305,7 @@ def _tilted_after(
         np.abs(off).max() > (_ON_BARS + (4 * most if of == "tilts" else 0)) * most
     ):  # exact tilts are off by their squares
         raise InputError(f"fall_time: push: the bars do not allow these {of}: what each joins must keep its distance")
-    start = np.linalg.inv(n.vectors) @ (_pushed(s, 1.0, of) @ (h.basis.T @ push.ravel()))
+    start = np.linalg.inv(n.vectors) @ (start_of_push(s, 1.0, of) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, order - 1)])[:size]
     steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
     turning = np.array(n.frequencies) - np.linalg.pinv(steps.astype(float)) @ (steps @ np.array(n.frequencies))
@@ -395,7 +395,7 @@ def trusted_push(s: Assembly, factor: float = 1.0, of: Of = "rates") -> float:
         return 0.0
     rates = n.frequencies.real
     size, shapes = len(rates), h.basis @ n.vectors[: len(rates), : len(rates)]
-    over = np.linalg.inv(n.vectors)[:size] @ _pushed(s, factor, of)
+    over = np.linalg.inv(n.vectors)[:size] @ start_of_push(s, factor, of)
     tilts = sum(
         2 * np.linalg.norm((shapes[:, g] @ over[g]).reshape(-1, 2, size), 2, axis=(1, 2))
         for g in _of_equal_rates(rates)

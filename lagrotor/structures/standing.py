@@ -18,6 +18,7 @@ from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
+from lagrotor.structures.holding import hold_time
 from lagrotor.structures.resonances import (
     MOST_DOF,
     UNIT_OF_PUSH,
@@ -117,7 +118,7 @@ class Standing(Shown):
         if self.kind == "holds" and not self.first_order.startswith(_BOUNDED):
             return (
                 f"{self.first_order}; no resonance through fourth order falls from a push of {self._reference:.3g} rad/s; "
-                "what higher orders do, and when, is not known"
+                "higher orders act later: not before `hold_time`"
             )
         if self.kind == "to first order" and self.__dict__.get("_too_near"):
             return (
@@ -183,6 +184,14 @@ class Standing(Shown):
                 f"which is trusted to {trusted:.3g}: simulate it"
             )
         return time, error
+
+    def hold_time(self, push: float, of: Of = "rates") -> float:
+        """The time (s) before which no push of that size grows to sqrt(2) times its size: see `structures.holding`.
+
+        inf where the energy is least upright, 0 where it does not stand or the push is beyond what the expansion is trusted; an
+        estimate elsewhere. Raises InputError with friction, and for more than 8 degrees of freedom.
+        """
+        return hold_time(self.structure, push, of)
 
     def summary(self) -> dict[str, str]:
         """Whether it stands and why, and what spins it needs, name → words."""

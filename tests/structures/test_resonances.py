@@ -9,7 +9,9 @@ import pytest
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical import normal_forms
+from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
+from lagrotor.numerics import measured_order
 from lagrotor.structures import (
     exact_motion,
     example,
@@ -18,6 +20,7 @@ from lagrotor.structures import (
     normal_form_of,
     resonant_factors,
 )
+from lagrotor.structures.resonances import trusted_push
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}
@@ -359,3 +362,55 @@ def test_beside_the_critical_spins_the_exact_motion_falls_and_none_is_said_to_ho
     beside = at(1.01, CORNER, [1, 0, 1]).stands()
     assert beside.kind == "to first order" and "so near the critical spins" in beside.why
     assert at(1.03, CORNER, [1, 0, 1]).stands().kind == "holds"
+
+
+def test_how_long_it_holds():
+    """As push^−4 by the form of fifth order; for ever where the energy is least, or spin about the vertical is kept; not at all
+    beyond what is trusted. At a resonance of third order not as long as its least time."""
+    s = at(1.5, CORNER, [1, 0.3, 1.2])
+    found, rate = s.stands(), local_hamiltonian(s).rate
+    pushes = (0.001, 0.002, 0.004)
+    times = [found.hold_time(push * rate) for push in pushes]
+    assert found.kind == "holds" and measured_order(pushes, times) == pytest.approx(-4, abs=0.1)
+    assert Structure(joints=[(0, 0)], spins=60, **WEIGHT).stands().hold_time(0.1) == inf
+    assert Structure(**CORNER | {"hinge": 60.0}, spins=20).stands().hold_time(0.1) == inf
+    assert found.hold_time(2 * s.largest_push().value) == 0 == at(0.9, CORNER, [1, 0, 1]).stands().hold_time(0.1)
+    falling = at(1.0607, CORNER, [1, 0, 1]).stands()
+    assert 0 < falling.hold_time(0.01 * rate) < falling.fall_time(0.01 * rate)
+    with pytest.raises(InputError, match="hold_time: push = -1 must be"):
+        found.hold_time(-1)
+
+
+def test_what_the_form_leaves_is_what_its_next_generator_removes():
+    """Of the Hamiltonian brought by the generators of third and fourth order alone, the fifth order."""
+    s = at(1.5, CORNER, [1, 0.3, 1.2])
+    form = normal_form_of(s, 1.0, 0.0, 5)
+    n = len(form.frequencies)
+    rows = [
+        polynomial({tuple(int(i == j) for i in range(2 * n)): c for j, c in enumerate(row)}, 2 * n)
+        for row in form.vectors
+    ]
+    H = local_hamiltonian(s, 5).at_spins(1.0)
+    K = Polynomial(H.exponents, H.coefficients + 0j).substitute(rows, 5)
+    for generator in form.generators[:2]:
+        K = lie_transform(K, generator, form.weights, 5)
+    last = form.generators[2]
+    gap = (last.exponents[:, :n] - last.exponents[:, n:]) @ np.real(form.frequencies)
+    left = K.part(5) - form.series.part(5)
+    assert np.abs((left + last.times(1j * gap)).coefficients).max(initial=0.0) < 1e-12 * np.abs(left.coefficients).max()
+    assert np.abs(left.coefficients).max() > 0.1
+
+
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow), pytest.param(2, marks=pytest.mark.slow)])
+def test_no_exact_run_leaves_what_it_holds(seed):
+    """As long as it is said to hold the tilts stay within sqrt(2) times the largest of the linear motion."""
+    rng = np.random.default_rng(seed)
+    s = at(rng.uniform(1.3, 1.8), CORNER, rng.uniform(0.3, 1.3, 3))
+    rate, push = local_hamiltonian(s).rate, 0.9 * s.largest_push().value
+    while s.stands().hold_time(push) < 60 / rate:
+        push *= 0.9
+    t = np.linspace(0, min(s.stands().hold_time(push), 150 / rate), 600)
+    start = push * next(directions(s, 1, seed))
+    run = s.simulate(t, rates=np.column_stack([start, np.zeros(3)]), tol=1e-6)
+    tilts = np.linalg.norm(run.axes[..., :2], axis=-1).max(0)
+    assert tilts.max() < np.sqrt(2) * 0.1 * push / trusted_push(s)

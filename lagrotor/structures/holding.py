@@ -1,0 +1,105 @@
+"""How long a structure that stands to first order holds for certain: its normal form, and what that leaves out.
+
+In the coordinates of the normal form through order N the terms that conserve Q = sum_j |z_j|² move nothing apart. What is left of
+degree d = 3 … N, the resonances, and of degree N + 1, the first that the form does not reach, changes it by
+
+    |dQ/dt| ≤ sum_d g_d Q^(d/2),    g_d a bound of |{Q, K_d}| at Q = 1,
+
+so that Q cannot double before ∫ dQ / sum_d g_d Q^(d/2): without resonances a time as push^−(N − 1). Of the orders and of what is
+kept as a resonance the longest time is taken. Where the energy is least upright it is forever. Giorgilli, Delshams, Fontich,
+Galgani & Simó, J. Differ. Equ. 77 (1989) 167. Sizes of polynomials: Beauzamy, Bombieri, Enflo & Montgomery, J. Number Theory 36
+(1990) 219.
+"""
+
+from math import inf, sqrt
+
+import numpy as np
+from scipy.special import factorial
+
+from lagrotor.errors import SingularError
+from lagrotor.mechanics.canonical.normal_forms import NormalForm
+from lagrotor.mechanics.canonical.polynomials import Polynomial
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array
+from lagrotor.structures.critical_spins import stiffness_in_masses
+from lagrotor.structures.resonances import (
+    Of,
+    check_kind_of_push,
+    checked_push,
+    normal_form_of,
+    start_of_push,
+    trusted_push,
+)
+from lagrotor.structures.small_motion import small_motion
+from lagrotor.structures.upright_hamiltonian import local_hamiltonian
+
+_ORDERS = {4: 6, 6: 5, 8: 4}  # of the normal form, N + 1, by the degrees of freedom up to which it is expanded so far
+_DETUNINGS = (0.0, 1e-3, 1e-2, 0.1)  # of the largest rate: what is nearer is kept as a resonance
+
+
+def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
+    """The time (s) before which no push of that size grows to more than sqrt(2) times its size in the normal modes.
+
+    An estimate from the first terms that the normal form leaves; inf where the energy is least upright, 0 where it does not
+    stand to first order or the push is beyond what the expansion is trusted. push, of: as `largest_push` has them.
+
+    Raises:
+        InputError: friction acts on what spins hold, or there are more than 8 degrees of freedom.
+    """
+    check_kind_of_push(of)
+    push, linear = checked_push("hold_time", push), small_motion(s)
+    if linear.growth > 0 or linear.drifts:
+        return 0.0
+    if not linear.dof or np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
+        return inf
+    h = local_hamiltonian(s)
+    if push > trusted_push(s, of=of):
+        return 0.0
+    order = next((n for most, n in _ORDERS.items() if linear.dof <= most), 4)
+    times = [0.0]
+    for detuning in _DETUNINGS:
+        try:
+            form = normal_form_of(s, 1.0, detuning, order)
+        except SingularError:
+            continue
+        size = float(np.linalg.norm(np.linalg.inv(form.vectors)[: linear.dof] @ start_of_push(s, 1.0, of), 2)) * push
+        times += _times(form, size)
+    return max(times) / h.rate
+
+
+def _times(form: NormalForm, size: float) -> list[float]:
+    """In units of the form's rate, by what each degree leaves; none where the coordinates are no longer near the old ones."""
+    n, times, kept, moved = len(form.frequencies), list[float](), dict[int, float](), 0.0
+    rates = np.real(form.frequencies)
+    for degree, generator in enumerate(form.generators, 3):
+        gap = (generator.exponents[:, :n] - generator.exponents[:, n:]) @ rates
+        kept_here = _feeding(form.series.part(degree))
+        times.append(_doubling({**kept, degree: kept_here + _feeding(generator.times(gap))}, size * (1 + moved)))
+        kept[degree] = kept_here
+        moved += degree * _size(generator) * size ** (degree - 2)
+        if moved > 0.5:
+            break
+    return times
+
+
+def _feeding(f: Polynomial) -> float:
+    """The largest |{Q, f}| at Q = 1."""
+    n = f.variables // 2
+    by = f.exponents[:, :n].sum(1) - f.exponents[:, n:].sum(1)
+    return _size(Polynomial(f.exponents, f.coefficients * by))
+
+
+def _size(f: Polynomial) -> float:
+    """A bound of |f| at sum |z_j|² = 1, w = z̄, f homogeneous of degree d: 2^(d/2) times Bombieri's norm."""
+    if not len(f.coefficients):
+        return 0.0
+    d = int(f.exponents[0].sum())
+    return float(np.sqrt(2.0**d * (np.abs(f.coefficients) ** 2 * factorial(f.exponents).prod(1)).sum() / factorial(d)))
+
+
+def _doubling(growth: dict[int, float], size: float) -> float:
+    """∫ dQ / sum_d g_d Q^(d/2) from Q = size² to twice that."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    r: Array = size * (1 + (sqrt(2) - 1) * (1 + nodes) / 2)
+    slope = sum(g * r**d for d, g in growth.items())
+    return float((weights * 2 * r / slope).sum() * size * (sqrt(2) - 1) / 2) if np.all(slope > 0) else inf
