@@ -238,7 +238,7 @@ def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
     where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
-    decided = (v.verdict, *(p.with_formula for p in v.premises), order, where, corrected)
+    decided = (v.verdict, *(readable(p.with_formula) for p in v.premises), order, where, corrected)
     named = f"{v.id}: {v.statement.title}" if v.id else readable(str(v.statement.relations[0].printed))
     # What a paper says to be wrong is enough; an equation by itself has the point at which it was seen.
     seen = () if v.statement.wrong or v.verdict != "refuted" else tuple(map(point_text, v.lines))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 
 from lagrotor.errors import InputError
+from lagrotor.mechanics.glossary import letter_latex
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, ball, precision, printed, radius
 from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, balls_data, flow_data
@@ -96,7 +97,8 @@ class Enclosure(Shown):
             np.array([[float(getattr(box[i], end)()) for i in places] for _, box in self.path])
             for end in ("lower", "upper")
         )
-        return boxes_figure(wanted, np.array([float(t.mid()) for t, _ in self.path]), low, high)
+        labels = [f"${letter_latex(sp.Symbol(name))}$" for name in wanted]
+        return boxes_figure(labels, np.array([float(t.mid()) for t, _ in self.path]), low, high)
 
     @cached_property
     def certificate(self) -> Certificate:

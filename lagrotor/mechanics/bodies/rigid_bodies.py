@@ -24,7 +24,7 @@ from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
 
 Outline = list[list[Any]]  # points (x, y, z) of lines, in the body's frame
-_ARCS = 16  # chords of a drawn rim
+_ARCS = 32  # chords of a drawn rim
 _ROUNDING = 1e-9  # of an inertia
 
 

@@ -27,8 +27,8 @@ _NOTHING = (
 
 def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | None = None) -> "RunFigure":
     """A figure of what is named, over time: coordinates, velocities and those of one's own, "E" the energy, reactions by the
-    names of their constraints, or expressions as `evaluate` takes them. Without any: the coordinates, the change of the energy
-    and, under constraints, their violation.
+    names of their constraints, or expressions as `evaluate` takes them, a long one by its name, Eq(F, expression). Without any:
+    the coordinates, the change of the energy and, under constraints, their violation.
 
     glossary: units of letters, as a paper's; without it t is in s and the energy in J, and others have none.
     Raises InputError for what is none of these.
@@ -59,7 +59,10 @@ def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str
         raise InputError(
             f"plot: {name!r} is none of {', '.join(known)}{near(name, known)}: name one, or give an expression"
         )
-    return f"${latex(what)}$", run.evaluate(what)
+    if isinstance(what, sp.Equality):
+        return f"${latex(what.lhs)}$", run.evaluate(what.rhs)
+    rounded = {number: sp.Float(number, 3) for number in sp.sympify(what).atoms(sp.Float)}
+    return f"${latex(sp.sympify(what).xreplace(rounded))}$", run.evaluate(what)
 
 
 def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":

@@ -213,7 +213,7 @@ def test_a_film_of_bodies_shows_them(tmp_path: Path) -> None:
     from PIL import Image
 
     body = Frame(ANGLES).turned("zxz", ANGLES.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
-    assert [len(line) for line in body.outline] == [2, 18]
+    assert [len(line) for line in body.outline] == [2, 34]
     top = System(ANGLES, body.kinetic - body.potential((0, 0, -g)))
     run = top.simulate({m: 1, g: 9.81, l: 1, I1: 1, I3: 0.5}, (0, 0.5, 0), (0, 0, 20), np.linspace(0, 0.4, 5))
     with Image.open(run.animate(tmp_path / "top.gif")) as film:
@@ -262,4 +262,4 @@ def test_a_body_that_turns_in_a_plane_is_drawn_as_the_rod_that_it_hangs_by() -> 
     frame = Frame(ANGLES).turned("y", ANGLES.q[0])
     rod = frame.body(m, (0, m * l**2 / 12, 0), (0, 0, -l / 2))
     assert [list(map(sp.simplify, point)) for point in rod.outline[1]] == [[0, 0, 0], [0, 0, -l]]
-    assert [len(line) for line in frame.body(m, (0, m * l**2 / 12, 0)).outline] == [18]
+    assert [len(line) for line in frame.body(m, (0, m * l**2 / 12, 0)).outline] == [34]

@@ -81,6 +81,9 @@ def test_curves_are_those_that_are_named(spinning) -> None:
     assert np.ptp(figure.axes[1].get_ylim()) > 1  # no picture of rounding
     hung = ROD.simulate({m: 1, g: 9.81, l: 1}, (0, -1), (1, 0), np.linspace(0, 1, 11))
     assert hung.plot("rod").axes[0].lines[0].get_ydata() == pytest.approx(hung.reactions["rod"])
+    named, rounded = spinning.plot(sp.Eq(sp.Symbol("F"), 2 * C.q[1]), 2.123456 * C.q[1]).axes
+    assert (named.get_ylabel(), rounded.get_ylabel()) == ("$F$", r"$2.12 \theta$")
+    assert named.lines[0].get_ydata() == pytest.approx(2 * spinning.q[:, 1])
     for what, words in (("thet", "theta?"), ("mass", "is none of"), (U(C.q[0]), "U without a value")):
         with pytest.raises(InputError, match=words):
             spinning.plot(what)
