@@ -22,7 +22,13 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """judge, init, readings, derive, check, reproduce, audit, certify, claims, figure."""
+    """Those that read equations, and those that test a paper."""
+    _add_reading_commands(command)
+    _add_testing_commands(command)
+
+
+def _add_reading_commands(command: Command) -> None:
+    """judge, init, readings, derive, check."""
     added = command("judge", judge_command, "judge one equation", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"')
     added.description = (
         "Judge one equation, written as in Python or in LaTeX: whether it holds, where, under which premises; the proof\n"
@@ -68,6 +74,9 @@ def add_paper_commands(command: Command) -> None:
     added.add_argument("--json", action="store_true", help="print a JSON list of {equation, step, line, verdict, why}")
     added.add_argument("--all", action="store_true", help="show what agrees, and what was not read, too")
 
+
+def _add_testing_commands(command: Command) -> None:
+    """reproduce, audit, certify, claims, figure."""
     added = command(
         "reproduce",
         reproduce_command,

@@ -37,9 +37,12 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Domain", formulas=verdict.domain)
     if said := dimension_texts(verdict):
         yield Fact("Dimensions", tuple(f"{text}." for text in said))
+    evidence = verdict.evidence
     if any(line.verdict in ("refuted", "undecided") for line in verdict.lines):
         points = tuple(filter(None, map(point_tex, verdict.lines)))
-        yield Fact("Lines", tuple(dict.fromkeys(f"{line_text(line)}." for line in verdict.lines)), sources=points)
+        said = tuple(dict.fromkeys(f"{line_text(line)}." for line in verdict.lines))
+        yield Fact("Lines", said, sources=points)
+        evidence = tuple(each for each in evidence if not any(each in line for line in said))
     if statement.correction:
         answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
         yield Fact("Correction", (answer,), sources=correction_lines(verdict))
@@ -47,8 +50,8 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
     for theorem in verdict.theorems:
         yield Fact("Proved", (theorem.text,))
-    if verdict.evidence:
-        yield Fact("Evidence", verdict.evidence)
+    if evidence:
+        yield Fact("Evidence", evidence)
     linked = {
         "Uses": statement.depends_on,
         "Used by": report.users(verdict.id),
