@@ -72,7 +72,7 @@ def assert_same_motion(system: System, seed: int = 1) -> None:
 
 def test_a_top_in_its_own_angular_velocities_obeys_eulers_equations() -> None:
     system = top()
-    M, push = equations_of_speeds(system)
+    _, M, push = equations_of_speeds(system)
     assert sp.diag(I1, I2, I3) == M
     _, theta, psi = system.c.q
     torque = P * sp.sin(theta) * sp.Matrix([sp.cos(psi), -sp.sin(psi), 0])
@@ -96,7 +96,7 @@ def test_fewer_velocities_than_coordinates_use_the_constraints_up(make: object) 
 
 def test_chaplygins_sleigh_has_its_equations() -> None:
     """u' = a w², w' = −m a u w / (I + m a²): Neimark & Fufaev, ch. III."""
-    M, push = equations_of_speeds(sleigh())
+    _, M, push = equations_of_speeds(sleigh())
     found = M.LUsolve(push)
     wanted = sp.Matrix([a * w**2, -m * a * u * w / (I1 + m * a**2)])
     assert (found - wanted).applyfunc(sp.simplify).is_zero_matrix

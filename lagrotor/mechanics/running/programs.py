@@ -24,10 +24,11 @@ from lagrotor.mechanics.bodies.joints import joints, tree_energy
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.equations import Equations, push_left, rows_left
-from lagrotor.mechanics.expressions import with_jets
+from lagrotor.mechanics.expressions import unknown_functions, with_jets
 from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t, total_derivative
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 from lagrotor.mechanics.running.function_values import FunctionValue, jet_name
+from lagrotor.mechanics.running.sweeps import swept_energy, swept_equations
 from lagrotor.numerics.codegen import Program, Stage, operations, solve_symmetric, tangent_program
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.printers import compile_program, rhs_source
@@ -35,7 +36,8 @@ from lagrotor.numerics.printers import compile_program, rhs_source
 Array = NDArray[np.float64]
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
 _OWN = ("s", "y", "t", "I", "Q", "rate", "bare", "make", "pulse", "width", "LOST", "OutsideError")  # of generated code
-_REDUCED = 600  # operations of a Lagrangian up to which it is written in velocities of one's own
+_REDUCED = 600  # operations of a Lagrangian up to which a tree is not followed in the velocities of its joints
+_LONG = 300  # operations of a Lagrangian from which on its equations are made by sweeps
 _STATES = 3  # random ones, at which the rank of a matrix is read off
 _NEWTON = 20  # steps that bring them onto the constraints
 _ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
@@ -171,7 +173,8 @@ def rows_program(system: Equations) -> Generated:
 @lru_cache(maxsize=64)
 def mass_program(system: Equations) -> Generated:
     """(q, u, t) → the mass matrix of u', one row after another."""
-    return function_program(system, *equations_of_speeds(system)[0])
+    stages, M, _ = equations_of_speeds(system)
+    return _program((*system.c.q, *system.speeds, t), stages, [*M])
 
 
 @lru_cache(maxsize=64)
@@ -215,6 +218,9 @@ def energy_program(system: Equations) -> Generated:
     """(q, u, t) → the Jacobi integral."""
     base = _joint_speeds(system) or system
     tree = tree_of(base) if len(system.c.q) >= LEAST_TREE else None
+    if tree is None and _is_long(system):
+        swept, energy = swept_energy(system)
+        return _program((*system.c.q, *system.speeds, t), [*velocity_stages(system), *swept], [energy])
     if tree is None:
         return function_program(system, system.energy)
     keep = Stages()
@@ -268,10 +274,10 @@ def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], lis
         own = sp.Matrix([e for _, e in system.velocities])
         rates = own.applyfunc(lambda e: total_derivative(e, system.c)).xreplace(dict(zip(system.c.a, a, strict=True)))
         return [*_base_stages(system, base), *stages], list(rates), [lam[i] for i in system.left]
-    (_, push), (added, weight, M) = equations_of_speeds(system), inertia(system)
+    (first, _, push), (added, weight, M) = equations_of_speeds(system), inertia(system)
     push, by_reaction = push_left(system, push)
     stages, solved = solve_symmetric(M, (push - G.T * weight * gamma).row_join(G.T + by_reaction), "_m")
-    return under_constraints([*velocity_stages(system), *added, *stages], solved, G, gamma, friction)
+    return under_constraints([*first, *added, *stages], solved, G, gamma, friction)
 
 
 @lru_cache(maxsize=64)
@@ -290,18 +296,27 @@ def _base_stages(system: Equations, base: Equations) -> list[Stage]:
 
 
 @lru_cache(maxsize=64)
-def equations_of_speeds(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
-    """M and Q − h of M u' = Q − h + Gᵀ λ, with v in them.
+def _is_long(system: Equations) -> bool:
+    return bool(sp.count_ops(system.L) > _LONG) and not unknown_functions(system.L)
 
-    For velocities of one's own as they are projected, or by the equations of Boltzmann and Hamel: whichever takes fewer
-    operations.
+
+@lru_cache(maxsize=64)
+def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
+    """Stages, and made of them M and Q − h of M u' = Q − h + Gᵀ λ, with v in them.
+
+    Of a long Lagrangian by sweeps; of a short one for velocities of one's own as they are projected, or by the equations of
+    Boltzmann and Hamel: whichever takes fewer operations.
     """
-    M, push, given = system.mass, system.push - system.bias, system.kinematics
+    given, first = system.kinematics, velocity_stages(system)
+    if _is_long(system):
+        stages, M, rest = swept_equations(system)
+        return [*first, *stages], M, rest + (given.B.T * system.push if given else system.push)
+    M, push = system.mass, system.push - system.bias
     if given is None:
-        return M, push
+        return first, M, push
     projected = given.B.T * M * given.B, given.B.T * (push - M * given.alpha)
-    if given.stages or sp.count_ops(system.L) > _REDUCED:
-        return projected
+    if given.stages:
+        return first, *projected
     M, h = boltzmann_hamel(system.L, system.c, given, system.speeds)
     put = dict(zip(system.c.v, given.velocity, strict=True))
     reduced = M, given.B.T * system.push.xreplace(put) - h
@@ -310,7 +325,7 @@ def equations_of_speeds(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     def size(form: tuple[sp.Matrix, sp.Matrix]) -> int:
         return operations(function_program(system, *form[0], *form[1].xreplace(free)).program)
 
-    return min(projected, reduced, key=size)
+    return first, *min(projected, reduced, key=size)
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
@@ -342,21 +357,22 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
 
     Raises SingularError where the constraints do not bind it.
     """
-    (M, _), (G, _) = equations_of_speeds(system), rows_left(system)
-    if _regular(system, M):
+    (stages, M, _), (G, _) = equations_of_speeds(system), rows_left(system)
+    if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M
     if (mean := M.trace() / M.rows) != 0:
         made = {sp.Symbol(f"_w{i}", real=True): mean / G[i, :].dot(G[i, :]) for i in range(G.rows)}
         bound = M + G.T * sp.diag(*made) * G
-        if _regular(system, bound.xreplace(made)):
+        if _regular(system, stages, bound.xreplace(made)):
             return [*made.items()], sp.diag(*made), bound
     raise SingularError(singular_mass("simulate", M, system.c))
 
 
-def _regular(system: Equations, matrix: sp.Matrix) -> bool:
-    """Whether a symmetric matrix has full rank at one of some random states on the constraints; where it has no value, it is
-    taken to."""
-    program = function_program(system, *matrix, *system.constraints, *jacobian(system.constraints, system.c.q))
+def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> bool:
+    """Whether a symmetric matrix made of stages has full rank at one of some random states on the constraints; where it has
+    no value, it is taken to."""
+    bound = (*system.constraints, *jacobian(system.constraints, system.c.q))
+    program = _program((*system.c.q, *system.speeds, t), stages, [*matrix, *bound])
     letters = (*system.c.q, *system.speeds, t, *(p for p in program.parameters if not isinstance(p, Jet)))
     calls = [
         lambda *at, k=k: np.cos(sum(at) + k)
@@ -413,7 +429,7 @@ def projection_program(system: Equations) -> Generated:
     if system.kinematics is None:
         added, _, M = inertia(system)
         stages, W = solve_symmetric(M, G.T, "_m")
-        stages, across, V = [*added, *stages], G, W
+        stages, across, V = [*equations_of_speeds(system)[0], *added, *stages], G, W
     else:
         across, _ = rows_left(system)
         stages, W, V = velocity_stages(system), G.T, across.T

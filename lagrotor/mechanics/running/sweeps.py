@@ -1,0 +1,111 @@
+"""A long Lagrangian's equations by sweeps through its parts, each a stage: backward for a gradient, forward along a direction.
+
+With p = ∂L/∂v, M b = dp along v' = b and M α + h = dp/dt − ∂L/∂q at v' = α. A gradient costs some three times L, however many
+coordinates there are, a derivative along a direction some two times what is differentiated.
+
+Griewank & Walther, Evaluating Derivatives, 2nd ed., ch. 3.
+"""
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from operator import attrgetter
+
+import sympy as sp
+
+from lagrotor.algebra import derivative
+from lagrotor.mechanics.bodies.small_matrices import Stages
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.lagrangian import t
+from lagrotor.numerics.codegen import Stage
+
+
+def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
+    """Stages, and made of them M and −h of M u' = Q − h + Gᵀ λ; in velocities of one's own Bᵀ M B and −Bᵀ (M α + h)."""
+    keep, c, given = Stages(), system.c, system.kinematics
+    n, m = len(c.q), len(system.speeds)
+    B, alpha = (given.B, given.alpha) if given else (sp.eye(n), sp.zeros(n, 1))
+    B, alpha = B.applyfunc(keep), alpha.applyfunc(keep)
+    slopes = gradient(keep, parts(keep, system.L), (*c.q, *c.v))
+    momenta = slopes[n:]
+    drift = along(keep, momenta, {t: sp.S.One} | dict(zip((*c.q, *c.v), (*c.v, *alpha), strict=True)))
+    rest = sp.Matrix([keep(a - b) for a, b in zip(slopes[:n], drift, strict=True)])
+    M = sp.zeros(m, m)
+    for j in range(m):
+        needed = [i for i in range(n) if any(B[i, j:])]
+        column = sp.zeros(n, 1)
+        for i, e in zip(
+            needed, along(keep, [momenta[i] for i in needed], dict(zip(c.v, B[:, j], strict=True))), strict=True
+        ):
+            column[i] = e
+        for i in range(j, m):
+            M[i, j] = M[j, i] = keep(B[:, i].dot(column))
+    return keep.made, M, (B.T * rest).applyfunc(keep)
+
+
+def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
+    """Stages, and the Jacobi integral v·∂L/∂v − L made of them."""
+    keep, v = Stages(), system.c.v
+    L = parts(keep, system.L)
+    return keep.made, sp.Add(-L, *(a * p for a, p in zip(v, gradient(keep, L, v), strict=True)))
+
+
+def parts(keep: Stages, e: sp.Expr) -> sp.Expr:
+    """An expression as a stage after those of all its parts. A sum that has all terms of another one is made of that."""
+    sums = [s for s in sp.preorder_traversal(e) if s.is_Add]
+    sums = sorted(dict.fromkeys(sums), key=lambda s: len(s.args))
+    terms = {s: {*s.args} for s in sums}
+    known = dict[sp.Expr, sp.Expr]()
+
+    def stage(part: sp.Expr) -> sp.Expr:
+        if part.is_Atom:
+            return part
+        if part not in known:
+            shorter = next((s for s in reversed(sums) if terms[s] < terms[part]), None) if part in terms else None
+            if shorter is None:
+                known[part] = keep(part.func(*map(stage, part.args)))
+            else:
+                known[part] = keep(sp.Add(stage(shorter), *(stage(a) for a in part.args if a not in terms[shorter])))
+        return known[part]
+
+    return stage(e)
+
+
+def gradient(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
+    """∂output/∂s of a stage for each symbol, backward."""
+    shares: dict[sp.Expr, list[sp.Expr]] = defaultdict(list)
+    shares[output].append(sp.S.One)
+    for name, e in reversed(_below(keep, [output])):
+        weight = keep(sp.Add(*shares[name]))
+        for s, slope in _slopes(e):
+            shares[s].append(keep(weight * keep(slope)))
+    return [keep(sp.Add(*shares[s])) if s in shares else sp.S.Zero for s in symbols]
+
+
+def along(keep: Stages, outputs: Sequence[sp.Expr], direction: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
+    """The derivatives of stages where the symbols change at the rates `direction`, forward."""
+    rates = {s: rate for s, rate in direction.items() if rate != 0}
+
+    def rate(e: sp.Expr) -> sp.Expr:
+        return keep(sp.Add(*(keep(keep(slope) * rates[s]) for s, slope in _slopes(e) if s in rates)))
+
+    for name, e in _below(keep, outputs):
+        if (own := rate(e)) != 0:
+            rates[name] = own
+    return [rate(e) for e in outputs]
+
+
+def _below(keep: Stages, outputs: Sequence[sp.Expr]) -> list[Stage]:
+    """The stages that outputs are made of, in order."""
+    body, needed = dict(keep.made), set[sp.Symbol]()
+    left = [s for e in outputs for s in e.free_symbols]
+    while left:
+        if (s := left.pop()) in body and s not in needed:
+            needed.add(s)
+            left += body[s].free_symbols
+    return [(name, e) for name, e in body.items() if name in needed]
+
+
+@lru_cache(maxsize=10_000)
+def _slopes(e: sp.Expr) -> list[tuple[sp.Symbol, sp.Expr]]:
+    return [(s, derivative(e, s)) for s in sorted(e.free_symbols, key=attrgetter("name"))]

@@ -1,0 +1,75 @@
+"""Equations of long Lagrangians by sweeps: against sympy's derivatives, and against the recursion of the same bodies."""
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from benchmarks.mechanisms.chains import VALUES, chain, g, l, m
+from lagrotor.mechanics import System, coordinates, motion_program, t
+from lagrotor.mechanics.bodies.small_matrices import Stages
+from lagrotor.mechanics.running.programs import equations_of_speeds
+from lagrotor.mechanics.running.sweeps import along, gradient, parts
+from lagrotor.numerics import operations
+
+
+def rods(n: int, weight: sp.Expr = g) -> System:
+    """n rods in relative angles, as one writes them."""
+    c = coordinates([f"q_{i}" for i in range(n)])
+    L = x = z = height = angle = turning = sp.S.Zero
+    for q, v in zip(c.q, c.v, strict=True):
+        angle, turning = angle + q, turning + v
+        x, z = x + l * sp.cos(angle) * turning, z + l * sp.sin(angle) * turning
+        height += l * sp.cos(angle)
+        L += m * (x**2 + z**2) / 2 + m * weight * height
+    return System(c, L)
+
+
+def test_gradients_and_derivatives_along_a_direction_are_sympys() -> None:
+    a, b, d, rate = sp.symbols("a b d r", real=True)
+    e = (a + b) ** 2 * sp.sin(a * d) + sp.exp(-b) / (a + b + d) - sp.sqrt(a**2 + 2) * (a + b + d) ** 3
+    keep = Stages()
+    whole = parts(keep, e)
+    slopes = gradient(keep, whole, (a, b, d))
+    (turned,) = along(keep, [slopes[0]], {a: rate, d: sp.S.One})
+    first = sp.diff(e, a)
+    wanted = [sp.diff(e, a), sp.diff(e, b), sp.diff(e, d), first.diff(a) * rate + first.diff(d)]
+    at = {a: sp.Rational(3, 7), b: sp.Rational(-2, 5), d: sp.Rational(5, 3), rate: sp.Rational(4, 9)}
+    for short, long in zip((*slopes, turned), wanted, strict=True):
+        for name, part in reversed(keep.made):
+            short = short.xreplace({name: part})
+        assert abs((short - long).xreplace(at).evalf(30)) < 1e-25
+    assert any(part == keep.names[a + b] + d for _, part in keep.made)  # a sum is made of a shorter one
+
+
+@pytest.mark.parametrize("n", [6, 9])
+def test_a_long_lagrangian_moves_as_its_bodies(n: int) -> None:
+    system, bodies = rods(n), chain("rods", n)
+    y = np.random.default_rng(n).uniform(-0.6, 0.6, 2 * n)
+    known = np.array(bodies.rhs(VALUES)(0.0, y))
+    np.testing.assert_allclose(system.rhs(VALUES)(0.0, y), known, atol=1e-10 * np.abs(known).max())
+    assert equations_of_speeds(system)[0] and operations(motion_program(system).program) < 24 * n**2
+    other = np.array(rods(n, g * sp.Rational(11, 10)).rhs(VALUES)(0.0, y))
+    assert np.abs(other - known).max() > 1e-3  # the twin
+    run = system.simulate(VALUES, y[:n], y[n:], np.linspace(0, 1, 3), 1e-9)
+    assert np.ptp(run.energy) < 1e-7
+
+
+def test_time_and_velocities_of_ones_own_are_swept() -> None:
+    """A chain whose support is shaken, in the absolute rates of its rods."""
+    n, base = 6, rods(6)
+    shaken = base.L + m * l * sp.cos(t) * sum(sp.sin(q) * v for q, v in zip(base.c.q, base.c.v, strict=True))
+    plain = System(base.c, shaken)
+    u = sp.symbols(f"u:{n}", real=True)
+    own = System(base.c, shaken, velocities={s: sum(base.c.v[: i + 1]) for i, s in enumerate(u)})
+    y = np.random.default_rng(1).uniform(-0.6, 0.6, 2 * n)
+    rates = np.array(plain.rhs(VALUES)(0.7, y))
+    turned = np.array(own.rhs(VALUES)(0.7, np.concatenate([y[:n], np.cumsum(y[n:])])))
+    np.testing.assert_allclose(turned[n:], np.cumsum(rates[n:]), atol=1e-10 * np.abs(rates).max())
+    bent = sp.Matrix([sp.diff(shaken, v) for v in base.c.v])  # Lagrange's equations, by sympy, at the same state
+    at = dict(zip((*base.c.q, *base.c.v, *base.c.a), (*y, *rates[n:]), strict=True)) | VALUES | {t: 0.7}
+    moved = sum(
+        (bent.diff(q) * v + bent.diff(v) * a for q, v, a in zip(base.c.q, base.c.v, base.c.a, strict=True)),
+        bent.diff(t),
+    )
+    left = moved - sp.Matrix([sp.diff(shaken, q) for q in base.c.q])
+    assert max(abs(float(e)) for e in left.xreplace(at)) < 1e-9
