@@ -26,16 +26,16 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
     n, m = len(c.q), len(system.speeds)
     B, alpha = (given.B, given.alpha) if given else (sp.eye(n), sp.zeros(n, 1))
     B, alpha = B.applyfunc(keep), alpha.applyfunc(keep)
-    slopes = gradient(keep, parts(keep, system.L), (*c.q, *c.v))
+    slopes = backward_sweep(keep, parts(keep, system.L), (*c.q, *c.v))
     momenta = slopes[n:]
-    drift = along(keep, momenta, {t: sp.S.One} | dict(zip((*c.q, *c.v), (*c.v, *alpha), strict=True)))
+    drift = forward_sweep(keep, momenta, {t: sp.S.One} | dict(zip((*c.q, *c.v), (*c.v, *alpha), strict=True)))
     rest = sp.Matrix([keep(a - b) for a, b in zip(slopes[:n], drift, strict=True)])
     M = sp.zeros(m, m)
     for j in range(m):
         needed = [i for i in range(n) if any(B[i, j:])]
         column = sp.zeros(n, 1)
         for i, e in zip(
-            needed, along(keep, [momenta[i] for i in needed], dict(zip(c.v, B[:, j], strict=True))), strict=True
+            needed, forward_sweep(keep, [momenta[i] for i in needed], dict(zip(c.v, B[:, j], strict=True))), strict=True
         ):
             column[i] = e
         for i in range(j, m):
@@ -47,7 +47,7 @@ def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
     """Stages, and the Jacobi integral v·∂L/∂v − L made of them."""
     keep, v = Stages(), system.c.v
     L = parts(keep, system.L)
-    return keep.made, sp.Add(-L, *(a * p for a, p in zip(v, gradient(keep, L, v), strict=True)))
+    return keep.made, sp.Add(-L, *(a * p for a, p in zip(v, backward_sweep(keep, L, v), strict=True)))
 
 
 def parts(keep: Stages, e: sp.Expr) -> sp.Expr:
@@ -71,7 +71,7 @@ def parts(keep: Stages, e: sp.Expr) -> sp.Expr:
     return stage(e)
 
 
-def gradient(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
+def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
     """∂output/∂s of a stage for each symbol, backward."""
     shares: dict[sp.Expr, list[sp.Expr]] = defaultdict(list)
     shares[output].append(sp.S.One)
@@ -82,7 +82,7 @@ def gradient(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> lis
     return [keep(sp.Add(*shares[s])) if s in shares else sp.S.Zero for s in symbols]
 
 
-def along(keep: Stages, outputs: Sequence[sp.Expr], direction: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
+def forward_sweep(keep: Stages, outputs: Sequence[sp.Expr], direction: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
     """The derivatives of stages where the symbols change at the rates `direction`, forward."""
     rates = {s: rate for s, rate in direction.items() if rate != 0}
 

@@ -8,7 +8,7 @@ from benchmarks.mechanisms.chains import VALUES, chain, g, l, m
 from lagrotor.mechanics import System, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.running.programs import equations_of_speeds
-from lagrotor.mechanics.running.sweeps import along, gradient, parts
+from lagrotor.mechanics.running.sweeps import backward_sweep, forward_sweep, parts
 from lagrotor.numerics import operations
 
 
@@ -29,8 +29,8 @@ def test_gradients_and_derivatives_along_a_direction_are_sympys() -> None:
     e = (a + b) ** 2 * sp.sin(a * d) + sp.exp(-b) / (a + b + d) - sp.sqrt(a**2 + 2) * (a + b + d) ** 3
     keep = Stages()
     whole = parts(keep, e)
-    slopes = gradient(keep, whole, (a, b, d))
-    (turned,) = along(keep, [slopes[0]], {a: rate, d: sp.S.One})
+    slopes = backward_sweep(keep, whole, (a, b, d))
+    (turned,) = forward_sweep(keep, [slopes[0]], {a: rate, d: sp.S.One})
     first = sp.diff(e, a)
     wanted = [sp.diff(e, a), sp.diff(e, b), sp.diff(e, d), first.diff(a) * rate + first.diff(d)]
     at = {a: sp.Rational(3, 7), b: sp.Rational(-2, 5), d: sp.Rational(5, 3), rate: sp.Rational(4, 9)}
