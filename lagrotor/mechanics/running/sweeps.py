@@ -26,7 +26,7 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
     n, m = len(c.q), len(system.speeds)
     B, alpha = (given.B, given.alpha) if given else (sp.eye(n), sp.zeros(n, 1))
     B, alpha = B.applyfunc(keep), alpha.applyfunc(keep)
-    slopes = backward_sweep(keep, parts(keep, system.L), (*c.q, *c.v))
+    slopes = backward_sweep(keep, expression_stages(keep, system.L), (*c.q, *c.v))
     momenta = slopes[n:]
     drift = forward_sweep(keep, momenta, {t: sp.S.One} | dict(zip((*c.q, *c.v), (*c.v, *alpha), strict=True)))
     rest = sp.Matrix([keep(a - b) for a, b in zip(slopes[:n], drift, strict=True)])
@@ -46,11 +46,11 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
 def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
     """Stages, and the Jacobi integral v·∂L/∂v − L made of them."""
     keep, v = Stages(), system.c.v
-    L = parts(keep, system.L)
+    L = expression_stages(keep, system.L)
     return keep.made, sp.Add(-L, *(a * p for a, p in zip(v, backward_sweep(keep, L, v), strict=True)))
 
 
-def parts(keep: Stages, e: sp.Expr) -> sp.Expr:
+def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
     """An expression as a stage after those of all its parts. A sum that has all terms of another one is made of that."""
     sums = [s for s in sp.preorder_traversal(e) if s.is_Add]
     sums = sorted(dict.fromkeys(sums), key=lambda s: len(s.args))

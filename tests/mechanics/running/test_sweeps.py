@@ -8,7 +8,7 @@ from benchmarks.mechanisms.chains import VALUES, chain, g, l, m
 from lagrotor.mechanics import System, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.running.programs import equations_of_speeds
-from lagrotor.mechanics.running.sweeps import backward_sweep, forward_sweep, parts
+from lagrotor.mechanics.running.sweeps import backward_sweep, expression_stages, forward_sweep
 from lagrotor.numerics import operations
 
 
@@ -28,7 +28,7 @@ def test_gradients_and_derivatives_along_a_direction_are_sympys() -> None:
     a, b, d, rate = sp.symbols("a b d r", real=True)
     e = (a + b) ** 2 * sp.sin(a * d) + sp.exp(-b) / (a + b + d) - sp.sqrt(a**2 + 2) * (a + b + d) ** 3
     keep = Stages()
-    whole = parts(keep, e)
+    whole = expression_stages(keep, e)
     slopes = backward_sweep(keep, whole, (a, b, d))
     (turned,) = forward_sweep(keep, [slopes[0]], {a: rate, d: sp.S.One})
     first = sp.diff(e, a)
