@@ -23,7 +23,9 @@ PARTS = ("mechanics", "paper", "structures", "models", "theory", "pair", "algebr
 
 def on_config(config: Any) -> Any:
     """The version in the foot of every page."""
-    config.copyright = f"lagrotor {__version__}. For another version check out its tag and run make docs."
+    config.copyright = f"lagrotor {__version__}"
+    if config.extra["version"]["provider"] == "none":
+        config.copyright += ". For another version check out its tag and run make docs."
     return config
 
 
