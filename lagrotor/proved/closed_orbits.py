@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import sympy as sp
+
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
@@ -20,6 +22,7 @@ from lagrotor.proved.enclosure import accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
 from lagrotor.proved.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
+from lagrotor.proved.orbit_shape import extremes, value_at_start
 from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
@@ -68,13 +71,28 @@ class PeriodicOrbit(Shown):
     of the pair of multipliers that is not 1, where there is one. certificate: what `check` verifies.
     """
 
-    names: tuple[str, ...]
+    field: Field
     period: Ball
     frequency: Ball
     start: tuple[Ball, ...]
     alone: Ball
     multipliers: Multipliers
     proof: "OrbitProof"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the states."""
+        return tuple(map(str, self.field.states))
+
+    def value(self, expression: sp.Expr) -> Ball:
+        """An expression of the states at t = 0; where it is conserved, of the whole orbit."""
+        with precision(self.proof.bits):
+            return value_at_start(self.proof, self.field, sp.sympify(expression, strict=True))
+
+    def extremes(self, expression: sp.Expr) -> tuple[Ball, Ball]:
+        """The least and the largest value of an expression along the orbit."""
+        with precision(self.proof.bits, max(step.n for step in self.proof.steps)):
+            return extremes(self.proof, self.field, sp.sympify(expression, strict=True))
 
     @property
     def kind(self) -> Kind:
@@ -266,17 +284,16 @@ def periodic_orbit(
                 start[i] = arb(0)
             elif i in problem.free:
                 start[i] = exact(x)
-        return orbit_of(prove_orbit(problem, start, accuracy, 2 * integrals, where), tuple(map(str, made.states)))
+        return orbit_of(prove_orbit(problem, start, accuracy, 2 * integrals, where), made)
 
 
-def orbit_of(proof: OrbitProof, names: tuple[str, ...]) -> PeriodicOrbit:
+def orbit_of(proof: OrbitProof, made: Field) -> PeriodicOrbit:
     """What a proof says."""
     states = proof.states()
     period = states[-1] * proof.problem.turns
     alone = min((upper(proof.start.spread[i]) for i in proof.problem.free), key=float)
-    return PeriodicOrbit(
-        names, period, 2 * arb.pi() / period, tuple(states[: len(names)]), alone, proof.multipliers(), proof
-    )
+    start = tuple(states[: len(made.states)])
+    return PeriodicOrbit(made, period, 2 * arb.pi() / period, start, alone, proof.multipliers(), proof)
 
 
 def indices(made: Field, held: Sequence[Any]) -> tuple[int, ...]:

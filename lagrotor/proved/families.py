@@ -20,7 +20,7 @@ from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly, e
 from lagrotor.proved.carried_sets import column_matrix, entries_of
 from lagrotor.proved.closed_orbits import OrbitProblem
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
-from lagrotor.proved.multipliers import Kind, monodromy, of_pairs
+from lagrotor.proved.multipliers import Kind
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tails import ZERO, TailError, max_of
 from lagrotor.proved.taylor_models import Order, TaylorModel, sum_of_sizes
@@ -233,27 +233,69 @@ class FamilyProof:
     w: tuple[Ball, ...]
     node: FamilyNode
 
-    def kind(self, ones: int, low: Ball, high: Ball, depth: int = _HALVINGS) -> Kind:
-        """Elliptic or hyperbolic where every orbit from ε = low to high is shown to be so, by halves of the interval.
+    def kind(self, ones: int) -> Kind:
+        """Elliptic or hyperbolic where every orbit is shown to be so, by μ + 1/μ = tr M − ones as a model of ε.
 
-        ones: multipliers that are 1, of the energy and other integrals.
+        ones: multipliers that are 1, of the energy and other integrals, all but one pair.
         """
         problem, moving = self.problem, self.problem.motion.moving
-        D = self.node.derivative(low.union(high))
-        states = arb_mat([row[:moving] for row in D.tolist()[:moving]])
-        try:
-            kind = of_pairs(monodromy(states, problem.first, problem.last), ones).kind
-        except NotProved:
-            kind = "undecided"
-        if kind != "undecided" or not depth:
-            return kind
-        middle = (low + high) / 2
-        first = self.kind(ones, low, middle, depth - 1)
-        return first if first != "undecided" and first == self.kind(ones, middle, high, depth - 1) else "undecided"
+        D = [row[:moving] for row in self.node.V[:moving]]
+        back = inverse_models(D)
+        if back is None:
+            return "undecided"
+        reflected = [[x if s > 0 else -x for x in row] for row, s in zip(D, problem.last, strict=True)]
+        part = [
+            [x if s > 0 else -x for x in row]
+            for row, s in zip(product_of_models(back, reflected), problem.first, strict=True)
+        ]
+        if problem.first != problem.last:
+            part = product_of_models(part, part)
+        pair = _sum([part[i][i] for i in range(moving)])
+        pair = pair - pair.constant(arb(ones))
+        two = pair.constant(arb(2))
+        signs = {_sign(x, arb(-1), arb(1)) for x in (pair - two, pair + two)}
+        return "elliptic" if signs == {1, -1} else "hyperbolic" if signs in ({1}, {-1}) else "undecided"
 
     def pace(self, eps: Ball) -> Ball:
         """The time of one unit of s, s, for every ε of a ball."""
         return self.x[-1](eps) + self.w[-1]
+
+
+def product_of_models(a: list[Models], b: list[Models]) -> list[Models]:
+    """Of two matrices."""
+    columns = list(zip(*b, strict=True))
+    return [[_sum([x * y for x, y in zip(row, column, strict=True)]) for column in columns] for row in a]
+
+
+def inverse_models(D: list[Models]) -> list[Models] | None:
+    """X (1 + R + …), R = 1 − D X, with X from Newton's method on polynomials; None where the sum is not shown to converge."""
+    size, order = range(len(D)), D[0][0].order
+    one = TaylorModel(arb_poly([1]), ZERO, order)
+    middle = middle_inverse(arb_mat([[x.poly[0] for x in row] for row in D]))
+    X = [[TaylorModel(arb_poly([middle[i, j]]), None, order) for j in size] for i in size]
+    flat = [[TaylorModel(x.poly, None, order) for x in row] for row in D]
+    for _ in range(order.p.bit_length() + 1):
+        missed = product_of_models(flat, X)
+        missed = [[one.constant(arb(2 * (i == j))) - missed[i][j] for j in size] for i in size]
+        X = product_of_models(X, missed)
+    X = [[TaylorModel(x.poly, ZERO, order) for x in row] for row in X]
+    off = product_of_models(D, X)
+    rho = max_of([sum((one.constant(arb(int(i == j))) - off[i][j]).norm for j in size) for i in size])
+    if not rho < 1:
+        return None
+    rests = [upper(sum((x.norm for x in row), ZERO) * rho / (1 - rho)) for row in X]
+    return [[TaylorModel(x.poly, rest, order) for x in row] for row, rest in zip(X, rests, strict=True)]
+
+
+def _sign(model: TaylorModel, low: Ball, high: Ball, depth: int = _HALVINGS) -> int:
+    """Over an interval of ε, by its middle and slope, by halves; 0 where it is not shown to have one."""
+    eps, poly = low.union(high), model.poly
+    middle = (low + high) / 2
+    value = poly(middle) + poly.derivative()(eps) * (eps - middle) + arb(0, (model.rest or ZERO).abs_upper())
+    if value > 0 or value < 0 or not depth or abs(poly(middle)) < (model.rest or ZERO):
+        return 1 if value > 0 else -1 if value < 0 else 0
+    first = _sign(model, low, middle, depth - 1)
+    return first if first and first == _sign(model, middle, high, depth - 1) else 0
 
 
 def prove_family(problem: OrbitProblem, x: Sequence[Any], n: int, tol: float) -> FamilyProof:

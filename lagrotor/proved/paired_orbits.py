@@ -16,14 +16,17 @@ import numpy as np
 
 from lagrotor.errors import DomainError, NotProved
 from lagrotor.models.orbits.shooting import FAILURES, QuarterPeriod
+from lagrotor.pair.lagrangians import axes_pair
+from lagrotor.pair.notation import AXES, G_1, G_2, a, b
 from lagrotor.pair.scene import Scene
 from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, rational
 from lagrotor.proved.carried_sets import Accuracy
 from lagrotor.proved.certificates import VERSION, Certificate, ball_data, exact_data, motion_data
 from lagrotor.proved.closed_orbits import OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
 from lagrotor.proved.enclosure import accuracy_of, loosened
+from lagrotor.proved.exact_structure import exact_number
 from lagrotor.proved.families import FamilyProof, prove_family
-from lagrotor.proved.fields import Field, scene_field
+from lagrotor.proved.fields import Field, scene_field, scene_numbers
 from lagrotor.proved.multipliers import Kind
 from lagrotor.proved.near_rest import MotionNearRest
 from lagrotor.proved.statements import theorem_of
@@ -136,6 +139,41 @@ class Precession(Shown):
         return first.pair_sum if isinstance(first, PeriodicOrbit) else None
 
     @property
+    def _orbit(self) -> PeriodicOrbit:
+        first = self.pieces[0]
+        if not isinstance(first, PeriodicOrbit):
+            raise DomainError("precession: shape and invariants are those of one orbit: take one amplitude")
+        return first
+
+    @property
+    def energy(self) -> Ball:
+        """J, as of a run: the spins' included."""
+        put = scene_numbers(self.scene)
+        spinning = (put[G_1] ** 2 + put[G_2] ** 2) / (2 * exact_number(self.scene.rotor.I3))
+        return self._orbit.value(axes_pair().L.xreplace(put) + spinning)
+
+    @property
+    def joint_line_momentum(self) -> Ball:
+        """Angular momentum about the line through the ground joints, kg m²/s, the other integral of the exact pair."""
+        q, v = AXES.q, AXES.v
+        r, w = (q[:3], q[3:]), (v[:3], v[3:])
+        own, shared = ([a * x + b * y for x, y in zip(*pair, strict=True)] for pair in (w, w[::-1]))
+        turning = sum(x[1] * p[2] - x[2] * p[1] for x, p in zip(r, (own, shared), strict=True))
+        return self._orbit.value((turning + G_1 * q[0] + G_2 * q[3]).xreplace(scene_numbers(self.scene)))
+
+    @cached_property
+    def shape(self) -> dict[str, Ball]:
+        """The least and the largest inclination of an axis (rad) and how far it goes along x and across it, over the orbit."""
+        x, y, z = (self._orbit.extremes(e) for e in AXES.q[:3])
+        with precision(self.bits):
+            return {
+                "least inclination": z[1].acos(),
+                "largest inclination": z[0].acos(),
+                "largest x": x[1],
+                "largest y": y[1],
+            }
+
+    @property
     def kind(self) -> Kind:
         """elliptic, hyperbolic, or undecided where it is not shown of every orbit."""
         first = self.pieces[0].kind
@@ -218,7 +256,7 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
         problem = problem_of_pair(made)
         if one:
             start = guess(curve, float(exact(amplitude)), amplitude.atanh())
-            orbit = orbit_of(prove_orbit(problem, start, accuracy, _ONES, "precession"), names(made))
+            orbit = orbit_of(prove_orbit(problem, start, accuracy, _ONES, "precession"), made)
             return Precession(scene, amplitude, (exactly(r0), exactly(r0)), (orbit,), accuracy.bits)
         pieces = tuple(family(problem, curve, ball(r0[0]), ball(r0[1]), accuracy))
         return Precession(scene, amplitude, (exactly(r0[0]), exactly(r0[1])), pieces, accuracy.bits)
@@ -231,11 +269,6 @@ def exactly(r0: Any) -> Fraction:
         return rational(r0, "precession: r0")
     above, power = middle.man_exp()
     return int(above) * Fraction(2) ** int(power)
-
-
-def names(made: Field) -> tuple[str, ...]:
-    """The states."""
-    return tuple(map(str, made.states))
 
 
 def problem_of_pair(made: Field) -> OrbitProblem:
@@ -293,8 +326,7 @@ def prove_piece(problem: OrbitProblem, curve: QuarterPeriod, u: float, right: fl
     if not u:
         problem = replace(problem, motion=MotionNearRest(problem.motion.tape, problem.motion.parameters, U))
     proof = prove_family(problem, x, accuracy.terms, accuracy.tol)
-    kind = proof.kind(_ONES, arb(-1), arb(1))
-    return FamilyPiece(arb(middle), arb(half), proof, kind, not u)
+    return FamilyPiece(arb(middle), arb(half), proof, proof.kind(_ONES), not u)
 
 
 def piece_data(piece: FamilyPiece) -> dict[str, Any]:

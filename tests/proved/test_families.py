@@ -12,7 +12,7 @@ import sympy as sp
 
 pytest.importorskip("flint", reason="the extra `proof` is not installed")
 
-from flint import arb, arb_poly, ctx
+from flint import arb, arb_mat, arb_poly, ctx
 
 from lagrotor import Link, Scene
 from lagrotor.errors import DomainError
@@ -89,6 +89,34 @@ def test_both_programs_keep_the_bounds_of_their_functions(name: str, rest: float
                 assert abs(true - value([poly.coeffs() for poly in other.terms], s, eps)) <= other.rest
                 needed = needed.max(upper(first))
             assert needed > 0 and mine.rest < 100 * needed  # The bound is needed, and it is not idle.
+
+
+def test_both_programs_enclose_the_inverse_of_a_matrix_of_models() -> None:
+    rng = random.Random(5)
+    with precision(80, ORDER.p + 1):
+        rows = [
+            [[[rng.uniform(-1, 1) * 0.2**j + 3 * (i == k and not j) for j in range(ORDER.p + 1)]] for k in range(3)]
+            for i in range(3)
+        ]
+        flat = Order(1, ORDER.p)
+        D = [[TaylorModel(arb_poly([arb(c) for c in table[0]]), arb(1e-9), flat) for table in row] for row in rows]
+        mine = families.inverse_models(D)
+        sheets = [
+            [family_checking.Sheet([arb_poly([arb(c) for c in table[0]])], arb(1e-9), 1, ORDER.p) for table in row]
+            for row in rows
+        ]
+        other = family_checking.inverse_of_sheets(sheets)
+        assert mine is not None
+        for eps in (arb(-1), arb("0.3"), arb(1)):
+            true = arb_mat(
+                [[value(table, arb(0), eps) + rng.choice([-1, 1]) * arb(1e-9) for table in row] for row in rows]
+            )
+            true = true.inv()
+            for i in range(3):
+                for j in range(3):
+                    a, b = mine[i][j], other[i][j]
+                    assert abs(a.poly(eps) - true[i, j]) <= a.rest < 1e-4
+                    assert abs(b.terms[0](eps) - true[i, j]) <= b.rest < 1e-4
 
 
 C = coordinates("theta")

@@ -323,7 +323,66 @@ class FamilyFlow:
     def slope(self, i: int, j: int, eps: Ball) -> Ball:
         """Its derivative by a start, over the box."""
         v = self.V[i][j]
-        return sum(v.terms, arb_poly([]))(eps) + arb(0, v.rest.upper())
+        return _flat(v)(eps) + arb(0, v.rest.upper())
+
+
+def product_of_sheets(a: list[list[Sheet]], b: list[list[Sheet]]) -> list[list[Sheet]]:
+    """Of two matrices."""
+    found = []
+    for row in a:
+        sums = []
+        for column in zip(*b, strict=True):
+            total = row[0].times(column[0])
+            for x, y in zip(row[1:], column[1:], strict=True):
+                total = total.plus(x.times(y))
+            sums.append(total)
+        found.append(sums)
+    return found
+
+
+def inverse_of_sheets(D: list[list[Sheet]]) -> list[list[Sheet]]:
+    """X by elimination of series of ε; D⁻¹ = X (1 + R + …), R = 1 − D X."""
+    size, like = len(D), D[0][0]
+    before, ctx.cap = ctx.cap, like.p + 1
+    try:
+        rows = [
+            [*(arb_series(_flat(x).coeffs(), like.p + 1) for x in row), *(arb_series([i == j]) for j in range(size))]
+            for i, row in enumerate(D)
+        ]
+        for i in range(size):
+            k = max(range(i, size), key=lambda k: float(abs(rows[k][i][0]).lower()))
+            rows[i], rows[k] = rows[k], rows[i]
+            rows[i] = [x / rows[i][i] for x in rows[i]]
+            for k in {*range(size)} - {i}:
+                factor = rows[k][i]
+                rows[k] = [x - factor * y for x, y in zip(rows[k], rows[i], strict=True)]
+    finally:
+        ctx.cap = before
+    X = [[like.like([_poly(x)], ZERO) for x in row[size:]] for row in rows]
+    R = [
+        [x.number(arb(int(i == j))).plus(x, -1) for j, x in enumerate(row)]
+        for i, row in enumerate(product_of_sheets(D, X))
+    ]
+    rho = max((top(sum((x.size() for x in row), ZERO)) for row in R), key=lambda x: float(x.upper()))
+    rests = [top(sum((x.size() for x in row), ZERO) * rho / _left(rho)) for row in X]
+    return [[x.like(x.terms, rest) for x in row] for row, rest in zip(X, rests, strict=True)]
+
+
+def _flat(a: Sheet) -> Any:
+    """The polynomial of ε of what has no s."""
+    return sum(a.terms, arb_poly([]))
+
+
+def sign_of_sheet(a: Sheet, low: Ball, high: Ball, depth: int = 14) -> int:
+    """Of what has no s, between two ε; 0 where it is not shown to have one."""
+    eps, poly, middle = low.union(high), _flat(a), (low + high) / 2
+    value = poly(middle) + poly.derivative()(eps) * (eps - middle) + arb(0, a.rest.upper())
+    if value > 0 or value < 0:
+        return 1 if value > 0 else -1
+    if not depth or abs(poly(middle)) < a.rest:
+        return 0
+    first = sign_of_sheet(a, low, middle, depth - 1)
+    return first if first and sign_of_sheet(a, middle, high, depth - 1) == first else 0
 
 
 def _centred(a: Sheet) -> Sheet:
