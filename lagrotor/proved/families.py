@@ -268,7 +268,7 @@ def product_of_models(a: list[Models], b: list[Models]) -> list[Models]:
 
 
 def inverse_models(D: list[Models]) -> list[Models] | None:
-    """X (1 + R + …), R = 1 − D X, with X from Newton's method on polynomials; None where the sum is not shown to converge."""
+    """X (1 + R + R² …), R = 1 − D X, with X from Newton's method on polynomials; None where the sum is not shown to converge."""
     size, order = range(len(D)), D[0][0].order
     one = TaylorModel(arb_poly([1]), ZERO, order)
     middle = middle_inverse(arb_mat([[x.poly[0] for x in row] for row in D]))
@@ -279,12 +279,17 @@ def inverse_models(D: list[Models]) -> list[Models] | None:
         missed = [[one.constant(arb(2 * (i == j))) - missed[i][j] for j in size] for i in size]
         X = product_of_models(X, missed)
     X = [[TaylorModel(x.poly, ZERO, order) for x in row] for row in X]
-    off = product_of_models(D, X)
-    rho = max_of([sum((one.constant(arb(int(i == j))) - off[i][j]).norm for j in size) for i in size])
+    image = product_of_models(D, X)
+    R = [[one.constant(arb(int(i == j))) - image[i][j] for j in size] for i in size]
+    rho = max_of([sum((x.norm for x in row), ZERO) for row in R])
     if not rho < 1:
         return None
-    rests = [upper(sum((x.norm for x in row), ZERO) * rho / (1 - rho)) for row in X]
-    return [[TaylorModel(x.poly, rest, order) for x in row] for row, rest in zip(X, rests, strict=True)]
+    first = product_of_models(X, R)
+    rests = [upper(sum((x.norm for x in row), ZERO) * rho**2 / (1 - rho)) for row in X]
+    return [
+        [x + y + TaylorModel(arb_poly([]), rest, order) for x, y in zip(row, by_R, strict=True)]
+        for row, by_R, rest in zip(X, first, rests, strict=True)
+    ]
 
 
 def _sign(model: TaylorModel, low: Ball, high: Ball, depth: int = _HALVINGS) -> int:

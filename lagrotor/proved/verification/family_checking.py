@@ -341,7 +341,7 @@ def product_of_sheets(a: list[list[Sheet]], b: list[list[Sheet]]) -> list[list[S
 
 
 def inverse_of_sheets(D: list[list[Sheet]]) -> list[list[Sheet]]:
-    """X by elimination of series of ε; D⁻¹ = X (1 + R + …), R = 1 − D X."""
+    """X by elimination of series of ε; D⁻¹ = X (1 + R + R² …), R = 1 − D X."""
     size, like = len(D), D[0][0]
     before, ctx.cap = ctx.cap, like.p + 1
     try:
@@ -364,8 +364,11 @@ def inverse_of_sheets(D: list[list[Sheet]]) -> list[list[Sheet]]:
         for i, row in enumerate(product_of_sheets(D, X))
     ]
     rho = max((top(sum((x.size() for x in row), ZERO)) for row in R), key=lambda x: float(x.upper()))
-    rests = [top(sum((x.size() for x in row), ZERO) * rho / _left(rho)) for row in X]
-    return [[x.like(x.terms, rest) for x in row] for row, rest in zip(X, rests, strict=True)]
+    rests = [top(sum((x.size() for x in row), ZERO) * rho**2 / _left(rho)) for row in X]
+    return [
+        [x.plus(y).plus(x.like([], rest)) for x, y in zip(row, by_R, strict=True)]
+        for row, by_R, rest in zip(X, product_of_sheets(X, R), rests, strict=True)
+    ]
 
 
 def _flat(a: Sheet) -> Any:
