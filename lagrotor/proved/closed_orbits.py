@@ -19,10 +19,10 @@ from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, prec
 from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, column_matrix, entries_of, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, balls_data, flow_data, matrix_data
 from lagrotor.proved.enclosure import accuracy_of, loosened, time_ball
-from lagrotor.proved.fields import Field, Values, field_of
+from lagrotor.proved.fields import Field, Values, field_of, values_at
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
 from lagrotor.proved.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
-from lagrotor.proved.orbit_shape import extremes, value_at_start
+from lagrotor.proved.orbit_shape import extremes
 from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
@@ -87,12 +87,21 @@ class PeriodicOrbit(Shown):
     def value(self, expression: sp.Expr) -> Ball:
         """An expression of the states at t = 0; where it is conserved, of the whole orbit."""
         with precision(self.proof.bits):
-            return value_at_start(self.proof, self.field, sp.sympify(expression, strict=True))
+            fixed = [self.field.values[s] for s in self.field.arguments[len(self.start) :]]
+            tape = self.field.function([sp.sympify(expression, strict=True)])
+            return values_at(tape, [*self.start, *fixed])[0]
 
     def extremes(self, expression: sp.Expr) -> tuple[Ball, Ball]:
-        """The least and the largest value of an expression along the orbit."""
-        with precision(self.proof.bits, max(step.n for step in self.proof.steps)):
-            return extremes(self.proof, self.field, sp.sympify(expression, strict=True))
+        """The least and the largest value of an expression along the orbit, which passes its images under the reversals, too."""
+        proof, one = self.proof, (1,) * len(self.start)
+        A, B = (signs or one for signs in (proof.problem.first, proof.problem.last))
+        images = {one, A, B, tuple(a * b for a, b in zip(A, B, strict=True))}
+        w = [arb(0)] * len(proof.start.middle)
+        for i, x in zip(proof.problem.free, proof.found, strict=True):
+            w[i] = x
+        with precision(proof.bits, max(step.n for step in proof.steps)):
+            put = sp.sympify(expression, strict=True)
+            return extremes(self.field, proof.problem.motion, proof.steps, w, images, put)
 
     @property
     def kind(self) -> Kind:

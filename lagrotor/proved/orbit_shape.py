@@ -1,59 +1,39 @@
-"""Expressions along a periodic orbit: their values at its start, the least and the largest one."""
+"""The least and the largest value of an expression along an orbit, by branch and bound."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Sequence
 from heapq import heapify, heappop, heappush
 from itertools import count
 from math import inf, nextafter
-from typing import TYPE_CHECKING
 
 import sympy as sp
 
 from lagrotor.proved.balls import Ball, Balls, arb, arb_poly
+from lagrotor.proved.carried_sets import CarriedStep
 from lagrotor.proved.crossings import Watch
-from lagrotor.proved.fields import Field, values_at
-from lagrotor.proved.stepping import scaled, taylor, with_rest
+from lagrotor.proved.fields import Field
+from lagrotor.proved.stepping import Motion, scaled, taylor, with_rest
 from lagrotor.proved.tails import Evaluation, Tailed
 
-if TYPE_CHECKING:
-    from lagrotor.proved.closed_orbits import OrbitProof
-
+Signs = tuple[int, ...]
 _NARROW = 2.0**-60  # of an extreme value, relative
 _MOST = 3_000  # pieces
 
 
-def value_at_start(proof: "OrbitProof", made: Field, expression: sp.Expr) -> Ball:
-    """An expression of the states, enclosed at t = 0."""
-    return values_at(made.function([expression]), [*proof.states()[: len(made.states)], *_fixed(made)])[0]
-
-
-def extremes(proof: "OrbitProof", made: Field, expression: sp.Expr) -> tuple[Ball, Ball]:
-    """The least and the largest value of an expression over the whole orbit, images under its reversals included."""
-    pieces = [*_along(proof, made, expression)]
-    return -_largest([Watch(-piece.series) for piece in pieces]), _largest(pieces)
-
-
-def _fixed(made: Field) -> Balls:
-    return [made.values[s] for s in made.arguments[len(made.states) :]]
-
-
-def _along(proof: "OrbitProof", made: Field, expression: sp.Expr) -> Iterator[Watch]:
-    """The expression along each step, and along the step's images under the reversals A and B, which the orbit passes, too."""
-    problem, tape = proof.problem, made.function([expression])
-    motion, one = problem.motion, (1,) * problem.motion.moving
-    A, B = (signs or one for signs in (problem.first, problem.last))
-    images = {one, A, B, tuple(a * b for a, b in zip(A, B, strict=True))}
-    w = [arb(0)] * len(proof.start.middle)
-    for i, x in zip(problem.free, proof.found, strict=True):
-        w[i] = x
-    for step in proof.steps:
+def extremes(
+    made: Field, motion: Motion, steps: Sequence[CarriedStep], w: Balls, images: Iterable[Signs], expression: sp.Expr
+) -> tuple[Ball, Ball]:
+    """The least and the largest value of an expression along steps from the starts w, and along their images under signs."""
+    tape, pieces = made.function([expression]), list[Watch]()
+    for step in steps:
         box, n = step.node.box(w), step.n
         rows = scaled(taylor(motion, box, n), step.h, n)
         rests, _ = with_rest(motion, rows, box, step.h, n)
         states = [Tailed(arb_poly(row), rest, n) for row, rest in zip(rows, rests, strict=True)]
-        fixed = [Tailed(arb_poly([c]), arb(0), n) for c in _fixed(made)]
+        fixed = [Tailed(arb_poly([made.values[s]]), arb(0), n) for s in made.arguments[len(states) :]]
         for signs in images:
             moved = [x if s > 0 else -x for x, s in zip(states, signs, strict=True)]
-            yield Watch(Evaluation(tape, [*moved, *fixed]).outputs[0])
+            pieces.append(Watch(Evaluation(tape, [*moved, *fixed]).outputs[0]))
+    return -_largest([Watch(-piece.series) for piece in pieces]), _largest(pieces)
 
 
 def _largest(pieces: list[Watch]) -> Ball:
