@@ -41,10 +41,16 @@ def branch_of_zero(
 
 def _candidates(natural: tuple[sp.Basic, ...], wanted: tuple[sp.Basic, ...]) -> Iterator[tuple[sp.Basic, ...]]:
     """The conditions of a real value, then with more and more that is wanted, of either sign; the open region last."""
+    if sp.false in natural:  # it has no real value
+        return
+    wanted = tuple(one for one in wanted if one not in (sp.true, sp.false))
     yield natural
     for number in range(1, min(len(wanted), _MOST_SIGNS) + 1):
         for signs in product((True, False), repeat=number):
-            chosen = (*natural, *(one if same else _opposite(one) for one, same in zip(wanted, signs, strict=False)))
+            turned = (one if same else _opposite(one) for one, same in zip(wanted, signs, strict=False))
+            chosen = tuple(one for one in (*natural, *turned) if one != sp.true)
+            if sp.false in chosen:
+                continue
             yield chosen
             yield tuple(_sided(one.gts - one.lts, True) for one in chosen)
 

@@ -40,8 +40,9 @@ HOLDS, REFUTED, UNITS, MEANINGS, BEFORE = (
 )  # fmt: skip
 FOUND = (REFUTED, UNITS, MEANINGS, BEFORE)
 WRONG = (REFUTED, UNITS)
-# Terms of which each is tried with the other sign, to say what is wrong; operations beyond which a step is not decided.
-_MOST_TERMS, _MOST_OPERATIONS = 12, 2000
+# Terms of which each is tried with the other sign, to say what is wrong; operations, and functions in functions, beyond which
+# a step is not decided.
+_MOST_TERMS, _MOST_OPERATIONS, _MOST_NESTED = 12, 2000, 2
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 # Changes that are tried to find a slip; equations back to which a step may refer.
@@ -49,7 +50,7 @@ _MOST_SLIPS, _MEMORY = 120, 60
 # The one guess that verdicts rest on: that log is the natural logarithm.
 _ANY_BASE = "log is"
 # Dimensions are reported where few equations break them: others are printed in units of their own.
-_FEW, _SHARE = 3, 0.05
+_FEW, _SHARE = 3, 0.01
 
 
 @dataclass(frozen=True)
@@ -224,8 +225,9 @@ class _Checker:
     def _put_in(self, a: Any, b: Any) -> tuple[tuple[Any, Any], list[str]]:
         """Both sides with the definitions before put in, and the equations that were used."""
         used: list[str] = []
+        put: set[str] = set()  # each letter once: x by y and y by x go on without end
         for _ in range(4):
-            free = {s.name for side in (a, b) for s in side.free_symbols}
+            free = {s.name for side in (a, b) for s in side.free_symbols} - put
             meanings = {}
             for read in self.before[-_MEMORY:]:
                 first, last = read.statement.sides[0].node, read.statement.sides[-1].node
@@ -242,6 +244,7 @@ class _Checker:
                 meanings[sp.Symbol(first.name, real=True)] = value, f"({read.equation.id})"
             if not meanings:
                 break
+            put |= free
             values = {symbol: value for symbol, (value, _) in meanings.items()}
             used += [name for _, name in meanings.values()]
             a, b = a.subs(values), b.subs(values)
@@ -478,8 +481,15 @@ def _all(matrix: sp.MatrixBase) -> str:
     return "nonzero" if "nonzero" in answers else "undecided" if "undecided" in answers else "zero"
 
 
+def _nested(value: sp.Basic) -> int:
+    """How many functions stand in each other."""
+    return isinstance(value, sp.Function) + max(map(_nested, value.args), default=0)
+
+
 def _single(a: Any, b: Any) -> str:
     if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)) or sp.count_ops(a - b) > _MOST_OPERATIONS:
+        return "undecided"
+    if max(map(_nested, (a, b))) > _MOST_NESTED:
         return "undecided"
     try:
         found = decide_equal(a, b)

@@ -198,3 +198,21 @@ def test_notation_beside_the_source_settles_what_is_marked(tmp_path: Path, capsy
     (tmp_path / "paper.toml").write_text('[notation]\nusual = "prime cdot"\nletters = "x"\n', encoding="utf-8")
     assert main(["check", str(file)]) == 1
     assert "would be refuted" in " ".join(capsys.readouterr().out.split())
+
+
+def test_definitions_by_each_other_and_functions_within_functions_are_not_worked_out_without_end(
+    tmp_path: Path,
+) -> None:
+    given = r"\[ x = a + \frac{1}{\tan(y)} \]\[ y = a + \tan(x) \]"
+    assert verdicts(tmp_path, given + r"\[ b = x + y = \tan(x) + y^3 \]") == ["undecided"]
+    nested = r"\[ b = \tan(\tan(\tan(x))) + 1 = \tan(\tan(\tan(x))) + 2 \]"
+    assert verdicts(tmp_path, nested) == ["undecided"]
+    assert verdicts(tmp_path, nested.replace(r"\tan(\tan(\tan(x)))", r"\tan(x)")) == [REFUTED]
+
+
+def test_a_latin_1_source_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "old.tex"
+    file.write_bytes(
+        "\\documentclass{article}\\begin{document}% \xa9 caf\xe9\n\\[ a = b \\]\\end{document}".encode("latin-1")
+    )
+    assert [each.latex for each in read_source(file).equations] == ["a = b"]
