@@ -430,8 +430,10 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     finite = bool(np.isfinite(looser).all() and np.isfinite(better).all() and np.isfinite(apart).all())
     if evolution.defect and finite and not (stop and evolution.elsewhere):
         off = evolution.defect(t, looser), evolution.defect(t, better)
-    alike = _alike(spent, off, TELLING.value * ROUNDING.value * (START.value + float(course.turns(t[-1]))))
     slack = np.concatenate(slacks[1:])
+    resolved = not course.refused and bool(tight.local >= RESOLVED.value * slack[-1])
+    rounding = TELLING.value * ROUNDING.value * (START.value + float(course.turns(t[-1])))
+    alike = _alike(spent, off, rounding, resolved)
     errors = estimated_errors(
         alike * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
@@ -452,15 +454,16 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     return _Comparison(loose, tight, len(pairs), errors, lost, refusal)
 
 
-def _alike(spent: tuple[int, int], off: tuple[float, float] | None, rounding: float) -> float:
+def _alike(spent: tuple[int, int], off: tuple[float, float] | None, rounding: float, resolved: bool) -> float:
     """How many times the difference of two runs counts, from 1 on, as both may be off by nearly the same.
 
     Errors e and share e differ by (1 − share) e: the better one's is share/(1 − share) times the difference, of two runs that do
     as their tolerances say a fourth, which SAFETY allows for. off: what both are off conserving, a second measure of their
-    errors, where rounding is not all that it is. spent: their evaluations; of twice as many rounding is what they resolve.
+    errors, where rounding is not all that it is. spent: their evaluations. resolved: whether SAFETY counts once; where it counts
+    twice and the better run took twice as many, rounding is all that differs, and is in it already.
     """
     share = CHEAPER.value if spent[1] < spent[0] else 0.0
-    if off and off[1] > rounding and spent[1] < 2 * spent[0]:
+    if off and off[1] > rounding and (resolved or spent[1] < 2 * spent[0]):
         share = max(share, min(off[1] / max(off[0], off[1]), ALIKE.value))
     return max(1.0, share / (1 - share))
 

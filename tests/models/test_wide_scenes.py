@@ -183,6 +183,14 @@ def test_beside_a_dead_point_the_model_that_keeps_the_tolerance_is_taken(monkeyp
     assert all(other.model == "spheres" and other.error > TRIALS[i].tol for i, other in zip(which, others, strict=True))
 
 
+def test_what_a_fold_beside_a_dead_point_makes_of_rounding_is_in_the_error() -> None:
+    """A bar almost as long as the axes folds over 10⁻⁵ rad from the dead point: two runs by `minimal` are off alike."""
+    trial = wide_scenes(9002, 84, 60.0)[83]
+    exact = run_of(replace(trial, tol=1e-9), model="spheres")
+    run = run_of(trial, model="minimal")
+    assert np.linalg.norm(run.axes - exact.axes, axis=-1).max() < run.error + exact.error
+
+
 @pytest.mark.slow
 def test_no_shaken_run_by_name_says_too_little() -> None:
     assert not told_too_little(SHAKEN, (1e-3, 1e-8, 1e-11))

@@ -97,14 +97,16 @@ def _curve(stages: _Stages, ratio: Ratio) -> _Curve:
     one = sp.Integer(1)
     if ratio == "short":
         # sin Delta = k sin chi: rho / cos Delta = Delta', so w' = tan Delta.
-        stages += [(_S, k * sp.sin(_CHI)), (_C, sp.sqrt(1 - _S**2)), (_D, sp.asin(_S)), (_RHO, k * sp.cos(_CHI))]
+        # 1 − S² would lose its digits at the fold of a bar almost as long as the axes.
+        stages += [(_S, k * sp.sin(_CHI)), (_RHO, k * sp.cos(_CHI)), (_C, sp.sqrt(_RHO**2 + (1 - k) * (1 + k)))]
+        stages += [(_D, sp.asin(_S))]
         stages += [(_D1, _RHO / _C), (_W1, _S / _C), (_DROP, (_C + _RHO) / (k + 1))]
         return _Curve(_D1, _W1 * (_D1**2 - 1), _W1, _D1 / _C**2, stages.keep("N", _D1**2 + _W1**2))
     stages += [(_D, _CHI), (_S, sp.sin(_CHI)), (_C, sp.cos(_CHI))]
     if ratio == "equal":
         stages += [(_W1, _S / _C), (_DROP, _C)]
         return _Curve(one, 0 * one, _W1, _C**-2, _C**-2)
-    stages += [(_RHO, sp.sqrt(_C**2 + k**2 - 1)), (_W1, _S / _RHO), (_DROP, (_C + _RHO) / (k + 1))]
+    stages += [(_RHO, sp.sqrt(_C**2 + (k - 1) * (k + 1))), (_W1, _S / _RHO), (_DROP, (_C + _RHO) / (k + 1))]
     square = stages.keep("N", 1 + _W1**2)
     return _Curve(one, 0 * one, _W1, _C * square / _RHO, square)
 
