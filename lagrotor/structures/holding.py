@@ -16,13 +16,14 @@ from math import inf, sqrt
 import numpy as np
 from scipy.special import factorial
 
-from lagrotor.errors import SingularError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.canonical.normal_forms import NormalForm
 from lagrotor.mechanics.canonical.polynomials import Polynomial
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.critical_spins import stiffness_in_masses
 from lagrotor.structures.resonances import (
+    MOST_DOF,
     Of,
     check_kind_of_push,
     checked_push,
@@ -33,7 +34,11 @@ from lagrotor.structures.resonances import (
 from lagrotor.structures.small_motion import small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
-_ORDERS = {4: 6, 6: 5, 8: 4}  # of the normal form, N + 1, by the degrees of freedom up to which it is expanded so far
+_ORDERS = {
+    4: 6,
+    6: 5,
+    MOST_DOF: 4,
+}  # of the normal form, N + 1, by the degrees of freedom up to which it is expanded so far
 _DETUNINGS = (0.0, 1e-3, 1e-2, 0.1)  # of the largest rate: what is nearer is kept as a resonance
 
 
@@ -52,10 +57,12 @@ def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
         return 0.0
     if not linear.dof or np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
         return inf
+    if linear.dof > MOST_DOF:
+        raise InputError(f"hold_time: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
     h = local_hamiltonian(s)
     if push > trusted_push(s, of=of):
         return 0.0
-    order = next((n for most, n in _ORDERS.items() if linear.dof <= most), 4)
+    order = next(n for most, n in _ORDERS.items() if linear.dof <= most)
     times = [0.0]
     for detuning in _DETUNINGS:
         try:

@@ -60,7 +60,7 @@ def natural_rate(scene: Scene) -> float:
 
 
 def natural_rate_error(scene: Scene, amplitude: float) -> float:
-    """Error (rad/s) of `natural_rate` for an orbit about upright, or for 20 turns of a swing that starts on the linear mode.
+    """Estimated error (rad/s) of `natural_rate` for an orbit about upright, or 20 turns of a swing from the linear mode.
 
     `amplitude` r is the sine of the larger inclination. With c and share of `theory.rate_shift`, c the shift of the orbit, with
     d = share² sigma/(2 k²) what a swing adds that begins in another phase and so turns about the joint line, and C what c becomes
@@ -68,8 +68,9 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
 
         Omega_0 ( (|c| + d) r²/(1 − r²) + 3 N r⁴ ),  N = C² + share sigma |sigma − 1| + share³ sigma²/k⁴.
 
-    In N are the powers of the next order; its factor is empirical. One rotor alone precesses at Omega_0 / cos theta exactly. A
-    swing of opposite spins that is made to turn at nu besides is shifted by −(a + b) nu/(k G) of Omega_0 more.
+    The first part is derived; N has the powers of the next order, but its factor 3 is empirical: an estimate, held in random
+    pairs. One rotor alone precesses at Omega_0 / cos theta exactly. A swing of opposite spins that is made to turn at nu besides
+    is shifted by −(a + b) nu/(k G) of Omega_0 more.
 
     Raises:
         DomainError: unless 0 <= r <= 0.4, √N r² <= 0.12, sigma r² <= 0.5, and where a twist beside the orbit grows by more than

@@ -379,6 +379,9 @@ def test_how_long_it_holds():
     assert 0 < falling.hold_time(0.01 * rate) < falling.fall_time(0.01 * rate)
     with pytest.raises(InputError, match="hold_time: push = -1 must be"):
         found.hold_time(-1)
+    row = Structure(joints=[(k, 0) for k in range(9)], bars=[(k, k + 1) for k in range(8)], **WEIGHT, spins=200)
+    with pytest.raises(InputError, match=r"hold_time: \d+ degrees of freedom: at most 8"):
+        row.stands().hold_time(0.1)
 
 
 def test_what_the_form_leaves_is_what_its_next_generator_removes():
