@@ -558,8 +558,9 @@ class Expander:
         while (part := self.next()) is not None and part.kind != "open":
             head.append(part)
         body = self.group()
-        if target is not None and "@" in target.text and any("[" in part.text for part in head):
-            return True  # what \@ifnextchar leads to, of a class
+        optional = target is not None and "@" in target.text and any("[" in part.text for part in head)
+        if optional and self.line(token.at)[0].endswith(".cls"):
+            return True  # what \@ifnextchar leads to
         if target is not None and target.kind == "command" and not self._is_kept(target.text, body):
             if token.text in (r"\edef", r"\xdef"):
                 body = self.expand(body)
