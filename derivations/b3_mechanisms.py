@@ -15,17 +15,22 @@
 from lagrotor.benchmark.mechanism_tables import (
     DECISION_HEAD,
     MECHANISM_HEAD,
+    SINGLE_HEAD,
     TARGET_HEAD,
     decision_rows,
     mechanism_rows,
+    single_rows,
     target_rows,
 )
-from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, recorded_mechanisms
+from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, recorded_arm_and_bicycle, recorded_mechanisms
 from lagrotor.paper import Table
 
 found = recorded_mechanisms()
-machine = found.machine
-where = f"{machine['processor']}, {machine['cores']} cores, Python {machine['Python']}"
+single = recorded_arm_and_bicycle()
+where, where_single = (
+    f"{machine['processor']}, {machine['cores']} cores, Python {machine['Python']}"
+    for machine in (found.machine, single["machine"])
+)
 versions = ", ".join(f"{name} {number}" for name, number in found.versions.items())
 each = {kind: (found.operations[kind][-1] - found.operations[kind][-2]) // (n[-1] - n[-2]) for kind, n in LINKS.items()}
 
@@ -56,6 +61,15 @@ tables = [
         tuple(decision_rows(found.decided)),
         "The same steps with the exact decision and with sympy's simplify in its place, from a run of its own.",
     ),
+    Table(
+        "Mechanisms: an arm of six joints, and the bicycle",
+        SINGLE_HEAD,
+        tuple(single_rows(single["rows"])),
+        "From bodies, from their Lagrangian written out, and by sympy: lambdify with common subexpressions, then numpy's solve. "
+        "The bicycle is that of sympy's own test, in its letters, of four coordinates; Lagrange's method was not measured. "
+        f"Processor time on {where_single}, by `python -m benchmarks.arm_and_bicycle --record`; times lagrotor's: to be ready, "
+        "and of a right-hand side.",
+    ),
 ]
 tables[0]
 
@@ -64,3 +78,6 @@ tables[1]
 
 # %%
 tables[2]
+
+# %%
+tables[3]

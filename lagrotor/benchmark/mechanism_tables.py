@@ -1,6 +1,7 @@
 """What was measured on the mechanisms, as tables, and beside the targets."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Measured, MechanismKind
 
@@ -15,6 +16,7 @@ MECHANISM_HEAD = (
     "rhs differs by",
 )
 DECISION_HEAD = ("two formulations", "same_as (ms)", "answer", "simplify (ms)", "its answer", "times")
+SINGLE_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", "times lagrotor's", "rhs differs by")
 TARGET_HEAD = ("what", "wanted", "measured")
 _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _METHODS = ("KanesMethod", "LagrangesMethod")
@@ -25,6 +27,22 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
     return [
         (f"{x.n} {x.kind}", x.tool, *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)), x.reason or x.by, _off(x))
         for x in sorted(measured, key=lambda x: (list(LINKS).index(x.kind), x.n))
+    ]
+
+
+def single_rows(rows: Sequence[dict[str, Any]]) -> list[_Row]:
+    """One row a tool on the arm and the bicycle; its times over those of the first tool, or the reason why it has none."""
+    first = {row["mechanism"]: row for row in reversed(rows)}
+    return [
+        (
+            row["mechanism"],
+            row["tool"],
+            _number(row["ready"], 1e3),
+            _number(row["rhs"], 1e6),
+            row["reason"] or ", ".join(_ratio(row[what], first[row["mechanism"]][what]) for what in ("ready", "rhs")),
+            "—" if row["difference"] is None else f"{row['difference']:.0e}",
+        )
+        for row in rows
     ]
 
 

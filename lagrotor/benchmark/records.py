@@ -13,8 +13,9 @@ from typing import Any, Literal
 
 from lagrotor.errors import LagrotorError
 
-SPEED, MECHANISMS, STRUCTURES = (
-    Path(__file__).with_name(f"recorded_{name}.json") for name in ("speed", "mechanisms", "structures")
+SPEED, MECHANISMS, STRUCTURES, ARM_AND_BICYCLE = (
+    Path(__file__).with_name(f"recorded_{name}.json")
+    for name in ("speed", "mechanisms", "structures", "arm_and_bicycle")
 )
 MechanismKind = Literal["rods", "gyroscopes"]
 LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # of the mechanisms
@@ -122,6 +123,17 @@ def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
         ]
     except _UNREADABLE as error:
         raise _unreadable(STRUCTURES, error) from None
+
+
+def recorded_arm_and_bicycle() -> dict[str, Any]:
+    """An arm and a bicycle: machine, and rows of mechanism, tool, ready and rhs in s, difference, reason.
+
+    Raises LagrotorError if it is unreadable.
+    """
+    try:
+        return dict(json.loads(ARM_AND_BICYCLE.read_text(encoding="utf-8")))
+    except _UNREADABLE as error:
+        raise _unreadable(ARM_AND_BICYCLE, error) from None
 
 
 def _unreadable(file: Path, error: Exception) -> LagrotorError:
