@@ -9,6 +9,7 @@ import numpy as np
 from lagrotor.numerics.segment import LOST, Array, Cause, RightHandSide, Segment, StopError, Stretch
 
 _BUDGET_OF_A_PART = 5_000  # between two projections; beyond it the solver no longer follows the motion
+_LEAST_CUT = 1e-12  # of a segment: shorter parts between two projections come nowhere
 _DRIFT = 200.0  # local errors that the constraints may gather between projections: the error of the run as a whole
 
 
@@ -28,6 +29,9 @@ def lsoda(segment: Segment, error: float) -> Stretch:
                 left, f"{spent} evaluations spent", _on_constraints(segment, parts, y, spent), cause="budget"
             )
         cut = min(5 / (replace(segment, left=left, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
+        if cut < _LEAST_CUT * (segment.right - segment.left):
+            reason = "the next step might pass a singular position"
+            raise StopError(left, reason, _on_constraints(segment, parts, y, spent))
         right = left + cut if left + 1.5 * cut < segment.right else segment.right
         # A state with constraints moves no more than a fifth in a step, so that none leaps over where they fail.
         longest = min(segment.longest, cut / 25)
@@ -68,7 +72,8 @@ def _up_to_singular(part: Segment, budget: float, error: float) -> tuple[Segment
     if part.time_to_singular is None:
         return part, _lsoda(replace(part, t_eval=wanted, budget=budget), error)
     count = 65 + int(2 * (part.right - part.left) / part.longest)  # two times or more in a longest step
-    t_eval = np.union1d(wanted, np.linspace(part.left, part.right, count)[1:-1])
+    # The end is one of them: a run that stopped between the last time before it and the end has not come to the end.
+    t_eval = np.union1d(wanted, np.linspace(part.left, part.right, count)[1:])
     run = _lsoda(replace(part, t_eval=t_eval, budget=budget), error)
     n = len(run.states)
     shorter = part if n == len(t_eval) else replace(part, right=float(t_eval[n - 1]))
