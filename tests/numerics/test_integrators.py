@@ -248,22 +248,23 @@ def test_lsoda_does_not_run_far_beyond_where_its_steps_must_be_shorter() -> None
     assert farthest_back(1e-3) > 1  # twin: what drifts is run again
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_what_lsoda_reached_is_at_the_time_that_it_says(seed: int) -> None:
-    """The end of a run in parts whose last steps stop anywhere: a state just before a part's end was taken for its end."""
-    rng = np.random.default_rng(seed)
-    stopped = 0
-    for scale, phase in zip(rng.uniform(5, 60, 40), rng.uniform(0, 2 * np.pi, 40), strict=True):
-        start = np.array([np.cos(phase), -np.sin(phase)])
-        times = np.array([20.0])
-        segment = Segment(oscillate, start, 0.0, 20.0, times, project=lambda y: y)
-        try:
-            run = lsoda(replace(segment, time_to_singular=lambda y, c=scale: c * abs(float(y[0]))), 1e-9)
-        except StopError:
-            stopped += 1
-            continue
-        assert run.states[-1] == pytest.approx([np.cos(20 + phase), -np.sin(20 + phase)], abs=1e-6), (scale, phase)
-    assert stopped < 40
+@pytest.mark.parametrize(("scale", "phase"), [(51.27, 0.419), (9.05, 0.442), (7.21, 4.468), (17.25, 1.77)])
+def test_what_lsoda_reached_is_at_the_time_that_it_says(scale: float, phase: float) -> None:
+    """A run whose last steps stop just before a part's end, whose state there was taken for the end's: 0.016 to 0.09 off.
+
+    Four of 600 random ones in which that showed.
+    """
+    segment = Segment(
+        oscillate,
+        np.array([np.cos(phase), -np.sin(phase)]),
+        0.0,
+        20.0,
+        np.array([20.0]),
+        project=lambda y: y,
+        time_to_singular=lambda y: scale * abs(float(y[0])),
+        budget=20_000,
+    )
+    assert lsoda(segment, 1e-9).states[-1] == pytest.approx([np.cos(20 + phase), -np.sin(20 + phase)], abs=1e-6)
 
 
 @pytest.mark.parametrize(("last", "budget", "cause"), [(np.inf, 500, "budget"), (37.3, 10**5, "stopped")])
