@@ -419,7 +419,7 @@ def test_a_certificate_that_is_not_spoiled_is_verified() -> None:
     assert check(CERTIFICATE | {"theorem": "It falls."}) == check(CERTIFICATE)
     with pytest.raises(InputError, match="a certificate is the dictionary"):
         check({"kind": "theorem"})
-    with pytest.raises(NotProved, match="an entry is missing, is no number"):
+    with pytest.raises(NotProved, match="is not an exact number"):
         check(CERTIFICATE | {"A": [["zz"]]})
 
 

@@ -1,5 +1,6 @@
 """The sets of a certificate, each verified to hold the image of the one before, by this program's own Taylor terms."""
 
+import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -8,18 +9,21 @@ from flint import arb, arb_mat, ctx, fmpz
 from lagrotor.errors import NotProved
 from lagrotor.proved.verification.bounded_series import Dual, Rest, below_one, evaluated, total
 from lagrotor.proved.verification.recurrences import ZERO, demand, motion_terms
+from lagrotor.proved.verification.tapes import is_place, read_tape
 
 Ball = Any
+_EXACT = re.compile(r"-?[0-9a-f]+p-?\d+", re.ASCII)
+MOST_TERMS = 10_000  # of a series
 _WIDE = 2.0**-24  # of a box, from which on its terms are taken twice
 
 
 def number(text: str) -> Ball:
     """An exact number, mantissa in base 16 and power of two."""
+    demand(_EXACT.fullmatch(text) is not None, f"{text[:60]!r} is not an exact number")
     mantissa, _, power = text.partition("p")
     before, ctx.prec = ctx.prec, max(ctx.prec, 4 * len(mantissa) + 8)
     found = arb(fmpz(int(mantissa, 16))) * arb(2) ** int(power)
     ctx.prec = before
-    demand(found.is_exact(), f"{text} is not an exact number")
     return found
 
 
@@ -54,7 +58,7 @@ class Flow:
     """x' = f(x) of a certificate: what moves, what stands still."""
 
     def __init__(self, data: Any) -> None:
-        self.tape = data
+        self.tape = read_tape(data)
         self.parameters = balls(data["parameters"])
         self.moving = len(data["outputs"])
         self.size = len(data["arguments"]) - len(self.parameters)
@@ -173,6 +177,7 @@ class Carried:
         start, size = certificate["start"], self.flow.size
         self.middle, self.w = balls(start["middle"]), balls(start["spread"])
         demand(len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0, "the start has other states")
+        demand(all(x.contains(0) for x in self.w), "the start's box does not hold its middle")
         m = [x.mid() for x in self.middle]
         node = (
             m,
@@ -192,8 +197,10 @@ class Carried:
 
     def _step(self, node: Any, data: Any, k: int) -> Any:
         m, Q, s, C, S = node
-        h, n, few = read_ball(data["h"]), int(data["terms"]), int(data["slope_terms"])
-        demand(h > 0 and n > 2 and few > 2, f"step {k} has no length")
+        h, n, few = read_ball(data["h"]), data["terms"], data["slope_terms"]
+        demand(
+            h > 0 and all(is_place(x, MOST_TERMS) and x > 2 for x in (n, few)), f"step {k} has no length or no terms"
+        )
         moving = self.flow.moving
         image = self.flow.step(m, h, n)
         box = box_of(node, self.w)
@@ -205,6 +212,7 @@ class Carried:
         y = [*map(end_of, image), *m[moving:]]
         point = turned * s + back * (column(y) - column(m1))
         slope = turned * S + back * (D * C - C1)
+        demand(all(x.contains(0) for x in s1.entries()), f"node {k + 1} does not hold its middle")
         demand(s1.contains(point), f"node {k + 1} does not hold the motion of the middle")
         demand(S1.contains(slope), f"node {k + 1} does not hold the derivative")
         self.boxes.append((box, h, n))

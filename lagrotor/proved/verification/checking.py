@@ -5,6 +5,7 @@ this program's own Taylor terms, found by recurrences, and must lie within the c
 rates is found by dual numbers, forward.
 """
 
+import json
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -16,10 +17,11 @@ from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
 from lagrotor.proved.verification.certified_sets import Carried, Flow, balls, column, matrix, number, read_ball, unit
 from lagrotor.proved.verification.orbit_checking import check_family, check_orbit
 from lagrotor.proved.verification.recurrences import ZERO, demand
+from lagrotor.proved.verification.tapes import is_place, read_tape
 from lagrotor.proved.verification.written import value_of
 
 Ball = Any
-_MORE_BITS = 64
+_MORE_BITS, _MOST_BITS = 64, 100_000
 _SHIFTS = ("0.00137", "-0.00219", "0.00083", "0.00311", "-0.00171", "0.00059", "-0.00263")  # off the motion, over 2^30
 
 
@@ -34,9 +36,9 @@ def check(certificate: Any) -> str:
         NotProved: with the first thing that does not hold.
     """
     try:
-        version, kind = certificate["version"], certificate["kind"]
-        rule = _RULES[kind]
-    except (KeyError, TypeError, IndexError):
+        certificate = json.loads(json.dumps(certificate, allow_nan=False))
+        version, rule = certificate["version"], _RULES[certificate["kind"]]
+    except (LookupError, TypeError, ValueError, RecursionError):
         raise InputError(
             "check: a certificate is the dictionary of `.certificate`, with a known version and kind"
         ) from None
@@ -44,10 +46,11 @@ def check(certificate: Any) -> str:
         raise InputError(f"check: version {version} of certificates is unknown; this program reads 1")
     before = ctx.prec
     try:
-        ctx.prec = int(certificate.get("bits", 64)) + _MORE_BITS
+        demand(is_place(certificate["bits"], _MOST_BITS), "the precision is no number of bits")
+        ctx.prec = certificate["bits"] + _MORE_BITS
         rule(certificate)
         words = theorem_of(certificate)
-    except (KeyError, TypeError, IndexError, ValueError, ZeroDivisionError):
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, RecursionError):
         raise NotProved(
             "check: the certificate cannot be followed: an entry is missing, is no number, or has another shape"
         ) from None
@@ -71,7 +74,7 @@ def check_enclosure(certificate: Any) -> None:
 def pieces_of(certificate: Any, carried: Carried) -> Any:
     """Of each step: its begin, its length, the expressions' series."""
     at = ZERO
-    tape = certificate["expression"]
+    tape = read_tape(certificate["expression"])
     for box, h, n in carried.boxes:
         rows = carried.flow.step(box, h, n)
         arguments = carried.flow.arguments(rows, box[carried.flow.moving :], None, n)
@@ -181,7 +184,8 @@ def check_equilibrium(certificate: Any) -> None:
     flow = Flow(certificate["motion"])
     n = flow.moving // 2
     middle, box = [number(x) for x in certificate["middle"]], balls(certificate["box"])
-    demand(len(middle) == len(box) == n, "the equilibrium has other coordinates")
+    demand(len(middle) == len(box) == n and flow.size == flow.moving == 2 * n, "the equilibrium has other coordinates")
+    demand(all(x.contains(0) for x in box), "the box does not hold its middle")
     A = matrix(certificate["A"])
     wide = [x + y for x, y in zip(middle, box, strict=True)]
     at = gradients(flow.tape, flow, [*middle, *[ZERO] * n])
@@ -202,7 +206,7 @@ def check_equilibrium(certificate: Any) -> None:
     if claim == "stable":
         demand(not grows(J, n), "an eigenvalue has a positive real part")
         state = [Dual(Rest([x], ZERO, 1)) for x in (*wide, *[ZERO] * n, *flow.parameters)]
-        H = [f.value.at_start() for f in evaluated(certificate["energy"], state, 1)]
+        H = [f.value.at_start() for f in evaluated(read_tape(certificate["energy"]), state, 1)]
         for k in range(1, 2 * n + 1):
             minor = arb_mat([[H[2 * n * i + j] for j in range(k)] for i in range(k)])
             demand(minor.det() > 0, "the energy is not shown to be definite")

@@ -1,17 +1,28 @@
 """Periodic orbits and families of them: Krawczyk's test, reversals, period and multipliers of a certificate."""
 
 from collections.abc import Sequence
-from hashlib import sha512
 from itertools import pairwise
 from typing import Any
 
-from flint import arb, arb_mat, arb_poly, ctx
+from flint import arb, arb_mat, arb_poly
 
-from lagrotor.proved.verification.bounded_series import Rest, evaluated, total
-from lagrotor.proved.verification.certified_sets import Carried, Flow, balls, column, matrix, number, read_ball, unit
+from lagrotor.proved.verification.bounded_series import total
+from lagrotor.proved.verification.certified_sets import (
+    MOST_TERMS,
+    Carried,
+    Flow,
+    balls,
+    column,
+    matrix,
+    number,
+    read_ball,
+    unit,
+)
 from lagrotor.proved.verification.family_checking import FamilyFlow, inverse_of_sheets, product_of_sheets, sign_of_sheet
 from lagrotor.proved.verification.near_rest_checking import FlowNearRest
 from lagrotor.proved.verification.recurrences import ZERO, demand, rational_of
+from lagrotor.proved.verification.reversals import check_reversal
+from lagrotor.proved.verification.tapes import demand_paced, is_place
 
 Ball = Any
 
@@ -21,10 +32,11 @@ def check_orbit(certificate: Any) -> None:
     carried = Carried(certificate)
     free, conditions = certificate["free"], certificate["conditions"]
     first, last = certificate["reversals"]
+    demand(bool(first) == bool(last), "there is one reversal, at one end alone")
     size, moving = carried.flow.size, carried.flow.moving
-    demand(
-        size == moving + 1 and len(free) == len(conditions) and moving in free, "the conditions do not fit the unknowns"
-    )
+    fits = size == moving + 1 and len(free) == len(conditions) == len({*free}) and moving in free
+    demand(fits and all(is_place(i, size) for i in (*free, *conditions)), "the conditions do not fit the unknowns")
+    demand_paced(carried.flow.tape)
     still = all(x.is_zero() for i, x in enumerate(carried.w) if i not in free)
     demand(still, "the test is held at the middle of what is not sought")
     demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps are not one unit of s")
@@ -60,7 +72,8 @@ def check_amplitude(certificate: Any, claimed: Any) -> None:
     """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line."""
     check_pair(certificate)
     demand(certificate["ones"] == 4, "energy and momentum leave one pair of multipliers")
-    U = read_ball(certificate["start"]["middle"][0]) + read_ball(certificate["start"]["spread"][0])
+    demand(certificate["free"] == [4, 5, 6], "the amplitude is not held")
+    U = read_ball(certificate["start"]["middle"][0])
     demand(claimed[0] == claimed[1] and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
 
 
@@ -86,31 +99,13 @@ def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditi
         fixed = carried.middle[i].is_zero() and carried.w[i].is_zero()
         demand(s > 0 or (fixed and i not in free), "the start is not in the fixed set of the reversal")
     for signs in (first, last):
-        check_reversal(carried.flow, signs)
-
-
-def check_reversal(flow: Flow, signs: Any) -> None:
-    """f(A x) = −A f(x), at points that depend on all of f, to more digits than anything else is known. The identity itself is
-    proved where the certificate is made, from the Lagrangian."""
-    moving, before = flow.moving, ctx.prec
-    ctx.prec = 4 * before
-    for k in range(3):
-        digits = sha512(f"{k}{flow.tape}".encode()).digest()
-        x = [(arb(digits[i % 64]) - 128) / 512 for i in range(moving)]
-        pace = [arb(1)] * (flow.size - moving)
-        values = []
-        for state in (x, [s * y for s, y in zip(signs, x, strict=True)]):
-            rows = [Rest([y], ZERO, 1) for y in state]
-            values.append([f.value.at_start() for f in evaluated(flow.tape, flow.arguments(rows, pace, None, 1), 1)])
-        for s, a, b in zip(signs, *values, strict=True):
-            off = s * a + b
-            demand(off.contains(0), "time reversed is no motion")
-    ctx.prec = before
+        check_reversal(carried.flow.tape, signs)
 
 
 def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> None:
     """The trace of the monodromy less the ones, against ±2."""
     claim, moving = certificate["claim"], carried.flow.moving
+    demand(is_place(certificate["ones"], moving + 1), "the number of multipliers that are 1 is none")
     demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
     if claim["kind"] == "undecided":
         return
@@ -168,9 +163,10 @@ def check_family(certificate: Any) -> None:
     """Krawczyk's test over every piece; each begins where the one before ends, with the same orbit."""
     check_pair(certificate)
     flow = Flow(certificate["motion"])
+    demand_paced(flow.tape)
     for signs in certificate["reversals"]:
-        check_reversal(flow, signs)
-    pieces = [CheckedPiece(certificate["motion"], piece) for piece in certificate["pieces"]]
+        check_reversal(flow.tape, signs)
+    pieces = [CheckedPiece(flow.tape, piece) for piece in certificate["pieces"]]
     for one, other in pairwise(pieces):
         demand(other.low <= one.high and one.high <= other.high, "there is a gap between two pieces")
         same = [
@@ -198,7 +194,8 @@ class CheckedPiece:
         free, conditions = (4, 5, 6), (0, 2, 4)
         self.middle, self.half = number(data["middle"]), number(data["half"])
         self.x = [arb_poly([number(c) for c in poly]) for poly in data["x"]]
-        n, p, W = int(data["terms"]), int(data["degree"]), [number(w) for w in data["W"]]
+        n, p, W = data["terms"], data["degree"], [number(w) for w in data["W"]]
+        demand(is_place(n, MOST_TERMS) and is_place(p, MOST_TERMS) and n > 2, "a piece has no terms")
         still = all(self.x[i].degree() < 0 and W[i].is_zero() for i in (1, 2, 3)) and W[0].is_zero()
         self.near_rest = data["near rest"] is True
         U = arb_poly([self.middle, self.half])
@@ -208,9 +205,7 @@ class CheckedPiece:
             len(self.x) == len(W) == 7 and still and straight and bool(self.half > 0),
             "a piece does not start in the fixed set of the reversal",
         )
-        demand(
-            n > 2 and all(poly.degree() <= p for poly in self.x) and all(W[i] > 0 for i in free), "a piece has no box"
-        )
+        demand(all(poly.degree() <= p for poly in self.x) and all(W[i] > 0 for i in free), "a piece has no box")
         self.low, self.high, self.W = self.middle - self.half, self.middle + self.half, [W[i] for i in free]
         demand(not self.near_rest or self.low.is_zero(), "the piece near the rest does not begin there")
         made = (motion, list(self.x), W, n, p)

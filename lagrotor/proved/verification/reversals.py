@@ -1,0 +1,146 @@
+"""Whether a motion is its own image in time reversed under signs of its states: f(S x) = −S f(x), decided on its tape.
+
+It is an identity of rational functions of letters: the arguments, π, and functions of them, where sin, asin and atan are odd,
+sin² + cos² = 1, e^(a+b) = e^a e^b, √a and e^(n log a) are powers of a. It is held modulo a prime of 512 bits at one point, both
+from a digest of the tape. A false one holds there with a chance of at most its degree over the prime (Schwartz and Zippel), here
+below 2⁻²⁵⁰, however small the difference is as a number; one that needs more of the functions is refused.
+"""
+
+from collections.abc import Mapping
+from fractions import Fraction
+from hashlib import sha512
+from math import floor
+from typing import Any, NamedTuple
+
+from sympy import nextprime
+
+from lagrotor.proved.verification.recurrences import demand
+from lagrotor.proved.verification.tapes import Tape
+
+Terms = Mapping[int, Fraction]
+_DEGREE = 2**256
+_PARTS = 5040
+
+
+class Residue(NamedTuple):
+    """A result modulo the prime, a bound of its degree, and the sum that it is: letter → coefficient, of what exp is taken."""
+
+    value: int
+    degree: int
+    terms: Terms
+
+
+def check_reversal(tape: Tape, signs: Any) -> None:
+    """f(S x) = −S f(x) for the signs ±1 of the states x."""
+    fits = len(signs) == len(tape["outputs"]) and all(type(s) is int and abs(s) == 1 for s in signs)
+    demand(fits, "a reversal is a sign 1 or −1 of each state")
+    residues = Residues(tape)
+    rates, images = (residues.outputs(row) for row in ([1] * len(signs), signs))
+    for s, a, b in zip(signs, rates, images, strict=True):
+        demand((s * a.value + b.value) % residues.p == 0, "time reversed is no motion")
+
+
+class Residues:
+    """The results of a tape, modulo a prime."""
+
+    def __init__(self, tape: Tape) -> None:
+        self.tape, self._digest = tape, sha512(str(tape).encode()).hexdigest()
+        self.p = int(nextprime(int(self._digest, 16)))
+        self._logarithms: dict[int, Terms] = {}  # of what is positive: exponentials, and what has a logarithm or a root
+        self._halves: dict[
+            int, tuple[Terms, Residue, int]
+        ] = {}  # of products: one factor's logarithm, the other, its power
+        self._arguments: dict[int, Residue] = {}  # of logarithms, by their letter
+
+    def outputs(self, signs: list[int]) -> list[Residue]:
+        """With signs of the first arguments."""
+        found: list[Residue] = []
+        for name, *on in self.tape["operations"]:
+            if name == "argument":
+                found.append(self._letter(self._point(name, on[0]) * (signs[on[0]] if on[0] < len(signs) else 1)))
+            elif name == "number":
+                found.append(self._letter(self._point(*on)) if on[0] == "pi" else self._number(Fraction(on[0])))
+            else:
+                found.append(self._result(name, *(found[place] for place in on)))
+        demand(max(x.degree for x in found) < _DEGREE, "the motion's degree is too large to decide what reverses it")
+        return [found[place] for place in self.tape["outputs"]]
+
+    def _point(self, *of: Any) -> int:
+        return int(sha512(f"{self._digest} {of}".encode()).hexdigest(), 16) % self.p
+
+    def _letter(self, value: int, degree: int = 1) -> Residue:
+        value %= self.p
+        least = min(value, self.p - value)
+        return Residue(value, degree, {least: Fraction(1 if least == value else -1)})
+
+    def _number(self, x: Fraction) -> Residue:
+        size = x.numerator.bit_length() + x.denominator.bit_length()  # a multiple of the prime is as rare as a root
+        return Residue(x.numerator * pow(x.denominator, -1, self.p) % self.p, size, {1: x} if x else {})
+
+    def _result(self, name: str, *on: Residue) -> Residue:
+        if name in ("add", "subtract"):
+            return self._sum(on[0], on[1], 1 if name == "add" else -1)
+        if name in ("multiply", "divide"):
+            return self._product(on[0], on[1], 1 if name == "multiply" else -1)
+        (a,) = on
+        if name == "exp":
+            return self._exponential(a.terms)
+        if name == "sqrt":
+            return self._exponential({letter: x / 2 for letter, x in self._logarithm(a).items()})
+        if name == "log":
+            (letter,) = self._letter(self._point("log", a.value)).terms
+            self._arguments[letter], self._logarithms[a.value] = a, {letter: Fraction(1)}
+            return self._letter(letter)
+        least = min(a.value, self.p - a.value)
+        sign, point = 1 if least == a.value else -1, self._point("sin" if name == "cos" else name, least)
+        if name not in ("sin", "cos"):
+            return self._letter(sign * point)
+        below = pow(1 + point**2, -1, self.p)  # by the tangent of half the angle
+        return self._letter((2 * sign * point if name == "sin" else 1 - point**2) * below, 2)
+
+    def _logarithm(self, a: Residue) -> Terms:
+        """Of what is positive because its root is taken, and so is the one factor that is not known to be."""
+        if a.value not in self._logarithms:
+            known, factor, power = self._halves.get(a.value, ({}, a, 1))
+            if factor.value not in self._logarithms:
+                self._result("log", factor)
+            self._logarithms[a.value] = _added(known, self._logarithms[factor.value], power)
+        return self._logarithms[a.value]
+
+    def _sum(self, a: Residue, b: Residue, sign: int) -> Residue:
+        return Residue((a.value + sign * b.value) % self.p, a.degree + b.degree, _added(a.terms, b.terms, sign))
+
+    def _product(self, a: Residue, b: Residue, power: int) -> Residue:
+        """a b^power."""
+        value, degree = a.value * pow(b.value, power, self.p) % self.p, a.degree + abs(power) * b.degree
+        first, second = (self._logarithms.get(x.value) for x in (a, b))
+        if first is not None and second is not None:
+            self._logarithms[value] = _added(first, second, power)
+        elif first is not None:
+            self._halves[value] = first, b, power
+        elif second is not None:
+            self._halves[value] = _added({}, second, power), a, 1
+        if not {*b.terms} - {1}:
+            factor = b.terms.get(1, Fraction(0)) ** power
+            return Residue(value, degree, {letter: factor * x for letter, x in a.terms.items() if factor})
+        if power == 1 and not {*a.terms} - {1}:
+            return self._product(b, a, 1)
+        return self._letter(value, degree)
+
+    def _exponential(self, terms: Terms) -> Residue:
+        """The exponential of a sum: e^(x a) a whole power of e^(a/5040), e^(x log a) one of a, as far as x has such parts."""
+        found = self._number(Fraction(1))
+        for letter, x in terms.items():
+            of_log = letter in self._arguments
+            base = self._arguments[letter] if of_log else self._letter(self._point("exp", letter))
+            y = x if of_log else x * _PARTS
+            found = self._product(found, base, floor(y))
+            if y != floor(y):
+                found = self._product(found, self._letter(self._point("exp", letter, str(y - floor(y)))), 1)
+        self._logarithms[found.value] = terms
+        return found
+
+
+def _added(a: Terms, b: Terms, times: int) -> Terms:
+    total = {letter: a.get(letter, Fraction(0)) + times * b.get(letter, Fraction(0)) for letter in {**a, **b}}
+    return {letter: x for letter, x in total.items() if x}

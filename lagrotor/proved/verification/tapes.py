@@ -1,0 +1,43 @@
+"""A certificate's tapes, read: each operation is known and on earlier results; the rates of a motion in s = t/pace."""
+
+import re
+from typing import Any
+
+from lagrotor.proved.tape import OPERATIONS
+from lagrotor.proved.verification.recurrences import demand
+
+Tape = dict[str, Any]
+_NUMBER = re.compile(r"pi|-?\d+(/\d+)?", re.ASCII)
+
+
+def is_place(x: Any, end: int) -> bool:
+    """Whether x is a whole number from 0 to end − 1."""
+    return type(x) is int and 0 <= x < end
+
+
+def read_tape(data: Any) -> Tape:
+    """The arguments, operations and outputs of a tape. Raises NotProved where one of them is none."""
+    arguments, operations, outputs = (list(data[name]) for name in ("arguments", "operations", "outputs"))
+    demand(
+        len({*arguments}) == len(arguments) and all(type(x) is str for x in arguments), "two arguments have one name"
+    )
+    for place, (name, *on) in enumerate(operations):
+        if name == "argument":
+            fine = len(on) == 1 and is_place(on[0], len(arguments))
+        elif name == "number":
+            fine = len(on) == 1 and type(on[0]) is str and _NUMBER.fullmatch(on[0]) is not None
+        else:
+            fine = OPERATIONS.get(name) == len(on) and all(is_place(x, place) for x in on)
+        demand(fine, f"operation {place} of a tape is none: {str([name, *on])[:60]}")
+    demand(all(is_place(x, len(operations)) for x in outputs), "an output of a tape is no operation's")
+    return {"arguments": arguments, "operations": operations, "outputs": outputs}
+
+
+def demand_paced(tape: Tape) -> None:
+    """Each rate is an operation's result times the pace, the argument after the states, which enters nowhere else."""
+    rates, operations = {*tape["outputs"]}, tape["operations"]
+    pace = {place for place, operation in enumerate(operations) if operation == ["argument", len(tape["outputs"])]}
+    for place, (name, *on) in enumerate(operations):
+        by_pace = sum(x in pace for x in on) if name in OPERATIONS else 0
+        fine = name == "multiply" and by_pace == 1 if place in rates else not by_pace
+        demand(fine and not (name in OPERATIONS and rates & {*on}), "the motion is not one in units of its pace")
