@@ -12,6 +12,7 @@ Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003).
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import sympy as sp
@@ -59,16 +60,59 @@ def state_equations(
     Raises SingularError where accelerations are left or the point is singular, InputError for a coordinate without a value, for
     coefficients that change with time, or a point that is off the constraints.
     """
-    c, speeds = system.c, system.speeds
-    m = len(speeds)
-    V, F = (sp.Matrix(c.v), system.motion) if system.kinematics is None else (system.kinematics.velocity, system.hamel)
-    put = dict(zip(c.v, V, strict=True))
+    given = system.kinematics
+    V, F = (sp.Matrix(system.c.v), system.motion) if given is None else (given.velocity, system.hamel)
+    put = dict(zip(system.c.v, V, strict=True))
     wanted = [_in_speeds(system, expression(f"linearise: outputs[{i}]", e), put) for i, e in enumerate(outputs)]
     G, gamma = (e.xreplace(put) for e in rows_left(system))
     units = [joint.unit_length for joint in system.ball_joints]
     held = [g for g in system.constraints if g not in units]
     residual = [system.residual[i].xreplace(put) for i in system.left]
-    used = F.free_symbols | V.free_symbols | system.residual.free_symbols
+    here = _place(system, at, inputs, F.free_symbols | V.free_symbols | system.residual.free_symbols)
+    there = partial(_values, at, here)
+    off = there(sp.Matrix([*system.constraints, *residual]))
+    if wrong := [e for e in off if decide_zero(e).answer == "nonzero"]:
+        raise InputError(
+            f"linearise: the point is off the constraints: {wrong[0]} is left of one: give coordinates and velocities on them"
+        )
+    state, rates, lam = (*system.c.q, *system.speeds), system.speed_rates, [system.multipliers[i] for i in system.left]
+    n, m, k = len(system.c.q), len(rates), len(lam)
+    saddle = jacobian(list(F), (*rates, *lam)).col_join(G.row_join(sp.zeros(k, k)))
+    whole = sp.Matrix([put_in(e, dict.fromkeys(rates, sp.S.Zero)) for e in F]).col_join(gamma)
+    free = whole.applyfunc(lambda e: put_in(e, dict.fromkeys(lam, sp.S.Zero)))
+    rest = _solved(there(saddle), -there(free), at)
+    if left := [f"{a} = {e}" for a, e in zip(rates, rest[:m], strict=True) if decide_zero(e).answer != "zero"]:
+        raise SingularError(
+            f"linearise: {dict(at)} is no steady motion: {', '.join(left)} is left over; start from one"
+        )
+    here |= dict(zip(lam, rest[m:], strict=True))
+    P, back = map(sp.Matrix, small_turns(system, state))
+    slope = (jacobian(list(whole), state) * P).row_join(jacobian(list(whole), inputs))
+    later, clock = _course(system, here, there(V))
+    for parts, name in ((whole, "forces"), ((*slope, *saddle), "coefficients")):
+        entries = [put_in(e, later) for e in parts if e.free_symbols & later.keys()]
+        if any(decide_zero(derivative(put_in(e, here), clock)).answer != "zero" for e in entries):
+            raise InputError(
+                f"linearise: what moves there enters the equations, whose {name} change with time: use coordinates that "
+                "turn along with the motion"
+            )
+    moved, size = _solved(there(saddle), -there(slope), at), P.cols
+    turning = P[:n, :].applyfunc(lambda e: along(e, system.c.q, V))
+    carried = there(jacobian(list(V), state) * P - turning).row_join(sp.zeros(n, len(inputs)))
+    both = there(back) * carried.col_join(moved[:m, :])
+    places, T = _tangent(there(jacobian([*held, *residual], state) * P), size, len(held), size - m)
+    own = [i for i in range(size) if i not in places]
+    shown = (jacobian(wanted, state) * P).row_join(jacobian(wanted, inputs))
+    y = there(shown) + there(jacobian(wanted, (*rates, *lam))) * moved
+    names, parts = small_states(system), (both[own, :size] * T, both[own, size:], y[:, :size] * T, y[:, size:])
+    return StateEquations(tuple(names[i] for i in own), *(e.applyfunc(sp.factor) for e in parts))
+
+
+def _place(
+    system: Equations, at: Mapping[Any, Any], inputs: Sequence[sp.Symbol], used: set[sp.Symbol]
+) -> dict[sp.Symbol, sp.Expr]:
+    """The point, what it does not name being zero. Raises InputError where an input or a coordinate is amiss, or time enters."""
+    c, speeds = system.c, system.speeds
     letters = {*c.q, *speeds} | system.L.free_symbols | system.push.free_symbols | used
     if strangers := [str(u) for u in inputs if u not in letters or u in (*c.q, *c.v, *speeds, t)]:
         raise InputError(
@@ -81,62 +125,20 @@ def state_equations(
         )
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
-    here = dict.fromkeys((*c.q, *speeds, *system.speed_rates, *inputs), sp.S.Zero)
-    here |= {s: expression(f"linearise: {s}", x) for s, x in point.items()}
+    zeros = dict.fromkeys((*c.q, *speeds, *system.speed_rates, *inputs), sp.S.Zero)
+    return zeros | {s: expression(f"linearise: {s}", x) for s, x in point.items()}
 
-    def there(matrix: sp.Matrix) -> sp.Matrix:
-        values = matrix.applyfunc(lambda e: shortest(put_in(e, here)))
-        if values.has(sp.nan, sp.zoo, sp.oo):
-            raise SingularError(
-                f"linearise: the equations are singular at {dict(at)}: use coordinates that are regular there"
-            )
-        if values.has(sp.DiracDelta):
-            raise InputError(f"linearise: forces jump at {dict(at)}: write the case that holds there")
-        return values
 
-    off = there(sp.Matrix([*system.constraints, *residual]))
-    if wrong := [e for e in off if decide_zero(e).answer == "nonzero"]:
-        raise InputError(
-            f"linearise: the point is off the constraints: {wrong[0]} is left of one: give coordinates and velocities on them"
-        )
-    lam = [system.multipliers[i] for i in system.left]
-    k = len(lam)
-    saddle = jacobian(list(F), system.speed_rates).row_join(jacobian(list(F), lam)).col_join(G.row_join(sp.zeros(k, k)))
-    still = dict.fromkeys((*system.speed_rates, *lam), sp.S.Zero)
-    free = sp.Matrix([put_in(e, still) for e in F]).col_join(gamma)
-    rest = _solved(there(saddle), -there(free), at)
-    if left := [
-        f"{a} = {e}" for a, e in zip(system.speed_rates, rest[:m], strict=True) if decide_zero(e).answer != "zero"
-    ]:
+def _values(at: Mapping[Any, Any], here: Mapping[Any, sp.Expr], matrix: sp.Matrix) -> sp.Matrix:
+    """The matrix at the point. Raises SingularError or InputError where it has no values."""
+    values = matrix.applyfunc(lambda e: shortest(put_in(e, here)))
+    if values.has(sp.nan, sp.zoo, sp.oo):
         raise SingularError(
-            f"linearise: {dict(at)} is no steady motion: {', '.join(left)} is left over; start from one"
+            f"linearise: the equations are singular at {dict(at)}: use coordinates that are regular there"
         )
-    here |= dict(zip(lam, rest[m:], strict=True))
-    state = (*c.q, *speeds)
-    P, back = map(sp.Matrix, small_turns(system, state))
-    whole = sp.Matrix([put_in(e, dict.fromkeys(system.speed_rates, sp.S.Zero)) for e in F]).col_join(gamma)
-    slope = (jacobian(list(whole), state) * P).row_join(jacobian(list(whole), inputs))
-    later, clock = _course(system, here, there(V))
-    for parts, name in ((whole, "forces"), ((*slope, *saddle), "coefficients")):
-        entries = [put_in(e, later) for e in parts if e.free_symbols & later.keys()]
-        if any(decide_zero(derivative(put_in(e, here), clock)).answer != "zero" for e in entries):
-            raise InputError(
-                f"linearise: what moves there enters the equations, whose {name} change with time: use coordinates that "
-                "turn along with the motion"
-            )
-    moved, size, n = _solved(there(saddle), -there(slope), at), P.cols, len(c.q)
-    turning = P[:n, :].applyfunc(lambda e: along(e, c.q, V))
-    carried = there(jacobian(list(V), state) * P - turning).row_join(sp.zeros(n, len(inputs)))
-    both = there(back) * carried.col_join(moved[:m, :])
-    places, T = _tangent(there(jacobian([*held, *residual], state) * P), size, len(held), size - m)
-    own = [i for i in range(size) if i not in places]
-    shown = (jacobian(wanted, state) * P).row_join(jacobian(wanted, inputs))
-    y = there(shown) + there(jacobian(wanted, (*system.speed_rates, *lam))) * moved
-    names = small_states(system)
-    A, B = both[own, :size] * T, both[own, size:]
-    return StateEquations(
-        tuple(names[i] for i in own), *(e.applyfunc(sp.factor) for e in (A, B, y[:, :size] * T, y[:, size:]))
-    )
+    if values.has(sp.DiracDelta):
+        raise InputError(f"linearise: forces jump at {dict(at)}: write the case that holds there")
+    return values
 
 
 def _course(

@@ -31,7 +31,7 @@ from lagrotor.algebra import decide_zero, truncated_series
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression, shortest
-from lagrotor.mechanics.fourier import FourierSeries, Series, constant_series
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.perturbation import lindstedt_poincare
 
@@ -107,78 +107,75 @@ def oscillation(
     the motion is damped or grows; DomainError where it is no polynomial.
     """
     _check_one("lindstedt_poincare", system, order, small)
-    (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
     A = amplitude or sp.Symbol("A", positive=True)
-    equation = _with_values(system, system.motion[0], values)
-    taken = {str(s) for s in (*equation.free_symbols, small)} if small in system.motion.free_symbols else set()
-    if small in system.motion.free_symbols - equation.free_symbols or str(A) in taken:
-        wrong = f"amplitude = {A} is a letter of the system" if str(A) in taken else f"small = {small} has a value"
-        raise InputError(f"lindstedt_poincare: {wrong}: both stay letters, each its own")
-    if t in equation.free_symbols:
-        raise InputError("lindstedt_poincare: the system depends on time: use averaged")
-    inside = small in equation.free_symbols
     rest = expression("lindstedt_poincare: at", at)
-    equation = equation.subs(q, rest + q) if rest != 0 else equation
-    if inside:
-        polynomial = _series(equation, small, order)
-    else:
-        e = sp.Dummy("epsilon", positive=True)
-        scaled = equation.subs({q: e * q, v: e * v, a: e * a}, simultaneous=True)
-        polynomial = _series(scaled, e, order + 1).subs(e, 1)
-    poly = _polynomial("lindstedt_poincare", polynomial, (q, v, a, *((small,) if inside else ())))
-    terms = {powers: coefficient for powers, coefficient in poly.terms() if decide_zero(coefficient).answer != "zero"}
-    zeros = (0,) * int(inside)
-    if any(powers[:3] == (0, 0, 0) for powers in terms):
-        raise InputError(f"lindstedt_poincare: {q} = {rest} is no equilibrium: a force is left: give at=")
-    if any(powers[1] % 2 for powers in terms):
-        raise InputError(
-            "lindstedt_poincare: the equation has odd powers of the velocity, and is not the same backward: friction makes an "
-            "amplitude change, which averaged gives"
-        )
-    K, M = terms.get((1, 0, 0, *zeros), sp.S.Zero), terms.get((0, 0, 1, *zeros), sp.S.Zero)
-    if K == 0 or M == 0 or (K / M).is_nonpositive:
-        raise InputError(
-            f"lindstedt_poincare: {q} = {rest} has no frequency of small motion, ω² = {K / M if M else 'K/0'}"
-        )
-    if inside and any(sum(powers[:3]) > 1 and powers[3] == 0 for powers in terms):
+    inside = small in system.motion.free_symbols
+    terms = _terms_about(rest, system, order, small, values or {}, A if inside else None)
+    K, M = _stiffness_and_mass(terms, f"{system.c.q[0]} = {rest}")
+    if inside and any(sum(powers) > 1 and n == 0 for n, *powers in terms):
         raise InputError(
             f"lindstedt_poincare: the equation is not linear where {small} = 0: take the amplitude for the small quantity, "
             "with a letter that the system does not have"
         )
     field, own = _field([*terms.values(), *([A] if inside else [])])
-    square, scale = own(K / M), own(K)
-    coefficients = [(powers, own(coefficient) / scale) for powers, coefficient in terms.items()]
+    coefficients = [((n, i, j // 2, k), own(e / K)) for (n, i, j, k), e in terms.items()]
 
     def residual(unknowns: Sequence[Series], frequency: Series) -> list[Series]:
         (x,) = unknowns
-        turn = (frequency * frequency).times(square)
+        turn = (frequency * frequency).times(own(K / M))
         first = x.derivative()
-        # v² and a, of which each term is a product; a small parameter is a series of one term.
-        letters = (x, turn * first * first, turn * first.derivative())
-        total = x.constant(field.zero)
-        for (i, j, k, *n), coefficient in coefficients:
-            factors = [*[letters[0]] * i, *[letters[1]] * (j // 2), *[letters[2]] * k]
-            product = reduce(mul, factors).times(coefficient)
-            total = total + (product.raised(n[0]) if n and n[0] else product)
-        return [total]
+        return [_sum_of_products(coefficients, (x, turn * first * first, turn * first.derivative()))]  # of q, v² and a
 
     mode = {1: own(A) if inside else field.one}
     solved = lindstedt_poincare(residual, [field.zero], [mode], order, field, begins_at=0 if inside else 1)
     bound = sp.O(small ** (order + 1))
-    omega = sp.sqrt(K / M)
+    factor, moved = (_written(s, field, _PHASE, small) for s in (solved.frequency, solved.unknowns[0]))
+    frequency = sp.expand(sp.sqrt(K / M) * factor) + bound
+    return Oscillation(frequency, rest + moved + bound, solved.known_through, small, A, system, values or {})
 
-    def through(series: FourierSeries) -> sp.Expr:
-        return sp.Add(
-            *(
-                field.to_sympy(value) * small**n * (sp.cos(h * _PHASE) if h >= 0 else sp.sin(-h * _PHASE))
-                for (n, h), value in sorted(series.terms.items())
-            )
+
+def _terms_about(
+    rest: sp.Expr,
+    system: Equations,
+    order: int,
+    small: sp.Symbol,
+    values: Mapping[Any, Any],
+    amplitude: sp.Symbol | None,
+) -> dict[tuple[int, ...], sp.Expr]:
+    """The coefficients of the equation of q − rest by the powers of small, q, v and a. Without an `amplitude` small is
+    no letter of the system, but the size of the motion."""
+    (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
+    equation = _with_values(system, system.motion[0], values)
+    gone = small not in equation.free_symbols
+    if amplitude is not None and (gone or str(amplitude) in map(str, equation.free_symbols)):
+        wrong = f"small = {small} has a value" if gone else f"amplitude = {amplitude} is a letter of the system"
+        raise InputError(f"lindstedt_poincare: {wrong}: both stay letters, each its own")
+    if t in equation.free_symbols:
+        raise InputError("lindstedt_poincare: the system depends on time: use averaged")
+    equation = equation.subs(q, rest + q) if rest != 0 else equation
+    if amplitude is None:
+        e = sp.Dummy("epsilon", positive=True)
+        scaled = equation.subs({q: e * q, v: e * v, a: e * a}, simultaneous=True)
+        polynomial = _series(scaled, e, order + 1).subs(e, 1)
+    else:
+        polynomial = _series(equation, small, order)
+    poly = _polynomial("lindstedt_poincare", polynomial, (small, q, v, a))
+    return {powers: coefficient for powers, coefficient in poly.terms() if decide_zero(coefficient).answer != "zero"}
+
+
+def _stiffness_and_mass(terms: Mapping[tuple[int, ...], sp.Expr], place: str) -> tuple[sp.Expr, sp.Expr]:
+    """The coefficients of q and a where small = 0, of an equation whose small motions are periodic."""
+    if any(not any(powers) for _, *powers in terms):
+        raise InputError(f"lindstedt_poincare: {place} is no equilibrium: a force is left: give at=")
+    if any(j % 2 for _, _, j, _ in terms):
+        raise InputError(
+            "lindstedt_poincare: the equation has odd powers of the velocity, and is not the same backward: friction makes an "
+            "amplitude change, which averaged gives"
         )
-
-    frequency = sp.expand(omega * through(solved.frequency)) + bound
-    return Oscillation(
-        frequency, rest + through(solved.unknowns[0]) + bound, solved.known_through, small, A, system, values or {}
-    )
+    K, M = terms.get((0, 1, 0, 0), sp.S.Zero), terms.get((0, 0, 0, 1), sp.S.Zero)
+    if K == 0 or M == 0 or (K / M).is_nonpositive:
+        raise InputError(f"lindstedt_poincare: {place} has no frequency of small motion, ω² = {K / M if M else 'K/0'}")
+    return K, M
 
 
 @dataclass(frozen=True, eq=False)
@@ -289,27 +286,25 @@ def averaged(
         )
     F = _series(acceleration + nu**2 * q, small, order)
     base, waves = _trigonometric(F, nu)
-    poly = _polynomial("averaged", F.xreplace(waves.put), (q, v, small, *waves.letters))
+    poly = _polynomial("averaged", F.xreplace(waves.put), (small, q, v, *waves.letters))
     A, B, rate = sp.Symbol("a", real=True), sp.Symbol("b", real=True), sp.Dummy("nu", positive=True)
     if {A, B} & system.motion.free_symbols:
         A, B = sp.Symbol("a_c", real=True), sp.Symbol("a_s", real=True)
     field, own = _field([*(c.subs(nu, rate) if nu.is_Symbol else c for _, c in poly.terms()), A, B, rate])
     one, h = field.one, base
-    letters: list[FourierSeries] = [
+    letters = (
         FourierSeries({(0, h): own(A), (0, -h): own(B)}, order),
         FourierSeries({(0, h): own(rate) * own(B), (0, -h): -own(rate) * own(A)}, order),
-    ]
-    forced = FourierSeries({}, order)
-    for (i, j, n, *powers), coefficient in poly.terms():
-        factors = [*[letters[0]] * i, *[letters[1]] * j]
-        factors += [wave for wave, power in zip(waves.series(order, own), powers, strict=True) for _ in range(power)]
-        product = reduce(mul, factors, constant_series(one, order)).times(own(coefficient))
-        forced = forced + product.raised(n)
+        *(FourierSeries({(0, k): one}, order) for k in waves.numbers),
+    )
+    forced = _sum_of_products([(powers, own(e)) for powers, e in poly.terms()], letters)
     sine, cosine = FourierSeries({(0, -h): one}, order), FourierSeries({(0, h): one}, order)
     pushes = [(forced * sine).times(-one / own(rate)), (forced * cosine).times(one / own(rate))]
-    shift = [_integral(g, 1, own(rate) / h) for g in pushes]
     means = [[g.harmonics(n).get(0, field.zero) for n in range(1, order + 1)] for g in pushes]
+    moved = [A, B]
     if order == 2:
+        shift = [_integral(g, 1, own(rate) / h) for g in pushes]
+        moved = [s + _written(u, field, nu * t / h, small) for s, u in zip(moved, shift, strict=True)]
         generators = [field.from_sympy(A), field.from_sympy(B)]
         for i, g in enumerate(pushes):
             for place, u in zip(generators, shift, strict=True):
@@ -320,7 +315,6 @@ def averaged(
         return e.subs(rate, nu)
 
     rates = tuple(plain(sp.Add(*(field.to_sympy(c) * small ** (n + 1) for n, c in enumerate(mean)))) for mean in means)
-    moved = [s + (_written(u, field, nu / h, small) if order > 1 else 0) for s, u in zip((A, B), shift, strict=True)]
     c, s = sp.cos(nu * t), sp.sin(nu * t)
     state = (moved[0] * c + moved[1] * s, nu * (moved[1] * c - moved[0] * s))
     return AveragedMotion(
@@ -338,9 +332,6 @@ class _Waves:
     @property
     def letters(self) -> tuple[sp.Symbol, ...]:
         return tuple(self.put.values())
-
-    def series(self, order: int, own: Any) -> list[FourierSeries]:
-        return [FourierSeries({(0, k): own(sp.S.One)}, order) for k in self.numbers]
 
 
 def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
@@ -362,6 +353,15 @@ def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
     return base, _Waves({e: sp.Dummy(f"w{i}", real=True) for i, e in enumerate(nodes)}, numbers)
 
 
+def _sum_of_products(coefficients: Sequence[tuple[tuple[int, ...], Coefficient]], letters: Sequence[Series]) -> Series:
+    """Σ c smallⁿ Π letterᵢ^kᵢ over ((n, k₁, …), c)."""
+    total = letters[0].constant(0)
+    for (n, *powers), c in coefficients:
+        factors = (letter for letter, k in zip(letters, powers, strict=True) for _ in range(k))
+        total = total + reduce(mul, factors, letters[0].constant(c)).raised(n)
+    return total
+
+
 def _integral(g: FourierSeries, n: int, rate: Any) -> FourierSeries:
     """The integral over time, without a mean, of the terms of small**n, of phase' = rate."""
     terms = {}
@@ -371,10 +371,10 @@ def _integral(g: FourierSeries, n: int, rate: Any) -> FourierSeries:
     return FourierSeries(terms, g.order)
 
 
-def _written(u: FourierSeries, field: Domain, rate: sp.Expr, small: sp.Symbol) -> sp.Expr:
-    """A series as an expression of time."""
+def _written(u: FourierSeries, field: Domain, phase: sp.Expr, small: sp.Symbol) -> sp.Expr:
+    """A series as an expression of its phase."""
     waves = ((n, k, field.to_sympy(c)) for (n, k), c in u.terms.items())
-    return sp.Add(*(c * small**n * (sp.cos(k * rate * t) if k >= 0 else sp.sin(-k * rate * t)) for n, k, c in waves))
+    return sp.Add(*(c * small**n * (sp.cos(k * phase) if k >= 0 else sp.sin(-k * phase)) for n, k, c in waves))
 
 
 def _check_one(where: str, system: Equations, order: int, small: sp.Symbol) -> None:

@@ -10,7 +10,7 @@ the logarithm of what is left of the energy, and E itself is rounded: `frequency
 Arnold, Mathematical Methods of Classical Mechanics, § 50; Trefethen & Weideman, SIAM Review 56 (2014) 385.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import factorial, isfinite, nan, pi
 from typing import Any
@@ -23,10 +23,8 @@ from lagrotor.mechanics.canonical.hamiltonians import Hamiltonian
 from lagrotor.mechanics.expressions import by_symbol
 
 _MOST_POINTS = 1 << 14
-_FARTHEST, _MOST_CROSSINGS = (
-    1e3,
-    1e5,
-)  # in units of 1 + |at|: where it is said to escape; of the time at the start's speed
+_FARTHEST = 1e3  # in units of 1 + |at|: where it is said to escape
+_MOST_CROSSINGS = 1e5  # of the time for 1 + |at| at the start's speed
 _ROUNDED = 1e-8  # of the largest kinetic energy
 _TERMS = 6  # of the Taylor series beside a turning point
 _MOST_ROUNDED = 1e-2  # of the period, which on a separatrix is one over the logarithm of rounding
@@ -65,77 +63,97 @@ def libration(h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any
             decides.
     """
     import numpy as np
-    from scipy.integrate import solve_ivp
 
     H, energy, at = _in_one_coordinate(h, energy, at, values)
     (q,), (p,) = h.q, h.p
-    curvature = sp.diff(H, p, 2)
-    slope = sp.diff(H, p).subs(p, 0)
-    mass = sp.lambdify(q, 1 / curvature + 0 * q, "numpy")
+    slope, curvature = sp.diff(H, p).subs(p, 0), sp.diff(H, p, 2)
     rest = energy - H.subs(p, 0) + slope**2 / (2 * curvature)
-    left = sp.lambdify(q, rest + 0 * q, "numpy")
     slopes = [
-        sp.lambdify(q, sp.diff(rest, q, k).replace(sp.DiracDelta, lambda *_: sp.S.Zero) / factorial(k), "numpy")
-        for k in range(1, _TERMS + 1)
+        sp.diff(rest, q, k).replace(sp.DiracDelta, lambda *_: sp.S.Zero) / factorial(k) for k in range(1, _TERMS + 1)
     ]
+    left, mass, beside, *taylor = (sp.lambdify(q, e, "numpy") for e in (rest, 1 / curvature, slope, *slopes))
+    well = _Well(left, mass, taylor)
     if not left(at) > 0:
         raise InputError(
             f"libration: energy = {energy:g} is not above that of rest at {q} = {at:g}: raise it, or start elsewhere"
         )
     flow = sp.lambdify((q, p), [sp.diff(H, p), -sp.diff(H, q)], "numpy")
-    speed, beside = float(np.sqrt(2 * left(at) / mass(at))), float(sp.lambdify(q, slope, "numpy")(at))
-    ends = []
-    for side in (-1, 1):
+    speed = float(np.sqrt(2 * left(at) / mass(at)))
+    ends = [_first_turn(flow, (at, float(mass(at) * (v - beside(at)))), q) for v in (-speed, speed)]
+    action, period, off, period_off, turned = well.cycle(ends, 0.0)
+    rounding = _EPS * max(abs(energy), float(np.abs(energy - left(np.linspace(*turned, 33))).max()))
+    lower, longer, *_ = well.cycle(ends, rounding)
+    if abs(longer / period - 1) > _MOST_ROUNDED:
+        raise IntegrationError(_UNSURE)
+    return Libration(
+        energy, action, 2 * pi / period, turned, off + abs(lower / action - 1), period_off + abs(longer / period - 1)
+    )
 
-        def turns(_: float, y: Any) -> float:
-            return float(flow(*y)[0])
 
-        def leaves(_: float, y: Any) -> float:
-            return float(abs(y[0] - at) - _FARTHEST * (1 + abs(at)))
+@dataclass(frozen=True)
+class _Well:
+    """E − W, m and the Taylor coefficients of E − W, of q."""
 
-        turns.terminal = leaves.terminal = True  # type: ignore[attr-defined]
-        start = [at, float(mass(at)) * (side * speed - beside)]
-        longest = _MOST_CROSSINGS * (1 + abs(at)) / speed
-        run = solve_ivp(lambda _, y: flow(*y), (0, longest), start, events=(turns, leaves), rtol=1e-10, atol=1e-12)
-        if run.status != 1 or not len(run.t_events[0]):
-            far = float(run.y[0, -1])
-            raise IntegrationError(
-                f"libration: it does not turn before {q} = {far:g}: at this energy it goes round, or escapes"
-            )
-        ends.append(float(run.y[0, -1]))
+    left: Callable[[Any], Any]
+    mass: Callable[[Any], Any]
+    taylor: Sequence[Callable[[Any], Any]]
 
-    def cycle(lower: float) -> tuple[float, float, float, float, list[float]]:
+    def turning_point(self, start: float, lower: float) -> float:
+        """Where E − W = lower, by Newton's steps. Raises IntegrationError where they lead away, as on a separatrix."""
+        end = start
+        for _ in range(8):
+            pull = float(self.taylor[0](end))
+            end -= (float(self.left(end)) - lower) / pull if pull else 0.0
+        most = 1e-4 * abs(float(self.taylor[0](end))) * (1 + abs(end))
+        if not abs(end - start) < 1e-3 * (1 + abs(start)) or abs(float(self.left(end)) - lower) > most:
+            raise IntegrationError(_UNSURE)
+        return end
+
+    def cycle(self, ends: Sequence[float], lower: float) -> tuple[float, float, float, float, tuple[float, float]]:
         """Action and period of the energy less `lower`, how far each was from half the points, and the turning points."""
-        turned = [_turning_point(lambda x: float(left(x)) - lower, lambda x: float(slopes[0](x)), end) for end in ends]
-        series = [[float(f(end)) for f in slopes] for end in turned]
-        middle, half, points = sum(turned) / 2, (turned[1] - turned[0]) / 2, 16
+        import numpy as np
+
+        first, last = (self.turning_point(end, lower) for end in ends)
+        series = [[float(f(end)) for f in self.taylor] for end in (first, last)]
+        middle, half, points = (first + last) / 2, (last - first) / 2, 16
         action = period = np.inf
         while True:
             theta = (np.arange(points) + 0.5) * pi / points - pi / 2
             place, away = middle + half * np.sin(theta), half * np.cos(theta) ** 2 / (1 + np.abs(np.sin(theta)))
-            E, m = left(place) - lower, mass(place) + 0 * place
-            near = np.where(
-                theta < 0, *(np.polyval([*c[::-1], 0], d) for c, d in zip(series, (away, -away), strict=True))
-            )
-            E = np.where(_ROUNDED * E.max() > E, near, E)
+            E, m = self.left(place) - lower, self.mass(place)
+            near = [np.polyval([*c[::-1], 0], d) for c, d in zip(series, (away, -away), strict=True)]
+            E = np.where(_ROUNDED * E.max() > E, np.where(theta < 0, *near), E)
             if not (E > 0).all():
                 raise IntegrationError(_UNSURE)
             before, action = action, half * (np.sqrt(2 * m * E) * np.cos(theta)).mean()
             coarse, period = period, 2 * pi * half * (np.sqrt(m / (2 * E)) * np.cos(theta)).mean()
             off = abs(action / before - 1), abs(period / coarse - 1)
             if points >= _MOST_POINTS or (off[0] <= 1e-13 and off[1] <= 1e-12):
-                return float(action), float(period), float(off[0]), float(off[1]), turned
+                return float(action), float(period), float(off[0]), float(off[1]), (first, last)
             points *= 2
 
-    action, period, off, period_off, turned = cycle(0.0)
-    rounding = _EPS * max(abs(energy), float(np.abs(energy - left(np.linspace(turned[0], turned[1], 33))).max()))
-    lower, longer, *_ = cycle(rounding)
-    if abs(longer / period - 1) > _MOST_ROUNDED:
-        raise IntegrationError(_UNSURE)
-    return Libration(
-        energy, action, 2 * pi / period, (turned[0], turned[1]),
-        off + abs(lower / action - 1), period_off + abs(longer / period - 1),
-    )  # fmt: skip
+
+def _first_turn(flow: Callable[..., Any], start: tuple[float, float], q: sp.Symbol) -> float:
+    """Where q' first vanishes from (q, p) on. Raises IntegrationError where it does not."""
+    from scipy.integrate import solve_ivp
+
+    def turns(_: float, y: Any) -> float:
+        return float(flow(*y)[0])
+
+    def leaves(_: float, y: Any) -> float:
+        return float(abs(y[0] - start[0]) - _FARTHEST * size)
+
+    size = 1 + abs(start[0])
+
+    turns.terminal = leaves.terminal = True  # type: ignore[attr-defined]
+    longest = _MOST_CROSSINGS * size / abs(turns(0, start))
+    run = solve_ivp(lambda _, y: flow(*y), (0, longest), start, events=(turns, leaves), rtol=1e-10, atol=1e-12)
+    end = float(run.y[0, -1])
+    if run.status == 1 and len(run.t_events[0]):
+        return end
+    raise IntegrationError(
+        f"libration: it does not turn before {q} = {end:g}: at this energy it goes round, or escapes"
+    )
 
 
 def _in_one_coordinate(
@@ -154,21 +172,10 @@ def _in_one_coordinate(
         raise InputError("libration: energy and at must be finite numbers, in J and as q")
     (q,), (p,) = h.q, h.p
     H = h.H.xreplace({s: sp.sympify(v, strict=True) for s, v in by_symbol(values or {}, h.H.free_symbols).items()})
-    curvature = sp.diff(H, p, 2)
-    if decide_zero(sp.diff(curvature, p)).answer != "zero" or curvature == 0:
+    if decide_zero(sp.diff(H, p, 3)).answer != "zero" or sp.diff(H, p, 2) == 0:
         raise DomainError(f"libration: H = {H} must be quadratic in {p}")
     if letters := H.free_symbols - {q, p}:
         raise InputError(
             f"libration: {', '.join(sorted(map(str, letters)))} without a value: give every letter a number"
         )
     return H, energy, at
-
-
-def _turning_point(left: Callable[[float], float], pull: Callable[[float], float], start: float) -> float:
-    """Where E = W beside `start`, by Newton's steps. Raises IntegrationError where they lead away, as on a separatrix."""
-    end = start
-    for _ in range(8):
-        end -= left(end) / pull(end) if pull(end) else 0.0
-    if not abs(end - start) < 1e-3 * (1 + abs(start)) or abs(left(end)) > 1e-4 * abs(pull(end)) * (1 + abs(end)):
-        raise IntegrationError(_UNSURE)
-    return end
