@@ -82,7 +82,6 @@ class Crossing(Shown):
     time: Ball
     first: bool
     field: Field
-    tape: Tape
     start: Start
     steps: tuple[CarriedStep, ...]
     bits: int
@@ -97,19 +96,15 @@ class Crossing(Shown):
         """Plain data that `check` verifies."""
         with precision(self.bits):
             flow = flow_data(self.field.motion, self.start, self.steps, self.bits)
-            expression = expression_data(self.field, self.tape)
-            return (
-                flow
-                | expression
-                | {
-                    "kind": "crossing" if self.crosses else "no crossing",
-                    "event": words(self.expression),
-                    "claim": {
-                        "time": ball_data(loosened(self.time) if self.crosses else self.time),
-                        "first": self.first,
-                    },
-                }
-            )
+            return flow | {
+                "observed": observed_data(self.field),
+                "kind": "crossing" if self.crosses else "no crossing",
+                "event": words(self.expression),
+                "claim": {
+                    "time": ball_data(loosened(self.time) if self.crosses else self.time),
+                    "first": self.first,
+                },
+            }
 
     def summary(self) -> dict[str, str]:
         """What is proved, name → words."""
@@ -144,6 +139,20 @@ def prepared(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[A
         if not isinstance(e, sp.Expr):
             raise InputError(f"proved: {e!r} must be an expression of the states, a sympy expression")
     made = field_of(system, values, q0, v0)
+    named = [e for e in expressions if isinstance(e, sp.Eq)]
+    letters, constants = ({str(s) for e in plain for s in e.atoms(kind)} for kind in (sp.Symbol, sp.NumberSymbol))
+    taken = letters | constants | {str(s) for s in (*made.arguments, *(made.seen or ()))}
+    for name, e in ((str(e.lhs), e) for e in named):
+        if not name.isidentifier() or name in taken or hasattr(sp.functions, name):
+            raise InputError(
+                f"proved: {e}: {name} must be a name of its own, of no state, parameter, constant or function"
+            )
+        if any(str(other.lhs) == name and other.rhs != e.rhs for other in named):
+            raise InputError(f"proved: {name} has two meanings: give each expression a name of its own")
+    if both := letters & constants:
+        raise InputError(
+            f"proved: {', '.join(sorted(both))} is a state or parameter and a constant: take another letter"
+        )
     return made, made.function(plain), Start(*made.parts)
 
 
@@ -156,11 +165,10 @@ def words(expression: sp.Basic) -> dict[str, str]:
     return {"of": str(written)}
 
 
-def expression_data(made: Field, tape: Tape) -> dict[str, Any]:
-    """Of a certificate: the expressions' operations, and those of what is observed, by name."""
+def observed_data(made: Field) -> dict[str, Any] | None:
+    """Of a certificate: the operations of what is observed, with its names."""
     seen = made.seen or {}
-    observed = tape_data(made.function([*seen])) | {"names": [str(s) for s in seen]} if seen else None
-    return {"expression": tape_data(tape), "observed": observed}
+    return tape_data(made.function([*seen])) | {"names": [str(s) for s in seen]} if seen else None
 
 
 def crossing(
@@ -201,7 +209,7 @@ def crossing(
                     continue
                 if known and sign != known:
                     time = since.union(step.node.t + step.h * low)
-                    return Crossing(event, True, time, clear, made, tape, start, tuple(steps), accuracy.bits)
+                    return Crossing(event, True, time, clear, made, start, tuple(steps), accuracy.bits)
                 clear = clear and not pending
                 known, since, pending = sign, step.node.t + step.h * high, False
         raise NotProved(
@@ -243,7 +251,7 @@ def no_crossing(
                 if not sign:
                     at = float((step.node.t + step.h * low).mid())
                     raise NotProved(f"{where}: {words(event)['of']} is not shown to stay off zero beyond t = {at:.10g}")
-        return Crossing(event, False, end, False, made, tape, start, tuple(steps), accuracy.bits)
+        return Crossing(event, False, end, False, made, start, tuple(steps), accuracy.bits)
 
 
 def means(
@@ -298,6 +306,6 @@ def means(
             for (e, *_), (since, until), x in zip(spans, ends, values_of, strict=True)
         ]
         flow = flow_data(made.motion, start, steps, accuracy.bits)
-        certificate = flow | expression_data(made, tape) | {"kind": "means", "claim": {"means": claim}}
+        certificate = flow | {"kind": "means", "observed": observed_data(made), "claim": {"means": claim}}
         whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
         return Means(tuple(whole), tuple(values_of), certificate)

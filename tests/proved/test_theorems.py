@@ -266,23 +266,32 @@ def test_a_name_is_defined_once_and_what_is_written_is_what_is_computed() -> Non
 
 
 FALSE_WORDS = {
-    "called what it is not": [
-        lambda c: c["claim"]["means"][1].__setitem__("of", "9**9**9**9**9"),
-        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1/10**25"),
-        lambda c: c["claim"]["means"][0].__setitem__("means", "theta_dot**2/2 + cos(theta)"),
-        lambda c: c["claim"]["means"].reverse(),
-        lambda c: c["expression"]["outputs"].reverse(),
-    ],
     "cannot be read": [
         lambda c: c["claim"]["means"][1].__setitem__("of", "theta # and it topples"),
         lambda c: c["claim"]["means"][1].__setitem__("of", "theta\n"),
         lambda c: c["claim"]["means"][1].__setitem__("of", "__import__('os').getcwd()"),
         lambda c: c["claim"]["means"][1].__setitem__("of", "omega"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "v_1"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "ⴰ1"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "0*E + theta"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1/(1/3 - 1/3)"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "1**(10**9*1)*theta**100000"),
         lambda c: c["claim"]["means"][1].__setitem__("of", "(" * 5000 + "theta" + ")" * 5000),
     ],
     "more than 20000 characters": [lambda c: c["claim"]["means"][1].__setitem__("of", "theta" + " + 0" * 10_000)],
-    "the name of an expression is no name": [lambda c: c["claim"]["means"][0].__setitem__("of", "E, and it topples")],
+    "no name of its own": [
+        lambda c: c["claim"]["means"][0].__setitem__("of", "E, and it topples"),
+        lambda c: c["claim"]["means"][0].__setitem__("of", "theta"),
+        lambda c: c["claim"]["means"][0].__setitem__("of", "sin"),
+    ],
+    "E has two meanings": [lambda c: c["claim"]["means"][1].update(of="E", means="theta")],
     "a mean is another": [
+        lambda c: c["claim"]["means"][1].__setitem__("of", "9**9**9**9**9"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1/10**7"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1000 + 10**80*(1/3 - 1/3)"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1000 + 10**80*(1/theta - 1/theta)"),
+        lambda c: c["claim"]["means"][0].__setitem__("means", "theta_dot**2/2 + cos(theta)"),
+        lambda c: c["claim"]["means"][1].__setitem__("mean", c["claim"]["means"][0]["mean"]),
         lambda c: c["claim"]["means"][0].__setitem__("mean", moved(c["claim"]["means"][0]["mean"], "1e-8")),
         lambda c: c["claim"]["means"][0].__setitem__("mean", [c["claim"]["means"][0]["mean"][0], "0p0"]),
         lambda c: c["claim"]["means"][1].__setitem__("since", ["3p-1", "0p0"]),
@@ -304,9 +313,45 @@ def test_a_crossing_that_just_misses_its_time_is_refused(by: str) -> None:
     spoiled["claim"]["time"] = moved(spoiled["claim"]["time"], by)
     with pytest.raises(NotProved, match="does not change its sign over the claimed time"):
         check(spoiled)
-    spoiled = copy.deepcopy(MISS.certificate) | {"event": {"of": "x_2 - 1/500"}}
-    with pytest.raises(NotProved, match="called what it is not"):
+    spoiled = copy.deepcopy(MISS.certificate) | {"event": {"of": "x_1 - 1/499"}}
+    with pytest.raises(NotProved, match="does not change its sign over the claimed time"):
         check(spoiled)
+
+
+def test_a_name_of_an_expression_is_its_own() -> None:
+    E = sp.Symbol("E")
+    for spans in (
+        [(sp.Eq(E, RATE), 0, 1), (THETA * sp.E, 0, 1)],
+        [(sp.Eq(E, RATE), 0, 1), (sp.Eq(E, THETA), 0, 1)],
+        [(sp.Eq(E, RATE), 0, 1), (E + THETA, 0, 1)],
+        [(sp.Eq(THETA, RATE**2), 0, 1), (THETA, 0, 1)],
+        [(sp.Eq(sp.Symbol("sin"), RATE), 0, 1)],
+    ):
+        with pytest.raises(InputError, match="a name of its own"):
+            means(PENDULUM, {}, [1], [0], spans)
+
+
+WRITTEN = (
+    sp.tan(THETA / 2) + sp.sec(THETA / 3) - sp.csc(THETA + 2) * sp.cot(2 + THETA / 5),
+    sp.sinh(THETA) * sp.cosh(RATE) - sp.tanh(THETA - RATE) ** 3,
+    sp.acos(THETA / 3) - sp.asin(RATE / 4) * sp.atan(THETA) + sp.log(3 + THETA),
+    (2 + THETA) ** sp.Rational(-3, 2) + (3 + RATE) ** sp.Rational(1, 3) - sp.sqrt(2) * sp.pi ** (THETA - 1) + sp.exp(2),
+    -(-THETA - 2 * (RATE - sp.Rational(1, 7))) / (5 - RATE / -3) ** 2 - sp.E**RATE,
+)
+
+
+@pytest.mark.parametrize("expression", WRITTEN, ids=str)
+def test_what_is_written_is_what_is_evaluated(expression: sp.Expr) -> None:
+    """The search's operations of an expression against those of its words, at a point."""
+    from lagrotor.proved.fields import system_field, values_at
+    from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
+    from lagrotor.proved.verification.written import tape_of_words
+
+    made, at = system_field(PENDULUM, {}, [1], [0]), [arb("0.3"), arb("-0.7")]
+    tape = tape_of_words([{"of": str(expression)}], ["theta", "theta_dot"], None)
+    (found,) = evaluated(tape, [Dual(Rest([x], arb(0), 1)) for x in at], 1)
+    off = found.value.terms[0] - values_at(made.function([expression]), at)[0]
+    assert off.contains(0) and float(off.rad()) < 1e-12
 
 
 def test_a_pulse_that_begins_within_a_step_leaves_the_set_narrow(monkeypatch: pytest.MonkeyPatch) -> None:

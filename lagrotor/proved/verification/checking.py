@@ -5,8 +5,8 @@ this program's own Taylor terms, found by recurrences, and must lie within the c
 rates is found by dual numbers, forward.
 """
 
-import json
 from collections.abc import Callable, Sequence
+from math import isfinite
 from typing import Any
 
 from flint import arb, arb_mat, arb_poly, ctx
@@ -18,25 +18,24 @@ from lagrotor.proved.verification.certified_sets import Carried, Flow, balls, co
 from lagrotor.proved.verification.orbit_checking import check_family, check_orbit
 from lagrotor.proved.verification.recurrences import ZERO, demand
 from lagrotor.proved.verification.tapes import is_place, read_tape
-from lagrotor.proved.verification.written import value_of
+from lagrotor.proved.verification.written import tape_of_words
 
 Ball = Any
 _MORE_BITS, _MOST_BITS = 64, 100_000
-_SHIFTS = ("0.00137", "-0.00219", "0.00083", "0.00311", "-0.00171", "0.00059", "-0.00263")  # off the motion, over 2^30
 
 
 def check(certificate: Any) -> str:
     """Verify a certificate; returns the theorem that it proves, in words composed from what was verified.
 
-    What an expression is called is held to its recorded operations, near points of the motion; the names of states, of what is
-    observed and of a scene are the certificate's own.
+    Of an expression the words themselves are evaluated; the names of states, of what is observed and of a scene are the
+    certificate's own.
 
     Raises:
         InputError: for what is no certificate.
         NotProved: with the first thing that does not hold.
     """
     try:
-        certificate = json.loads(json.dumps(certificate, allow_nan=False))
+        certificate = plain(certificate)
         version, rule = certificate["version"], _RULES[certificate["kind"]]
     except (LookupError, TypeError, ValueError, RecursionError):
         raise InputError(
@@ -59,6 +58,17 @@ def check(certificate: Any) -> str:
     return words
 
 
+def plain(data: Any) -> Any:
+    """As it would be read from a file: lists, dictionaries, text and finite numbers. Raises TypeError for anything else."""
+    if isinstance(data, dict) and all(isinstance(key, str) for key in data):
+        return {key: plain(x) for key, x in data.items()}
+    if isinstance(data, list | tuple):
+        return [plain(x) for x in data]
+    if not (data is None or isinstance(data, str | int) or (isinstance(data, float) and isfinite(data))):
+        raise TypeError(f"{data!r} is no plain data")
+    return data
+
+
 def check_enclosure(certificate: Any) -> None:
     """The last box lies within the states that are claimed, at the time that is claimed."""
     carried, claim = Carried(certificate), certificate["claim"]
@@ -71,39 +81,15 @@ def check_enclosure(certificate: Any) -> None:
     )
 
 
-def pieces_of(certificate: Any, carried: Carried) -> Any:
-    """Of each step: its begin, its length, the expressions' series."""
+def pieces_of(certificate: Any, carried: Carried, named: Sequence[Any]) -> Any:
+    """Of each step: its begin, its length, the series of the expressions as they are written."""
     at = ZERO
-    tape = read_tape(certificate["expression"])
+    tape = tape_of_words(named, carried.flow.tape["arguments"], certificate["observed"])
     for box, h, n in carried.boxes:
         rows = carried.flow.step(box, h, n)
         arguments = carried.flow.arguments(rows, box[carried.flow.moving :], None, n)
         yield at, h, [found.value for found in evaluated(tape, arguments, n)]
         at += h
-
-
-def check_words(certificate: Any, carried: Carried, named: Sequence[Any]) -> None:
-    """What an expression is called, or its name is said to mean, has the value of its operations near nodes along the motion.
-
-    What is observed has the names of the certificate, and the values of its operations.
-    """
-    flow, nodes = carried.flow, certificate["steps"]
-    names, observed = certificate["motion"]["arguments"], certificate["observed"]
-    rest = carried.middle[flow.moving :]
-    for k, step in enumerate([nodes[0], nodes[len(nodes) // 2], nodes[-1]]):
-        at = [
-            number(x) + arb(_SHIFTS[(i + k) % len(_SHIFTS)]) / 2**30
-            for i, x in enumerate(step["node"]["m"][: flow.moving])
-        ]
-        arguments = flow.arguments([Rest([x], ZERO, 1) for x in at], rest, None, 1)
-        values = dict(zip(names, [x.value.at_start() for x in arguments], strict=True))
-        if observed:
-            seen = evaluated(observed, arguments, 1)
-            values |= dict(zip(observed["names"], [x.value.at_start() for x in seen], strict=True))
-        for each, e in zip(named, evaluated(certificate["expression"], arguments, 1), strict=True):
-            demand("means" not in each or str(each["of"]).isidentifier(), "the name of an expression is no name")
-            off = value_of(each.get("means", each["of"]), values) - e.value.at_start()
-            demand(bool(off.contains(0) and off.is_finite()), "an expression is called what it is not")
 
 
 def sign_over(a: Rest, low: Ball, high: Ball, depth: int = 30) -> int:
@@ -124,12 +110,12 @@ def sign_over(a: Rest, low: Ball, high: Ball, depth: int = 30) -> int:
 def check_crossing(certificate: Any) -> None:
     """Opposite signs at both ends of the claimed time; up to its begin one sign, where it is the first."""
     carried, claim = Carried(certificate), certificate["claim"]
-    check_words(certificate, carried, [certificate["event"]])
+    pieces = [*pieces_of(certificate, carried, [certificate["event"]])]
     time = read_ball(claim["time"])
     ends = []
     for moment in (arb(time.lower()), arb(time.upper())):
         signs = set()
-        for at, h, (series,) in pieces_of(certificate, carried):
+        for at, h, (series,) in pieces:
             s = (moment - at) / h
             if not (s < 0 or s > 1):  # a moment at a node may be in either step
                 value = arb_poly(series.terms)(within_step(s)) + arb(0, series.rest.upper())
@@ -139,7 +125,7 @@ def check_crossing(certificate: Any) -> None:
     demand(changes, "the expression does not change its sign over the claimed time")
     if claim["first"]:
         signs = set()
-        for at, h, (series,) in pieces_of(certificate, carried):
+        for at, h, (series,) in pieces:
             s = (arb(time.lower()) - at) / h
             if not s <= 0:
                 signs.add(sign_over(series, ZERO, within_step(s)))
@@ -154,23 +140,23 @@ def within_step(s: Ball) -> Ball:
 def check_no_crossing(certificate: Any) -> None:
     """One sign over every step."""
     carried = Carried(certificate)
-    check_words(certificate, carried, [certificate["event"]])
     claimed = read_ball(certificate["claim"]["time"])
     demand(carried.time.contains(claimed) or carried.time >= claimed, "the steps end before the claimed time")
-    signs = {sign_over(series, ZERO, arb(1)) for _, _, (series,) in pieces_of(certificate, carried)}
+    signs = {
+        sign_over(series, ZERO, arb(1)) for _, _, (series,) in pieces_of(certificate, carried, [certificate["event"]])
+    }
     demand(len(signs) == 1 and 0 not in signs, "the expression may pass zero")
 
 
 def check_means(certificate: Any) -> None:
     """The integrals of the expressions over the spans that are claimed, step by step."""
     carried, claims = Carried(certificate), certificate["claim"]["means"]
-    check_words(certificate, carried, claims)
     spans = [(read_ball(x["since"]), read_ball(x["until"])) for x in claims]
     for since, until in spans:
         demand(bool(since >= 0 and since < until), "a span has no length")
         demand(carried.time.contains(until) or carried.time >= until, "the steps end before a span does")
     totals = [ZERO] * len(claims)
-    for at, h, series in pieces_of(certificate, carried):
+    for at, h, series in pieces_of(certificate, carried, claims):
         for i, (f, span) in enumerate(zip(series, spans, strict=True)):
             low, high = (within_step((x - at) / h) for x in span)
             whole = arb_poly(f.terms).integral()

@@ -1,78 +1,156 @@
-"""The value of an expression as it is written, for the second program: its words are held to the operations that it checks."""
+"""Expressions as they are written, as a tape: the second program evaluates a theorem's words, nothing that stands for them."""
 
 import ast
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from operator import add, mul, sub, truediv
 from typing import Any
 
-from flint import arb, fmpz
-
 from lagrotor.errors import NotProved
+from lagrotor.proved.tape import OPERATIONS
+from lagrotor.proved.verification.recurrences import demand
+from lagrotor.proved.verification.tapes import Tape, read_tape
 
-Ball = Any
 _LONGEST = 20_000  # characters
-_FUNCTIONS = (
-    "sqrt",
-    "exp",
-    "log",
-    "sin",
-    "cos",
-    "tan",
-    "sec",
-    "csc",
-    "cot",
-    "asin",
-    "acos",
-    "atan",
-    "sinh",
-    "cosh",
-    "tanh",
-)
-_CONSTANTS = {"pi": arb.pi, "E": arb.const_e}
-_JOINED: dict[Any, Any] = {
-    ast.Add: lambda a, b: a + b,
-    ast.Sub: lambda a, b: a - b,
-    ast.Mult: lambda a, b: a * b,
-    ast.Div: lambda a, b: a / b,
-}
+_LARGEST = 10_000  # whole exponent
+_INNER = "ⴰ"  # a letter that stands in no expression
+_EXACTLY: dict[Any, Any] = {ast.Add: add, ast.Sub: sub, ast.Mult: mul, ast.Div: truediv}
+_JOINED = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "divide"}
 
 
-def value_of(text: str, names: Mapping[str, Ball]) -> Ball:
-    """Of numbers, names, + − * / ** and the functions that a tape has. Raises NotProved for anything else; nothing runs."""
-    if len(text) > _LONGEST:
-        raise NotProved(f"check: an expression has more than {_LONGEST} characters")
-    order = sorted(names, key=len, reverse=True)
-    known = "|".join(map(re.escape, order)) or r"(?!)"
-    put = re.sub(rf"(?<![\w\\}}])(?:{known})(?![\w{{}}'(])", lambda hit: f"v_{order.index(hit[0])}", text)
-    try:
-        if not re.fullmatch(r"[\w +\-*/().]*", put):
-            raise ValueError(put)
-        return _value(ast.parse(put.strip(), mode="eval").body, {f"v_{i}": names[name] for i, name in enumerate(order)})
-    except (SyntaxError, ValueError, RecursionError, MemoryError, ZeroDivisionError):
-        raise NotProved(f"check: the expression {text[:60]!r} cannot be read") from None
+def tape_of_words(named: Sequence[Any], arguments: Sequence[str], observed: Any) -> Tape:
+    """Of what is called {of} or, by a name of its own, {of, means}, in the names of the arguments and of what is observed."""
+    words = Words(arguments, observed)
+    meanings: dict[str, str] = {}
+    for each in named:
+        if "means" in each:
+            name = each["of"]
+            own = name.isidentifier() and name not in words.names and name not in _FUNCTIONS
+            demand(own, f"the name of an expression is no name of its own: {name[:60]!r}")
+            words.constants.pop(name, None)
+            demand(meanings.setdefault(name, each["means"]) == each["means"], f"{name} has two meanings")
+    places = [words.place(each.get("means", each["of"])) for each in named]
+    needed = {*places}
+    for place, (name, *on) in reversed([*enumerate(words.operations)]):
+        if place not in needed:
+            words.operations[place] = ["number", "0"]
+        elif name in OPERATIONS:
+            needed.update(on)
+    return {"arguments": list(arguments), "operations": words.operations, "outputs": places}
 
 
-def _value(node: ast.expr, names: Mapping[str, Ball]) -> Ball:
+class Words:
+    """Operations as expressions need them, each once. names: the places of arguments and of what is observed; constants: what
+    E and pi are, unless they name an expression."""
+
+    def __init__(self, arguments: Sequence[str], observed: Any) -> None:
+        self.operations: list[list[Any]] = [["argument", i] for i in range(len(arguments))]
+        self.constants = dict(_CONSTANTS)
+        self.names = {name: i for i, name in enumerate(arguments)}
+        if observed:
+            tape, names, shift = read_tape(observed), observed["names"], len(arguments)
+            fits = tape["arguments"] == list(arguments) and len({*names} - {*arguments}) == len(tape["outputs"])
+            demand(fits, "what is observed has other names")
+            for name, *on in tape["operations"]:
+                self.operations.append([name, *((x + shift for x in on) if name in OPERATIONS else on)])
+            self.names |= {name: place + shift for name, place in zip(names, tape["outputs"], strict=True)}
+        self._places = {tuple(operation): place for place, operation in enumerate(self.operations)}
+
+    def keep(self, *operation: Any) -> int:
+        """The place of an operation's result."""
+        place = self._places.setdefault(operation, len(self.operations))
+        if place == len(self.operations):
+            self.operations.append(list(operation))
+        return place
+
+    def place(self, text: str) -> int:
+        """Of an expression's value. Raises NotProved for what cannot be read; nothing runs."""
+        demand(len(text) <= _LONGEST, f"an expression has more than {_LONGEST} characters")
+        order = sorted(self.names, key=len, reverse=True)
+        known = "|".join(map(re.escape, order)) or r"(?!)"
+        put = re.sub(rf"(?<![\w\\}}])(?:{known})(?![\w{{}}'(])", lambda hit: f"{_INNER}{order.index(hit[0])}", text)
+        places = {f"{_INNER}{i}": self.names[name] for i, name in enumerate(order)}
+        try:
+            if _INNER in text or not re.fullmatch(r"[\w +\-*/().]*", put):
+                raise ValueError(put)
+            return self._place(ast.parse(put.strip(), mode="eval").body, places)
+        except (SyntaxError, ValueError, RecursionError, MemoryError, ZeroDivisionError):
+            raise NotProved(f"check: the expression {text[:60]!r} cannot be read") from None
+
+    def _place(self, node: ast.expr, names: Mapping[str, int]) -> int:
+        if (value := _rational(node)) is not None:
+            return self.keep("number", str(value))
+        match node:
+            case ast.Name(id=name) if name in names:
+                return names[name]
+            case ast.Name(id=name) if name in self.constants:
+                return self.constants[name](self)
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return self.keep("subtract", self.keep("number", "0"), self._place(operand, names))
+            case ast.BinOp(left=left, op=ast.Pow(), right=right):
+                return self._power(self._place(left, names), right, names)
+            case ast.BinOp(left=left, op=op, right=right) if type(op) in _JOINED:
+                return self.keep(_JOINED[type(op)], self._place(left, names), self._place(right, names))
+            case ast.Call(func=ast.Name(id=name), args=[operand], keywords=[]) if name in _FUNCTIONS:
+                return _FUNCTIONS[name](self, self._place(operand, names))
+        raise ValueError(ast.dump(node)[:60])
+
+    def _power(self, base: int, exponent: ast.expr, names: Mapping[str, int]) -> int:
+        value = _rational(exponent)
+        if value is None or value.denominator > 2:
+            return self.keep("exp", self.keep("multiply", self._place(exponent, names), self.keep("log", base)))
+        if abs(value) > _LARGEST:
+            raise ValueError("exponent")
+        place = self._whole(base, abs(value.numerator) // value.denominator)
+        if value.denominator == 2:
+            place = self.keep("multiply", place, self.keep("sqrt", base))
+        return place if value >= 0 else self.keep("divide", self.keep("number", "1"), place)
+
+    def _whole(self, base: int, power: int) -> int:
+        if power < 2:
+            return base if power else self.keep("number", "1")
+        half = self._whole(base, power // 2)
+        square = self.keep("multiply", half, half)
+        return self.keep("multiply", square, base) if power % 2 else square
+
+    def over(self, above: int, below: int) -> int:
+        """A quotient."""
+        return self.keep("divide", above, below)
+
+    def risen(self, name: str, x: int) -> int:
+        """exp(x) + exp(−x), or the difference."""
+        rise = self.keep("exp", x)
+        return self.keep(name, rise, self.over(self.keep("number", "1"), rise))
+
+
+def _rational(node: ast.expr) -> Fraction | None:
+    """A number that is written with + − * / alone."""
     match node:
-        case ast.Name(id=name) if name in names:
-            return names[name]
-        case ast.Name(id=name) if name in _CONSTANTS:
-            return _CONSTANTS[name]()
         case ast.Constant(value=int(value)) if not isinstance(value, bool):
-            return arb(fmpz(value))
+            return Fraction(value)
         case ast.UnaryOp(op=ast.USub(), operand=operand):
-            return -_value(operand, names)
-        case ast.BinOp(left=left, op=ast.Pow(), right=right):
-            return _power(_value(left, names), _value(right, names))
-        case ast.BinOp(left=left, op=op, right=right) if type(op) in _JOINED:
-            return _JOINED[type(op)](_value(left, names), _value(right, names))
-        case ast.Call(func=ast.Name(id=name), args=[operand], keywords=[]) if name in _FUNCTIONS:
-            return getattr(_value(operand, names), name)()
-    raise ValueError(ast.dump(node)[:60])
+            below = _rational(operand)
+            return None if below is None else -below
+        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Div() as op, right=right):
+            a, b = _rational(left), _rational(right)
+            if a is not None and b is not None:
+                return _EXACTLY[type(op)](a, b)
+    return None
 
 
-def _power(base: Ball, exponent: Ball) -> Ball:
-    whole = exponent.unique_fmpz()
-    if whole is None:
-        return base.sqrt() if exponent == arb(0.5) else base**exponent
-    return base ** int(whole) if whole >= 0 else 1 / base ** int(-whole)
+_CONSTANTS: dict[str, Any] = {
+    "pi": lambda w: w.keep("number", "pi"),
+    "E": lambda w: w.keep("exp", w.keep("number", "1")),
+}
+_FUNCTIONS: dict[str, Any] = {
+    **{name: lambda w, x, name=name: w.keep(name, x) for name, count in OPERATIONS.items() if count == 1},
+    "tan": lambda w, x: w.over(w.keep("sin", x), w.keep("cos", x)),
+    "cot": lambda w, x: w.over(w.keep("cos", x), w.keep("sin", x)),
+    "sec": lambda w, x: w.over(w.keep("number", "1"), w.keep("cos", x)),
+    "csc": lambda w, x: w.over(w.keep("number", "1"), w.keep("sin", x)),
+    "acos": lambda w, x: w.keep("subtract", w.over(w.keep("number", "pi"), w.keep("number", "2")), w.keep("asin", x)),
+    "sinh": lambda w, x: w.over(w.risen("subtract", x), w.keep("number", "2")),
+    "cosh": lambda w, x: w.over(w.risen("add", x), w.keep("number", "2")),
+    "tanh": lambda w, x: w.over(w.risen("subtract", x), w.risen("add", x)),
+}
