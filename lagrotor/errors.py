@@ -19,6 +19,10 @@ class TooLargeError(NotExactError):
     """An exact decision would take more work than it may."""
 
 
+class WorkError(LagrotorError):
+    """A decision that needs more work than its caller allows; it is not kept as undecided."""
+
+
 class DomainError(LagrotorError, ValueError):
     """A closed form evaluated outside its domain."""
 

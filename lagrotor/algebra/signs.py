@@ -14,7 +14,8 @@ from typing import Any, TypeAlias
 
 import sympy as sp
 
-from lagrotor.errors import InputError
+from lagrotor.algebra.work import spend
+from lagrotor.errors import InputError, WorkError
 
 Signs: TypeAlias = frozenset[int]
 Bound: TypeAlias = tuple[sp.Expr, bool]
@@ -99,7 +100,12 @@ class _Signs:
     def of(self, e: sp.Expr) -> Signs | None:
         if e not in self.known:
             self.known[e] = None  # while it is sought
-            self.known[e] = self._sought(e)
+            try:
+                spend(e)
+                self.known[e] = self._sought(e)
+            except WorkError:
+                del self.known[e]
+                raise
         return self.known[e]
 
     def _sought(self, e: sp.Expr) -> Signs | None:
@@ -153,6 +159,7 @@ class _Signs:
         if (bound := self._monotone(e) or self._by_squares(e)) is not None:
             return bound
         if len(e.args) <= _FACTORED:
+            spend(e, factored=True)
             factors = sp.factor(e)
             if not factors.is_Add:
                 return self.of(factors)

@@ -25,6 +25,7 @@ from lagrotor.algebra.reduction import vanishes
 from lagrotor.algebra.scalar import parts
 from lagrotor.algebra.signs import NONNEGATIVE, POSITIVE, Region, is_nonnegative, is_positive, is_real, signs
 from lagrotor.algebra.special_functions import RULES
+from lagrotor.algebra.work import spend
 from lagrotor.errors import NotExactError, TooLargeError
 
 # Of a polynomial whose factors are sought; parts of an expression that is brought over one denominator for it.
@@ -95,6 +96,7 @@ class Translation:
 
     def of(self, e: sp.Expr) -> sp.Expr:
         if e not in self.known:
+            spend(e)
             self.known[e] = self._sought(e)
         return self.known[e]
 
@@ -492,6 +494,7 @@ class Translation:
             return side, []
         if len(sp.Add.make_args(side)) > _MOST_TERMS:
             return None
+        spend(side, factored=True)
         try:
             content, factors = sp.factor_list(side)
         except (sp.PolynomialError, NotImplementedError):

@@ -17,7 +17,8 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import agreement_order, decide_equal
-from lagrotor.errors import LagrotorError
+from lagrotor.algebra.work import at_most
+from lagrotor.errors import LagrotorError, WorkError
 from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula
@@ -40,9 +41,9 @@ HOLDS, REFUTED, UNITS, MEANINGS, BEFORE = (
 )  # fmt: skip
 FOUND = (REFUTED, UNITS, MEANINGS, BEFORE)
 WRONG = (REFUTED, UNITS)
-# Terms of which each is tried with the other sign, to say what is wrong; operations, and functions in functions, beyond which
-# a step is not decided.
-_MOST_TERMS, _MOST_OPERATIONS, _MOST_NESTED = 12, 2000, 2
+# Terms of which each is tried with the other sign, to say what is wrong; operations of what is brought over one denominator;
+# work, in parts looked at, beyond which a step is not decided.
+_MOST_TERMS, _MOST_OPERATIONS, _MOST_WORK = 12, 2000, 200_000
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 # Changes that are tried to find a slip; equations back to which a step may refer.
@@ -174,8 +175,9 @@ class _Checker:
         given, used = self._put_in(a, b)
         if used and decided(*given) == "zero":
             return HOLDS, f"with {', '.join(used)}"
-        if answer == "undecided":
-            return "undecided", "the difference is outside what is decided exactly"
+        if answer in ("undecided", "too large"):
+            why = "is too large" if answer == "too large" else "is outside what is decided exactly"
+            return "undecided", f"the difference {why}"
         if answer == "shape":
             return "undecided", "one side is printed as a vector, the other as a number"
         return self._refuted(left, right, a, b)
@@ -302,7 +304,7 @@ class _Checker:
                     continue
                 put = old.subs(symbol, value)
                 names = f"({definition.equation.id}) in ({other.equation.id})"
-                if put.free_symbols != new.free_symbols:
+                if put.free_symbols != new.free_symbols or sp.count_ops(put - new) > _MOST_OPERATIONS:
                     continue
                 if guess := _guess(reading):
                     yield self._finding(each, 0, None, "undecided", f"it cites {names}; but it is a guess that {guess}")
@@ -467,7 +469,7 @@ def _near(a: Any, b: Any) -> bool:
 
 
 def decided(a: Any, b: Any) -> str:
-    """zero, nonzero or undecided; shape where one side is a vector and the other is not."""
+    """zero, nonzero, undecided or too large; shape where one side is a vector and the other is not."""
     matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
     if any(matrices) and not all(matrices):
         return "zero" if not any(matrices) else "shape" if sp.S.Zero not in (a, b) else _all(a if matrices[0] else b)
@@ -478,21 +480,19 @@ def decided(a: Any, b: Any) -> str:
 
 def _all(matrix: sp.MatrixBase) -> str:
     answers = {_single(entry, sp.S.Zero) for entry in matrix}
-    return "nonzero" if "nonzero" in answers else "undecided" if "undecided" in answers else "zero"
-
-
-def _nested(value: sp.Basic) -> int:
-    """How many functions stand in each other."""
-    return isinstance(value, sp.Function) + max(map(_nested, value.args), default=0)
+    return next(each for each in ("nonzero", "too large", "undecided", "zero") if each in answers)
 
 
 def _single(a: Any, b: Any) -> str:
-    if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)) or sp.count_ops(a - b) > _MOST_OPERATIONS:
+    if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
         return "undecided"
-    if max(map(_nested, (a, b))) > _MOST_NESTED:
-        return "undecided"
+    if sp.count_ops(a - b) > _MOST_OPERATIONS:
+        return "too large"
     try:
-        found = decide_equal(a, b)
+        with at_most(_MOST_WORK):
+            found = decide_equal(a, b)
+    except WorkError:
+        return "too large"
     except (LagrotorError, TypeError, ValueError, ArithmeticError):
         return "undecided"
     return "undecided" if found.partly else found.answer

@@ -200,14 +200,19 @@ def test_notation_beside_the_source_settles_what_is_marked(tmp_path: Path, capsy
     assert "would be refuted" in " ".join(capsys.readouterr().out.split())
 
 
-def test_definitions_by_each_other_and_functions_within_functions_are_not_worked_out_without_end(
-    tmp_path: Path,
-) -> None:
+def test_definitions_by_each_other_are_not_worked_out_without_end(tmp_path: Path) -> None:
     given = r"\[ x = a + \frac{1}{\tan(y)} \]\[ y = a + \tan(x) \]"
     assert verdicts(tmp_path, given + r"\[ b = x + y = \tan(x) + y^3 \]") == ["undecided"]
-    nested = r"\[ b = \tan(\tan(\tan(x))) + 1 = \tan(\tan(\tan(x))) + 2 \]"
-    assert verdicts(tmp_path, nested) == ["undecided"]
-    assert verdicts(tmp_path, nested.replace(r"\tan(\tan(\tan(x)))", r"\tan(x)")) == [REFUTED]
+
+
+def test_a_step_that_takes_too_much_work_is_left_undecided_and_says_so(tmp_path: Path) -> None:
+    inner = r"\tan(C - 2 + \frac{1}{C - 1/y} - 1/y)"
+    (found,) = findings(tmp_path, rf"\[ b = p {inner} + v = q ({inner})^n \]")
+    assert (found.verdict, found.why) == ("undecided", "the difference is too large")
+    for right, verdict in ((rf"v + p {inner}", HOLDS), (rf"v - p {inner}", REFUTED)):
+        assert verdicts(tmp_path, rf"\[ b = p {inner} + v = {right} \]") == [verdict]
+    nested = r"\tan(\tan(\tan(x)))"
+    assert verdicts(tmp_path, rf"\[ b = {nested} + 1 = {nested} + 2 \]") == [REFUTED]
 
 
 def test_a_latin_1_source_is_read(tmp_path: Path) -> None:
