@@ -6,6 +6,7 @@ that is in the text; it is refuted only where its right side has no letter but t
 these, the difference is decided, and one change of sign, factor or power makes the two sides agree: a slip, not a law.
 """
 
+import re
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass, replace
@@ -48,10 +49,10 @@ _MOST_TERMS, _MOST_OPERATIONS, _MOST_WORK = 12, 2000, 200_000
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 # Changes that are tried to find a slip; equations back to which a step may refer.
 _MOST_SLIPS, _MEMORY = 120, 60
+# Formulas of the text that give a value: with a unit, or in units where it is 1.
+_VALUED = re.compile(r"\\(?:mathrm|rm|text|hbar)\b|k_")
 # The one guess that verdicts rest on: that log is the natural logarithm.
 _ANY_BASE = "log is"
-# Dimensions are reported where few equations break them: others are printed in units of their own.
-_FEW, _SHARE = 3, 0.01
 
 
 @dataclass(frozen=True)
@@ -332,25 +333,42 @@ class _Checker:
     def _dimensions(self) -> Iterator[StepFinding]:
         """Equations whose dimensions contradict those of the others.
 
-        A letter that several equations need otherwise than the rest has another meaning there: of these only what contradicts
-        its own section is reported.
+        They are known where the paper prints units, of displays or in the text. A letter that several equations need otherwise
+        than the rest has another meaning there: of these only what contradicts its own section is reported.
         """
-        whole = FormulaDimensions()
-        sections: defaultdict[str, FormulaDimensions] = defaultdict(FormulaDimensions)
-        broken: list[tuple[_Read, str, bool]] = []
-        for read in self.statements:
-            if read.statement.kind in ("equation", "approximation", "inequality"):
-                nodes = [side.node for side in read.statement.sides]
-                near = sections[read.equation.section.split(".")[0]].add(nodes) is not None
-                if (why := whole.add(nodes)) is not None:
-                    broken.append((read, why, near))
-        letters = Counter(name for read, _, _ in broken for name in _letters_of(read))
-        shown = [
-            (read, why) for read, why, near in broken if near or all(letters[name] == 1 for name in _letters_of(read))
+        printed = [r for r in self.statements if r.statement.kind in ("equation", "approximation", "inequality")]
+        held = [
+            *self._values(),
+            *((read.equation.section, [side.node for side in read.statement.sides], read) for read in printed),
         ]
-        if len(shown) <= max(_FEW, _SHARE * len(self.statements)) and len(shown) < len(self.statements) / 2:
-            for read, why in shown:
+        numbers = {
+            side.name
+            for _, sides, _ in held
+            if any(isinstance(side, Number) for side in sides)
+            for side in sides
+            if isinstance(side, Letter)
+        }
+        whole = FormulaDimensions(numbers)
+        sections: defaultdict[str, FormulaDimensions] = defaultdict(lambda: FormulaDimensions(numbers))
+        broken: list[tuple[_Read, str, bool]] = []
+        for section, sides, read in held:
+            near = sections[section.split(".")[0]].add(sides) is not None
+            why = whole.add(sides)
+            if why is not None and read is not None:
+                broken.append((read, why, near))
+        letters = Counter(name for read, _, _ in broken for name in _letters_of(read))
+        for read, why, near in broken:
+            if near or all(letters[name] == 1 for name in _letters_of(read)):
                 yield self._finding(read.equation, 0, None, UNITS, why)
+
+    def _values(self) -> Iterator[tuple[str, list[Node], None]]:
+        """Sections and sides of what the text gives a value, m = 2 kg."""
+        for latex, section in self.source.inline.items():
+            if "=" in latex and _VALUED.search(latex):
+                reading = read_formula(latex, self.notation)
+                for each in reading.statements:
+                    if each.kind == "equation" and not _guess(reading):
+                        yield section, [side.node for side in each.sides], None
 
     def _letters(self) -> Iterator[StepFinding]:
         """Letters that are defined twice, used before they are given, or have two meanings."""

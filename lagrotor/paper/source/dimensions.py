@@ -1,19 +1,22 @@
-"""The dimensions of a paper's letters as its equations need them: each sum is of like terms, dots are per time.
+"""The dimensions of a paper's letters as its equations need them: each sum is of like terms, dots are per t.
 
-The dimension of a letter is unknown; each equation gives linear relations between the logarithms. Time, and the units that are
-printed, are known not to be numbers: where a relation says so, the equation contradicts those before.
+The dimension of a letter is unknown, that of t too; each equation gives linear relations between the logarithms. Only units that
+are printed, and ℏ and k_B, are known not to be numbers: where a relation says that they are, the equation contradicts those
+before. So a text of pure numbers is never judged, and a letter only where relations lead to a unit. A number that is a side, a
+decimal, or a term other than 1 may be a quantity without its unit: such an equation says nothing. Whole factors are numbers.
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from fractions import Fraction
 
 from lagrotor.errors import InputError
-from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_vector, text_of
+from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_vector, letters_of, text_of
 from lagrotor.paper.units import dimension_of
 
 Row = dict[str, Fraction]
-_TIME = "[s]"  # a base unit in brackets, a letter without
+# A base unit stands in brackets, a letter without.
+_QUANTITIES = {"hbar": "J s", "k_B": "J/K"}
 _NUMBERS = ("sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "exp", "log", "asin", "acos", "atan")
 
 
@@ -24,15 +27,16 @@ class _UnknownError(Exception):
 class FormulaDimensions:
     """What the equations so far say, as rows in echelon form."""
 
-    def __init__(self) -> None:
-        self.rows: dict[str, Row] = {}
+    def __init__(self, numbers: Collection[str] = ()) -> None:
+        """numbers: letters of quantities to which the paper gives the value 1."""
+        self.rows = {name: _unit(unit) for name, unit in _QUANTITIES.items() if name not in numbers}
         self.pending: list[tuple[Row, str]] = []
 
     def add(self, sides: Iterable[Node]) -> str | None:
         """Take in an equation; a sentence where it contradicts those before, and then it is left out."""
         self.pending = []
         try:
-            self._alike([self._of(side) for side in sides if not _is_zero(side)], "the sides")
+            self._alike([side for side in sides if not _is_zero(side)], "the sides", 0)
         except _UnknownError:
             return None
         kept = dict(self.rows)
@@ -60,13 +64,20 @@ class FormulaDimensions:
         factor = row[name]
         self.rows[name] = {other: -value / factor for other, value in row.items() if other != name}
 
-    def _alike(self, rows: list[Row], where: str) -> None:
-        for row in rows[1:]:
-            self.pending.append((_plus(rows[0], row, -1), where))
+    def _alike(self, nodes: list[Node], where: str, number: int) -> Row:
+        """The dimension of all; number: what may stand alone among them."""
+        values = [_rational(each) for each in nodes if not letters_of(each)]
+        if any(value is None or abs(value) != number for value in values):
+            raise _UnknownError
+        rows = [self._of(each) for each in nodes]
+        self.pending += [(_plus(rows[0], row, -1), where) for row in rows[1:]]
+        return rows[0] if rows else {}
 
     def _of(self, node: Node) -> Row:
         """The dimension of a node; what it needs within is kept as pending."""
         if isinstance(node, Number):
+            if node.value.denominator != 1:
+                raise _UnknownError
             return {}
         if isinstance(node, Letter):
             return _letter(node.name)
@@ -76,12 +87,14 @@ class FormulaDimensions:
         ):
             return self._of(node.args[0])
         if node.name in ("sum", "plus_minus", "minus_plus"):
-            rows = [self._of(each) for each in node.args if not _is_zero(each)]
-            self._alike(rows, f"the terms of {text_of(node)}")
-            return rows[0] if rows else {}
+            terms = [each for each in node.args if not _is_zero(each)]
+            return self._alike(terms, f"the terms of {text_of(node)}", 1)
         if node.name in ("product", "dot", "cross", "matmul"):
             total: Row = {}
+            measured = any(name.startswith("unit_") for name in letters_of(node))
             for each in node.args:
+                if measured and isinstance(each, Number):
+                    continue
                 total = _plus(total, self._of(each))
             return total
         if node.name == "quotient":
@@ -108,7 +121,7 @@ class FormulaDimensions:
     def _analysis(self, node: Call) -> Row:
         """Derivatives, integrals, sums and rates."""
         if node.name == "rate":
-            return _plus(self._of(node.args[0]), {_TIME: Fraction(1)}, -1)
+            return _plus(self._of(node.args[0]), {"t": Fraction(1)}, -1)
         if node.name == "Derivative":
             times = _rational(node.args[2]) if len(node.args) > 2 else Fraction(1)
             return _plus(self._of(node.args[0]), self._of(node.args[1]), -(times or Fraction(1)))
@@ -127,17 +140,19 @@ def _letter(name: str) -> Row:
     if name in ("oo", "all", "otherwise"):
         raise _UnknownError
     if name.startswith("unit_"):
-        try:
-            powers = dimension_of(name.removeprefix("unit_")).as_powers_dict()
-        except InputError:
-            raise _UnknownError from None
-        return {f"[{base}]": Fraction(int(power)) for base, power in powers.items() if base != 1}
-    if name == "t":
-        return {_TIME: Fraction(1)}
+        return _unit(name.removeprefix("unit_"))
     dots = re.search(r"_(d*)dot$", name)
     if dots:
-        return _plus({name[: dots.start()]: Fraction(1)}, {_TIME: Fraction(1)}, -(len(dots[1]) + 1))
+        return _plus({name[: dots.start()]: Fraction(1)}, {"t": Fraction(1)}, -(len(dots[1]) + 1))
     return {name: Fraction(1)}
+
+
+def _unit(text: str) -> Row:
+    try:
+        powers = dimension_of(text).as_powers_dict()
+    except InputError:
+        raise _UnknownError from None
+    return {f"[{base}]": Fraction(int(power)) for base, power in powers.items() if base != 1}
 
 
 def _plus(a: Row, b: Row, times: int | Fraction = 1) -> Row:

@@ -60,7 +60,7 @@ class Displayed:
 
 @dataclass
 class Source:
-    """What a source says of a paper: title, authors, section number → heading, displayed equations; inline formulas.
+    """What a source says of a paper: title, authors, section number → heading, displayed equations; inline formula → section.
 
     notes: what could not be known of it; preamble: packages that its formulas need.
     """
@@ -69,7 +69,7 @@ class Source:
     authors: tuple[str, ...] = ()
     sections: dict[str, str] = field(default_factory=dict)
     equations: list[Displayed] = field(default_factory=list)
-    inline: list[str] = field(default_factory=list)
+    inline: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     preamble: str = ""
     labels: dict[str, str] = field(default_factory=dict)
@@ -275,7 +275,7 @@ class _Walker:
                 self.expander.push([token])  # a dollar sign that was not closed
                 return
             found.append(token)
-        self.found.inline.append(latex_of(found).strip())
+        self.found.inline.setdefault(latex_of(found).strip(), self.section)
 
     def _inline_environment(self) -> None:
         for token in self.expander.tokens():

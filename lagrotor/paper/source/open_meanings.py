@@ -468,7 +468,7 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Rivals:
                 side[-1:] = [b for part in side[-1].parts for b in part]
             letters = [b for b in side if b.kind == "letter"]
             plain = all(b.kind in ("number", "letter") or b.name in ("/", "times", "cdot") for b in side)
-            plain = plain and not any(b.sub for b in letters)
+            plain = plain and not any(b.sub or b.upright for b in letters)
             names = [b.name for b in letters]
             joined = "".join(" " * (a.end != b.at) + b.name for a, b in pairwise([*letters[:1], *letters])).split()
             named = {*names[names[:1] == ["mu"] :]} <= UNITS or {*joined} <= UNITS

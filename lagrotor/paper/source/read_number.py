@@ -40,7 +40,8 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if unit < len(row) and row[unit].kind in ("unit", "text"):
         return product_of([node, _units(reader, row[unit])]), unit + 1
     if unit < len(row) and row[unit].upright and row[unit].name in _UNIT_LETTERS and row[unit].sub is None:
-        reader.guess("unit", f"upright {row[unit].name} behind a number is a unit")
+        if unit == behind and len(row[unit].name) == 1:
+            reader.guess("unit", f"upright {row[unit].name} behind a number is a unit")
         return product_of([node, power_of(reader, Letter(f"unit_{row[unit].name}"), row[unit])]), unit + 1
     return node, behind
 

@@ -140,21 +140,34 @@ def test_an_order_that_is_claimed_is_checked(power: str, verdict: str, tmp_path:
     assert verdicts(tmp_path, body) == [verdict]
 
 
-def test_dimensions_that_contradict_those_of_other_equations_are_found(tmp_path: Path) -> None:
-    good = [
-        r"F = m a",
-        r"a = \ddot x",
-        r"v = \dot x",
-        r"F = k x",
-        r"E = \frac12 m v^2",
-        r"E = F x",
-        r"p = m v",
-        r"P = F v",
-    ]
-    body = "".join(rf"\begin{{equation}} {each} \end{{equation}}" for each in good)
-    assert UNITS not in verdicts(tmp_path, body)
-    found = findings(tmp_path, body + r"\begin{equation} E = F x + F\dot x \end{equation}")
-    assert [(each.equation, each.verdict) for each in found] == [("9", UNITS)]
+LAWS = ["F = m a", r"a = \ddot x", r"v = \dot x", "F = k x", r"E = \frac12 m v^2", "E = F x", "p = m v", "P = F v"]
+SLIPS = [
+    ("F = m a", "F = m v"),
+    (r"v = \dot x", r"v = \ddot x"),
+    (r"E = \frac12 m v^2", r"E = \frac12 m v"),
+    ("E = F x", r"E = F x + F\dot x"),
+    ("P = F v", "P = F a"),
+    ("p = m v", r"p = m v e^{-x}"),
+    ("F = k x", r"F = k x + \hbar v"),
+]
+
+
+@pytest.mark.parametrize(("good", "wrong"), SLIPS)
+def test_a_wrong_dimension_is_found_where_the_paper_prints_units_and_none_among_pure_numbers(
+    good: str, wrong: str, tmp_path: Path
+) -> None:
+    body = "".join(rf"\[ {each} \]" for each in [*LAWS, r"P = \hbar\omega^2", wrong])
+    units = r"With $m = 2\,\mathrm{kg}$, $x = 3\,\mathrm{m}$ and $v = 0.5\,\mathrm{m/s}$, "
+    found = [each for each in findings(tmp_path, units + body) if each.verdict == UNITS]
+    assert [each.equation for each in found] == ["0j"]
+    assert UNITS not in verdicts(tmp_path, units + body.replace(rf"\[ {wrong} \]", rf"\[ {good} \]"))
+    assert UNITS not in verdicts(tmp_path, r"With $m = 2$, $x = 3$ and $\hbar = 1$, " + body)
+
+
+@pytest.mark.parametrize("values", [r"x = 3", r"x = 2.5 t", r"n = 10^{16} + 10^{14} = 10^{16}\,\mathrm{cm^{-3}}"])
+def test_numbers_that_may_have_a_unit_say_nothing(values: str, tmp_path: Path) -> None:
+    assert UNITS not in verdicts(tmp_path, rf"At $x = 3\,\mathrm{{m}}$, $t = 2\,\mathrm{{s}}$ \[ {values} \]")
+    assert UNITS in verdicts(tmp_path, r"At $x = 3\,\mathrm{m}$, $t = 2\,\mathrm{s}$ \[ x = t \]")
 
 
 def test_two_definitions_and_a_use_before_the_definition_are_found(tmp_path: Path) -> None:
@@ -183,8 +196,8 @@ def test_the_command_gives_rows_for_an_editor_and_an_exit_status(
 
 
 def test_a_letter_with_another_meaning_in_another_section_is_no_contradiction(tmp_path: Path) -> None:
-    waves = r"\section{Waves} \[ v = a\omega \] \[ v = l/t \] \[ \omega t = 1 \] \[ a = l \] "
-    fall = r"\section{Fall} \[ v = a t \] \[ l = \frac12 a t^2 \] "
+    waves = r"\section{Waves} \[ t = 2\,\mathrm{s} \] \[ v = a\omega \] \[ v = l/t \] \[ \omega t = 1 \] \[ a = l \] "
+    fall = r"\section{Fall} \[ t = 3\,\mathrm{s} \] \[ v = a t \] \[ l = \frac12 a t^2 \] "
     assert UNITS not in verdicts(tmp_path, waves + fall)
     assert verdicts(tmp_path, waves + r"\section{Fall} \[ v = a t \]").count(UNITS) == 1, "one by itself is a slip"
     assert verdicts(tmp_path, waves + fall + r"\[ l = a t^3 \]").count(UNITS) == 1, "against its own section"

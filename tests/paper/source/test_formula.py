@@ -275,7 +275,8 @@ def test_what_custom_settles_is_named_as_a_guess(latex: str, guess: str) -> None
 @pytest.mark.parametrize(
     ("latex", "read", "guess"),
     [
-        (r"l = 5\,\mathrm{m}", "l = 5*unit_m", "upright m behind a number is a unit"),
+        (r"l = 5\mathrm{m}", "l = 5*unit_m", "upright m behind a number is a unit"),
+        (r"l = 5\,\mathrm{m}", "l = 5*unit_m", ""),
         (r"l = 5\,m", "l = 5*m", "a letter, and no unit"),
         (r"l = 5\,\eta", "l = 5*eta", ""),
         (r"y = e^2/r", "y = e**2/r", "e is a letter, and not Euler's number"),
