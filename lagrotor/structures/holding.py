@@ -5,8 +5,9 @@ degree d = 3 … N, the resonances, and of degree N + 1, the first that the form
 
     |dQ/dt| ≤ sum_d g_d Q^(d/2),    g_d a bound of |{Q, K_d}| at Q = 1,
 
-so that Q cannot double before ∫ dQ / sum_d g_d Q^(d/2): without resonances a time as push^−(N − 1). Of the orders and of what is
-kept as a resonance the longest time is taken. Where the energy is least upright it is forever. Giorgilli, Delshams, Fontich,
+so that Q takes ∫ dQ / sum_d g_d Q^(d/2) at least: without resonances a time as push^−(N − 1). Where degree N + 1 is zero by
+symmetry, the next counts. Of the orders and of what is kept as a resonance the longest time is taken. Where the energy is
+least upright, or symmetry keeps all actions, it is forever. Giorgilli, Delshams, Fontich,
 Galgani & Simó, J. Differ. Equ. 77 (1989) 167. Sizes of polynomials: Beauzamy, Bombieri, Enflo & Montgomery, J. Number Theory 36
 (1990) 219.
 """
@@ -39,14 +40,17 @@ _ORDERS = {
     6: 5,
     MOST_DOF: 4,
 }  # of the normal form, N + 1, by the degrees of freedom up to which it is expanded so far
+_ZERO = 1e-9  # of the largest coefficient: what moves it apart by less is rounding
 _DETUNINGS = (0.0, 1e-3, 1e-2, 0.1)  # of the largest rate: what is nearer is kept as a resonance
 
 
 def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
     """The time (s) before which no push of that size grows to more than sqrt(2) times its size in the normal modes.
 
-    An estimate from the first terms that the normal form leaves; inf where the energy is least upright, 0 where it does not
-    stand to first order or the push is beyond what the expansion is trusted. push, of: as `largest_push` has them.
+    An estimate from the first terms that the normal form leaves and that are not zero, and from the first of what its coordinates
+    and the normal modes differ by. inf where the structure may turn about the vertical through each joint, as a free top, and for
+    staying near where the energy is least upright; 0 where it does not stand to first order or the push is beyond what the
+    expansion is trusted. push, of: as `largest_push` has them.
 
     Raises:
         InputError: friction acts on what spins hold, or there are more than 8 degrees of freedom.
@@ -62,6 +66,8 @@ def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
     h = local_hamiltonian(s)
     if push > trusted_push(s, of=of):
         return 0.0
+    if not s.bars and all(not isinstance(b.to, int) and b.to[:2] == s.joints[b.tip] for b in s.braces):
+        return inf  # each rotor keeps its energy and its momentum about the vertical, and with them both its actions
     order = next(n for most, n in _ORDERS.items() if linear.dof <= most)
     times = [0.0]
     for detuning in _DETUNINGS:
@@ -75,16 +81,19 @@ def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
 
 
 def _times(form: NormalForm, size: float) -> list[float]:
-    """In units of the form's rate, by what each degree leaves; none where the coordinates are no longer near the old ones."""
+    """In units of the form's rate, by what each degree leaves that is not zero, until sqrt(2) times the size is reached in the
+    normal modes; none where these differ by too much from the form's coordinates."""
     n, times, kept, moved = len(form.frequencies), list[float](), dict[int, float](), 0.0
-    rates = np.real(form.frequencies)
+    rates, zero = np.real(form.frequencies), _ZERO * float(np.abs(form.series.coefficients).max())
     for degree, generator in enumerate(form.generators, 3):
         gap = (generator.exponents[:, :n] - generator.exponents[:, n:]) @ rates
-        kept_here = _feeding(form.series.part(degree))
-        times.append(_doubling({**kept, degree: kept_here + _feeding(generator.times(gap))}, size * (1 + moved)))
+        kept_here, left = _feeding(form.series.part(degree)), _feeding(generator.times(gap))
+        if left > zero:
+            growth = {**kept, degree: kept_here + left}
+            times.append(_duration(growth, size * (1 + moved), sqrt(2) * size / (1 + moved)))
         kept[degree] = kept_here
-        moved += degree * _size(generator) * size ** (degree - 2)
-        if moved > 0.5:
+        moved += degree * _size(generator) * (sqrt(2) * size) ** (degree - 2)
+        if (1 + moved) ** 2 >= sqrt(2):
             break
     return times
 
@@ -104,9 +113,8 @@ def _size(f: Polynomial) -> float:
     return float(np.sqrt(2.0**d * (np.abs(f.coefficients) ** 2 * factorial(f.exponents).prod(1)).sum() / factorial(d)))
 
 
-def _doubling(growth: dict[int, float], size: float) -> float:
-    """∫ dQ / sum_d g_d Q^(d/2) from Q = size² to twice that."""
+def _duration(growth: dict[int, float], begin: float, end: float) -> float:
+    """∫ dQ / sum_d g_d Q^(d/2) from Q = begin² to end²."""
     nodes, weights = np.polynomial.legendre.leggauss(12)
-    r: Array = size * (1 + (sqrt(2) - 1) * (1 + nodes) / 2)
-    slope = sum(g * r**d for d, g in growth.items())
-    return float((weights * 2 * r / slope).sum() * size * (sqrt(2) - 1) / 2) if np.all(slope > 0) else inf
+    r: Array = begin + (end - begin) * (1 + nodes) / 2
+    return float((weights * 2 * r / sum(g * r**d for d, g in growth.items())).sum() * (end - begin) / 2)

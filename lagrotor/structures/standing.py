@@ -188,8 +188,10 @@ class Standing(Shown):
     def hold_time(self, push: float, of: Of = "rates") -> float:
         """The time (s) before which no push of that size grows to sqrt(2) times its size: see `structures.holding`.
 
-        inf where the energy is least upright, 0 where it does not stand or the push is beyond what the expansion is trusted; an
-        estimate elsewhere. Raises InputError with friction, and for more than 8 degrees of freedom.
+        In the normal modes. inf for a free top, and for staying near where the energy is least upright; 0 where it does not
+        stand or the push is beyond what the expansion is trusted; an estimate elsewhere.
+
+        Raises InputError with friction, and for more than 8 degrees of freedom.
         """
         return hold_time(self.structure, push, of)
 

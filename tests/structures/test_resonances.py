@@ -214,12 +214,18 @@ def test_a_tilt_is_a_push(shape, spins, count):
     s = at(1.0607, shape, spins)
     found, rate, largest = s.stands(), local_hamiltonian(s).rate, s.largest_push("tilts")
     assert "sine" in repr(largest) and largest.value < 0.01
+    told = []
     for direction in directions(s, count, seed=5):
         tilt = 0.03 * direction
         exact = measured_fall(s, tilt, 400 / rate, 1e-7, "tilts")
         said, error = found.fall_time(tilt, "tilts"), found.fall_time_error(tilt, "tilts")
-        assert found.fall_time(0.03, "tilts") < exact < inf and abs(exact - said) <= error < 0.4 * exact
+        assert found.fall_time(0.03, "tilts") < exact < inf and abs(exact - said) <= error
         assert measured_fall(s, 0.9 * largest.value * direction, 400 / rate, 1e-7, "tilts") == inf
+        smaller = found.fall_time_error(tilt / 2, "tilts") / found.fall_time(tilt / 2, "tilts")
+        told.append((error / said, smaller))
+    part, smaller = np.transpose(told)
+    # In seconds the terms of fourth order change as much for any push; a fifth to a third where it grows along what they turn.
+    assert np.median(part) < 0.3 and (smaller < 0.75 * part).all()
 
 
 def test_spin_intervals_of_a_tilt():
@@ -365,7 +371,7 @@ def test_beside_the_critical_spins_the_exact_motion_falls_and_none_is_said_to_ho
 
 
 def test_how_long_it_holds():
-    """As push^−4 by the form of fifth order; for ever where the energy is least, or spin about the vertical is kept; not at all
+    """As push^−4 by the form of fifth order; for ever where the energy is least, or of a free top; not at all
     beyond what is trusted. At a resonance of third order not as long as its least time."""
     s = at(1.5, CORNER, [1, 0.3, 1.2])
     found, rate = s.stands(), local_hamiltonian(s).rate
@@ -379,9 +385,26 @@ def test_how_long_it_holds():
     assert 0 < falling.hold_time(0.01 * rate) < falling.fall_time(0.01 * rate)
     with pytest.raises(InputError, match="hold_time: push = -1 must be"):
         found.hold_time(-1)
-    row = Structure(joints=[(k, 0) for k in range(9)], bars=[(k, k + 1) for k in range(8)], **WEIGHT, spins=200)
-    with pytest.raises(InputError, match=r"hold_time: \d+ degrees of freedom: at most 8"):
-        row.stands().hold_time(0.1)
+    beside = CORNER | {"joints": [*CORNER["joints"], (5, 0), (6, 0), (7, 0)]}
+    with pytest.raises(InputError, match="hold_time: 10 degrees of freedom: at most 8"):
+        at(1.5, beside, [1, 0.3, 1.2, 1, 1, 1]).stands().hold_time(0.1)
+
+
+def test_odd_orders_that_symmetry_removes_are_no_promise():
+    """Of two braces that face each other, equal ones leave no odd orders: nearly equal ones, which do, hold nearly as long."""
+    pushes, times = (0.005, 0.01), []
+    for stiffness in (20, 19.9):
+        braces = [Brace(0, (1, 0, 0), 20), Brace(0, (-1, 0, 0), stiffness)]
+        s = at(1.3, {"joints": [(0, 0)], "braces": braces, **WEIGHT}, 1)
+        times.append([s.stands().hold_time(push) for push in pushes])
+    assert times[0] == pytest.approx(times[1], rel=0.05)
+    assert measured_order(pushes, times[0]) == pytest.approx(-4, abs=0.1)
+
+
+def test_a_free_top_is_held_for_ever_with_a_brace_along_its_vertical_and_not_beside_it():
+    for x, held in ((0.0, True), (0.3, False)):
+        top = at(1.3, {"joints": [(0, 0)], "braces": [Brace(0, (x, 0, 3), 20)], **WEIGHT}, 1)
+        assert (top.stands().hold_time(0.001) == inf) is held
 
 
 def test_what_the_form_leaves_is_what_its_next_generator_removes():
