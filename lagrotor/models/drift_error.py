@@ -1,9 +1,10 @@
 """Errors of the closed forms for the slow motion after a shock: the next orders of the averaged motion, computed for the scene.
 
-The pulse is integrated. From its end the normal form about upright (`models.averaged`) through sixth order gives the mean rates
-of turning and of x with the next orders that the closed forms leave out, over the whole duration, in which the mean x grows and
-changes both: how far they are from the closed forms' is known then. The terms of the last two degrees, all added with the same
-sign, are a ratio of the lower ones; the orders that are left out are estimated to go on as a geometric series of that ratio.
+The pulse is integrated. From its end, on to `duration` after its peak, the normal form about upright (`models.averaged`) through
+sixth order gives the mean rates of turning and of x with the next orders that the closed forms leave out; the mean x grows
+meanwhile and changes both. How far they are from the closed forms' is derived. An estimate is what the orders left out add, a
+geometric series of the ratio of the last two degrees' terms, all added with the same sign, to the lower ones'. The largest ratio
+taken, and the number of parts and of phases in which means are taken, are chosen.
 """
 
 from dataclasses import replace
@@ -15,6 +16,7 @@ from lagrotor.mechanics.canonical.polynomials import total
 from lagrotor.models.averaged import Forms, forms_about, normal_start, slow_course, states_at, swing_rates
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import Array, integrate_model, natural_units
+from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock, wander_after_shock
 from lagrotor.theory.natural_rate import natural_rate
@@ -24,21 +26,23 @@ _PHASES = 12  # of the swing, over which a mean is taken
 _PARTS = 8  # of the duration
 _LOCAL = 1e-7, 1e-10  # errors of the slow motion's integration
 _PULSE = 1e-10  # local error of the integration through the pulse
-_SLOWEST = 0.5  # ratio beyond which the orders do not fall
+_LARGEST_RATIO = 0.5  # of the last two degrees to the lower ones; beyond, the sum of those left out is no estimate
+
+_WAY_OUT = "take a smaller shock or a shorter duration, or run it with lagrotor.simulate"
 
 
 def toppling_error(scene: Scene, duration: float) -> float:
-    """Error (rad/s) of `toppling_after_shock` as the mean rate over `duration` s from the pulse's peak.
+    """Error (rad/s) of `toppling_after_shock` as the mean rate from the pulse's end to `duration` s after its peak.
 
     Raises:
-        InputError: as `toppling_after_shock`.
-        DomainError: where the orders of the averaged motion do not fall, or the duration ends within the pulse.
+        InputError: as `toppling_after_shock`, or the duration is no finite number.
+        DomainError: where the orders of the averaged motion do not fall enough, or the duration ends within the pulse.
     """
     return _errors(scene, duration, "toppling_error")[0]
 
 
 def wander_error(scene: Scene, duration: float) -> float:
-    """Error (1/s) of `wander_after_shock` as the mean rate of x over `duration` s from the pulse's peak.
+    """Error (1/s) of `wander_after_shock` as the mean rate of x from the pulse's end to `duration` s after its peak.
 
     Raises:
         InputError: as `toppling_error`.
@@ -48,9 +52,10 @@ def wander_error(scene: Scene, duration: float) -> float:
 
 
 def cancelling_force_error(scene: Scene, duration: float) -> float:
-    """How far (N) `cancelling_force` may lie from the force that leaves no mean turning over `duration` s after the pulse's peak.
+    """How far (N) `cancelling_force` may lie from the force that leaves no mean turning.
 
-    That far on either side `toppling_after_shock` is beyond its error, of opposite signs.
+    The mean is taken from the pulse's end to `duration` s after its peak. That far on either side `toppling_after_shock` is
+    beyond its error, of opposite signs.
 
     Raises:
         InputError: as `toppling_error`.
@@ -60,12 +65,15 @@ def cancelling_force_error(scene: Scene, duration: float) -> float:
     shock = scene.shock
     assert shock is not None
 
-    def shocked(across: float) -> Scene:
+    def with_force(across: float) -> Scene:
         return replace(scene, shock=replace(shock, force=(shock.force[0], across, 0.0)))
 
+    if force == 0:  # nothing along x, nothing to cancel
+        _errors(with_force(0.0), duration, "cancelling_force_error")
+        return 0.0
     apart = 1e-3 * abs(force)
     for _ in range(40):
-        sides = shocked(force - apart), shocked(force + apart)
+        sides = with_force(force - apart), with_force(force + apart)
         rates = [toppling_after_shock(one) for one in sides]
         errors = [_errors(one, duration, "cancelling_force_error")[0] for one in sides]
         short = max(error / abs(rate) for error, rate in zip(errors, rates, strict=True))
@@ -83,6 +91,7 @@ def cancelling_force_error(scene: Scene, duration: float) -> float:
 def _errors(scene: Scene, duration: float, where: str) -> tuple[float, float]:
     """Of the rates of turning (rad/s) and of x (1/s)."""
     laws = toppling_after_shock(scene), wander_after_shock(scene)  # which refuse what they do not hold
+    duration = finite_number(duration, f"{where}: duration", "s")
     units = natural_units(scene, natural_rate(scene))  # the same for every shock, and the normal form with them
     one, shock = units.scene, units.scene.shock
     assert shock is not None
@@ -97,14 +106,14 @@ def _errors(scene: Scene, duration: float, where: str) -> tuple[float, float]:
     try:
         begin, t = normal_start(one, forms, _ORDER, start), np.linspace(0, span, _PARTS + 1)
         slow, _ = slow_course(forms, _ORDER, begin, t, _LOCAL)
-    except DomainError as error:
-        raise DomainError(f"{where}: {error}") from None
+    except DomainError:
+        raise DomainError(f"{where}: the motion after the pulse does not stay small: {_WAY_OUT}") from None
     lower, higher = (_largest(forms, part, slow) for part in (range(2, _ORDER - 1), range(_ORDER - 1, _ORDER + 1)))
-    ratio = float((higher / lower).max())
-    if not ratio < _SLOWEST:
+    ratio = float(np.divide(higher, lower, out=np.where(higher > 0, np.inf, 0.0), where=lower > 0).max())
+    if not ratio < _LARGEST_RATIO:
         raise DomainError(
-            f"{where}: the orders of the averaged motion fall by {ratio:.2g} each, less than by {_SLOWEST:g}: it is not small; "
-            "take a smaller shock or a shorter duration, or run it with lagrotor.simulate"
+            f"{where}: the last two orders of the averaged motion are {ratio:.2g} of the lower ones, more than "
+            f"{_LARGEST_RATIO:g}: {_WAY_OUT}"
         )
     swing = swing_rates(forms)
     turns = np.exp(swing * (2 * np.pi / np.abs(swing).max() * np.arange(_PHASES) / _PHASES)[:, None])

@@ -123,7 +123,7 @@ def test_the_papers_cancelling_force_lies_within_its_error_for_every_window():
     after = scene.shock.end - scene.shock.at
     assert abs(found[8] - law) < cancelling_force_error(scene, 8 * turn + after) < 3 * abs(found[8] - law)
     with pytest.raises(
-        DomainError, match=r"cancelling_force_error: the orders of the averaged motion fall by 0\.\d+ each"
+        DomainError, match=r"cancelling_force_error: the last two orders of the averaged motion are 0\.\d+ of the lower"
     ):
         cancelling_force_error(scene, 20 * turn + after)
 
@@ -168,12 +168,31 @@ def test_without_the_next_order_the_errors_are_too_small(monkeypatch):
 
 
 def test_what_is_out_of_range_is_refused():
-    with pytest.raises(DomainError, match=r"toppling_error: .*fall by .* each, less than by 0\.5"):
+    with pytest.raises(DomainError, match=r"toppling_error: .* are .* of the lower ones, more than 0\.5"):
         toppling_error(scene(40), 20.0)
-    with pytest.raises(DomainError, match=r"wander_error: .*(no small motion|moves far)"):
+    with pytest.raises(
+        DomainError, match=r"wander_error: the motion after the pulse does not stay small: .*lagrotor\.simulate"
+    ):
         wander_error(scene(40), 60.0)
     with pytest.raises(DomainError, match=r"duration = 0\.1 s ends within the pulse, 0\.\d+ s after its peak"):
         toppling_error(scene(4), 0.1)
+    for wrong in ("a", float("nan"), np.inf, True, None):
+        with pytest.raises(InputError, match=r"duration = .* not a"):
+            toppling_error(scene(4), wrong)
+        with pytest.raises(InputError, match="cancelling_force_error: duration"):
+            cancelling_force_error(scene(0), wrong)
+
+
+def test_without_motion_and_without_a_force_the_error_is_zero():
+    """Nothing happens; or nothing is to be cancelled, though the pair turns: beside that, errors are above zero."""
+    for still in (scene(0), replace(scene(0), shock=Shock((0, 0, 4), 0.5, 1 / 20))):
+        assert toppling_error(still, 10) == wander_error(still, 10) == cancelling_force_error(still, 10) == 0
+    assert (
+        cancelling_force_error(scene(0, 4), 10)
+        == 0
+        < min(toppling_error(scene(0, 4), 10), wander_error(scene(0, 4), 10))
+    )
+    assert 0 < cancelling_force_error(scene(4), 10) < 1e-3
 
 
 def test_refused():
