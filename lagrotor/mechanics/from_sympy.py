@@ -31,7 +31,7 @@ def parts_from_sympy(given: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
     """The coordinates and expressions of a `System`, by name.
 
     Raises InputError for what is none of these, for coordinates that are no functions of time, and for a KanesMethod without its
-    bodies, or whose speeds are not given by its equations.
+    bodies.
     """
     from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System, dynamicsymbols
 

@@ -70,7 +70,7 @@ def at_dead_point(y: Array) -> bool:
 
 
 def time_to_dead_point(y: Array) -> float:
-    """The time after which a state (12,) that heads for r_1 = r_2 = ± e_x is there at the earliest; inf where it does not.
+    """A time of which half is no more than what a state (12,) needs to r_1 = r_2 = ± e_x; inf where it does not head there.
 
     The axes' components across the joint line move on a cone whose apex is that position: on both sides of it a straight
     motion through it and one around it feel no force, and a step over it would pass undetected. An axis at the angle θ from the

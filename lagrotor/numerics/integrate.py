@@ -138,7 +138,7 @@ def _by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     """A segment by the solver that is fastest at this tolerance; where that stops, DOP853 goes on for a while.
 
     The other one is tried again once DOP853 has taken as many evaluations as the last trial lost, and if it would take more than
-    those to the end: trials together lose no more than DOP853 takes, but for the first.
+    those to the end: trials together lose no more than DOP853 takes, but for the last.
     """
     # From a velocity that is not finite a solver makes a step that is not, and retries it for ever.
     if not np.isfinite(segment.rhs(segment.left, segment.start)).all():

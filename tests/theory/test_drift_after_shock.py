@@ -105,8 +105,10 @@ def test_cancelling_force_of_random_pairs(count):
             refused += 1
             continue
         exact = exact_cancelling_force(scene, turns)
-        pairs.append((abs(exact - cancelling_force(scene)), given + 1e-5 * abs(exact)))
-    held(pairs, refused, count, 2)
+        pairs.append(
+            (abs(exact - cancelling_force(scene)), given + 1e-6 * abs(exact))
+        )  # the secant's 1e-7 and the runs' error
+    held(pairs, refused, count, 1)  # told more often than refused
 
 
 def test_cancelling_force_of_the_paper():
