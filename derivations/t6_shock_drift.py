@@ -168,8 +168,8 @@ def scene(force: float, across: float = 0.0) -> Scene:
 
 def duration(turns: int) -> float:
     """Time (s) from the pulse's peak to the end of a run of so many swings."""
-    shocked = scene(40)
-    return shocked.shock.end - shocked.shock.at + turns * 2 * np.pi / natural_rate(shocked)
+    one = scene(40)
+    return one.shock.end - one.shock.at + turns * 2 * np.pi / natural_rate(one)
 
 
 def exact_forces(forces: tuple[float, ...] = (10, 20, 40)) -> tuple[list[float], float]:
@@ -287,16 +287,16 @@ def new(name: str) -> sp.Expr:
     return expression(f, start)
 
 
-shocked = {name: new(name) for name in ("Z", "W", "beta_s", "eta")}
-swung = ((5 * sigma - 7) * k**2 - 15) / (16 * k**2)
+after_pulse = {name: new(name) for name in ("Z", "W", "beta_s", "eta")}
+swing_change = ((5 * sigma - 7) * k**2 - 15) / (16 * k**2)
 prove(
     (
-        shocked["eta"],
-        shocked["beta_s"],
-        sp.expand(shocked["Z"] + twisted + twisted**3 * swung.subs(sigma, root_sigma**2)),
+        after_pulse["eta"],
+        after_pulse["beta_s"],
+        sp.expand(after_pulse["Z"] + twisted + twisted**3 * swing_change.subs(sigma, root_sigma**2)),
     ),
     (twisted, 0, 0),
-    "the centre is where the first order has it; the swing is larger by a third order",
+    "the centre is where the first order has it; the swing is changed in third order",
     names=(r"\eta", r"\beta_s", r"Z+\delta+\dots"),
 )
 
@@ -304,12 +304,12 @@ prove(
 # The rate of turning is $\partial K/\partial P$ at $P=0$; in units of $G/(a+b)$:
 
 # %%
-at_pulse = shocked | {"alpha": sp.S.Zero, "P": sp.S.Zero}
-turned = sp.Poly(expression(form.series.derivative(5), at_pulse), twisted)
-fourth = sp.factor(turned.coeff_monomial(twisted**4).subs(root_sigma, sp.sqrt(sigma)))
+at_pulse = after_pulse | {"alpha": sp.S.Zero, "P": sp.S.Zero}
+turning_of_centre = sp.Poly(expression(form.series.derivative(5), at_pulse), twisted)
+fourth = sp.factor(turning_of_centre.coeff_monomial(twisted**4).subs(root_sigma, sp.sqrt(sigma)))
 next_order = -((17 * sigma**2 + 5 * sigma - 40) * k**2 - 87 * sigma) / (16 * k**3 * sigma)
 prove(
-    (turned.coeff_monomial(twisted**2), turned.coeff_monomial(twisted**3), fourth),
+    (turning_of_centre.coeff_monomial(twisted**2), turning_of_centre.coeff_monomial(twisted**3), fourth),
     (-3 / (2 * k), 0, next_order),
     "the rate of turning after a short pulse along x: second, third and fourth order",
     names=(r"\alpha'_2", r"\alpha'_3", r"\alpha'_4"),

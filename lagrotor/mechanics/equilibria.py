@@ -53,7 +53,7 @@ def equilibria(
     inclination. Angles in sines and cosines are found between −π and π.
 
     With values of the parameters and a box, {coordinate: (least, largest)}: all equilibria there, each alone in its
-    `enclosure`, and none elsewhere in the box, by interval Newton. Where a force has a pole none is at rest.
+    `enclosure`, and none elsewhere in the box, by interval Newton. A pole of a force is no equilibrium.
 
     Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
     stays undecided, as about equilibria that are not isolated.

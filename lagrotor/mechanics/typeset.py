@@ -40,7 +40,10 @@ def formulas(system: Equations) -> dict[str, list[str]]:
     if put:
         parts["Equations of motion"][:0] = [line(latex(v), e) for v, e in put.items() if v != e]
     if system.multipliers:
-        parts["Constraints"] = [line(e) for e in (*system.constraints, *system.rolling)]
+        rolling = enumerate(system.rolling, len(system.constraints))
+        # What q' = B u + b keeps it says, where it is written.
+        told = [e for i, e in rolling if not (own and put) or i in own.left]
+        parts["Constraints"] = [line(e) for e in (*system.constraints, *told)]
     closed = not (system.forces or system.dissipation != 0 or t in system.L.free_symbols)
     steady = all(e.subs(dict.fromkeys(c.v, 0)) == 0 for e in system.residual)
     kept = [line("E", system.energy.xreplace(put))] if closed and steady else []
@@ -48,7 +51,7 @@ def formulas(system: Equations) -> dict[str, list[str]]:
         for q in cyclic_coordinates(system):
             momentum = derivative(system.L, c.v[c.q.index(q)])
             kept.append(line(rf"p_{{{letter_latex(q)}}}", momentum.xreplace(put)))
-    return parts | ({"Conserved": kept} if kept else {})
+    return {heading: lines for heading, lines in (parts | {"Conserved": kept}).items() if lines}
 
 
 def _in_own_velocities(system: Equations) -> list[sp.Expr]:

@@ -126,10 +126,10 @@ class Model:
     side, its first `size` arguments the state. rhs: (*kind, bounded) → its function, generated. start: the state (d,) of a
     scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
     projection: brings states that drifted off the constraints back onto them. outside: whether a state of a pair with its
-    bar lies where the model must not be integrated; time_to_singular: a time of which half is no more than what is
-    left until a state is there. slack: of states (n, d) of such a pair, as `Evolution` has it. singular: the words of the singular position that
-    axes (2, 3) at which a solver stopped are at, or none. angles: which states may grow without end, their rates being states.
-    progress: called with the time of each evaluation of the right-hand side.
+    bar lies where the model must not be integrated; time_to_singular: a time of which half is no more than what is left until
+    a state is there. slack: of states (n, d) of such a pair, as `Evolution` has it. singular: the words of the singular
+    position that axes (2, 3) at which a solver stopped are at, or none. angles: which states may grow without end, their
+    rates being states. progress: called with the time of each evaluation of the right-hand side.
     """
 
     name: str

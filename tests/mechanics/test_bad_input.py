@@ -158,6 +158,8 @@ BAD: dict[str, Callable[[], Any]] = {
     "a misspelt name of a right-hand side": lambda: pendulum.rhs({"m": 1, "l": 1, "g": 10, "lenght": 2}),
     "a right-hand side of three numbers": lambda: pendulum.rhs(VALUES)(0.0, [1, 2, 3]),
     "a right-hand side of text": lambda: pendulum.rhs(VALUES)(0.0, ["a", 2]),
+    "a right-hand side of an array of text": lambda: pendulum.rhs(VALUES)(0.0, np.array(["0.1", "2"])),
+    "a right-hand side of complex numbers": lambda: pendulum.rhs(VALUES)(0.0, np.array([0.1, 2j])),
     "dry friction in two directions": lambda: run(
         System(P, FLAT, dissipation=k * sp.sqrt(u**2 + w**2)), {m: 1, k: 1}, (0, 0), (1, 2)
     ),

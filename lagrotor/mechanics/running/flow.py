@@ -28,7 +28,8 @@ _LIKE = 8.0  # ratio of a component to one below which none is scaled
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
-    """(t, y) → (v, u'), for the state y = (q, u), an array (N + m,): for any solver, and the fastest that the engine has.
+    """(t, y) → (v, u'), for the state y = (q, u), (N + m,): for any solver, and the fastest that the engine has. u is q' where
+    the system has no velocities of its own.
 
     engine: "core", generated Python, which gives a list, or "fast", compiled by heyoka, which gives an array.
 
@@ -42,12 +43,13 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
     fast = engine == "fast"
     function = taylor_rhs(program.program, len(program.states), parameters) if fast else program.rhs(*parameters)
     timed, shape = depends_on_time(system), (len(system.c.q) + len(system.speeds),)
+    speeds = "u" if system.kinematics else "q'"
 
     def rate(t: float, y: Any) -> Any:
-        if getattr(y, "shape", None) != shape:
+        if getattr(y, "shape", None) != shape or y.dtype.kind not in "iuf":
             state = real_array(y)
             if state is None or state.shape != shape:
-                raise InputError(f"rhs: y = {y!r} must be {shape[0]} numbers, q and then u")
+                raise InputError(f"rhs: y = {y!r} must be {shape[0]} numbers, q and then {speeds}")
             y = state
         return function(t, np.append(y, t))[:-1] if timed else function(t, y)
 
