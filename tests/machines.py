@@ -2,7 +2,8 @@
 
 Other kernels of the linear algebra library, numpy without its vector features, other orders of hashing, the lowest
 dependencies, with the extras and without, and every Python from 3.11 on that is here. Each run has a name; some of them:
-`make test-machines RUNS="Prescott extras"`. What this machine cannot is said. Exit status 1 where a run fails.
+`make test-machines RUNS="Prescott extras"`. What this machine cannot is said. Exit status 1 where a run fails, or is
+not run though its packages could be fetched: only what this machine lacks, a network, an interpreter or a processor, excuses it.
 """
 
 import os
@@ -26,6 +27,8 @@ OLDEST = "Prescott"  # its run has no vector features of numpy either
 SEEDS = 1, 2, 3
 PYTHONS = "3.11", "3.12", "3.13", "3.14"
 EXTRAS = "heyoka", "pandas", "xarray"
+NOT_INSTALLED = "its packages cannot be installed"
+_UNREACHED = "after connection broken by"  # what pip says of a package index that it does not reach
 # Prints the vector features that numpy chooses among and this processor has.
 _FEATURES = """
 try:
@@ -48,10 +51,15 @@ class Environment:
     def executable(self) -> str:
         return f"{self.folder}/bin/python"
 
-    def make(self) -> int:
-        """Made as the Makefile says; exit status."""
+    def make(self) -> str:
+        """Made as the Makefile says; what hindered it, or ""."""
         variables = [f"VENV={self.folder}", f"PYTHON={self.python}"] if self.python else []
-        return subprocess.run(["make", "--silent", *variables, f"{self.folder}/{self.mark}"], cwd=ROOT).returncode
+        command = ["make", "--silent", *variables, f"{self.folder}/{self.mark}"]
+        done = subprocess.run(command, cwd=ROOT, stderr=subprocess.PIPE, text=True)
+        print(done.stderr, end="", file=sys.stderr)
+        if not done.returncode:
+            return ""
+        return "no network to install its packages from" if _UNREACHED in done.stderr else NOT_INSTALLED
 
 
 ORDINARY = Environment(".venv", ".installed-test")
@@ -107,8 +115,8 @@ def hindrance(run: Run) -> str:
             subprocess.run([run.environment.python, "--version"], capture_output=True, check=True)
         except (OSError, subprocess.CalledProcessError):
             return f"no {run.environment.python} is installed"
-    if run.environment.make():
-        return "its packages cannot be installed"
+    if why := run.environment.make():
+        return why
     if kernel and f"Core: {kernel}" not in chosen_kernel(run):
         said = chosen_kernel(run).strip() or "numpy's linear algebra is not OpenBLAS"
         return "" if kernel == OLDEST and "Katmai" in said else f"not chosen: {said}"
@@ -147,18 +155,22 @@ def main(names: Iterable[str]) -> int:
     if unknown := [name for name in names if name not in known]:
         print(f"no run is called {', '.join(unknown)}: there are {', '.join(known)}")
         return 2
-    results, failed = [], False
+    results, absent, failed = list[str](), list[str](), False
     for number, name in enumerate(chosen := list(names) or list(known), start=1):
         print(f"== {number} of {len(chosen)}: {name}", flush=True)
         began = time.monotonic()
         if why := hindrance(known[name]):
             results.append(f"{name}: not run, {why}")
+            absent.append(name)
+            failed |= why == NOT_INSTALLED
         else:
             good = passed(known[name])
             failed |= not good
             results.append(f"{name}: {'passed' if good else 'FAILED'} in {time.monotonic() - began:.0f} s")
         print(results[-1], flush=True)
     print("== all", *results, sep="\n")
+    if absent:
+        print(f"!!!! NOT RUN, SO NOT TESTED HERE: {', '.join(absent)} !!!!")
     return int(failed)
 
 

@@ -1,5 +1,6 @@
 """The runs of `make test-machines`: each has a name and files, what cannot be run says why; what hypothesis draws."""
 
+import os
 import re
 import subprocess
 import sys
@@ -16,12 +17,13 @@ from tests.machines import EXTRAS, KERNELS, OLDEST, PYTHONS, ROOT, Environment, 
 
 WORKFLOW = ROOT / ".github" / "workflows" / "tests.yml"
 BUILD = ROOT / ".ci" / "run"
+MAKE = Environment.make
 HERE = Environment(str(Path(sys.executable).parent.parent))
 
 
 @pytest.fixture(autouse=True)
 def nothing_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Environment, "make", lambda self: 0)
+    monkeypatch.setattr(Environment, "make", lambda self: "")
 
 
 def test_every_run_has_a_name_of_its_own_and_files() -> None:
@@ -49,7 +51,7 @@ def test_what_is_run_elsewhere_is_one_of_the_runs() -> None:
     assert again.split() == [OLDEST, "extras"] and set(again.split()) <= names
 
 
-def test_what_this_machine_cannot_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_this_machine_cannot_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     other = Run("python9", ("tests",), Environment(".venv-9", python="no-such-python"))
     assert machines.hindrance(other) == "no no-such-python is installed"
     kernel = Run("Haswell", ("tests",), HERE, {"OPENBLAS_CORETYPE": "Haswell"})
@@ -60,8 +62,13 @@ def test_what_this_machine_cannot_is_said(monkeypatch: pytest.MonkeyPatch) -> No
         or "no-such-feature" in machines.hindrance(kernel)
         or ("x86-64" in machines.hindrance(kernel))
     )
-    monkeypatch.setattr(Environment, "make", lambda self: 1)
-    assert machines.hindrance(Run("lowest", ("tests",), HERE)) == "its packages cannot be installed"
+    unreached = f"echo 'Retrying {machines._UNREACHED} a timeout' >&2; exit 1"
+    monkeypatch.setattr(Environment, "make", MAKE)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    for said, reason in ((unreached, "no network to install its packages from"), ("exit 1", machines.NOT_INSTALLED)):
+        (tmp_path / "make").write_text(f"#!/bin/sh\n{said}\n")
+        (tmp_path / "make").chmod(0o755)
+        assert machines.hindrance(Run("lowest", ("tests",), HERE)) == reason
 
 
 def test_numpy_is_left_without_what_it_would_choose() -> None:
@@ -83,6 +90,11 @@ def test_a_run_that_fails_and_a_name_that_is_none(
     assert machines.main(["lowest", "extras"]) == 1
     assert machines.main(["no-run"]) == 2
     said = capsys.readouterr().out
+    assert f"NOT TESTED HERE: {OLDEST} !" in said
+    for why, status in (("no network to install its packages from", 0), (machines.NOT_INSTALLED, 1)):
+        monkeypatch.setattr(machines, "hindrance", lambda run, why=why: why)
+        assert machines.main(["extras"]) == status
+        assert capsys.readouterr().out.endswith("!!!! NOT RUN, SO NOT TESTED HERE: extras !!!!\n")
     assert (
         f"{OLDEST}: not run, no such kernel" in said and "lowest: FAILED" in said and "no run is called no-run" in said
     )

@@ -60,18 +60,16 @@ def test_equations_are_shown_in_velocities_of_ones_own() -> None:
     L = m * ((X - a * P * sp.sin(phi)) ** 2 + (Y + a * P * sp.cos(phi)) ** 2) / 2 + I * P**2 / 2
     blade = (Y * sp.cos(phi) - X * sp.sin(phi),)
     own = {u: X * sp.cos(phi) + Y * sp.sin(phi), omega: P}
-    lines = System(c, L, rolling=blade, velocities=own).latex().splitlines()
-    assert lines[1:6] == [
+    system = System(c, L, rolling=blade, velocities=own)
+    assert system.latex().splitlines()[1:] == [
         r"\dot{x} &= u \cos \phi \\",
         r"\dot{y} &= u \sin \phi \\",
         r"\dot{\phi} &= \omega \\",
         r"m \dot{u} - a m \omega^{2} &= 0 \\",
-        r"\dot{\omega} \left(I + a^{2} m\right) + a m \omega u &= 0 \\",
-    ]
-    assert (
-        not any(r"\sin \phi - " in line for line in lines[6:])
-        and "Constraints" not in System(c, L, rolling=blade, velocities=own)._repr_markdown_()
-    )
+        r"\dot{\omega} \left(I + a^{2} m\right) + a m \omega u &= 0",
+        r"\end{align}",
+    ]  # and not the rolling again, which the first two keep
+    assert "Constraints" not in system._repr_markdown_()
     plain = System(c, L, rolling=blade)
     assert r"\ddot" in plain.latex() and "Constraints" in plain._repr_markdown_()
 
