@@ -23,27 +23,43 @@ class Theorem:
 
     Attributes:
         certificate: what `check` verifies, plain data; None where the theorem is on record only.
-        bounds: rational numbers between which the quantity lies that a printed number is compared with.
+        quantity: the name in the certificate of what a printed number is compared with: a state, an expression of which it is
+            the mean, `time`, `period` or `frequency`.
     """
 
     says: str
     encloses: str = ""
     certificate: Mapping[str, Any] | None = None
-    bounds: tuple[sp.Rational, sp.Rational] | None = None
+    quantity: str = ""
 
     @classmethod
-    def of(cls, proved: Any, encloses: str = "", bounds: tuple[Any, Any] | None = None) -> "Theorem":
+    def of(cls, proved: Any, encloses: str = "", quantity: str = "") -> "Theorem":
         """That of a proof of `lagrotor.proved`, which needs python-flint.
 
         Args:
             proved: an orbit, a crossing, an enclosure or an equilibrium.
-            encloses: the quantity of which it is.
-            bounds: the numbers it says, if others than the proof's.
-        """
-        from lagrotor.proved.statements import theorem_of
+            encloses: its enclosure as it is printed.
+            quantity: what a printed number is held against.
 
-        ends = None if bounds is None else (sp.Rational(bounds[0]), sp.Rational(bounds[1]))
-        return cls(theorem_of(proved.certificate), encloses, proved.certificate, ends)
+        Raises InputError where the theorem has no such quantity.
+        """
+        from lagrotor.proved.statements import quantities, theorem_of
+
+        if quantity and quantity not in (known := quantities(proved.certificate)):
+            raise InputError(f"Theorem: it says nothing of {quantity!r}, but of {', '.join(known) or 'no number'}")
+        return cls(theorem_of(proved.certificate), encloses, proved.certificate, quantity)
+
+    @property
+    def bounds(self) -> tuple[sp.Rational, sp.Rational] | None:
+        """Of the quantity, as the certificate claims them; None where it has none."""
+        if self.certificate is None or not self.quantity:
+            return None
+        from lagrotor.proved.statements import quantities
+
+        found = quantities(self.certificate)[self.quantity]
+        mantissa_exponents = (end.man_exp() for end in (found.lower(), found.upper()))
+        low, high = (sp.Integer(int(m)) * sp.Rational(2) ** int(e) for m, e in mantissa_exponents)
+        return low, high
 
     @property
     def text(self) -> str:

@@ -1,7 +1,7 @@
 """Certificates: what a proof found, as plain data (JSON) that `check` verifies without the search.
 
 An exact number is text, mantissa in base 16 and power of two: "3p-1" is 3/2. A ball is [midpoint, radius], a matrix a list of
-rows. `motion`: the tape x' = f(x) with its parameters; `start`: x_0, w, L; `steps`: of each its length, terms and the node
+rows. `motion`: the tape x' = f(x) with its parameters; `start`: x_0 and w; `steps`: of each its length, terms and the node
 at its end.
 """
 

@@ -113,13 +113,15 @@ class Precession(Shown):
         Raises:
             DomainError: where it is none of them.
         """
-        with precision(self.bits):
-            U = ball(r0, "frequency_at: r0").atanh()
-            for piece in self.pieces:
-                if isinstance(piece, FamilyPiece) and piece.ends[0] <= U <= piece.ends[1]:
-                    return self._signed(4 * piece.start(U)[-1])
-        if len(self.pieces) == 1 and isinstance(self.pieces[0], PeriodicOrbit) and exactly(r0) == self.ends[0]:
-            return self.frequency
+        ends = r0 if isinstance(r0, tuple | list) else (r0, r0)
+        if all(self.ends[0] <= exactly(end) <= self.ends[1] for end in ends):
+            if self.ends[0] == self.ends[1]:
+                return self.frequency
+            with precision(self.bits):
+                U = ball(r0, "frequency_at: r0").atanh()
+                for piece in self.pieces:
+                    if isinstance(piece, FamilyPiece) and piece.ends[0] <= U <= piece.ends[1]:
+                        return self._signed(4 * piece.start(U)[-1])
         raise DomainError(f"frequency_at: r0 = {r0!r} is not shown to lie in {interval(self.r0)}")
 
     def _signed(self, period: Ball) -> Ball:
@@ -287,15 +289,19 @@ def guess(curve: QuarterPeriod, r0: float, u: Ball) -> Balls:
 def family(
     problem: OrbitProblem, curve: QuarterPeriod, low: Ball, high: Ball, accuracy: Accuracy
 ) -> Iterator[FamilyPiece]:
-    """Pieces of the family from r0 = low to high, each as wide as its proof allows; the first from 0 on where that is near."""
+    """Pieces of the family from r0 = low to high, each as wide as its proof allows; near 0 the first is from 0 on, unless it can
+    be proved from low on."""
     u, last = max(np.nextafter(float(low.atanh().lower()), 0), 0), np.nextafter(float(high.atanh().upper()), 1e9)
-    u = 0 if u < min(_FIRST_WIDTH, last) / 2 else u
+    near_rest = 0 < u < min(_FIRST_WIDTH, last) / 2
     width, before = _FIRST_WIDTH, None
     while u < last:
         right = min(u + width, last)
         try:
             piece = prove_piece(problem, curve, u, right, accuracy)
         except (NotProved, *FAILURES):
+            if near_rest and before is None:
+                u, near_rest = 0, False
+                continue
             width *= 0.6
             if width < _NARROWEST:
                 raise NotProved(f"precession: the family is proved up to r0 = {np.tanh(u):.8g} only") from None

@@ -109,9 +109,30 @@ def _precession(certificate: Certificate) -> str:
 
 
 def _equilibrium(certificate: Certificate) -> str:
-    """Of an equilibrium."""
+    """Of an equilibrium, with what its stability takes of the system."""
     claim = certificate["claim"]
-    return f"There is an equilibrium at {_at_states(certificate, claim['q'], '=', 25)}; it is {claim['stability']}."
+    given = {
+        "stable": f" Its energy {certificate['energy']} is definite there; that it does not grow is known of the system.",
+        "stable to first order": " That the system is conservative is known of it.",
+    }.get(claim["stability"], "")
+    return (
+        f"There is an equilibrium at {_at_states(certificate, claim['q'], '=', 25)}; it is {claim['stability']}.{given}"
+    )
+
+
+def quantities(certificate: Certificate) -> dict[str, Ball]:
+    """The numbers that are claimed, by name: states, means of expressions, `time`, `period`, `frequency` (rad/s)."""
+    claim = certificate["claim"]
+    with precision(int(certificate.get("bits", 64)) + 64):
+        if "period" in claim:
+            period = _claimed(claim["period"])
+            return {"period": period, "frequency": 2 * arb.pi() / period}
+        if "means" in claim:
+            return {row["of"]: _claimed(row["mean"]) for row in claim["means"]}
+        if certificate["kind"] == "crossing":
+            return {"time": _claimed(claim["time"])}
+        states = claim.get("states", claim.get("q", ()))
+        return dict(zip(certificate["motion"]["arguments"], map(_claimed, states), strict=False))
 
 
 _WORDS: dict[str, Callable[[Certificate], str]] = {

@@ -19,6 +19,7 @@ from lagrotor.mechanics.running.programs import depends_on_time
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
 from lagrotor.proved.carried_sets import column_matrix, entries_of
 from lagrotor.proved.certificates import Certificate, balls_data, exact_data, matrix_data, tape_data
+from lagrotor.proved.crossings import words
 from lagrotor.proved.enclosure import accuracy_of, loosened
 from lagrotor.proved.fields import Field, Values, system_field, values_at
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
@@ -97,7 +98,7 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
             "middle": exact_data(middle),
             "box": balls_data([loosened(x) for x in box]),
             "A": matrix_data(A),
-            "energy": tape_data(energy),
+            "energy": words(system.energy)["of"],
             "conservative": conservative(system),
             "claim": {"q": balls_data([loosened(x) for x in q]), "stability": stability},
         }

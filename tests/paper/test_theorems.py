@@ -36,15 +36,15 @@ from lagrotor.paper.verdict_text import in_words, verdict_data
 from lagrotor.proved import NotProved, enclose
 
 RATE = "the rate is 1.00"
+C = coordinates("x")
 
 
 @cache
 def swing() -> Theorem:
     """x″ = −x from x = 1 at rest: cos 1 is enclosed."""
 
-    c = coordinates("x")
-    proved = enclose(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), {}, [1], [0], 1)
-    return Theorem.of(proved, "x = 0.5403…", (sp.Rational("0.5403023"), sp.Rational("0.5403024")))
+    proved = enclose(System(C, (C.v[0] ** 2 - C.q[0] ** 2) / 2), {}, [1], [0], 1)
+    return Theorem.of(proved, "x = 0.5403…", "x")
 
 
 def claim(*proved: Part, off: float = 0.0, refusal: str = "") -> ClaimTest:
@@ -144,7 +144,7 @@ def test_the_data_of_a_claim_have_its_theorems() -> None:
         ("0.5403", "0.0001", "proved"),
         ("0.55", "0.01", "refuted"),
         ("-0.54", "0.01", "refuted"),
-        ("0.5403023", "0.0000001", "undecided"),
+        ("0.540302305868", "1e-20", "refuted"),
     ],
 )
 def test_a_printed_number_is_held_against_the_bounds_of_a_theorem(printed: str, within: str, answer: str) -> None:
@@ -153,6 +153,19 @@ def test_a_printed_number_is_held_against_the_bounds_of_a_theorem(printed: str, 
     assert found.verdict == answer, found
     if answer == "refuted":
         assert "a theorem has it between 0.5403" in found.lines[0].reason
+
+
+def test_the_bounds_of_a_number_are_the_certificate_s() -> None:
+    low, high = swing().bounds or (0, 0)
+    assert low < sp.cos(1) < high and high - low < sp.Rational(1, 10**15)
+    document = json.loads(json.dumps(swing().certificate))
+    document["claim"]["states"][0][1] = "1p-10"
+    wide = replace(swing(), certificate=document)
+    assert wide.bounds and wide.bounds[1] - wide.bounds[0] > sp.Rational(1, 1000)
+    relation = Relation(sp.Rational("0.5403"), sp.Integer(7), within=sp.Rational("0.0001"), theorem=wide)
+    assert decide(Statement("", (relation,), measured=True)).verdict == "undecided"
+    with pytest.raises(InputError, match="it says nothing of 'frequency', but of x, x_dot"):
+        Theorem.of(enclose(System(C, (C.v[0] ** 2 - C.q[0] ** 2) / 2), {}, [1], [0], 1), "", "frequency")
 
 
 def number(folder: Path, line: str, prove: str) -> Paper:

@@ -284,6 +284,9 @@ def test_a_family_of_the_pair_holds_its_orbits(family: Any) -> None:
     assert inner.kind == family.kind == "hyperbolic"
     with pytest.raises(DomainError, match="is not shown to lie in"):
         family.frequency_at("0.25")
+    for r0 in ("0.4499999", "0.4600001", ("0.455", "0.4600001")):  # beside the interval, though not beside its pieces
+        with pytest.raises(DomainError, match="is not shown to lie in"):
+            family.frequency_at(r0)
     words = check(json.loads(json.dumps(family.certificate)))
     assert "for every r0 in [0.45, 0.46], a paired precession" in words and "they are one smooth curve" in words
 

@@ -14,10 +14,20 @@ from flint import arb, arb_mat, arb_poly, ctx
 from lagrotor.errors import InputError, NotProved
 from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
-from lagrotor.proved.verification.certified_sets import Carried, Flow, balls, column, matrix, number, read_ball, unit
+from lagrotor.proved.verification.certified_sets import (
+    Carried,
+    Flow,
+    balls,
+    column,
+    matrix,
+    number,
+    read_ball,
+    term,
+    unit,
+)
 from lagrotor.proved.verification.orbit_checking import check_family, check_orbit
 from lagrotor.proved.verification.recurrences import ZERO, demand
-from lagrotor.proved.verification.tapes import is_place, read_tape
+from lagrotor.proved.verification.tapes import is_place
 from lagrotor.proved.verification.written import tape_of_words
 
 Ball = Any
@@ -169,6 +179,8 @@ def check_equilibrium(certificate: Any) -> None:
     """Krawczyk's test for the forces at rest; definite energy, or an eigenvalue with a positive real part."""
     flow = Flow(certificate["motion"])
     n = flow.moving // 2
+    rest = [flow.tape["operations"][place] for place in flow.tape["outputs"][:n]]
+    demand(rest == [["argument", n + i] for i in range(n)], "the coordinates' rates are not the velocities")
     middle, box = [number(x) for x in certificate["middle"]], balls(certificate["box"])
     demand(len(middle) == len(box) == n and flow.size == flow.moving == 2 * n, "the equilibrium has other coordinates")
     demand(all(x.contains(0) for x in box), "the box does not hold its middle")
@@ -191,10 +203,10 @@ def check_equilibrium(certificate: Any) -> None:
     demand(claim in ("stable", "stable to first order", "unstable", "undecided"), "the stability is unknown")
     if claim == "stable":
         demand(not grows(J, n), "an eigenvalue has a positive real part")
-        state = [Dual(Rest([x], ZERO, 1)) for x in (*wide, *[ZERO] * n, *flow.parameters)]
-        H = [f.value.at_start() for f in evaluated(read_tape(certificate["energy"]), state, 1)]
+        tape = tape_of_words([{"of": certificate["energy"]}], flow.tape["arguments"], None)
+        H = second_derivatives(tape, [*wide, *[ZERO] * n, *flow.parameters], 2 * n)
         for k in range(1, 2 * n + 1):
-            minor = arb_mat([[H[2 * n * i + j] for j in range(k)] for i in range(k)])
+            minor = arb_mat([row[:k] for row in H[:k]])
             demand(minor.det() > 0, "the energy is not shown to be definite")
     elif claim != "undecided":
         values = linear(J, n).eig()
@@ -202,8 +214,19 @@ def check_equilibrium(certificate: Any) -> None:
             demand(any(z.real > 0 for z in values), "no eigenvalue is shown to have a positive real part")
         else:
             apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
-            fine = certificate["conservative"] and apart and all(z.real.contains(0) for z in values)
+            fine = certificate["conservative"] is True and apart and all(z.real.contains(0) for z in values)
             demand(fine, "the eigenvalues are not shown to be imaginary")
+
+
+def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:
+    """Of a tape's output by its first n arguments, from its series along each of them and each two."""
+
+    def along(*moved: int) -> Ball:
+        rows = [Dual(Rest([x, arb(int(i in moved))], ZERO, 3)) for i, x in enumerate(at)]
+        return term(evaluated(tape, rows, 3)[0].value, 2)
+
+    alone = [along(i) for i in range(n)]
+    return [[2 * alone[i] if i == j else along(i, j) - alone[i] - alone[j] for j in range(n)] for i in range(n)]
 
 
 def grows(J: Sequence[Dual], n: int) -> bool:

@@ -25,6 +25,10 @@ from lagrotor.proved.verification.reversals import check_reversal
 from lagrotor.proved.verification.tapes import demand_paced, is_place
 
 Ball = Any
+_FREE, _CONDITIONS = (
+    [4, 5, 6],
+    (0, 2, 4),
+)  # of the pair: the rates of chi and alpha and the pace; U, alpha and chi' at the end
 
 
 def check_orbit(certificate: Any) -> None:
@@ -72,7 +76,7 @@ def check_amplitude(certificate: Any, claimed: Any) -> None:
     """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line."""
     check_pair(certificate)
     demand(certificate["ones"] == 4, "energy and momentum leave one pair of multipliers")
-    demand(certificate["free"] == [4, 5, 6], "the amplitude is not held")
+    demand(certificate["free"] == _FREE, "the amplitude is not held")
     U = read_ball(certificate["start"]["middle"][0])
     demand(claimed[0] == claimed[1] and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
 
@@ -191,47 +195,58 @@ class CheckedPiece:
     """One piece of the pair's family: unknown are the rates of chi and alpha and the pace; U is middle + half ε."""
 
     def __init__(self, motion: Any, data: Any) -> None:
-        free, conditions = (4, 5, 6), (0, 2, 4)
         self.middle, self.half = number(data["middle"]), number(data["half"])
+        self.low, self.high = self.middle - self.half, self.middle + self.half
         self.x = [arb_poly([number(c) for c in poly]) for poly in data["x"]]
-        n, p, W = data["terms"], data["degree"], [number(w) for w in data["W"]]
-        demand(is_place(n, MOST_TERMS) and is_place(p, MOST_TERMS) and n > 2, "a piece has no terms")
-        still = all(self.x[i].degree() < 0 and W[i].is_zero() for i in (1, 2, 3)) and W[0].is_zero()
         self.near_rest = data["near rest"] is True
-        U = arb_poly([self.middle, self.half])
-        off = self.x[0] - (arb_poly([1]) if self.near_rest else U)
+        W = [number(w) for w in data["W"]]
+        self._demand_start(W)
+        self.W = [W[i] for i in _FREE]
+        self.flow = self._followed(motion, data, W)
+        self.w = self._closed([number(c) for c in data["cuts"]])
+
+    def _demand_start(self, W: list[Ball]) -> None:
+        """The start is in the fixed set of the first reversal, U exactly middle + half ε."""
+        fits = len(self.x) == len(W) == 7 and bool(self.half > 0)
+        still = fits and all(self.x[i].degree() < 0 and W[i].is_zero() for i in (1, 2, 3)) and W[0].is_zero()
+        off = self.x[0] - arb_poly([1] if self.near_rest else [self.middle, self.half])
         straight = all(c.is_zero() for c in off.coeffs())
-        demand(
-            len(self.x) == len(W) == 7 and still and straight and bool(self.half > 0),
-            "a piece does not start in the fixed set of the reversal",
-        )
-        demand(all(poly.degree() <= p for poly in self.x) and all(W[i] > 0 for i in free), "a piece has no box")
-        self.low, self.high, self.W = self.middle - self.half, self.middle + self.half, [W[i] for i in free]
+        demand(still and straight, "a piece does not start in the fixed set of the reversal")
+        demand(all(W[i] > 0 for i in _FREE), "a piece has no box")
         demand(not self.near_rest or self.low.is_zero(), "the piece near the rest does not begin there")
+
+    def _followed(self, motion: Any, data: Any, W: list[Ball]) -> FamilyFlow:
+        """The motions of every ε over one unit of s."""
+        n, p = data["terms"], data["degree"]
+        demand(is_place(n, MOST_TERMS) and is_place(p, MOST_TERMS) and n > 2, "a piece has no terms")
+        demand(all(poly.degree() <= p for poly in self.x), "a piece has more terms than its degree")
         made = (motion, list(self.x), W, n, p)
-        self.flow = flow = FlowNearRest(*made, U) if self.near_rest else FamilyFlow(*made)
+        flow = FlowNearRest(*made, arb_poly([self.middle, self.half])) if self.near_rest else FamilyFlow(*made)
         time = ZERO
         for step in data["steps"]:
             h = number(step["h"])
             flow.step(h, [number(r) for r in step["tube"]])
             time += h
         demand(time.is_exact() and time == 1, "the steps are not one unit of s")
-        cuts = [number(c) for c in data["cuts"]]
-        demand(
-            bool(cuts[0] == -1 and cuts[-1] == 1 and all(a < b for a, b in pairwise(cuts))), "the cuts leave a part out"
-        )
-        self.w = [ZERO] * 3
-        box = column([arb(0, w) for w in self.W])
+        return flow
+
+    def _closed(self, cuts: list[Ball]) -> list[Ball]:
+        """Krawczyk's test for every ε between two cuts: what was unknown lies off the middle by no more than these."""
+        whole = bool(cuts[0] == -1 and cuts[-1] == 1 and all(a < b for a, b in pairwise(cuts)))
+        demand(whole, "the cuts leave a part out")
+        found, box = [ZERO] * 3, column([arb(0, w) for w in self.W])
         for a, b in pairwise(cuts):
             eps = a.union(b)
-            slope = arb_mat([[flow.slope(i, j, eps) for j in free] for i in conditions])
+            slope = arb_mat([[self.flow.slope(i, j, eps) for j in _FREE] for i in _CONDITIONS])
             A = arb_mat(3, 3, [x.mid() for x in arb_mat(3, 3, [x.mid() for x in slope.entries()]).inv().entries()])
-            K = (unit(3) - A * slope) * box - A * column([flow.end(i, eps) for i in conditions])
+            miss = A * column([self.flow.end(i, eps) for i in _CONDITIONS])
+            K = (unit(3) - A * slope) * box - miss
             for x, y in zip(K.entries(), box.entries(), strict=True):
                 demand(y.contains_interior(x), "Krawczyk's test does not close over a family")
             for _ in range(2):
-                K = (unit(3) - A * slope) * K - A * column([flow.end(i, eps) for i in conditions])
-            self.w = [x.union(y) for x, y in zip(self.w, K.entries(), strict=True)]
+                K = (unit(3) - A * slope) * K - miss
+            found = [x.union(y) for x, y in zip(found, K.entries(), strict=True)]
+        return found
 
     def is_shown(self, kind: str, reversals: Any) -> bool:
         """Whether every orbit is of a kind: energy and momentum leave one pair beside 4 ones, half a turn's μ + 1/μ squared."""

@@ -1,4 +1,4 @@
-"""Taylor terms by recurrences, for both programs that verify certificates: the k-th term of an operation from those before it.
+"""Taylor terms by recurrences, for single motions and for families: the k-th term of an operation from those before it.
 
 A term is a ball, or a truncated series of a parameter whose coefficients are balls.
 """
