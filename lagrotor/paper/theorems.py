@@ -41,7 +41,8 @@ class Theorem:
             encloses: its enclosure as it is printed.
             quantity: what a printed number is held against.
 
-        Raises InputError where the theorem has no such quantity.
+        Raises:
+            InputError: where the theorem has no such quantity.
         """
         from lagrotor.proved.statements import quantities, theorem_of
 
