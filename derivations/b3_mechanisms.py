@@ -24,6 +24,7 @@ from lagrotor.benchmark.mechanism_tables import (
 )
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, recorded_arm_and_bicycle, recorded_mechanisms
 from lagrotor.paper import Table
+from lagrotor.shown import scientific
 
 found = recorded_mechanisms()
 single = recorded_arm_and_bicycle()
@@ -52,8 +53,8 @@ tables = [
         MECHANISM_HEAD,
         tuple(mechanism_rows(found.measured)),
         f"Processor time, medians, from the same run; {versions}. The run is one second, to an error of "
-        f"{MECHANISM_ERROR:g} rad at eleven times, by scipy's DOP853 or LSODA or the tool's own integrator, whichever is "
-        "quickest. symbrim is not among them: it has bicycles, riders and a rolling disc, and neither mechanism.",
+        f"{scientific(MECHANISM_ERROR)} rad at eleven times, by scipy's DOP853 or LSODA or the tool's own integrator, "
+        "whichever is quickest. symbrim is not among them: it has bicycles, riders and a rolling disc, and neither mechanism.",
     ),
     Table(
         "Mechanisms: do two formulations agree?",
@@ -65,10 +66,10 @@ tables = [
         "Mechanisms: an arm of six joints, and the bicycle",
         SINGLE_HEAD,
         tuple(single_rows(single["rows"])),
-        "From bodies, from their Lagrangian written out, and by sympy: lambdify with common subexpressions, then numpy's solve. "
+        "From bodies, from their Lagrangian written out, and by sympy: lambdify with common subexpressions, then numpy's solve; "
+        "times: over lagrotor's from bodies. "
         "The bicycle is that of sympy's own test, in its letters, of four coordinates; Lagrange's method was not measured. "
-        f"Processor time on {where_single}, by `python -m benchmarks.arm_and_bicycle --record`; times lagrotor's: to be ready, "
-        "and of a right-hand side.",
+        f"Processor time on {where_single}, by `python -m benchmarks.arm_and_bicycle --record`.",
     ),
 ]
 tables[0]

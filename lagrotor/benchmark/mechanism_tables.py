@@ -4,43 +4,46 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Measured, MechanismKind
+from lagrotor.shown import scientific
 
 _Row = tuple[str, ...]
-MECHANISM_HEAD = (
-    "mechanism",
-    "tool",
-    "ready (ms)",
-    "rhs (µs)",
-    f"run to {MECHANISM_ERROR:g} (ms)",
-    "by",
-    "rhs differs by",
-)
-DECISION_HEAD = ("two formulations", "same_as (ms)", "answer", "simplify (ms)", "its answer", "times")
-SINGLE_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", "times lagrotor's", "rhs differs by")
+_RUN = f"run to {scientific(MECHANISM_ERROR)} rad (ms)"
+MECHANISM_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", _RUN, "by", "rhs differs by")
+DECISION_HEAD = ("two formulations", "same_as (ms)", "they agree", "simplify (ms)", "they agree", "times")
+SINGLE_HEAD = ("mechanism", "tool", "ready (ms)", "times", "rhs (µs)", "times", "rhs differs by")
 TARGET_HEAD = ("what", "wanted", "measured")
 _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _METHODS = ("KanesMethod", "LagrangesMethod")
+_AGREE = {"zero": "yes", "nonzero": "no"}  # a difference that is zero
 
 
 def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
     """One row a tool and mechanism; a tool that was left out has its reason."""
     return [
-        (f"{x.n} {x.kind}", x.tool, *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)), x.reason or x.by, _off(x))
+        (
+            _links(x),
+            x.tool,
+            *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)),
+            x.reason or _by(x),
+            _off(x.difference),
+        )
         for x in sorted(measured, key=lambda x: (list(LINKS).index(x.kind), x.n))
     ]
 
 
 def single_rows(rows: Sequence[dict[str, Any]]) -> list[_Row]:
-    """One row a tool on the arm and the bicycle; its times over those of the first tool, or the reason why it has none."""
+    """One row a tool on the arm and the bicycle, each time also over the first tool's, or the reason why it has none."""
     first = {row["mechanism"]: row for row in reversed(rows)}
     return [
         (
             row["mechanism"],
             row["tool"],
-            _number(row["ready"], 1e3),
-            _number(row["rhs"], 1e6),
-            row["reason"] or ", ".join(_ratio(row[what], first[row["mechanism"]][what]) for what in ("ready", "rhs")),
-            "—" if row["difference"] is None else f"{row['difference']:.0e}",
+            *(
+                cell
+                for what, unit in (("ready", 1e3), ("rhs", 1e6))
+                for cell in (_number(row[what], unit), _ratio(row[what], first[row["mechanism"]][what]))
+            ),
+            row["reason"] or _off(row["difference"]),
         )
         for row in rows
     ]
@@ -49,7 +52,14 @@ def single_rows(rows: Sequence[dict[str, Any]]) -> list[_Row]:
 def decision_rows(decided: Sequence[Decided]) -> list[_Row]:
     """One row a pair of formulations."""
     return [
-        (x.pair, _number(x.ours, 1e3), x.answer, _number(x.theirs, 1e3), x.their_answer, f"{_at_least(x)}{x.times:.0f}")
+        (
+            x.pair,
+            _number(x.ours, 1e3),
+            _AGREE.get(x.answer, x.answer),
+            _number(x.theirs, 1e3),
+            _AGREE.get(x.their_answer, x.their_answer),
+            f"{_at_least(x)}{x.times:.0f}",
+        )
         for x in decided
     ]
 
@@ -74,17 +84,9 @@ def target_rows(
         ready, rhs = _least([x.ready for x in others]), _least([x.rhs for x in others])
         where = f"{n} {kind}"
         table += [
-            (
-                f"ready, {where}, over the faster of Kane's and Lagrange's method",
-                "15",
-                _ratio(ready, own.ready),
-            ),
+            (f"ready, {where}, over the faster of Kane's and Lagrange's method", "15", _ratio(ready, own.ready)),
             (f"right-hand side, {where}, over lambdify of the best of them", "4", _ratio(rhs, own.rhs)),
-            (
-                f"right-hand side with the fast extra, {where}, over PyDy",
-                "3",
-                _ratio(pydy.rhs, fast.rhs),
-            ),
+            (f"right-hand side with the fast extra, {where}, over PyDy", "3", _ratio(pydy.rhs, fast.rhs)),
         ]
     for kind, numbers in LINKS.items():
         for what, values in (("operations", operations[kind]), ("time to be ready", ready_in[kind])):
@@ -113,12 +115,21 @@ def _ratio(theirs: float | None, ours: float | None) -> str:
 
 
 def _number(value: float | None, unit: float) -> str:
-    return "—" if value is None else f"{value * unit:.3g}"
+    return "—" if value is None else f"{float(f'{value * unit:.3g}'):g}"
 
 
-def _off(x: Measured) -> str:
-    return "—" if x.difference is None else f"{x.difference:.0e}"
+def _off(difference: float | None) -> str:
+    return "—" if difference is None else scientific(difference)
+
+
+def _links(x: Measured) -> str:
+    return f"{x.n} {x.kind if x.n > 1 else x.kind.removesuffix('s')}"
+
+
+def _by(x: Measured) -> str:
+    name, _, tolerance = x.by.partition(" at ")
+    return f"{name} at {scientific(float(tolerance)) if 'e' in tolerance else tolerance}" if tolerance else name
 
 
 def _at_least(x: Decided) -> str:
-    return "over " if x.their_answer not in ("zero", "nonzero") else ""
+    return "" if x.their_answer in _AGREE else "over "

@@ -14,7 +14,15 @@ from benchmarks.mechanisms.deciding import PAIRS
 from benchmarks.mechanisms.own_tools import OWN
 from benchmarks.mechanisms.tool import Ready, Tool
 from lagrotor.benchmark import records
-from lagrotor.benchmark.mechanism_tables import MECHANISM_HEAD, TARGET_HEAD, decision_rows, mechanism_rows, target_rows
+from lagrotor.benchmark.mechanism_tables import (
+    MECHANISM_HEAD,
+    SINGLE_HEAD,
+    TARGET_HEAD,
+    decision_rows,
+    mechanism_rows,
+    single_rows,
+    target_rows,
+)
 from lagrotor.benchmark.records import LINKS, Decided, Measured, MechanismKind, recorded_mechanisms
 from lagrotor.errors import LagrotorError
 
@@ -91,9 +99,21 @@ def test_the_tables_say_what_is_wanted_and_a_dash_for_what_is_missing() -> None:
     kane = replace(own, tool="KanesMethod", ready=0.2, rhs=5e-6)
     slow = Measured("rods", 6, "LagrangesMethod", reason="over 90 s")
     decided = [Decided("a pair", 0.01, "zero", 3.0, "zero"), Decided("another", 0.01, "zero", 60.0, "did not end")]
-    assert mechanism_rows([slow, own])[1] == ("6 rods", "lagrotor", "10", "1", "1", "its own at 1e-06", "0e+00")
+    assert mechanism_rows([slow, own])[1] == ("6 rods", "lagrotor", "10", "1", "1", "its own at 1×10⁻⁶", "0")
     assert mechanism_rows([slow])[0] == ("6 rods", "LagrangesMethod", "—", "—", "—", "over 90 s", "—")
-    assert [row[-1] for row in decision_rows(decided)] == ["300", "over 6000"]
+    assert [row[2:] for row in decision_rows(decided)] == [
+        ("yes", "3000", "yes", "300"),
+        ("yes", "60000", "did not end", "over 6000"),
+    ]
+    single = {"mechanism": "arm", "reason": "", "ready": 0.4, "rhs": 2e-5, "difference": 0.0}
+    rows = [single | {"tool": "bodies"}, single | {"tool": "Kane", "ready": 6.04, "rhs": 1e-4, "difference": 2e-15}]
+    rows += [single | {"tool": "Lagrange", "ready": None, "rhs": None, "difference": None, "reason": "over 90 s"}]
+    assert [row[2:] for row in single_rows(rows)] == [
+        ("400", "1.0", "20", "1.0", "0"),
+        ("6040", "15.1", "100", "5.0", "2×10⁻¹⁵"),
+        ("—", "—", "—", "—", "over 90 s"),
+    ]
+    assert all(len(row) == len(SINGLE_HEAD) for row in single_rows(rows))
     counts, ready = (
         {"rods": [10, 20, 41, 90], "gyroscopes": [10, 20, 41]},
         {"rods": [0.1, 0.2, 0.3, 0.9], "gyroscopes": [0.1]},
