@@ -94,6 +94,17 @@ class Equations:
     def _take_velocities(self) -> None:
         """The velocities as pairs, those of ball joints among them, and put in where an expression has them."""
         joints = self.ball_joints
+        turns = dict.fromkeys((joint.quaternion, joint.omega) for joint in joints)
+        letters = [s for each in turns for part in each for s in part]
+        if twice := [s for s in letters if letters.count(s) > 1]:
+            raise InputError(
+                f"System: {twice[0]} is in two ball joints: give each four coordinates and three velocities of its own"
+            )
+        for body in self.bodies:
+            if used := {*letters} & (body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols):
+                raise InputError(
+                    f"System: {min(map(str, used))} is a velocity of a ball joint and a letter of a body: rename one"
+                )
         named = {u: e for joint in joints for u, e in joint.own_velocities.items()}
         given = dict(check_velocities(self.c, self.velocities, named))
         turned = {q: joint for joint in joints for q in joint.quaternion}

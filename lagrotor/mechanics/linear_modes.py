@@ -4,7 +4,7 @@ Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., ch. 6; Merkin, Introduct
 Gantmacher, The Theory of Matrices, vol. 2, ch. XV (Routh–Hurwitz, Hankel forms).
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -117,7 +117,15 @@ def point_of(where: str, system: Equations, at: Mapping[Any, Any], letters: Iter
             f"{where}: {', '.join(strangers)} in the point: it gives coordinates, velocities "
             f"({', '.join(map(str, system.speeds))}) and letters of the system"
         )
+    for joint in system.ball_joints:
+        if all(q in point and sp.sympify(point[q]).is_zero for q in joint.quaternion):
+            raise InputError(f"{where}: {no_turn(joint.quaternion, 0)}")
     return point
+
+
+def no_turn(quaternion: Sequence[sp.Symbol], norm: float) -> str:
+    """Why a quaternion cannot be a start."""
+    return f"the quaternion ({', '.join(map(str, quaternion))}) has norm {norm:.3g} and gives no direction: give one of norm 1"
 
 
 def linearise(system: Equations, at: Mapping[sp.Symbol, Any] | Equilibrium) -> LinearSystem:

@@ -114,13 +114,18 @@ def contact(
 
     Raises InputError for a disc on what is no plane, and what is no surface.
     """
-    if not isinstance(surface, Plane | Sphere):
+    if not isinstance(surface, Plane | Sphere) or not isinstance(surface.frame, MovingFrame):
         raise InputError(
             f"rolls_on: {surface!r} is no surface: Plane(frame), Sphere(frame, radius) or Cylinder(frame, radius)"
         )
     r = expression("rolls_on: radius", radius)
     if r.is_nonpositive:
         raise InputError(f"rolls_on: radius = {r} must be positive")
+    if isinstance(surface, Sphere):
+        R = expression("rolls_on: radius of the surface", surface.radius)
+        if R.is_nonpositive or (surface.hollow and (R - r).is_nonpositive):
+            least = f"larger than that of the ball inside, {r}" if surface.hollow else "positive"
+            raise InputError(f"rolls_on: radius = {R} of the surface must be {least}")
     ground, axes = surface.frame, ground_axes(surface.frame)
     if frame.c != ground.c:
         raise InputError("rolls_on: the surface has other coordinates than the body: build both from one Frame(c)")

@@ -71,7 +71,7 @@ class Pathway:
             side: 1 where the path turns about the axis in its positive sense from P to Q, −1 in the other, by up to 3/2 π.
 
         Raises:
-            InputError: for an axis that is none, or another side.
+            InputError: for an axis that is none, another side, or an end that stays inside.
         """
         p, q = _points(P, Q)
         o, a = (
@@ -89,6 +89,10 @@ class Pathway:
         tangents = sp.S.Zero
         for e in (p, q):
             square = shortest(e.dot(e))
+            if (R**2 - square).is_positive:
+                raise InputError(
+                    f"around: an end is {sp.sqrt(square)} from the axis, inside the cylinder of radius {R}"
+                )
             if decide_zero(square - R**2).answer != "zero":  # else the end is on the surface
                 turn -= sp.acos(R / sp.sqrt(square))
                 tangents += sp.sqrt(square - R**2)

@@ -6,19 +6,26 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError
 from lagrotor.mechanics.constraints import project_position, project_velocity
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.linear_modes import no_turn
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import parameter_values, start_program
 from lagrotor.numerics.arrays import real_array
+
+_LEAST_NORM = 1e-3  # of a quaternion, from which the nearest of norm 1 is reached
 
 
 def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> tuple[Array, Array]:
     """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t; (q, u) for velocities of
     one's own, in the metric of their numbers.
 
-    Raises ConstraintError when it is not reached, SingularError where the constraints are dependent.
+    Raises ConstraintError when it is not reached, SingularError where the constraints are dependent, InputError for a quaternion
+    of norm 0.
     """
     n, m, h = len(system.c.q), len(system.speeds), len(system.constraints)
     q, v = state_vector("q0", q0, n), state_vector("v0", v0, m, system)
+    for joint in system.ball_joints:
+        if (size := float(np.linalg.norm(q[[system.c.q.index(s) for s in joint.quaternion]]))) < _LEAST_NORM:
+            raise InputError(f"simulate: {no_turn(joint.quaternion, size)}")
     given = start_program(system)
     rest = (t, *parameter_values(given, values, "consistent"))
     ends = np.cumsum([m * m, h, h * n, len(system.left) * m])

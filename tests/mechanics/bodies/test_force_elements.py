@@ -133,6 +133,7 @@ def test_what_is_no_element_is_refused() -> None:
         (lambda: Pathway.around(C, (0, 0, 0), C.q, 1, axis=(0, 0, 0)), "a direction"),
         (lambda: Pathway.around(C, (0, 0, 0), C.q, -1), "positive radius"),
         (lambda: Pathway.around(C, (0, 0, 0), C.q, 1, side=2), "±1"),
+        (lambda: Pathway.around(C, (0.5, 0, 0), C.q, 1), "inside the cylinder of radius 1"),
         (lambda: Pathway.line("c", (0, 0, 0), (x, y, z)), "must be Coordinates"),
         (lambda: line.spring("k"), "is no expression"),
         (lambda: Frame(C).push((1, 2)), "force"),

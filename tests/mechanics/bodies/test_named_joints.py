@@ -396,6 +396,36 @@ def test_what_is_no_joint_is_refused(make: Callable, words: str) -> None:
         make(Frame(c), c.q)
 
 
+def test_letters_of_ball_joints_are_their_own() -> None:
+    ground = Frame(coordinates("q0 q1 q2 q3 r0 r1 r2 r3"))
+    first = ground.ball("q0 q1 q2 q3", "p q r")
+
+    def energy(*frames: Frame) -> object:
+        return sum(frame.body(mass=1, inertia=(1, 2, 2.5)).kinetic for frame in frames)
+
+    with pytest.raises(InputError, match="p is in two ball joints"):
+        System(ground.c, energy(first, ground.ball("r0 r1 r2 r3", "p v w")))
+    with pytest.raises(InputError, match="q0 is in two ball joints"):
+        System(ground.c, energy(first, ground.ball("q0 r1 r2 r3", "u v w")))
+    p, own = sp.Symbol("p", real=True), Frame(coordinates("q0 q1 q2 q3"))
+    with pytest.raises(InputError, match="p is a velocity of a ball joint and a letter of a body"):
+        System(own.c, own.ball("q0 q1 q2 q3", "p q r").body(mass=p, inertia=(1, 2, 2.5)).kinetic)
+    # Twins: each with its own, and one joint that carries two bodies.
+    assert len(System(ground.c, energy(first, ground.ball("r0 r1 r2 r3", "u v w"))).speeds) == 6
+    assert len(System(own.c, energy(own.ball("q0 q1 q2 q3", "p q r"), own.ball("q0 q1 q2 q3", "p q r"))).speeds) == 3
+
+
+@pytest.mark.parametrize("size", [0, 1e-9])
+def test_a_quaternion_without_a_norm_is_named(size: float) -> None:
+    with pytest.raises(InputError, match=rf"quaternion \(q0, q1, q2, q3\) has norm {size:g}"):
+        top().simulate(VALUES, (size, 0, 0, 0), (0, 0, 1), (0, 1))
+    with pytest.raises(ConstraintError, match="off the constraints"):  # the twin: from there the nearest is told
+        top().simulate(VALUES, (1e-3, 0, 0, 0), (0, 0, 1), (0, 1))
+    if not size:
+        with pytest.raises(InputError, match="has norm 0"):
+            top().linearise(dict.fromkeys(("q0", "q1", "q2", "q3"), 0))
+
+
 def test_a_start_off_the_unit_length_is_refused() -> None:
     with pytest.raises(ConstraintError, match="off the constraints"):
         top().simulate(VALUES, (1, 0.2, 0, 0), (0, 0, 1), (0, 1))
