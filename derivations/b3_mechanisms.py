@@ -22,9 +22,8 @@ from lagrotor.benchmark.mechanism_tables import (
     single_rows,
     target_rows,
 )
-from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, recorded_arm_and_bicycle, recorded_mechanisms
+from lagrotor.benchmark.records import LINKS, recorded_arm_and_bicycle, recorded_mechanisms
 from lagrotor.paper import Table
-from lagrotor.shown import scientific
 
 found = recorded_mechanisms()
 single = recorded_arm_and_bicycle()
@@ -52,8 +51,8 @@ tables = [
         "Mechanisms: tools, and what each needs",
         MECHANISM_HEAD,
         tuple(mechanism_rows(found.measured)),
-        f"Processor time, medians, from the same run; {versions}. The run is one second, to an error of "
-        f"{scientific(MECHANISM_ERROR)} rad at eleven times, by scipy's DOP853 or LSODA or the tool's own integrator, "
+        f"Processor time, medians, from the same run; {versions}. The run is one second, its error "
+        "the largest at eleven times, by scipy's DOP853 or LSODA or the tool's own integrator, "
         "whichever is quickest. symbrim is not among them: it has bicycles, riders and a rolling disc, and neither mechanism.",
     ),
     Table(
