@@ -358,3 +358,11 @@ def test_a_large_divisor_stands_in_the_domain_unfactored() -> None:
     assert decide_zero(1 / sp.expand(large) - 1 / large).answer == "zero"
     assert [sp.Poly(factor).total_degree() for factor in decide_zero(1 / sp.expand(large + 1)).domain] == [9]
     assert found.answer == "zero"
+
+
+def test_a_sign_that_no_real_letter_has_is_no_branch() -> None:
+    b, c, s, v, x = sp.symbols("b c s v x", real=True)
+    power = (v * sp.Abs(x)) ** (s * sp.sqrt(1 - b))
+    assert decide_equal(power, c * sp.sqrt(1 - b) / sp.Abs(x)).answer == "nonzero"
+    assert decide_equal(power, (sp.Abs(x) * v) ** (s * sp.sqrt(1 - b))).answer == "zero"
+    assert decide_equal(sp.sqrt(x**2), x).branch == (x >= 0,)

@@ -522,7 +522,7 @@ class Expander:
         name = next((t.text for t in named if t.kind == "command"), "")
         if not name or (token.text == r"\providecommand" and (name in self.macros or name in self.packages)):
             return True
-        if any(t.text in (r"\@ifnextchar", r"\@ifstar", r"\futurelet") for t in body) or self._is_kept(name, body):
+        if self._is_kept(name, body):
             return True
         digits = latex_of(count or ()).strip()
         head = [Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0)]
@@ -531,9 +531,12 @@ class Expander:
 
     @staticmethod
     def _is_kept(name: str, body: list[Token]) -> bool:
-        """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here."""
+        """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here, or reads ahead."""
         known = name in _HEADINGS or name in _HANDLERS
-        return any(t.text == r"\@setfontsize" or (known and "@" in t.text and t.kind == "command") for t in body)
+        return any(
+            t.text in (r"\@setfontsize", r"\futurelet") or (known and "@" in t.text and t.kind == "command")
+            for t in body
+        )
 
     def _target(self) -> Token | None:
         r"""The command that is defined next, \csname … \endcsname too."""
@@ -545,6 +548,19 @@ class Expander:
         while (part := self.next()) is not None and part.text != r"\endcsname":
             name.append(part)
         return Token("command", "\\" + latex_of(self.expand(name)).strip(), token.at)
+
+    def _if_next(self, token: Token) -> bool:
+        r"""\@ifnextchar[{…}{…} and \@ifstar{…}{…}: what comes next says which of the two."""
+        wanted = latex_of(self.argument()).strip() if token.text == r"\@ifnextchar" else "*"
+        first, second = self.argument(), self.argument()
+        self.skip_spaces()
+        after = self.next()
+        self.push([after] if after else [])
+        comes = after is not None and latex_of([after]).startswith(wanted)
+        if comes and token.text == r"\@ifstar":
+            self.star()
+        self.push(first if comes else second)
+        return True
 
     def _named(self, token: Token) -> bool:
         self.push([token])
@@ -558,9 +574,6 @@ class Expander:
         while (part := self.next()) is not None and part.kind != "open":
             head.append(part)
         body = self.group()
-        optional = target is not None and "@" in target.text and any("[" in part.text for part in head)
-        if optional and self.line(token.at)[0].endswith(".cls"):
-            return True  # what \@ifnextchar leads to
         if target is not None and target.kind == "command" and not self._is_kept(target.text, body):
             if token.text in (r"\edef", r"\xdef"):
                 body = self.expand(body)
@@ -873,6 +886,7 @@ _HANDLERS: dict[str, Handler] = {
     **dict.fromkeys((r"\newboolean", r"\provideboolean", r"\setboolean"), Expander._boolean),
     r"\ifthenelse": Expander._if_then_else,
     r"\newtheorem": Expander._theorem,
+    **dict.fromkeys((r"\@ifnextchar", r"\@ifstar"), Expander._if_next),
     r"\csname": Expander._named,
     r"\expandafter": Expander._ignored,
     r"\let": Expander._let,

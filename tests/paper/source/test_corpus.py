@@ -86,3 +86,41 @@ def test_pdflatex_prints_the_same_numbers(row: dict[str, Any], tmp_path: Path) -
         pytest.skip("a package that this source loads is not installed")
     labels = read_source(file).labels
     assert printed == {label: labels.get(label) for label in printed} and printed
+
+
+def equations_of(folder: Path, body: str, **files: str) -> list[tuple[str, str]]:
+    """Numbers and prints of a source beside which other files stand."""
+    for name, text in files.items():
+        (folder / name.replace("_", ".")).write_text(text, encoding="utf-8")
+    own = r"\documentclass{own}" if "own_cls" in files else r"\documentclass{article}\usepackage{side}"
+    (folder / "paper.tex").write_text(rf"{own}\begin{{document}}{body}\end{{document}}", encoding="utf-8")
+    return [(each.number, each.latex) for each in read_source(folder / "paper.tex").equations]
+
+
+# A package and a class whose commands look at what comes next; without that each calls itself without end.
+SIDE = r"""\def\sidebox{\@ifnextchar[{\side@lines}{\side@lines[2]}}
+\def\side@lines[#1]#2{\@ifnextchar[{\side@lines}{\side@plain}}
+\def\side@plain{\begin{equation} q = p \end{equation}}"""
+OWN = r"""\LoadClass{article}\def\notes{\@ifnextchar[\notes@\relax}\def\notes@[#1]{\@ifnextchar[\notes@\relax}
+\newcommand{\lemma}{\@ifstar{\setcounter{equation}{7}}{\setcounter{equation}{4}}}"""
+
+
+@pytest.mark.parametrize(("call", "numbers"), [(r"\sidebox[3]{r}[1pt]{l}", "123"), (r"\sidebox{r}", "123"), ("", "12")])
+def test_a_package_that_looks_at_what_comes_next_hides_no_display(call: str, numbers: str, tmp_path: Path) -> None:
+    body = rf"\begin{{equation}} a = b \end{{equation}}{call}\begin{{equation}} c = d \end{{equation}}"
+    found = equations_of(tmp_path, body, side_sty=SIDE)
+    assert "".join(number for number, _ in found) == numbers
+    assert (found[0][1], found[-1][1]) == ("a = b", "c = d") and len(found) == len(numbers)
+
+
+@pytest.mark.parametrize(("star", "number"), [("*", "8"), ("", "5")])
+def test_a_class_that_looks_at_what_comes_next_keeps_the_numbers(star: str, number: str, tmp_path: Path) -> None:
+    body = rf"\notes[a][b] \lemma{star} \begin{{equation}} a = b \end{{equation}}"
+    assert equations_of(tmp_path, body, own_cls=OWN) == [(number, "a = b")]
+
+
+@pytest.mark.parametrize("end", ["\n\n", r"\par "])
+def test_an_argument_that_is_not_closed_ends_with_its_paragraph(end: str, tmp_path: Path) -> None:
+    text = rf"\def\aside#1;{{}} \aside open{end}\begin{{equation}} a = b \end{{equation}} then; \[ c\aside x; = d \]"
+    assert equations_of(tmp_path, text) == [("1", "a = b"), ("", "c = d")]
+    assert equations_of(tmp_path, text.replace(end, " ")) == [("", "c = d")]
