@@ -72,7 +72,8 @@ def test_no_run_takes_ten_times_as_long_as_the_best_rung(monkeypatch: pytest.Mon
 
 def over_plain_dop853(trial: Wide, exact: np.ndarray) -> float:
     """Evaluations of `simulate`, over those of plain DOP853 that is as exact, by the cheaper model: no projection, cut at the
-    edges of a pulse, no step longer than its width within; 0 where nothing is integrated or DOP853 does not come as near."""
+    edges of a pulse, no step longer than its width within; 0 where nothing is integrated or DOP853 does not come as near, so
+    that nothing is judged."""
     try:
         run = run_of(trial)
     except LagrotorError:
@@ -105,19 +106,19 @@ def test_no_run_takes_ten_times_a_plain_dop853_that_is_as_exact(shaken: bool) ->
 @pytest.mark.filterwarnings("ignore::lagrotor.errors.LagrotorWarning")
 @pytest.mark.skipif(find_spec("heyoka") is None, reason="the references are heyoka's: the fast extra is not installed")
 def test_no_shaken_run_of_up_to_sixty_turns_takes_ten_times_a_plain_dop853() -> None:
-    ratios = []
+    ratios = list[float]()
     for trial in wide_scenes(9001, 100, 60.0):
         if trial.scene.shock is not None:
             exact, _, growth = reference(trial, np.random.default_rng(0))
             ratios += [over_plain_dop853(trial, exact)] if growth.max() < 1e4 else []
-    assert len(ratios) > 20 and max(ratios) < 10
+    assert len(ratios) > 20 and max(ratios) < 10 and sum(ratio > 0 for ratio in ratios) > len(ratios) / 3
 
 
 def test_beside_a_dead_point_little_is_run_in_vain() -> None:
     """Unit vectors that come near it again and again: LSODA ran far beyond each time, 48,088 evaluations in all."""
     trial = wide_scenes(9001, 47, 60.0)[46]
     exact = simulate(trial.scene, [0.0, *trial.t], "minimal", 1e-10).axes[:, 1:]
-    assert over_plain_dop853(trial, exact) < 10
+    assert 0 < over_plain_dop853(trial, exact) < 10
 
 
 @pytest.mark.slow
