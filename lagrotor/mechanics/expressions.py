@@ -116,3 +116,9 @@ def by_symbol(values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[A
         raise InputError(f"{text} is text: give a number or an expression")
     names = {str(s): s for s in symbols}
     return {names.get(str(key), key): value for key, value in values.items()}
+
+
+def no_letter(where: str, left: Iterable[sp.Symbol]) -> None:
+    """Raise InputError where a letter is left without a number."""
+    if names := ", ".join(sorted(map(str, left))):
+        raise InputError(f"{where}: {names} without a value: give every letter a number")

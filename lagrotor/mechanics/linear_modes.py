@@ -14,7 +14,7 @@ from lagrotor.algebra import decide_zero, derivative, normal_form
 from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
-from lagrotor.mechanics.expressions import by_symbol, put_in
+from lagrotor.mechanics.expressions import by_symbol, no_letter, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, jacobian, t
 
 _S = sp.Symbol("s")
@@ -75,10 +75,7 @@ class LinearSystem:
 
         matrices = (self.mass, self.gyroscopic, self.stiffness, self.basis)
         parts = [m.subs(by_symbol(values, m.free_symbols)) for m in matrices]
-        if missing := set().union(*(m.free_symbols for m in parts)):
-            raise InputError(
-                f"modes: {', '.join(sorted(map(str, missing)))} without a value: give every symbol a number"
-            )
+        no_letter("modes", set().union(*(m.free_symbols for m in parts)))
         M, C, K, basis = (np.array(m.tolist(), dtype=float) for m in parts)
         d = len(M)
         below = np.linalg.solve(M, np.hstack([-K, -C]))
@@ -267,13 +264,9 @@ def _conjunction(expressions: list[sp.Expr]) -> sp.Basic:
     kept = list(dict.fromkeys(part for e in expressions for part in _essential(e) if not part.is_positive))
     if any(e.is_nonpositive for e in kept):
         return sp.false
-    implied = {e for e in kept for other in kept if e != other and _exceeds(e, other)}
+    more = {(e, other): sp.Add.make_args(sp.expand(e - other)) for e in kept for other in kept if e != other}
+    implied = {e for (e, _), terms in more.items() if all(term.is_nonnegative for term in terms)}
     return sp.And(*(sp.Gt(e, 0) for e in kept if e not in implied))
-
-
-def _exceeds(e: sp.Expr, other: sp.Expr) -> bool:
-    """Whether e − other is a sum of terms that are not negative."""
-    return all(term.is_nonnegative for term in sp.Add.make_args(sp.expand(e - other)))
 
 
 def _essential(e: sp.Expr) -> list[sp.Expr]:

@@ -30,7 +30,7 @@ from sympy.polys.domains.domain import Domain
 from lagrotor.algebra import decide_zero, truncated_series
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import by_symbol, expression, shortest
+from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.perturbation import lindstedt_poincare
@@ -71,10 +71,7 @@ class Oscillation:
         known = {s: sp.sympify(x, strict=True) for s, x in by_symbol({**self.values, **values}, letters).items()}
         omega = self.frequency.removeO().subs(known)
         start = self.motion.removeO().subs(_PHASE, 0).subs(known)
-        if missing := (omega.free_symbols | start.free_symbols):
-            raise InputError(
-                f"error: {', '.join(sorted(map(str, missing)))} without a value: give every letter a number"
-            )
+        no_letter("error", omega.free_symbols | start.free_symbols)
         own = self.system.L.free_symbols | self.system.push.free_symbols
         numbers = {str(s): float(x) for s, x in known.items() if s in own}
         (q,), (v,) = self.system.c.q, self.system.c.v
@@ -229,10 +226,7 @@ class AveragedMotion:
         grid = np.asarray(times, float)
         own = set().union(*(e.free_symbols for e in (*self.rates, *self.state))) - {*self.letters, t}
         known = {s: float(x) for s, x in by_symbol({**self.values, **values}, own).items() if s in own}
-        if missing := own - known.keys():
-            raise InputError(
-                f"averaged: {', '.join(sorted(map(str, missing)))} without a value: give every letter a number"
-            )
+        no_letter("averaged", own - known.keys())
         slow = sp.lambdify(self.letters, [e.subs(known) for e in self.rates], "numpy")
         there = sp.lambdify((*self.letters, t), [e.subs(known) for e in self.state], "numpy")
         start = fsolve(lambda Y: np.array(there(*Y, grid[0])) - [q0, v0], [q0, 0.0], xtol=1e-13)

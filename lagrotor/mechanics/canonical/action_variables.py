@@ -20,7 +20,7 @@ import sympy as sp
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, InputError, IntegrationError
 from lagrotor.mechanics.canonical.hamiltonians import Hamiltonian
-from lagrotor.mechanics.expressions import by_symbol
+from lagrotor.mechanics.expressions import by_symbol, no_letter
 
 _MOST_POINTS = 1 << 14
 _FARTHEST = 1e3  # in units of 1 + |at|: where it is said to escape
@@ -174,8 +174,5 @@ def _in_one_coordinate(
     H = h.H.xreplace({s: sp.sympify(v, strict=True) for s, v in by_symbol(values or {}, h.H.free_symbols).items()})
     if decide_zero(sp.diff(H, p, 3)).answer != "zero" or sp.diff(H, p, 2) == 0:
         raise DomainError(f"libration: H = {H} must be quadratic in {p}")
-    if letters := H.free_symbols - {q, p}:
-        raise InputError(
-            f"libration: {', '.join(sorted(map(str, letters)))} without a value: give every letter a number"
-        )
+    no_letter("libration", H.free_symbols - {q, p})
     return H, energy, at

@@ -117,7 +117,7 @@ class Hamiltonian:
         n = len(self.q)
         new = sp.Matrix([*vector_of("canonical: Q", Q, n), *vector_of("canonical: P", P, n)])
         brackets = sp.Matrix(2 * n, 2 * n, lambda a, b: self.bracket(new[a], new[b]))
-        return decide_equal(brackets, _canonical(n))
+        return decide_equal(brackets, sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]])))
 
     def normal_form(
         self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any] | None = None, detuning: float = 0.0
@@ -155,10 +155,6 @@ class Hamiltonian:
             refusal = "normal_form: det ∂²H/∂p∂p = 0 there: name the momenta"
             at_rest |= dict(zip(self.p, linear_solve(jacobian(slopes, self.p), still, refusal), strict=True))
         return normal_form_at(H, x, at_rest, order, detuning)
-
-
-def _canonical(n: int) -> sp.Matrix:
-    return sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]]))
 
 
 def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None, kinetic: bool = False) -> Hamiltonian:

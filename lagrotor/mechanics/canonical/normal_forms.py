@@ -236,7 +236,9 @@ def normal_form_at(
             names = ", ".join(sorted(map(str, letters)))
             raise InputError(f"{error}: give {names} values, {{symbol: number, …}}") from None
     plain = _expanded(H, x, at, sp.eye(len(x)), order, _number, complex)
-    _check_equilibrium(plain.part(1).coefficients, plain.part(2).coefficients)
+    slope, curvature = (np.abs(plain.part(n).coefficients).max(initial=0.0) for n in (1, 2))
+    if slope > 1e-9 * max(curvature, 1e-300):
+        raise InputError("normal_form: the point is no equilibrium: ∂H/∂x is not zero there; start from one")
     return normal_form_of_series(plain, order, detuning)
 
 
@@ -353,8 +355,3 @@ def _expanded(
 
 def _number(e: sp.Expr) -> complex:
     return complex(sp.N(e, 20))
-
-
-def _check_equilibrium(slope: Coefficients, curvature: Coefficients) -> None:
-    if np.abs(slope).max(initial=0.0) > 1e-9 * max(np.abs(curvature).max(initial=0.0), 1e-300):
-        raise InputError("normal_form: the point is no equilibrium: ∂H/∂x is not zero there; start from one")
