@@ -92,10 +92,15 @@ def _times(form: NormalForm, size: float) -> list[float]:
             growth = {**kept, degree: kept_here + left}
             times.append(_duration(growth, size * (1 + moved), sqrt(2) * size / (1 + moved)))
         kept[degree] = kept_here
-        moved += degree * _size(generator) * (sqrt(2) * size) ** (degree - 2)
+        moved += _moved(generator, degree, sqrt(2) * size)
         if (1 + moved) ** 2 >= sqrt(2):
             break
     return times
+
+
+def _moved(generator: Polynomial, degree: int, size: float) -> float:
+    """How far a generator moves what is of that size, in parts of it, to first order: a bound."""
+    return degree * _size(generator) * size ** (degree - 2)
 
 
 def _feeding(f: Polynomial) -> float:

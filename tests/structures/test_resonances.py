@@ -15,12 +15,13 @@ from lagrotor.numerics import measured_order
 from lagrotor.structures import (
     exact_motion,
     example,
+    holding,
     local_hamiltonian,
     measured_fall,
     normal_form_of,
     resonant_factors,
 )
-from lagrotor.structures.resonances import trusted_push
+from lagrotor.structures.resonances import _new_coordinates, trusted_push
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}
@@ -425,6 +426,21 @@ def test_what_the_form_leaves_is_what_its_next_generator_removes():
     left = K.part(5) - form.series.part(5)
     assert np.abs((left + last.times(1j * gap)).coefficients).max(initial=0.0) < 1e-12 * np.abs(left.coefficients).max()
     assert np.abs(left.coefficients).max() > 0.1
+
+
+def test_the_normal_modes_are_no_farther_from_the_coordinates_of_the_form_than_is_counted():
+    """Points of the size up to which hold_time goes, there and back; without the generator of third degree it is not enough."""
+    s, rng = at(1.5, CORNER, [1, 0.3, 1.2]), np.random.default_rng(0)
+    form = normal_form_of(s, 1.0, 0.0, 5)
+    n, size = len(form.frequencies), 0.01
+    counted = [holding._moved(g, d, size) for d, g in enumerate(form.generators, 3)]
+    moved = []
+    for _ in range(40):
+        z = rng.normal(size=n) + 1j * rng.normal(size=n)
+        z *= size / np.linalg.norm(z)
+        new = np.array([f.at(np.concatenate([z, z.conj()])) for f in _new_coordinates(form, 4)])
+        moved.append(np.linalg.norm(new[:n] - z) / size)
+    assert sum(counted[1:]) < max(moved) < sum(counted)
 
 
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow), pytest.param(2, marks=pytest.mark.slow)])
