@@ -4,6 +4,7 @@ What the states and a scene are called are the certificate's own words; every nu
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -51,7 +52,8 @@ def _at_states(certificate: Certificate, states: Sequence[Any], sign: str, digit
 def _enclosure(certificate: Certificate) -> str:
     """Of the states at a time."""
     claim = certificate["claim"]
-    return f"At t = {printed(_claimed(claim['t']), 15)}: {_at_states(certificate, claim['states'], 'in', 20)}."
+    states = _at_states(certificate, claim["states"], "in", 20)
+    return f"At t = {printed(_claimed(claim['t']), 15)}: {states}.{_begin(certificate)}"
 
 
 def _crossing(certificate: Certificate) -> str:
@@ -61,13 +63,14 @@ def _crossing(certificate: Certificate) -> str:
     event = certificate["event"]
     return (
         f"{event['of']} {passes} zero at a time t in {printed(_claimed(claim['time']), 15)} s.{_definitions([event])}"
+        f"{_begin(certificate)}"
     )
 
 
 def _no_crossing(certificate: Certificate) -> str:
     """Of an expression that keeps its sign."""
     event, end = certificate["event"], _moment(certificate["claim"]["time"])
-    return f"{event['of']} does not pass zero from t = 0 to {end} s.{_definitions([event])}"
+    return f"{event['of']} does not pass zero from t = 0 to {end} s.{_definitions([event])}{_begin(certificate)}"
 
 
 def _means(certificate: Certificate) -> str:
@@ -76,7 +79,44 @@ def _means(certificate: Certificate) -> str:
         (x["of"], *map(_moment, (x["since"], x["until"])), _claimed(x["mean"])) for x in certificate["claim"]["means"]
     ]
     means = " ".join(f"The mean of {e} from t = {a} to {b} s is in {printed(x, 8)}." for e, a, b, x in rows)
-    return means + _definitions(certificate["claim"]["means"])
+    return means + _definitions(certificate["claim"]["means"]) + _begin(certificate)
+
+
+def _begin(certificate: Certificate) -> str:
+    """From which start, and with which parameters; of a scene, which is its own start, nothing."""
+    if certificate.get("observed") is not None:
+        return ""
+    motion, start = certificate["motion"], certificate["start"]
+    rows = [*zip(start["middle"], start["spread"], strict=True), *((x,) for x in motion["parameters"])]
+    each = [
+        (name, *map(sum, zip(*map(_exactly, row), strict=True)))
+        for name, row in zip(motion["arguments"], rows, strict=True)
+    ]
+    size = len(motion["outputs"])
+    states, parameters = [row for row in each[:size] if row[0] != "t"], [_value(*row) for row in each[size:]]
+    moved = [row for row in states if row[1:] != (0, 0)]
+    few = len(states) - len(moved) > 2
+    said = [_value(*row) for row in (moved if few else states)] + [f"all {'others' if moved else 'states'} 0"] * few
+    given = f", where {', '.join(parameters)}" if parameters else ""
+    return f" This is from t = 0 with {', '.join(said)}{given}."
+
+
+def _exactly(data: Sequence[str]) -> tuple[Fraction, ...]:
+    """Midpoint and radius, unrounded."""
+    return tuple(int(m, 16) * Fraction(2) ** int(e) for m, _, e in (text.partition("p") for text in data))
+
+
+def _value(name: str, middle: Fraction, wide: Fraction) -> str:
+    """A number of which the theorem is: a decimal that its narrow ball holds, else an interval within the ball."""
+    digits, low, high = 3, Decimal(1), Decimal(0)
+    while low > high:
+        digits *= 2
+        low, high = (
+            Context(prec=digits, rounding=way).divide(Decimal(end.numerator), Decimal(end.denominator))
+            for end, way in ((middle - wide, ROUND_CEILING), (middle + wide, ROUND_FLOOR))
+        )
+    first, last = (f"{end:f}".rstrip("0").rstrip(".") if "." in f"{end:f}" else f"{end:f}" for end in (low, high))
+    return f"{name} = {first}" if wide <= abs(middle) / 2**36 else f"{name} in [{first}, {last}]"
 
 
 def _definitions(named: Sequence[Mapping[str, Any]]) -> str:

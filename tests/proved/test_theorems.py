@@ -268,6 +268,20 @@ def test_a_name_is_defined_once_and_what_is_written_is_what_is_computed() -> Non
     assert "x_1 - 1/500 first passes zero" in verified(MISS)
 
 
+def test_a_theorem_names_its_start_and_its_parameters() -> None:
+    assert verified(SWING).endswith(" This is from t = 0 with theta = 1, theta_dot = 0.")
+    wide = enclose(THREE_BODIES, {MU: ("0.01", "0.011")}, ["0.5", (0.8, 0.81)], [0, sp.Rational(1, 3)], 0.1)
+    words = verified(wide)
+    assert " This is from t = 0 with x = 0.5, y in [0.8, 0.81], x_dot = 0, y_dot = 0.333333333333333" in words
+    assert words.endswith(", where mu in [0.01, 0.011].")
+    for change in (("start", "middle"), ("motion", "parameters")):
+        other = json.loads(json.dumps(wide.certificate))
+        other[change[0]][change[1]] = [moved(x, "0.01") for x in other[change[0]][change[1]]]
+        if other != wide.certificate:
+            with pytest.raises(NotProved, match="check: "):
+                check(other)
+
+
 FALSE_WORDS = {
     "cannot be read": [
         lambda c: c["claim"]["means"][1].__setitem__("of", "theta # and it topples"),

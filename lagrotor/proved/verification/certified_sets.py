@@ -13,6 +13,7 @@ from lagrotor.proved.verification.tapes import is_place, read_tape
 
 Ball = Any
 _EXACT = re.compile(r"-?[0-9a-f]+p-?\d+", re.ASCII)
+MOST_BITS = 100_000  # of a number
 MOST_TERMS = 10_000  # of a series
 _WIDE = 2.0**-24  # of a box, from which on its terms are taken twice
 
@@ -21,6 +22,7 @@ def number(text: str) -> Ball:
     """An exact number, mantissa in base 16 and power of two."""
     demand(_EXACT.fullmatch(text) is not None, f"{text[:60]!r} is not an exact number")
     mantissa, _, power = text.partition("p")
+    demand(abs(int(power)) <= MOST_BITS and len(mantissa) <= MOST_BITS, "a number has too many digits")
     before, ctx.prec = ctx.prec, max(ctx.prec, 4 * len(mantissa) + 8)
     found = arb(fmpz(int(mantissa, 16))) * arb(2) ** int(power)
     ctx.prec = before

@@ -15,6 +15,7 @@ from lagrotor.errors import InputError, NotProved
 from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
 from lagrotor.proved.verification.certified_sets import (
+    MOST_BITS,
     Carried,
     Flow,
     balls,
@@ -31,7 +32,7 @@ from lagrotor.proved.verification.tapes import is_place
 from lagrotor.proved.verification.written import tape_of_words
 
 Ball = Any
-_MORE_BITS, _MOST_BITS = 64, 100_000
+_MORE_BITS = 64
 
 
 def check(certificate: Any) -> str:
@@ -55,7 +56,7 @@ def check(certificate: Any) -> str:
         raise InputError(f"check: version {version} of certificates is unknown; this program reads 1")
     before = ctx.prec
     try:
-        demand(is_place(certificate["bits"], _MOST_BITS), "the precision is no number of bits")
+        demand(is_place(certificate["bits"], MOST_BITS), "the precision is no number of bits")
         ctx.prec = certificate["bits"] + _MORE_BITS
         rule(certificate)
         words = theorem_of(certificate)
