@@ -6,6 +6,7 @@ Nothing is interpreted here; every token is in one box.
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 from lagrotor.paper.source.tokens import Token, tokenize
 
@@ -124,8 +125,9 @@ class Box:
     upright: bool = False
 
 
+@lru_cache(maxsize=4096)  # once for the use of letters, once for the reading
 def boxes(latex: str) -> list[Box]:
-    """The boxes of a formula. Raises FormulaError at a token that has no place."""
+    """The boxes of a formula, not to be changed. Raises FormulaError at a token that has no place."""
     reader = _Reader(latex)
     found = reader.sequence(())
     if reader.place < len(reader.items):

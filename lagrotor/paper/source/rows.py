@@ -1,7 +1,6 @@
 """Rows of boxes: their ends, their bars in pairs, and what a box in them is."""
 
 import re
-from collections.abc import Iterator
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 
@@ -35,12 +34,15 @@ def strip(row: list[Box]) -> list[Box]:
     return row[start:end]
 
 
-def all_boxes(row: list[Box]) -> Iterator[Box]:
+def all_boxes(row: list[Box]) -> list[Box]:
     """The boxes of a row and all that they hold."""
+    found: list[Box] = []
     for box in row:
-        yield box
-        for part in (*box.parts, box.sub or [], box.sup or []):
-            yield from all_boxes(part)
+        found.append(box)
+        for part in (*box.parts, box.sub, box.sup):
+            if part:
+                found += all_boxes(part)
+    return found
 
 
 def without_thin(row: list[Box]) -> list[Box]:
