@@ -170,7 +170,9 @@ def _acting(known: Notation, box: Box, after: Box, then: Box | None) -> Rivals:
     )
     sums = box.name in ("Sigma", "Pi") and not (box.sub or box.marks)
     marked = box.name in ("D", "L", "E") and (box.sub or box.marks)
-    if box.name not in known.letters and (sums or marked or (function and box.name.isupper())):
+    capitals = box.name.isupper() and after.name.isupper() and not (box.sub or after.sub)
+    applied = capitals and stem_of(box) in known.applied  # E X where E[X] stands
+    if box.name not in known.letters and (sums or marked or applied or (function and box.name.isupper())):
         yield "operator", f"{box.name} is a factor of what follows, and no operator on it", f'letters = "{box.name}"'
 
 
@@ -203,6 +205,8 @@ def _raised(reader: FormulaReader, box: Box) -> Rivals:
         yield "power", f"the superscript of {box.name} is a power, and no index", ""
     elif inverse and (stem in known.matrices or box.name[0].isupper() or known.is_function(box)):
         yield "inverse", f"{box.name} is one over {box.name}, and no inverse function or matrix", ""
+    elif _letters(*row) and any(b.kind == "fraction" or b.name == "/" for b in row) and box.name[0].isupper():
+        yield "power", f"the superscript of {box.name} is a power, and no half step", ""
     elif number or all(b.kind in ("number", "operator") or (b.kind == "fraction" and not _letters(b)) for b in row):
         return
     elif stem not in known.powers or not all(n.islower() and n in known.apart - known.lowered for n in _letters(*row)):
@@ -367,7 +371,8 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Rivals:
             is_printed_as_vector(b) and b.name[0].isupper() and stem_of(b) not in known.crossed for b in beside
         )
         hats = any("hat" in b.marks and not is_printed_as_vector(b) for b in beside)
-        if matrices or hats or not (number or "bold" in known.seen):
+        tensors = any(b.kind == "letter" and stem_of(b) in known.raised and not b.sup for b in beside)
+        if matrices or hats or tensors or not (number or "bold" in known.seen):
             yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""
     elif box.name in ("pm", "mp") and any(
         b.kind in ("unit", "text") or (b.upright and len(b.name) > 1) for b in row[place:]

@@ -99,6 +99,7 @@ SETTLED = [
     (r"u(a, b) = 0\, t > 0", [], "what a space parts"),
     (r"W = e^{2\pi j/N}", [], "j is a letter"),
     (r"K_\mu L_\mu = 0", [], "the index mu is not summed"),
+    (r"a = F^{n + 1/2} b", [], "no half step"),
     ("P(D) y = b", [], "D is a number, and no derivative"),
     (r"a = \sum_{k\in EV(b)} c_k", [], "EV is a product"),
     (r"a = \ln 2 x", [], "the argument of ln"),
@@ -128,6 +129,7 @@ def test_what_has_a_rival_is_marked_until_the_paper_settles_it(latex: str, paper
     [
         ("a = B x", r"B^\top = C", "B commutes"),
         (r"a = \bar z", r"b = e^{i c}", "no conjugate"),
+        ("E X = b", "E[X] = c", "E is a factor of what follows"),
         (r"\dot x = a", r"\frac{dx}{d\tau} = b", "its rate in t"),
         (r"a = \left(\frac{b}{p}\right)", r"b \equiv 1 \pmod{p}", "symbol of Legendre"),
         ("a = L f", "f(x) = b", "L is a factor"),
@@ -153,6 +155,7 @@ def test_another_use_in_the_paper_is_a_rival(latex: str, paper: str, words: str)
         ("v = c x", r"\vec x^T\vec y = 0"),
         ("v = c t", r"t \in [0, t]"),
         ("v = c x", r"\det(A - c I) = \det\begin{pmatrix} x & 0\\ 0 & x\end{pmatrix}"),
+        ("F X = a", "E[X] = c"),
         ("v_x = a", r"v = \sqrt{v_x^2 + v_y^2}"),
         ("I_{xx} = a", "I_{xy} = b"),
         ("a = b - x'", "K(x, x') = c"),
@@ -160,6 +163,11 @@ def test_another_use_in_the_paper_is_a_rival(latex: str, paper: str, words: str)
 )
 def test_what_only_looks_like_another_use_is_no_rival(latex: str, paper: str) -> None:
     assert not guesses(latex, paper)
+
+
+def test_a_dot_beside_a_letter_with_upper_indices_may_join_four_vectors() -> None:
+    assert any("the dot" in each for each in guesses(r"a = p\cdot q", r"\vec x = 0", r"p^\mu q_\mu = b"))
+    assert not guesses(r"a = p\cdot q", r"\vec x = 0", "p^2 = b")
 
 
 def test_lists_of_a_differential_equation_make_no_names_of_primes() -> None:
