@@ -174,8 +174,11 @@ class _Checker:
         if answer == "zero":
             return HOLDS, f"{text_of(left)} = {text_of(right)} is an identity"
         given, used = self._put_in(a, b)
-        if used and decided(*given) == "zero":
+        put = decided(*given) if used else answer
+        if put == "zero":
             return HOLDS, f"with {', '.join(used)}"
+        if put == "too large":
+            answer = put
         if answer in ("undecided", "too large"):
             why = "is too large" if answer == "too large" else "is outside what is decided exactly"
             return "undecided", f"the difference {why}"

@@ -222,6 +222,8 @@ def test_a_step_that_takes_too_much_work_is_left_undecided_and_says_so(tmp_path:
     inner = r"\tan(C - 2 + \frac{1}{C - 1/y} - 1/y)"
     (found,) = findings(tmp_path, rf"\[ b = p {inner} + v = q ({inner})^n \]")
     assert (found.verdict, found.why) == ("undecided", "the difference is too large")
+    given = rf"\[ u = {inner} \] \[ p = w \] \[ b = p u + v = q u^n \]"
+    assert [each.why for each in findings(tmp_path, given)] == ["the difference is too large"]
     for right, verdict in ((rf"v + p {inner}", HOLDS), (rf"v - p {inner}", REFUTED)):
         assert verdicts(tmp_path, rf"\[ b = p {inner} + v = {right} \]") == [verdict]
     nested = r"\tan(\tan(\tan(x)))"
