@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy as sp
 
+from lagrotor.algebra.scalar import sympified
 from lagrotor.errors import InputError, near
 from lagrotor.mechanics.bodies.rigid_bodies import Body
 from lagrotor.mechanics.expressions import vector_of
@@ -61,8 +62,9 @@ def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str
         )
     if isinstance(what, sp.Equality):
         return f"${latex(what.lhs)}$", run.evaluate(what.rhs)
-    rounded = {number: sp.Float(number, 3) for number in sp.sympify(what).atoms(sp.Float)}
-    return f"${latex(sp.sympify(what).xreplace(rounded))}$", run.evaluate(what)
+    expression = sympified(what, "plot")
+    rounded = {number: sp.Float(number, 3) for number in expression.atoms(sp.Float)}
+    return f"${latex(expression.xreplace(rounded))}$", run.evaluate(what)
 
 
 def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
