@@ -115,7 +115,7 @@ def point_of(where: str, system: Equations, at: Mapping[Any, Any], letters: Iter
             f"({', '.join(map(str, system.speeds))}) and letters of the system"
         )
     for joint in system.ball_joints:
-        if all(q in point and sp.sympify(point[q]).is_zero for q in joint.quaternion):
+        if all(q in point and sp.sympify(point[q], strict=True).is_zero for q in joint.quaternion):
             raise InputError(f"{where}: {no_turn(joint.quaternion, 0)}")
     return point
 
