@@ -17,16 +17,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-# The rooms in which numbers are computed, whose last digits depend on the machine.
+# The folders in which numbers are computed, whose last digits depend on the machine.
 COMPUTING = tuple(
-    f"tests/{room}" for room in ("algebra", "numerics", "mechanics", "pair", "theory", "models", "structures")
+    f"tests/{folder}" for folder in ("algebra", "numerics", "mechanics", "pair", "theory", "models", "structures")
 )
 # OPENBLAS_CORETYPE → what the processor has to have for it.
 KERNELS = {"Prescott": "pni", "Nehalem": "sse4_2", "Sandybridge": "avx", "Haswell": "avx2", "SkylakeX": "avx512bw"}
 OLDEST = "Prescott"  # its run has no vector features of numpy either
 SEEDS = 1, 2, 3
 PYTHONS = "3.11", "3.12", "3.13", "3.14"
-EXTRAS = "heyoka", "pandas", "xarray"
+EXTRAS = "heyoka", "pandas", "xarray", "flint"
 NOT_INSTALLED = "its packages cannot be installed"
 _UNREACHED = "after connection broken by"  # what pip says of a package index that it does not reach
 # Prints the vector features that numpy chooses among and this processor has.

@@ -1,7 +1,8 @@
 """Every page of the report and of the site, opened in Chromium: `make test-pages`.
 
-Each is seen as on a desk and as on a phone, light, dark and on paper: no error of a script, no violation that axe finds, no
-sideways scroll, no letter of a formula under 10 px, no buttons that overlap; links are read from the files. A page is loaded
+Each is seen as on a desk and as on a phone, light, dark and on paper: no error of a script, no violation that axe finds
+outside formulas (dark and on paper: of colours; dark also of what scrolls), no sideways scroll, no letter of a formula (mi, mn,
+mtext) under 10 px, no buttons that overlap; links are read from the files. A page is loaded
 twice, in light and in dark colours, and then only resized or put on paper. Where only colours are others axe looks at a page
 that has an element, in one, of a kind that no page before it had. As many tabs as processors. Exit status 1 where something
 is wrong.

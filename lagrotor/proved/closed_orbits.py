@@ -105,7 +105,7 @@ class PeriodicOrbit(Shown):
 
     @property
     def kind(self) -> Kind:
-        """elliptic, hyperbolic, attracting or undecided."""
+        """elliptic, hyperbolic, attracting, parabolic or undecided."""
         return self.multipliers.kind
 
     @property

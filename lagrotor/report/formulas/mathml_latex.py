@@ -131,7 +131,8 @@ def _keep_readable(element: Element, depth: int, compact: bool) -> None:
         below = depth + (compact if fraction else script)
         if below > 1:
             child.set("scriptlevel", "1")
-        set_small = (compact or fraction or script) and child.get("displaystyle") != "true"
+        style = child.get("displaystyle")
+        set_small = style == "false" if style else compact or fraction or script
         _keep_readable(child, min(below, 1), set_small)
 
 

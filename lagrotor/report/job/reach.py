@@ -48,7 +48,7 @@ def _text(path: Path) -> str:
 
 @cache
 def _face(package: str) -> dict[str, str]:
-    """Name → module, of what a room or the package hands on; empty for a module and for a paper's folder."""
+    """Name → module, of what a part of the package, or the package, hands on; empty for a module and for a paper's folder."""
     file = _PACKAGE.joinpath(*package.split(".")[1:], "__init__.py")
     return names_of_face(file) if package.startswith("lagrotor") and file.is_file() else {}
 

@@ -161,6 +161,8 @@ def test_a_link_that_would_run_is_not_kept(address: str) -> None:
         (r"\frac{a_1}{b_2}", 0),
         (r"\hat{x}^2 + a_{b}", 0),
         (r"e^{\frac{a}{b}}", 2),
+        (r"\tfrac{a^2}{b}", 1),  # a small fraction makes scripts of its parts
+        (r"\tfrac{a}{b}", 0),
     ],
 )
 def test_scripts_of_scripts_are_no_smaller_than_scripts(source: str, levels: int) -> None:
