@@ -1,4 +1,4 @@
-"""`pytest my-paper --lagrotor my-paper`: each verdict and each outcome on record is a test, and fails with the reason when it changes."""
+"""`pytest my-paper --lagrotor my-paper`: each verdict and each outcome on record is a test, which fails with the reason."""
 
 from collections.abc import Iterator
 from pathlib import Path
