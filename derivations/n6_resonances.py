@@ -201,7 +201,7 @@ prove(alone, sp.Rational(3, 8) / (g * rho**4), "the time to double without reson
 unequal = replace(corner, spins=(1, 0.3, 1.2))
 unequal = replace(unequal, spins=tuple(1.5 * unequal.critical_spin() * w for w in unequal.spins))
 unit = unequal.modes().rates.max()
-small, times = (0.002, 0.004, 0.008), []
+small, times = (0.0005, 0.001, 0.002), []
 for push in small:
     times.append(unequal.stands().hold_time(push * rate) * unit / (2 * np.pi))
 assert abs(measured_order(small, times) + 4) < 0.1
