@@ -8,6 +8,7 @@ from flint import arb, arb_poly
 
 from lagrotor.errors import InputError
 from lagrotor.proved.verification.recurrences import ZERO, demand, rational_of, slopes_of, terms_of
+from lagrotor.proved.verification.tapes import results_of
 
 Ball = Any
 
@@ -139,28 +140,21 @@ class Dual:
 def evaluated(tape: Any, arguments: list[Dual], n: int) -> list[Dual]:
     """The tape's outputs."""
     one, minus = Rest([arb(1)], ZERO, n), Rest([arb(-1)], ZERO, n)
-    found: list[Dual] = []
-    for name, *on in tape["operations"]:
-        if name == "argument":
-            found.append(arguments[on[0]])
-            continue
-        if name == "number":
-            found.append(Dual(Rest([rational_of(on[0])], ZERO, n)))
-            continue
-        a = found[on[0]]
-        b = found[on[1]] if len(on) > 1 else a
+
+    def operation(name: str, a: Dual, b: Dual | None = None) -> Dual:
+        if b is None:
+            return _function(name, a, one, n)
         if name == "add":
-            found.append(Dual(a.value + b.value, a.linear(one, b, one)))
-        elif name == "subtract":
-            found.append(Dual(a.value - b.value, a.linear(one, b, minus)))
-        elif name == "multiply":
-            found.append(Dual(a.value * b.value, a.linear(b.value, b, a.value)))
-        elif name == "divide":
-            over = _inverse(b.value)
-            quotient = a.value * over
-            found.append(Dual(quotient, a.linear(over, b, minus * quotient * over)))
-        else:
-            found.append(_function(name, a, one, n))
+            return Dual(a.value + b.value, a.linear(one, b, one))
+        if name == "subtract":
+            return Dual(a.value - b.value, a.linear(one, b, minus))
+        if name == "multiply":
+            return Dual(a.value * b.value, a.linear(b.value, b, a.value))
+        over = _inverse(b.value)
+        quotient = a.value * over
+        return Dual(quotient, a.linear(over, b, minus * quotient * over))
+
+    found = results_of(tape, arguments.__getitem__, lambda x: Dual(Rest([rational_of(x)], ZERO, n)), operation)
     return [found[place] for place in tape["outputs"]]
 
 

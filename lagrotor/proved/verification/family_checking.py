@@ -11,6 +11,7 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
 from lagrotor.proved.verification.recurrences import ZERO, demand, motion_terms, rational_of, terms_of
+from lagrotor.proved.verification.tapes import results_of
 
 Ball = Any
 
@@ -158,30 +159,24 @@ def _linear(
 
 def outputs_of(tape: Any, arguments: Sequence[Pair]) -> list[Pair]:
     """The tape's outputs."""
-    found: list[Pair] = []
-    for name, *on in tape["operations"]:
-        if name == "argument":
-            found.append(arguments[on[0]])
-            continue
-        if name == "number":
-            found.append((arguments[0][0].number(rational_of(on[0])), None))
-            continue
-        a, by = found[on[0]]
-        one = a.number(arb(1))
-        if len(on) == 1:
-            found.append(_applied(name, a, by, one))
-            continue
-        b, other = found[on[1]]
+    any_sheet = arguments[0][0]
+    one = any_sheet.number(arb(1))
+
+    def operation(name: str, first: Pair, second: Pair | None = None) -> Pair:
+        a, by = first
+        if second is None:
+            return _applied(name, a, by, one)
+        b, other = second
         if name in ("add", "subtract"):
             sign = 1 if name == "add" else -1
-            found.append((a.plus(b, sign), _linear(one, by, a.number(arb(sign)), other)))
-        elif name == "multiply":
-            found.append((a.times(b), _linear(b, by, a, other)))
-        else:
-            demand(name == "divide", f"the operation {name!r} is unknown")
-            over = inverse_sheet(b)
-            quotient = a.times(over)
-            found.append((quotient, _linear(over, by, one.number(arb(-1)).times(quotient.times(over)), other)))
+            return a.plus(b, sign), _linear(one, by, a.number(arb(sign)), other)
+        if name == "multiply":
+            return a.times(b), _linear(b, by, a, other)
+        over = inverse_sheet(b)
+        quotient = a.times(over)
+        return quotient, _linear(over, by, one.number(arb(-1)).times(quotient.times(over)), other)
+
+    found = results_of(tape, arguments.__getitem__, lambda x: (any_sheet.number(rational_of(x)), None), operation)
     return [found[place] for place in tape["outputs"]]
 
 

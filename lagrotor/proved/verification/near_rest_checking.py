@@ -15,6 +15,7 @@ from lagrotor.proved.verification.family_checking import (
     turning,
 )
 from lagrotor.proved.verification.recurrences import ZERO, demand, motion_terms, rational_of
+from lagrotor.proved.verification.tapes import results_of
 
 Ball = Any
 Split = tuple[Sheet, Sheet]  # v₀ and w of v₀ + u w
@@ -50,19 +51,16 @@ def rates_near_rest(tape: Any, states: Sequence[Sheet], pace: Sheet, u: Sheet) -
     """The rates of ξ."""
     none = u.like([], ZERO)
     arguments: list[Split] = [*((none, x) for x in states), (pace, none)]
-    found: list[Split] = []
-    for name, *on in tape["operations"]:
-        if name == "argument":
-            found.append(arguments[on[0]])
-        elif name == "number":
-            found.append((u.number(rational_of(on[0])), none))
-        elif name in ("add", "subtract"):
+
+    def operation(name: str, a: Split, b: Split | None = None) -> Split:
+        if b is None:
+            return _moved(name, a, u)
+        if name in ("add", "subtract"):
             sign = 1 if name == "add" else -1
-            found.append((found[on[0]][0].plus(found[on[1]][0], sign), found[on[0]][1].plus(found[on[1]][1], sign)))
-        elif name in ("multiply", "divide"):
-            found.append(_joined(name, found[on[0]], found[on[1]], u))
-        else:
-            found.append(_moved(name, found[on[0]], u))
+            return a[0].plus(b[0], sign), a[1].plus(b[1], sign)
+        return _joined(name, a, b, u)
+
+    found = results_of(tape, arguments.__getitem__, lambda x: (u.number(rational_of(x)), none), operation)
     for place in tape["outputs"]:
         demand(found[place][0].size().is_zero(), "the rates do not vanish at rest")
     return [found[place][1] for place in tape["outputs"]]

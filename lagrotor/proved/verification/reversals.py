@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from sympy import nextprime
 
 from lagrotor.proved.verification.recurrences import demand
-from lagrotor.proved.verification.tapes import Tape
+from lagrotor.proved.verification.tapes import Tape, results_of
 
 Terms = Mapping[int, Fraction]
 _DEGREE = 2**256
@@ -54,14 +54,14 @@ class Residues:
 
     def outputs(self, signs: list[int]) -> list[Residue]:
         """With signs of the first arguments."""
-        found: list[Residue] = []
-        for name, *on in self.tape["operations"]:
-            if name == "argument":
-                found.append(self._letter(self._point(name, on[0]) * (signs[on[0]] if on[0] < len(signs) else 1)))
-            elif name == "number":
-                found.append(self._letter(self._point(*on)) if on[0] == "pi" else self._number(Fraction(on[0])))
-            else:
-                found.append(self._result(name, *(found[place] for place in on)))
+
+        def argument(place: int) -> Residue:
+            return self._letter(self._point("argument", place) * (signs[place] if place < len(signs) else 1))
+
+        def number(x: str) -> Residue:
+            return self._letter(self._point(x)) if x == "pi" else self._number(Fraction(x))
+
+        found = results_of(self.tape, argument, number, self._result)
         demand(max(x.degree for x in found) < _DEGREE, "the motion's degree is too large to decide what reverses it")
         return [found[place] for place in self.tape["outputs"]]
 

@@ -1,12 +1,14 @@
 """A certificate's tapes, read: each operation is known and on earlier results; the rates of a motion in s = t/pace."""
 
 import re
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 from lagrotor.proved.tape import OPERATIONS
 from lagrotor.proved.verification.recurrences import demand
 
 Tape = dict[str, Any]
+Value = TypeVar("Value")
 _NUMBER = re.compile(r"pi|-?\d+(/\d+)?", re.ASCII)
 
 
@@ -31,6 +33,21 @@ def read_tape(data: Any) -> Tape:
         demand(fine, f"operation {place} of a tape is none: {str([name, *on])[:60]}")
     demand(all(is_place(x, len(operations)) for x in outputs), "an output of a tape is no operation's")
     return {"arguments": arguments, "operations": operations, "outputs": outputs}
+
+
+def results_of(
+    tape: Tape, argument: Callable[[int], Value], number: Callable[[str], Value], operation: Callable[..., Value]
+) -> list[Value]:
+    """What each operation of a tape gives in an arithmetic: of an argument's place, of a number, of a name and operands."""
+    found: list[Value] = []
+    for name, *on in tape["operations"]:
+        if name == "argument":
+            found.append(argument(on[0]))
+        elif name == "number":
+            found.append(number(on[0]))
+        else:
+            found.append(operation(name, *(found[place] for place in on)))
+    return found
 
 
 def demand_paced(tape: Tape) -> None:
