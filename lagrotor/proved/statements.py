@@ -83,8 +83,8 @@ def _means(certificate: Certificate) -> str:
 
 
 def _begin(certificate: Certificate) -> str:
-    """From which start, and with which parameters; of a scene, which is its own start, nothing."""
-    if certificate.get("observed") is not None:
+    """From which start, and with which parameters; of what is observed in a scene, which is its own start, nothing."""
+    if certificate["kind"] != "enclosure" and certificate.get("observed") is not None:
         return ""
     motion, start = certificate["motion"], certificate["start"]
     rows = [*zip(start["middle"], start["spread"], strict=True), *((x,) for x in motion["parameters"])]
@@ -93,7 +93,10 @@ def _begin(certificate: Certificate) -> str:
         for name, row in zip(motion["arguments"], rows, strict=True)
     ]
     size = len(motion["outputs"])
-    states, parameters = [row for row in each[:size] if row[0] != "t"], [_value(*row) for row in each[size:]]
+    rates = (list(motion["operations"][place]) for place in motion["outputs"])
+    is_time = [row == ("t", 0, 0) and rate == ["number", "1"] for row, rate in zip(each, rates, strict=False)]
+    states = [row for row, own in zip(each, is_time, strict=False) if not own]
+    parameters = [_value(*row) for row in each[size:]]
     moved = [row for row in states if row[1:] != (0, 0)]
     few = len(states) - len(moved) > 2
     said = [_value(*row) for row in (moved if few else states)] + [f"all {'others' if moved else 'states'} 0"] * few
@@ -133,7 +136,14 @@ def _periodic_orbit(certificate: Certificate) -> str:
     return (
         f"There is a periodic orbit of period {printed(period, 25)} s, frequency {printed(2 * arb.pi() / period, 25)} rad/s, "
         f"from {_at_states(certificate, claim['start'], '=', 20)}; it is {claim['kind']}."
+        f"{_ones(certificate['ones'] if certificate['reversals'][0] else 0, claim['kind'])}"
     )
+
+
+def _ones(ones: int, kind: str) -> str:
+    """What a kind takes of the system: that its integrals leave a pair of multipliers beside ones."""
+    taken = ones and kind in ("elliptic", "hyperbolic", "parabolic")
+    return f" That {ones} of its multipliers are 1 is known of the system." if taken else ""
 
 
 def _precession(certificate: Certificate) -> str:
@@ -145,7 +155,8 @@ def _precession(certificate: Certificate) -> str:
     stable = f", {claim['kind']}" if claim.get("kind", "undecided") != "undecided" else ""
     frequency = printed(2 * arb.pi() / _claimed(claim["period"]), 22)
     turning = "it turns at" if low == high else "they are one smooth curve and turn at frequencies in"
-    return f"{certificate['who']} has, {every}, a paired precession{stable}; {turning} {frequency} rad/s."
+    known = _ones(4, claim.get("kind", "undecided"))
+    return f"{certificate['who']} has, {every}, a paired precession{stable}; {turning} {frequency} rad/s.{known}"
 
 
 def _equilibrium(certificate: Certificate) -> str:

@@ -20,7 +20,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates
 from lagrotor.models.orbits.shooting import QuarterPeriod
 from lagrotor.numerics import Program
-from lagrotor.proved import NotProved, check, enclose, equilibrium, periodic_orbit
+from lagrotor.proved import NotProved, check, enclose, equilibrium, means, periodic_orbit
 from lagrotor.proved.balls import as_text, ball, exact, precision
 from lagrotor.proved.carried_sets import Accuracy, Start, steps_of
 from lagrotor.proved.certificates import ball_data, balls_data, matrix_data, tape_data
@@ -39,6 +39,7 @@ C = coordinates("theta")
 PENDULUM = System(C, RATE**2 / 2 + sp.cos(THETA))
 ENCLOSURE = json.loads(json.dumps(enclose(PENDULUM, {}, [1], [0], 2).certificate))
 ORBIT = json.loads(json.dumps(periodic_orbit(PENDULUM, {}, [1], [0], 6.7, reversals=[(1, -1)]).certificate))
+MEANS = means(PENDULUM, {}, [1], [0], [(sp.cos(THETA), 0, 1)])
 x, v, z = sp.symbols("x v z")
 
 
@@ -178,6 +179,36 @@ def test_a_degree_that_could_hide_a_difference_is_refused() -> None:
         place = len(tape["operations"]) - 1
     with pytest.raises(NotProved, match="degree is too large"):
         check_reversal(tape, [1, -1])
+
+
+def beside(tape: Any, name: str, inner: int) -> Any:
+    """The tape with an operation, on x + 2 or x, that no rate needs."""
+    operations = [*tape["operations"], ["number", "2"]]
+    operations += [["add", inner, len(operations) - 1], [name, len(operations)]]
+    return tape | {"operations": operations}
+
+
+@pytest.mark.parametrize("name", ["sqrt", "log", "asin"])
+def test_nothing_is_taken_at_the_reversed_motion_that_was_not_followed(name: str) -> None:
+    """√((x + 2)²) is x + 2 where √(x + 2) was taken: that is so on the half that is followed, not on its image."""
+    tape = beside(motion(v, -x), name, 0)
+    check_reversal(tape, [1, -1])  # twin: x itself stays
+    with pytest.raises(NotProved, match="may leave where its roots"):
+        check_reversal(tape, [-1, 1])
+
+
+def test_a_theorem_names_each_state_that_is_no_time_and_no_name_is_an_expression() -> None:
+    called_time = copy.deepcopy(ENCLOSURE)
+    called_time["motion"]["arguments"][0] = "t"
+    assert "with t = 1, theta_dot = 0" in check(called_time)
+    assert "This is from t = 0 with" in check(ENCLOSURE | {"observed": 0})  # which an enclosure does not use
+    certificate = json.loads(json.dumps(MEANS.certificate))
+    check(certificate)
+    for name in ("theta + 1000", "1000", "pi", "sin"):
+        forged = copy.deepcopy(certificate)
+        forged["motion"]["arguments"][0] = name
+        with pytest.raises(NotProved, match=r"an expression itself|cannot be read"):
+            check(forged)
 
 
 @pytest.mark.parametrize("link", [Link(), Link(1, 1, 1), Link(0.5, 1, 1), Link(2)])

@@ -3,7 +3,9 @@
 It is an identity of rational functions of letters: the arguments, π, and functions of them, where sin, asin and atan are odd,
 sin² + cos² = 1, e^(a+b) = e^a e^b, √a and e^(n log a) are powers of a. It is held modulo a prime of 512 bits at one point, both
 from a digest of the tape. A false one holds there with a chance of at most its degree over the prime (Schwartz and Zippel), here
-below 2⁻²⁵⁰, however small the difference is as a number; one that needs more of the functions is refused.
+below 2⁻²⁵⁰, however small the difference is as a number; one that needs more of the functions is refused. The laws of roots and
+logarithms hold where their arguments are positive: at S x nothing has to be positive that was not so at x, where the motion
+was followed.
 """
 
 from collections.abc import Mapping
@@ -35,7 +37,13 @@ def check_reversal(tape: Tape, signs: Any) -> None:
     fits = len(signs) == len(tape["outputs"]) and all(type(s) is int and abs(s) == 1 for s in signs)
     demand(fits, "a reversal is a sign 1 or −1 of each state")
     residues = Residues(tape)
-    rates, images = (residues.outputs(row) for row in ([1] * len(signs), signs))
+    rates = residues.outputs([1] * len(signs))
+    followed = len(residues.domain)
+    images = residues.outputs(signs)
+    demand(
+        len(residues.domain) == followed,
+        "time reversed the motion may leave where its roots and logarithms are defined",
+    )
     for s, a, b in zip(signs, rates, images, strict=True):
         demand((s * a.value + b.value) % residues.p == 0, "time reversed is no motion")
 
@@ -51,6 +59,7 @@ class Residues:
             int, tuple[Terms, Residue, int]
         ] = {}  # of products: one factor's logarithm, the other, its power
         self._arguments: dict[int, Residue] = {}  # of logarithms, by their letter
+        self.domain: set[tuple[str, int]] = set()  # what has to be positive, or from −1 to 1, for what is taken of it
 
     def outputs(self, signs: list[int]) -> list[Residue]:
         """With signs of the first arguments."""
@@ -83,11 +92,15 @@ class Residues:
         if name in ("multiply", "divide"):
             return self._product(on[0], on[1], 1 if name == "multiply" else -1)
         (a,) = on
+        if name == "asin":
+            self.domain.add((name, min(a.value, self.p - a.value)))
         if name == "exp":
             return self._exponential(a.terms)
         if name == "sqrt":
             return self._exponential({letter: x / 2 for letter, x in self._logarithm(a).items()})
         if name == "log":
+            if a.value not in self._logarithms:
+                self.domain.add(("positive", a.value))
             (letter,) = self._letter(self._point("log", a.value)).terms
             self._arguments[letter], self._logarithms[a.value] = a, {letter: Fraction(1)}
             return self._letter(letter)

@@ -55,6 +55,8 @@ class Words:
             for name, *on in tape["operations"]:
                 self.operations.append([name, *((x + shift for x in on) if name in OPERATIONS else on)])
             self.names |= {name: place + shift for name, place in zip(names, tape["outputs"], strict=True)}
+        own = not any(re.search(r"^\d|[\s+*/().-]", name) or name in {"pi", *_FUNCTIONS} for name in self.names)
+        demand(own, "a name of a state or of what is observed is an expression itself")
         self._places = {tuple(operation): place for place, operation in enumerate(self.operations)}
 
     def keep(self, *operation: Any) -> int:
