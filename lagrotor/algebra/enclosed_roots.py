@@ -99,7 +99,11 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
     taken in the equations' place; where it does there is no root.
     """
     unknowns = list(box)
-    fractions = [sp.fraction(sp.together(e)) for e in equations]
+    quotients = [
+        e.replace(sp.tan, lambda a: sp.sin(a) / sp.cos(a)).replace(sp.cot, lambda a: sp.cos(a) / sp.sin(a))
+        for e in equations
+    ]
+    fractions = [sp.fraction(sp.together(e)) for e in quotients]
     below = [d for _, d in fractions if d.free_symbols & {*unknowns}]
     whole = _Equations(equations, unknowns)
     above = _Equations([numerator for numerator, _ in fractions], unknowns) if below else whole

@@ -10,6 +10,7 @@ Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., §§1.4, 1.5, 2.4, 2.7; 
 Nonholonomic Systems, ch. III.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -215,6 +216,11 @@ class Equations:
         L = expression("System: L", self.lagrangian)
         no_coordinate("System: L", L, (*self.c.q, *self.c.v, *self.c.a))
         check_names("System", *self._letters, L)
+        acting = L.free_symbols.union(
+            *(sp.sympify(e, strict=True).free_symbols for e in (*self.forces, *self.residual))
+        )
+        if own := sorted(str(s) for s in acting if re.fullmatch(r"_a\d+", str(s))):
+            raise InputError(f"System: {', '.join(own)}: names as _a0 are those of generated programs; rename")
         _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
         return L
 

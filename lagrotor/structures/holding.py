@@ -49,8 +49,8 @@ def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
 
     An estimate from the first terms that the normal form leaves and that are not zero, and from the first of what its coordinates
     and the normal modes differ by. inf where the structure may turn about the vertical through each joint, as a free top, and for
-    staying near where the energy is least upright; 0 where it does not stand to first order or the push is beyond what the
-    expansion is trusted. push, of: as `largest_push` has them.
+    staying near where the energy is least upright, of more than 8 degrees of freedom for pushes that are small enough; 0 where it
+    does not stand to first order or the push is beyond what the expansion is trusted. push, of: as `largest_push` has them.
 
     Raises:
         InputError: friction acts on what spins hold, or there are more than 8 degrees of freedom.
@@ -59,13 +59,18 @@ def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
     push, linear = checked_push("hold_time", push), small_motion(s)
     if linear.growth > 0 or linear.drifts:
         return 0.0
-    if not linear.dof or np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
+    if not linear.dof:
         return inf
+    least = bool(np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12)
     if linear.dof > MOST_DOF:
+        if least:
+            return inf
         raise InputError(f"hold_time: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
     h = local_hamiltonian(s)
     if push > trusted_push(s, of=of):
         return 0.0
+    if least:
+        return inf
     if not s.bars and all(not isinstance(b.to, int) and b.to[:2] == s.joints[b.tip] for b in s.braces):
         return inf  # each rotor keeps its energy and its momentum about the vertical, and with them both its actions
     order = next(n for most, n in _ORDERS.items() if linear.dof <= most)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import sympy as sp
-from scipy.optimize import fsolve
+from scipy.optimize import brentq, fsolve
 
 from lagrotor.errors import SingularError
 from lagrotor.mechanics import System, coordinates
@@ -80,3 +80,16 @@ def test_a_pole_of_a_force_is_no_equilibrium_and_what_is_proved_is_told() -> Non
     assert float(second.at[y]) == 0 and abs(place - 0.8 / (place + 0.2) ** 2 - 0.2 / (place - 0.8) ** 2) < 1e-12
     with pytest.raises(SingularError, match=r"undecided, the first about x = 1(.|\n)*Proved elsewhere in it: x = 2$"):
         System(c, v**2 / 2, forces=((c.q[0] - 1) ** 3 * (2 - c.q[0]),)).equilibria(values={}, box={c.q[0]: (0.5, 3)})
+
+
+@pytest.mark.parametrize(
+    ("force", "roots"),
+    [
+        (sp.tan(x), (-np.pi, 0, np.pi)),
+        (sp.cot(x), (-np.pi / 2, np.pi / 2)),
+        (sp.tan(x) - x - 1, (brentq(lambda s: np.tan(s) - s - 1, 0.5, 1.5),)),  # it rises from pole to pole
+    ],
+)
+def test_equilibria_lie_between_the_poles_of_a_tangent(force: sp.Expr, roots: tuple[float, ...]) -> None:
+    rests = System(c, v**2 / 2, forces=(force,)).equilibria(values={}, box={x: (-4, 4)})
+    assert sorted(float(rest.at[x]) for rest in rests) == pytest.approx(roots, abs=1e-9)

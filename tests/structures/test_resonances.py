@@ -381,6 +381,9 @@ def test_how_long_it_holds():
     assert found.kind == "holds" and measured_order(pushes, times) == pytest.approx(-4, abs=0.1)
     assert Structure(joints=[(0, 0)], spins=60, **WEIGHT).stands().hold_time(0.1) == inf
     assert Structure(**CORNER | {"hinge": 60.0}, spins=20).stands().hold_time(0.1) == inf
+    assert Structure(**CORNER | {"hinge": 60.0}, spins=1).stands().hold_time(10) == 0, (
+        "the least energy is upright near it alone"
+    )
     assert found.hold_time(2 * s.largest_push().value) == 0 == at(0.9, CORNER, [1, 0, 1]).stands().hold_time(0.1)
     falling = at(1.0607, CORNER, [1, 0, 1]).stands()
     assert 0 < falling.hold_time(0.01 * rate) < falling.fall_time(0.01 * rate)

@@ -60,6 +60,8 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
     def stage(part: sp.Expr) -> sp.Expr:
         if part.is_Atom:
             return part
+        if part not in known and not all(isinstance(a, sp.Expr) for a in part.args):
+            known[part] = keep(part)  # whose parts are no values: a case and its condition, an integral and its letter
         if part not in known:
             shorter = next((s for s in reversed(sums) if terms[s] < terms[part]), None) if part in terms else None
             if shorter is None:
@@ -72,9 +74,10 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
 
 
 def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
-    """∂output/∂s of a stage for each symbol, backward."""
+    """∂output/∂s of a stage, or of a multiple of one, for each symbol, backward."""
     shares: dict[sp.Expr, list[sp.Expr]] = defaultdict(list)
-    shares[output].append(sp.S.One)
+    for s, slope in _slopes(output):
+        shares[s].append(slope)
     for name, e in reversed(_below(keep, [output])):
         weight = keep(sp.Add(*shares[name]))
         for s, slope in _slopes(e):

@@ -1,11 +1,14 @@
 """Equations of long Lagrangians by sweeps: against sympy's derivatives, and against the recursion of the same bodies."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 import sympy as sp
 
 from benchmarks.mechanisms.chains import VALUES, chain, g, l, m
-from lagrotor.mechanics import System, coordinates, motion_program, t
+from lagrotor.errors import InputError
+from lagrotor.mechanics import Coordinates, System, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.running.programs import equations_of_speeds
 from lagrotor.mechanics.running.sweeps import backward_sweep, expression_stages, forward_sweep
@@ -73,3 +76,39 @@ def test_time_and_velocities_of_ones_own_are_swept() -> None:
     )
     left = moved - sp.Matrix([sp.diff(shaken, q) for q in base.c.q])
     assert max(abs(float(e)) for e in left.xreplace(at)) < 1e-9
+
+
+def long_potential(c: Coordinates) -> sp.Expr:
+    """Some hundreds of operations."""
+    x, y, z = c.q
+    rng = np.random.default_rng(5)
+    terms = []
+    for _ in range(60):
+        i, j, k = map(int, rng.integers(1, 7, 3))
+        terms.append(sp.Rational(int(rng.integers(1, 9)), 7) * sp.sin(i * x + j * y) * sp.cos(k * z + j) / 30)
+    return sp.Add(*terms)
+
+
+@pytest.mark.parametrize(
+    "L",
+    [
+        lambda T, V, x: -sp.sqrt(2 - T / 9 + V / 40),
+        lambda T, V, x: -(1 + x**2) * (V - T),
+        lambda T, V, x: T - V - sp.Piecewise((x**2, x > 0), (x**3, True)),
+    ],
+    ids=["a root below zero", "a product below zero", "cases"],
+)
+def test_a_long_lagrangian_of_any_form_has_the_equations_of_its_derivatives(L: Callable[..., sp.Expr]) -> None:
+    c = coordinates("x y z")
+    system = System(c, L(sum(v**2 for v in c.v) / 2, long_potential(c), c.q[0]))
+    y = np.random.default_rng(2).uniform(-0.5, 0.5, 6)
+    assert equations_of_speeds(system)[0], "it is swept"
+    swept = np.array(system.rhs({})(0.0, y))
+    M, h = (m.subs(dict(zip((*c.q, *c.v), map(sp.Float, y), strict=True))).evalf() for m in (system.mass, system.bias))
+    np.testing.assert_allclose(swept[3:], np.array((M.inv() * -h).tolist(), float).ravel(), rtol=1e-9)
+
+
+def test_a_letter_named_as_a_stage_is_refused() -> None:
+    c, own = coordinates("x y z"), sp.Symbol("_a0", real=True)
+    with pytest.raises(InputError, match="_a0: names as _a0 are those of generated programs"):
+        System(c, sum(v**2 for v in c.v) / 2 - own * long_potential(c)).rhs({own: 1})
