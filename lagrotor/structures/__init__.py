@@ -35,6 +35,11 @@ if TYPE_CHECKING:
     from lagrotor.structures.waves.edge_waves import border_packet as border_packet
     from lagrotor.structures.waves.edge_waves import edge_waves as edge_waves
     from lagrotor.structures.waves.edge_waves import way_round as way_round
+    from lagrotor.structures.waves.nonlinear_waves import NonlinearWave as NonlinearWave
+    from lagrotor.structures.waves.nonlinear_waves import ThreeWaves as ThreeWaves
+    from lagrotor.structures.waves.nonlinear_waves import nonlinear_wave as nonlinear_wave
+    from lagrotor.structures.waves.nonlinear_waves import three_waves as three_waves
+    from lagrotor.structures.waves.nonlinear_waves import wave_amplitude as wave_amplitude
     from lagrotor.structures.waves.patterns import honeycomb as honeycomb
     from lagrotor.structures.waves.patterns import polygon_ring as polygon_ring
     from lagrotor.structures.waves.patterns import square as square

@@ -8,6 +8,7 @@ The second sum is the spins' part, whose force is G_i r_i × r_i'. A bar along n
 constraint |d|² = ℓ² gives as a series in q: u = Z q + rows⁺ s(q), where s ← s + (|d|² − ℓ²)/2ℓ gains an order at each step.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from math import comb
@@ -59,12 +60,16 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     mass = _mass(c, J, order - 2, inertia)
     vector = [
         total(
-            [_turn(axis, J[i][b], order - 1).times(-c.G[i] / (inertia * rate)) for i, axis in enumerate(axes) if c.G[i]]
+            [
+                turned(axis, J[i][b], order - 1).times(-c.G[i] / (inertia * rate))
+                for i, axis in enumerate(axes)
+                if c.G[i]
+            ]
             or [_none(n)]
         )
         for b in range(n)
     ]
-    V = _potential(c, axes, order).times(1 / (inertia * rate**2))
+    V = potential_of(c, axes, order).times(1 / (inertia * rate**2))
     inverse = inverse_matrix(mass, order - 2)
     momenta = [variable(n + b, 2 * n, kind=float) for b in range(n)]
     rows = [[_lifted(f) for f in row] for row in inverse]
@@ -82,13 +87,24 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
 def _axes(c: Coefficients, basis: Array, order: int) -> list[Row]:
     """x, y, z of each axis as polynomials in q, through the order; exact through order − 1 in x and y."""
     q = [variable(k, basis.shape[1], kind=float) for k in range(basis.shape[1])]
-    rows = bar_rows(c)
-    back, bound, free = np.linalg.pinv(rows), [_none(len(q))] * len(rows), [_combined(row, q) for row in basis]
-    axes = [_axis(free[k : k + 2], order) for k in range(0, len(free), 2)]
-    for _ in range(2, order) if len(rows) else ():
-        bound = [f + _off(c, axes, b, order - 1) for b, f in enumerate(bound)]
-        moved = [f + _combined(row, bound) for f, row in zip(free, back, strict=True)]
-        axes = [_axis(moved[k : k + 2], order) for k in range(0, len(free), 2)]
+    back = np.linalg.pinv(bar_rows(c))
+    return on_bars(
+        c,
+        [_combined(row, q) for row in basis],
+        lambda u: [axis_of(u[k : k + 2], order) for k in range(0, len(u), 2)],
+        lambda bound: [_combined(row, bound) for row in back],
+        order,
+    )
+
+
+def on_bars(
+    c: Coefficients, free: Row, axes_of: Callable[[Row], list[Row]], back: Callable[[Row], Row], order: int
+) -> list[Row]:
+    """The axes of u = free + rows⁺ s, s such that all bars keep their lengths through order − 1; back: rows⁺ of s."""
+    bound, axes = [_none(free[0].variables)] * len(c.i), axes_of(free)
+    for _ in range(2, order) if bound else ():
+        bound = [f + over_length(c, axes, b, order - 1) for b, f in enumerate(bound)]
+        axes = axes_of([f + g for f, g in zip(free, back(bound), strict=True)])
     return axes
 
 
@@ -99,12 +115,12 @@ def _combined(numbers: Array, row: Row) -> Polynomial:
     )
 
 
-def _axis(xy: Row, order: int) -> Row:
+def axis_of(xy: Row, order: int) -> Row:
     """x, y and z = sqrt(1 − x² − y²)."""
-    return [*xy, _of_square(xy, [float(binom(0.5, k) * (-1) ** k) for k in range(order // 2 + 1)], order)]
+    return [*xy, of_square(xy, [float(binom(0.5, k) * (-1) ** k) for k in range(order // 2 + 1)], order)]
 
 
-def _of_square(xy: Row, series: list[float], order: int) -> Polynomial:
+def of_square(xy: Row, series: list[float], order: int) -> Polynomial:
     """sum_k series_k (x² + y²)^k."""
     square = xy[0].product(xy[0], order) + xy[1].product(xy[1], order)
     result = constant(series[-1], square.variables, float)
@@ -113,7 +129,7 @@ def _of_square(xy: Row, series: list[float], order: int) -> Polynomial:
     return result
 
 
-def _off(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynomial:
+def over_length(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynomial:
     """(|d|² − ℓ²)/2ℓ of a bar."""
     i, j = c.i[b], c.j[b]
     upright = c.feet[j] - c.feet[i]
@@ -125,11 +141,11 @@ def _off(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynomial:
     return (square - constant(c.ell[b] ** 2, square.variables, float)).times(0.5 / c.ell[b])
 
 
-def _turn(axis: Row, slope: Row, order: int) -> Polynomial:
+def turned(axis: Row, slope: Row, order: int) -> Polynomial:
     """(x ∂y − y ∂x)/(1 + z), with 1/(1 + z) = (1 − z)/(x² + y²) as a series."""
     series = [float(-binom(0.5, k + 1) * (-1) ** (k + 1)) for k in range(order // 2 + 1)]
-    turned = axis[0].product(slope[1], order) - axis[1].product(slope[0], order)
-    return turned.product(_of_square(axis[:2], series, order), order)
+    around = axis[0].product(slope[1], order) - axis[1].product(slope[0], order)
+    return around.product(of_square(axis[:2], series, order), order)
 
 
 def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> list[Row]:
@@ -154,13 +170,13 @@ def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> li
     return m
 
 
-def _potential(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
+def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
     """Weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2."""
     squares = [0.0] + [4.0**k / (2 * k**2 * comb(2 * k, k)) for k in range(1, order // 2 + 1)]
     terms = [_none(axes[0][0].variables)]
     for i, axis in enumerate(axes):
         terms += [axis[2].times(c.gravity * c.S[i])] if c.gravity * c.S[i] else []
-        terms += [_of_square(axis[:2], squares, order).times(c.hinge[i] / 2)] if c.hinge[i] else []
+        terms += [of_square(axis[:2], squares, order).times(c.hinge[i] / 2)] if c.hinge[i] else []
     for b, (tip, to) in enumerate(zip(c.brace_tip, c.brace_to, strict=True)):
         if not c.stiffness[b]:
             continue

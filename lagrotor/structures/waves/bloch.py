@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.structures.assembly import Assembly, Brace
-from lagrotor.structures.coefficients import Array, coefficients
+from lagrotor.structures.coefficients import Array, Coefficients, coefficients
 from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, left_by, matrices, on_basis
 from lagrotor.structures.waves.cell import Cell, Shift, Site
 
@@ -34,8 +34,10 @@ class Bloch:
     rate: float
 
     def at(self, q: Array) -> tuple[Matrix, Matrix]:
-        """The four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d)."""
-        return _wave_sum(q, self.apart, self.parts), _wave_sum(q, self.away, self.rows)
+        """The four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d), zero where phases cancel."""
+        rows = _wave_sum(q, self.away, self.rows)
+        small = np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0)
+        return _wave_sum(q, self.apart, self.parts), np.where(small, 0, rows)
 
     def slopes(self, q: Array, k: int) -> tuple[Matrix, Matrix]:
         """Their derivatives by q_k."""
@@ -45,7 +47,6 @@ class Bloch:
         """Of the wave numbers q (n_q, d) those at which the bars leave equally many degrees of freedom, by their places in q,
         and the linear systems there."""
         parts, rows = self.at(q)
-        rows = np.where(np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0), 0, rows)
         ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):
             (places,) = np.nonzero(ranks == rank)
@@ -64,6 +65,25 @@ def bloch(p: Cell) -> Bloch:
     Raises:
         InputError: for what `Structure` refuses in a cell and its neighbours.
     """
+    away, (c, rate) = p.neighbours, cell_coefficients(p)
+    places = dict.fromkeys([(0,) * len(p.steps), *(shift for _, shift in away)])
+    of = {place: _copies(p, away, place) for place in places}
+    whole, rows = matrices(c), bar_rows(c)
+    parts = dict[tuple[int, ...], Array]()
+    for (one, left), (other, right) in product(of.items(), repeat=2):
+        apart = tuple(b - a for a, b in zip(one, other, strict=True))
+        parts[apart] = parts.get(apart, 0) + left.T @ whole @ right
+    return Bloch(
+        np.array([*parts.values()]),
+        np.array([*parts], dtype=float),
+        np.array([rows @ copies for copies in of.values()]),
+        np.array([*of], dtype=float),
+        rate,
+    )
+
+
+def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
+    """The numbers of one cell, the joints of other cells to which its bars and braces lead after its own; the rate of all."""
     N, away = len(p.joints), p.neighbours
     whose = np.array([*range(N), *(j for j, _ in away)])
     number = {(j, shift): N + k for k, (j, shift) in enumerate(away)}
@@ -86,21 +106,7 @@ def bloch(p: Cell) -> Bloch:
     # A neighbour has its own rotor's inertia and weight in its own cell: here only the bars' share is left.
     A = c.A - copied * [rotor.J for rotor in cell.rotor]
     S = c.S - copied * [rotor.mass * rotor.length / 2 for rotor in cell.rotor]
-    c = replace(c, A=A, S=S)
-    places = dict.fromkeys([(0,) * len(p.steps), *(shift for _, shift in away)])
-    of = {place: _copies(p, away, place) for place in places}
-    whole, rows = matrices(c), bar_rows(c)
-    parts = dict[tuple[int, ...], Array]()
-    for (one, left), (other, right) in product(of.items(), repeat=2):
-        apart = tuple(b - a for a, b in zip(one, other, strict=True))
-        parts[apart] = parts.get(apart, 0) + left.T @ whole @ right
-    return Bloch(
-        np.array([*parts.values()]),
-        np.array([*parts], dtype=float),
-        np.array([rows @ copies for copies in of.values()]),
-        np.array([*of], dtype=float),
-        coefficients(cell).rate,
-    )
+    return replace(c, A=A, S=S), c.rate
 
 
 def _copies(p: Cell, away: tuple[Site, ...], place: Shift) -> Array:

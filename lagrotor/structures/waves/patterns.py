@@ -10,9 +10,9 @@ from lagrotor.errors import InputError
 from lagrotor.structures.waves.pattern import Pattern
 
 
-def straight_row(**more: Any) -> Pattern:
-    """Rotors along a line, each joined to the next."""
-    return Pattern(joints=((0, 0),), steps=((1, 0),), bars=((0, 0, 1),), **more)
+def straight_row(spring: float | None = None, **more: Any) -> Pattern:
+    """Rotors along a line, each joined to the next; with `spring` (N/m) braces instead of bars."""
+    return _joined(((0, 0),), ((1, 0),), ((0, 0, 1),), spring, more)
 
 
 def zigzag(angle: float, **more: Any) -> Pattern:
@@ -21,26 +21,27 @@ def zigzag(angle: float, **more: Any) -> Pattern:
     return Pattern(joints=((0, 0), (x, y)), steps=((2 * x, 0),), bars=((0, 1), (1, 0, 1)), **more)
 
 
-def polygon_ring(count: int, **more: Any) -> Pattern:
-    """One rotor a cell, each bar turned by 2π/count against the one before it: `piece(count)` is the closed ring.
+def polygon_ring(count: int, spring: float | None = None, **more: Any) -> Pattern:
+    """One rotor a cell, each bar turned by 2π/count against the one before it: `piece(count)` is the closed ring; with `spring`
+    (N/m) braces instead of bars.
 
     Raises:
         InputError: below 3.
     """
     if count < 3:
         raise InputError(f"polygon_ring: {count} rotors are no polygon: give 3 or more")
-    return Pattern(joints=((0, 0),), steps=((1, 0),), turn=2 * pi / count, bars=((0, 0, 1),), **more)
+    return _joined(((0, 0),), ((1, 0),), ((0, 0, 1),), spring, more | {"turn": 2 * pi / count})
 
 
 def honeycomb(spring: float | None = None, **more: Any) -> Pattern:
     """Two rotors a cell, three bars at each; with `spring` (N/m) braces instead of bars."""
     joins = ((0, 1, (0, 0)), (0, 1, (-1, 0)), (0, 1, (0, -1)))
-    return _two_steps(((0, 0), (0, 1)), ((sqrt(3) / 2, 1.5), (-sqrt(3) / 2, 1.5)), joins, spring, more)
+    return _joined(((0, 0), (0, 1)), ((sqrt(3) / 2, 1.5), (-sqrt(3) / 2, 1.5)), joins, spring, more)
 
 
 def square(spring: float | None = None, **more: Any) -> Pattern:
     """One rotor a cell, joined to its four neighbours; with `spring` (N/m) braces instead of bars."""
-    return _two_steps(((0, 0),), ((1, 0), (0, 1)), ((0, 0, (1, 0)), (0, 0, (0, 1))), spring, more)
+    return _joined(((0, 0),), ((1, 0), (0, 1)), ((0, 0, (1, 0)), (0, 0, (0, 1))), spring, more)
 
 
 def square_octagon(move: tuple[float, float] = (0.0, 0.0), **more: Any) -> Pattern:
@@ -51,7 +52,7 @@ def square_octagon(move: tuple[float, float] = (0.0, 0.0), **more: Any) -> Patte
     return Pattern(joints, ((step, 0), (0, step)), bars=bars, **more)
 
 
-def _two_steps(joints: Any, steps: Any, joins: Any, spring: float | None, more: dict[str, Any]) -> Pattern:
+def _joined(joints: Any, steps: Any, joins: Any, spring: float | None, more: dict[str, Any]) -> Pattern:
     if spring is None:
         return Pattern(joints, steps, bars=joins, **more)
     return Pattern(joints, steps, braces=tuple((*join, spring) for join in joins), **more)

@@ -1,0 +1,403 @@
+"""Waves of a pattern beyond the linear ones: how their rate shifts with amplitude, and where three of them meet.
+
+Whitham's averaged Lagrangian: with u = sum_j Re(a_j s_j exp(i θ_j)) + …, θ_j = q_j . n − ω_j t, the mean of L over cells and
+phases is
+
+    ⟨L⟩ = sum_j g_j(ω_j) |z_j|² + terms of third and fourth order,    z_j = a_j/2,    g = s†(ω² M + i ω C − K) s.
+
+A cell n steps away has each product of exponentials times exp(i q . n), a time derivative times −i ω, so that the exact
+Lagrangian, bars put in as in `upright_hamiltonian`, is a polynomial in z_j. One wave: what it forces at (0, 0) and (2 q, 2 ω), b,
+makes ⟨L⟩ = c |z|⁴ + f(b) + b·B b/2 stationary, and ∂⟨L⟩/∂|z|² = 0 gives ω = ω₀ − 2 (c − f·B⁻¹f/2) |z|²/g'. Three waves with
+q₁ + q₂ = q₃, ω₁ + ω₂ = ω₃ and ⟨L⟩₃ = 2 Re(v z₁ z₂ z̄₃): g₃' z₃' = i v z₁ z₂, g₁' z₁' = i v̄ z₃ z̄₂.
+Whitham, Linear and Nonlinear Waves (1974), chs. 14, 15; Craik, Wave Interactions and Fluid Flows (1985), ch. 5.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.canonical.polynomials import Polynomial, polynomial, total
+from lagrotor.shown import Shown
+from lagrotor.structures.coefficients import Array, Coefficients, Complex
+from lagrotor.structures.exact.structure_run import StructureRun
+from lagrotor.structures.upright_hamiltonian import Row, axis_of, on_bars, over_length, potential_of, turned
+from lagrotor.structures.waves.bloch import Bloch, bloch, cell_coefficients
+from lagrotor.structures.waves.cell import Cell
+from lagrotor.structures.waves.dispersion import dispersion
+
+_ZERO = 1e-9  # of the largest: what is smaller is none
+_POINTS = 181  # wave numbers between which triads are sought
+_SAME = 1e-7  # of the highest rate: a detuning below it is none
+
+
+@dataclass(frozen=True, eq=False)
+class _Phases:
+    """What each variable of the polynomials carries: exp(i (q . n − rate t)) with q (m, d) and rate (m,)."""
+
+    q: Array
+    rate: Array
+
+    def apart(self, f: Polynomial, shift: tuple[int, ...]) -> Polynomial:
+        """The same of the cell `shift` steps away."""
+        return f.times(np.exp(1j * (f.exponents @ self.q @ np.array(shift))))
+
+    def slope(self, f: Polynomial) -> Polynomial:
+        """Its time derivative."""
+        rates = f.exponents @ self.rate
+        return f.where(rates != 0).times(-1j * rates[rates != 0])
+
+
+@dataclass(frozen=True, eq=False)
+class _Wave:
+    """A linear wave: q (d,), rate > 0, shape (2N,) whose largest tilt in Re(shape e^{iθ}) is 1, and g'(rate)."""
+
+    q: Array
+    rate: float
+    shape: Complex
+    slope: float
+
+
+def _wave(p: Cell, b: Bloch, q: Any, band: int) -> _Wave:
+    where = f"band {band!r} at q = {np.round(q, 6).tolist()}"
+    d = dispersion(p, np.reshape(q, (1, -1)))
+    if isinstance(band, bool) or not isinstance(band, int | np.integer) or not -d.dof[0] <= band < d.dof[0]:
+        raise InputError(f"nonlinear waves: {where}: the bands there are 0 to {d.dof[0] - 1}")
+    rate, growth = (each[0, : d.dof[0]][band] for each in (d.rates, d.growth))
+    beside = np.abs(d.rates[0, : d.dof[0]] - rate) < _SAME * d.rates[0, d.dof[0] - 1]
+    if beside.sum() > 1:
+        raise InputError(
+            f"nonlinear waves: {where}: {beside.sum()} waves have its rate, {rate:g} rad/s: which is not said"
+        )
+    if not rate > 0 or growth:
+        raise InputError(
+            f"nonlinear waves: {where} has the rate {rate:g} rad/s and grows by {growth:g} 1/s: take another"
+        )
+    s = d.shapes[0, : d.dof[0]][band]
+    largest = max(np.linalg.svd(np.array([x.real, x.imag]), compute_uv=False)[0] for x in s)
+    shape = (s / largest).ravel()
+    (M, _, G, _), _ = b.at(d.q[0])
+    return _Wave(d.q[0], float(rate), shape, float((shape.conj() @ (2 * rate * M + 1j * G) @ shape).real))
+
+
+def _bloch_without_friction(p: Cell) -> Bloch:
+    if any(p.friction) or any(brace[4] for brace in p.braces):
+        raise InputError("nonlinear waves: friction or damping: the waves die; leave it out")
+    return bloch(p)
+
+
+def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[Polynomial, list[Row]]:
+    """The Lagrangian (J a cell) of the field u (2N polynomials) through an order, those of its terms whose phases add up to none
+    in n, and x, y, z of the axes of the cell and its neighbours."""
+    c, _ = cell_coefficients(p)
+
+    def axes_of(own: Row) -> list[Row]:
+        axes = [axis_of(own[k : k + 2], order) for k in range(0, len(own), 2)]
+        for j, shift in p.neighbours:
+            x, y, z = (phases.apart(f, shift) for f in axes[j])
+            turn = p.turn * shift[0]
+            axes.append([_sum((x, np.cos(turn)), (y, -np.sin(turn))), _sum((x, np.sin(turn)), (y, np.cos(turn))), z])
+        return axes
+
+    def back(bound: Row) -> Row:
+        moved = list[list[Polynomial]]()
+        for k, f in enumerate(bound):
+            by = np.linalg.pinv(b.at(f.exponents @ phases.q)[1], rcond=1e-10)[:, :, k]
+            moved.append([f.times(column) for column in by.T])
+        return [_sum(*((row[k], 1) for row in moved)) for k in range(len(u))]
+
+    axes = on_bars(c, u, axes_of, back, order)
+    for k in range(len(c.i)):
+        left = over_length(c, axes, k, order - 1).coefficients
+        if np.abs(left).max(initial=0) > _ZERO * c.ell[k]:
+            raise InputError(
+                "nonlinear waves: the bars hold the wave to first order only: what it shortens them by is not made up for, as "
+                "in a straight row of bars; put springs (braces) for bars, or close the row to a ring"
+            )
+    L = _kinetic(c, axes, phases, order) - potential_of(c, axes, order)
+    e = np.exp(1j * (L.exponents @ phases.q))
+    return L.where((np.abs(e - 1) < _SAME).all(1)), axes
+
+
+def _sum(*terms: tuple[Polynomial, float]) -> Polynomial:
+    some = terms[0][0]
+    return total([some.part(-1), *(f.times(factor) for f, factor in terms if factor)])
+
+
+def _kinetic(c: Coefficients, axes: list[Row], phases: _Phases, order: int) -> Polynomial:
+    """½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i)."""
+    rates = [[phases.slope(f) for f in axis] for axis in axes]
+    pairs = [(i, i, A / 2) for i, A in enumerate(c.A)] + list(zip(c.i, c.j, c.coupling, strict=True))
+    terms = [
+        f.product(g, order).times(value)
+        for i, j, value in pairs
+        if value
+        for f, g in zip(rates[i], rates[j], strict=True)
+    ]
+    terms += [turned(axis, rates[i], order).times(-c.G[i]) for i, axis in enumerate(axes) if c.G[i]]
+    return total([axes[0][0].part(-1), *terms])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class NonlinearWave(Shown):
+    """A wave u = Re(a shape e^{iθ}) + a² (mean + Re(harmonic e^{2iθ})) + O(a³) of cell n, θ = q . n − (rate + shift a²) t.
+
+    a: the largest tilt (its sine) of an axis in the first part. rate in rad/s, shift in rad/s; what is left out of the rate is of
+    fourth order in a. shape, mean, harmonic (N, 2); trusted: the largest a that is taken, of which these are a half of the first
+    part, or ½. detuning: how far the nearest wave of 2 q is from 2 × rate, rad/s, inf where
+    there is none. energy_sign: −1 of a wave with
+    less energy than rest. tips: x and y of each axis, polynomials in z, z̄ and b with the multiples of θ that these carry;
+    forced: b/z².
+    """
+
+    pattern: Cell
+    q: Array
+    rate: float
+    shift: float
+    shape: Complex
+    mean: Array
+    harmonic: Complex
+    detuning: float
+    energy_sign: int
+    tips: tuple[Polynomial, ...]
+    multiples: Array
+    forced: Complex
+
+    @property
+    def trusted(self) -> float:
+        """The largest amplitude at which mean and harmonic are at most half of the first part, or ½."""
+        return float(0.5 / max(1.0, np.abs(self.mean).max(), np.abs(self.harmonic).max()))
+
+    def rate_at(self, amplitude: float) -> float:
+        """rate + shift a², rad/s.
+
+        Raises:
+            InputError: for an amplitude that is not from 0 to `trusted`.
+        """
+        if not 0 <= amplitude <= self.trusted:
+            raise InputError(
+                f"NonlinearWave: amplitude = {amplitude!r} must be from 0 to {self.trusted:.3g}: beyond, the mean and the second "
+                "harmonic are no longer small; simulate it"
+            )
+        return self.rate + self.shift * amplitude**2
+
+    def state(self, *counts: int, amplitude: float) -> tuple[Array, Array]:
+        """Tilts and rates (n, 2) at t = 0 of the rotors of `pattern.piece(*counts)` in this wave, through second order.
+
+        Raises:
+            InputError: as `rate_at`.
+        """
+        omega = self.rate_at(amplitude)
+        point = np.array([1, 1, *self.forced * amplitude / 2]) * amplitude / 2
+        cells = np.array(list(product(*(range(n) for n in counts))))
+        tilts, rates = np.zeros((2, len(cells), len(self.tips)), dtype=complex)
+        for k, f in enumerate(self.tips):
+            theta = f.exponents @ self.multiples
+            terms = f.coefficients * np.prod(point**f.exponents, axis=1) * np.exp(1j * np.outer(cells @ self.q, theta))
+            tilts[:, k], rates[:, k] = terms.sum(1), -1j * omega * (terms @ theta)
+        turn = np.exp(1j * self.pattern.turn * cells[:, :1])
+        around = [(u.real[:, ::2] + 1j * u.real[:, 1::2]) * turn for u in (tilts, rates)]
+        return tuple(np.stack([u.real, u.imag], -1).reshape(-1, 2) for u in around)  # type: ignore[return-value]
+
+    def summary(self) -> dict[str, str]:
+        """Rate, shift and the second harmonic, name → words."""
+        return {
+            "rate": f"{self.rate:.8g} rad/s",
+            "shift": f"{self.shift:.6g} a² rad/s, a the largest tilt, up to {self.trusted:.3g}",
+            "twice the rate misses a wave of 2 q by": f"{self.detuning:.4g} rad/s",
+            "energy": "less than rest" if self.energy_sign < 0 else "more than rest",
+        }
+
+
+def nonlinear_wave(p: Cell, q: ArrayLike, band: int) -> NonlinearWave:
+    """A wave through second order, its rate through third.
+
+    Args:
+        p: the pattern.
+        q: (d,), rad a cell.
+        band: as `dispersion` numbers them at q.
+
+    Raises:
+        InputError: with friction, for a wave without a rate or one that grows, where bars do not allow it beyond first order, and
+            where what it forces, its mean or second harmonic, is in resonance.
+    """
+    b = _bloch_without_friction(p)
+    wave = _wave(p, b, np.atleast_1d(np.asarray(q, dtype=float)), band)
+    still, twice = (next(b.motions(m * wave.q[None]))[1] for m in (0, 2))
+    bases = [wave.shape[:, None], wave.shape.conj()[:, None], still.basis[0], twice.basis[0], twice.basis[0].conj()]
+    multiples = np.repeat([1.0, -1, 0, 2, -2], [basis.shape[1] for basis in bases])
+    phases = _Phases(np.outer(multiples, wave.q), multiples * wave.rate)
+    L, axes = _averaged(p, b, _field(np.hstack(bases)), phases, 4)
+    L = L.where(L.exponents @ multiples == 0)
+    own, forcing, curvature = _by_what_is_forced(L)
+    forced = -np.linalg.pinv(curvature, rcond=_ZERO) @ forcing
+    if np.abs(curvature @ forced + forcing).max(initial=0) > 1e-6 * np.abs(forcing).max(initial=0):
+        raise InputError(
+            f"nonlinear_wave: at q = {wave.q.tolist()} the mean or the second harmonic that the wave forces is itself a "
+            "wave, and grows with time: move q"
+        )
+    shift = -(own + forcing @ forced / 2).real / (2 * wave.slope)
+    tips = tuple(f for axis in axes[: len(p.joints)] for f in axis[:2])
+    point: Complex = np.array([0.5, 0.5, *forced / 4], dtype=complex)
+    mean, harmonic = (_part(tips, multiples, point, m) for m in (0, 2))
+    nearest = np.abs(-twice.roots.imag - 2 * wave.rate).min(initial=np.inf)
+    return NonlinearWave(
+        p, wave.q, wave.rate, float(shift), wave.shape.reshape(-1, 2), mean.real, 2 * harmonic, float(nearest),
+        int(np.sign(wave.slope)), tips, multiples, forced,
+    )  # fmt: skip
+
+
+def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLike, band: int) -> Complex:
+    """a e^{−iωt}, (n,), of a linear wave in the run of `pattern.piece(*counts)`: u = Re(a shape e^{i(q . n − ωt)}) + other waves.
+
+    By the symplectic product of the wave with the run.
+
+    Args:
+        p: the pattern.
+        run: of the piece.
+        counts: of its cells.
+        q: (d,), rad a cell.
+        band: as `dispersion` numbers them at q.
+
+    Raises:
+        InputError: as `nonlinear_wave`.
+    """
+    b = _bloch_without_friction(p)
+    wave = _wave(p, b, np.atleast_1d(np.asarray(q, dtype=float)), band)
+    cells = np.array(list(product(*(range(n) for n in counts))))
+    back = np.exp(-1j * (p.turn * cells[:, 0]))[:, None, None]
+    U, V = (
+        np.tensordot(np.exp(-1j * cells @ wave.q), np.stack([x.real, x.imag], -1), 1)
+        .swapaxes(0, 1)
+        .reshape(len(run.t), -1)
+        / len(cells)
+        for f in (run.axes, run.rates)
+        for x in [(f[..., 0] + 1j * f[..., 1]).reshape(len(cells), len(p.joints), -1) * back]
+    )
+    (M, _, C, _), _ = b.at(wave.q)
+    momentum = M @ (-1j * wave.rate * wave.shape) + C @ wave.shape / 2
+    product_of = (V @ M.T + U @ C.T / 2) @ wave.shape.conj() - U @ momentum.conj()
+    return np.asarray(2j * product_of / wave.slope)
+
+
+def _part(tips: tuple[Polynomial, ...], multiples: Array, point: Complex, m: int) -> Complex:
+    """The terms of second order with the phase m θ, (N, 2)."""
+    order = np.where(np.arange(len(multiples)) < 2, 1, 2)
+    parts = [f.where((f.exponents @ order == 2) & (f.exponents @ multiples == m)).at(point) for f in tips]
+    return np.reshape(parts, (-1, 2))
+
+
+def _field(columns: Complex) -> Row:
+    """u = columns (2N, m) x, polynomials in x."""
+    m = columns.shape[1]
+    return [polynomial({tuple(int(i == j) for i in range(m)): c for j, c in enumerate(row)}, m) for row in columns]
+
+
+def _by_what_is_forced(L: Polynomial) -> tuple[complex, Complex, Complex]:
+    """The coefficients of z² z̄², of b times two of z and z̄, (m,), and of b b: its second derivatives, (m, m)."""
+    m, own = L.variables - 2, 0j
+    forcing, curvature = np.zeros(m, dtype=complex), np.zeros((m, m), dtype=complex)
+    for e, c in L.terms.items():
+        where = [k for k, power in enumerate(e[2:]) for _ in range(power)]
+        if sum(e[:2]) == 4:
+            own += c
+        elif sum(e[:2]) == 2 and len(where) == 1:
+            forcing[where[0]] += c
+        elif not sum(e[:2]) and len(where) == 2:
+            i, j = where
+            curvature[i, j] += c
+            curvature[j, i] += c
+    return own, forcing, curvature
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ThreeWaves(Shown):
+    """Waves with q₁ + q₂ = q₃ (up to full turns) and rates ω₁ + ω₂ = ω₃, all above zero, of bands (3,).
+
+    q (3, 1) in rad a cell; rates (3,) in rad/s; energy_signs (3,); shapes (3, N, 2), of the largest tilt 1. strengths (3,): of
+    amplitudes a_j e^{−iω_j t}, largest tilts, a₁' = i strengths₁ a₃ ā₂, a₂' = i strengths₂ a₃ ā₁, a₃' = i strengths₃ a₁ a₂, 1/s.
+    Zero where they exchange nothing.
+    """
+
+    q: Array
+    bands: tuple[int, int, int]
+    rates: Array
+    energy_signs: tuple[int, int, int]
+    strengths: Complex
+    shapes: Complex
+
+    def growth(self, wave: int, amplitude: float) -> float:
+        """How fast (1/s) the wave 0, 1 or 2 of that amplitude feeds the two others while they are small; 0 where it does not."""
+        others = [self.strengths[k] for k in range(3) if k != wave]
+        # a₁' = i c₁ a₃ ā₂ and a₂' = i c₂ a₃ ā₁ give a₁'' = c₁ c̄₂ |a₃|² a₁; ā₂' = −i c̄₂ ā₃ a₁, a₃' = i c₃ a₁ a₂: a₃'' = −c₃ c̄₂ …
+        fed = (others[0] * others[1].conjugate()).real if wave == 2 else -(others[0] * others[1]).real
+        return float(np.sqrt(max(fed, 0.0)) * amplitude)
+
+    @property
+    def explosive(self) -> bool:
+        """Whether all three grow together without end, by the terms of third order: energies of both signs."""
+        one, two, three = self.energy_signs
+        return one == two != three and bool(np.abs(self.strengths).min())
+
+    def summary(self) -> dict[str, str]:
+        """What adds up, and what it does, name → words."""
+        one, two, three = (f"{w:.6g}" for w in self.rates)
+        sums = " + ".join(f"{q:.5g}" for q in self.q[:2, 0])
+        feeds = [f"wave {k + 1}: {self.growth(k, 1.0):.4g} a 1/s" for k in range(3) if self.growth(k, 1.0)]
+        return {
+            "wave numbers": f"{sums} = {self.q[2, 0]:.5g} rad a cell",
+            "rates": f"{one} + {two} = {three} rad/s",
+            "feeds the two others": ", ".join(feeds) or "none",
+            "all grow without end": "yes" if self.explosive else "no",
+        }
+
+
+def three_waves(p: Cell, q: float) -> tuple[ThreeWaves, ...]:
+    """All triads in which a wave of q, rad a cell, and another one add up to a third, of a pattern with one step.
+
+    Found between 181 wave numbers by the sign of ω₁ + ω₂ − ω₃ and then to rounding: where it touches zero without a change
+    of sign, none is found.
+
+    Raises:
+        InputError: for a pattern with two steps, where such triads are curves; with friction, and for waves that grow.
+    """
+    from scipy.optimize import brentq
+
+    if len(p.steps) != 1:
+        raise InputError("three_waves: a pattern with two steps: triads are curves there; take a strip")
+    b, others = _bloch_without_friction(p), np.linspace(0, 2 * np.pi, _POINTS) + 1e-4
+
+    def rates(at: Array) -> Array:
+        return dispersion(p, np.reshape(at, (-1, 1))).rates
+
+    (first,), second, third = rates(np.array([q])), rates(others), rates(others + q)
+    found, highest = [], float(np.nanmax([np.nanmax(first), np.nanmax(second)]))
+    for i, j, k in product(*(range(each.shape[-1]) for each in (first, second, third))):
+
+        def missed(x: float, i: int = i, j: int = j, k: int = k) -> float:
+            return float(first[i] + rates(np.array([x]))[0, j] - rates(np.array([x + q]))[0, k])
+
+        off = first[i] + second[:, j] - third[:, k]
+        for n in np.flatnonzero(off[:-1] * off[1:] < 0):
+            x = float(brentq(missed, others[n], others[n + 1], xtol=1e-13))
+            if abs(missed(x)) < _SAME * highest:
+                found.append(_triad(p, b, np.array([[q], [x], [q + x]]), (i, j, k)))
+    return tuple(found)
+
+
+def _triad(p: Cell, b: Bloch, q: Array, bands: tuple[int, int, int]) -> ThreeWaves:
+    waves = [_wave(p, b, at, band) for at, band in zip(q, bands, strict=True)]
+    columns = np.stack([s for w in waves for s in (w.shape, w.shape.conj())], 1)
+    signs, slopes = np.tile([1.0, -1.0], 3), np.array([w.slope for w in waves])
+    carried = np.repeat(q, 2, axis=0) * signs[:, None], np.repeat([w.rate for w in waves], 2) * signs
+    L, _ = _averaged(p, b, _field(columns), _Phases(*carried), 3)
+    v = L.terms.get((1, 0, 1, 0, 0, 1), 0j)
+    v = v if abs(v) > _ZERO * max(abs(w.slope) * w.rate for w in waves) else 0j
+    return ThreeWaves(
+        q, bands, np.array([w.rate for w in waves]), tuple(np.sign(slopes).astype(int).tolist()),
+        np.array([v.conjugate(), v.conjugate(), v]) / (2 * slopes), np.array([w.shape.reshape(-1, 2) for w in waves]),
+    )  # fmt: skip

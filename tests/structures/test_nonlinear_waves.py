@@ -1,0 +1,132 @@
+"""Waves beyond first order: the shift of their rate against exact runs and the heavy top, and where three of them meet."""
+
+from math import cos, pi, sin, sqrt
+
+import numpy as np
+import pytest
+
+from lagrotor import Link, Pattern
+from lagrotor.errors import InputError
+from lagrotor.numerics import measured_order
+from lagrotor.structures import honeycomb, polygon_ring, square, straight_row, wave_amplitude
+from lagrotor.structures.coefficients import coefficients
+
+
+def alternating_ring(cells: int, spring: float | None = None, **more: object) -> Pattern:
+    """A regular polygon of 2 × cells rotors, two a cell."""
+    angle, joins = pi / cells, ((0, 1, 0), (1, 0, 1))
+    joined = {"bars": joins} if spring is None else {"braces": tuple((*j, spring) for j in joins)}
+    return Pattern(((0, 0), (1, 0)), ((1 + cos(angle), sin(angle)),), turn=2 * angle, **joined, **more)
+
+
+def seen(wave, count: int, amplitude: float, band: int) -> tuple[float, float]:
+    """Rate and amplitude of the wave in 15 turns of the exact motion."""
+    t = np.linspace(0, 30 * pi / wave.rate, 601)
+    run = wave.pattern.piece(count).simulate(t, *wave.state(count, amplitude=amplitude), tol=1e-7)
+    a, weight = wave_amplitude(wave.pattern, run, (count,), wave.q, band), np.hanning(len(t) + 2)[1:-1]
+    return -np.polyfit(t, np.unwrap(np.angle(a)), 1, w=weight)[0], np.average(np.abs(a), weights=weight)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "count", "turns", "band", "amplitudes"),
+    [
+        (polygon_ring(5, spring=25.0, spins=12.0, hinge=30.0), 5, 2, 0, (0.04, 0.06, 0.09)),
+        (alternating_ring(3, spring=20.0, spins=(15.0, -9.0), hinge=40.0), 3, 1, 1, (0.04, 0.06, 0.09)),
+        (polygon_ring(5, spins=14.0, hinge=30.0, link=Link(mass=0.2, inertia=0.05)), 5, 2, 0, (0.03, 0.045, 0.07)),
+    ],
+)
+def test_what_the_shift_leaves_is_of_fourth_order(pattern, count, turns, band, amplitudes) -> None:
+    """Springs, alternating spins, rigid bars; the twin is the shift left out, of second order."""
+    wave = pattern.nonlinear_wave(2 * pi * turns / count, band)
+    rates, sizes = np.transpose([seen(wave, count, a, band) for a in amplitudes])
+    rest = rates - wave.rate - wave.shift * sizes**2
+    assert abs(measured_order(sizes, np.abs(rest)) - 4) < 0.1
+    assert abs(measured_order(sizes, np.abs(rates - wave.rate)) - 2) < 0.1
+
+
+@pytest.mark.parametrize("band", [0, 1])
+def test_rotors_that_lean_alike_are_a_heavy_top(band: int) -> None:
+    """A cos θ φ'² − G φ' + g S = 0 of its steady precession, whatever the springs between: at q = 0 they stay as they are."""
+    pattern = straight_row(spring=30.0, spins=25.0, gravity=9.81, load=0.4)
+    c = coefficients(pattern.piece(1))
+    A, G, S = c.A[0], c.G[0], 9.81 * c.S[0]
+
+    def precession(a: float) -> float:
+        slope = A * sqrt(1 - a * a)
+        return (G + (-1, 1)[band] * sqrt(G * G - 4 * slope * S)) / (2 * slope)
+
+    wave = pattern.nonlinear_wave(0.0, band)
+    assert wave.rate == pytest.approx(precession(0.0)) and wave.energy_sign == (-1, 1)[band]
+    small = np.array([0.02, 0.04, 0.08])
+    rest = [abs(precession(a) - wave.rate_at(a)) for a in small]
+    assert abs(measured_order(small, rest) - 4) < 0.1 and rest[-1] < 1e-3 * wave.rate
+
+
+@pytest.mark.parametrize("spring", [None, 30.0])
+def test_two_rotors_a_cell_are_the_ring_of_one(spring: float | None) -> None:
+    more = {"spring": spring, "spins": 13.0, "hinge": 25.0, "link": Link(mass=0.1, inertia=0.02)}
+    more = more if spring is None else {k: v for k, v in more.items() if k != "link"}
+    one, two = polygon_ring(8, **more), alternating_ring(4, **more)
+    alone = one.nonlinear_wave(2 * pi * 3 / 8, 0)
+    bands = two.dispersion([2 * alone.q[0]]).rates[0]
+    folded = two.nonlinear_wave(2 * alone.q[0], int(np.argmin(np.abs(bands - alone.rate))))
+    assert folded.rate == pytest.approx(alone.rate) and folded.shift == pytest.approx(alone.shift, rel=1e-9)
+
+
+def test_a_pattern_in_the_plane_that_is_joined_along_one_step_is_a_row() -> None:
+    row = straight_row(spring=20.0, spins=11.0, hinge=15.0).nonlinear_wave(1.1, 1)
+    plane = Pattern(((0, 0),), ((1, 0), (0, 1)), spins=11.0, hinge=15.0, braces=((0, 0, (1, 0), 20.0),))
+    assert plane.nonlinear_wave((1.1, 0.7), 1).shift == pytest.approx(row.shift, rel=1e-9)
+    net = square(spring=20.0, spins=11.0, hinge=15.0).nonlinear_wave((1.1, 0.7), 1)
+    turned = square(spring=20.0, spins=11.0, hinge=15.0).nonlinear_wave((-0.7, 1.1), 1)
+    assert net.shift == pytest.approx(turned.shift, rel=1e-9) and abs(net.shift / row.shift - 1) > 1e-3
+
+
+def test_a_wave_that_is_pumped_decays_into_two_at_the_rate_of_the_coupling() -> None:
+    """A hexagon tuned so that waves of 3 and 4 turns of phase add up to one of 1; what the law leaves is of third order."""
+    pattern = polygon_ring(6, spring=30.0, spins=6.0, hinge=13.170295680965312)
+    triads = pattern.three_waves(pi)
+    triad = min(triads, key=lambda w: abs(w.q[1, 0] - 4 * pi / 3))
+    assert triad.q[:, 0] % (2 * pi) == pytest.approx([pi, 4 * pi / 3, pi / 3], abs=1e-9)
+    assert triad.rates[0] + triad.rates[1] == pytest.approx(triad.rates[2]) and triad.energy_signs == (1, 1, 1)
+    assert triad.growth(0, 1.0) == triad.growth(1, 1.0) == 0 and not triad.explosive
+    pumped, rest = (0.01, 0.02, 0.04), []
+    for amplitude in pumped:
+        growth = triad.growth(2, amplitude)
+        parts = [
+            pattern.nonlinear_wave(triad.q[k], triad.bands[k]).state(6, amplitude=a)
+            for k, a in ((0, 1e-6), (2, amplitude))
+        ]
+        t = np.linspace(0, 5 / growth, 401)
+        run = pattern.piece(6).simulate(t, *(one + other for one, other in zip(*parts, strict=True)), tol=1e-8)
+        grown = np.abs(wave_amplitude(pattern, run, (6,), triad.q[0], triad.bands[0]))
+        rest.append(1 - np.polyfit(t[200:], np.log(grown[200:]), 1)[0] / growth)
+    assert abs(measured_order(pumped, rest) - 2) < 0.3 and rest[0] < 0.02
+
+
+def test_energies_of_both_signs_grow_together() -> None:
+    """Under weight the slow precessions have less energy than rest: two of them and a fast one that is their sum explode."""
+    pattern = polygon_ring(6, spring=0.3, spins=7.2, gravity=9.81, load=0.3)
+    triads = [w for m in range(6) for w in pattern.three_waves(pi / 3 * m)]
+    growing = [w for w in triads if w.explosive]
+    assert growing and all(w.energy_signs == (-1, -1, 1) for w in growing)
+    assert all(w.growth(k, 1.0) > 0 for w in growing for k in range(3))
+
+
+def test_what_makes_no_sense_is_refused() -> None:
+    with pytest.raises(InputError, match="first order only"):
+        straight_row(spins=10.0, hinge=10.0).nonlinear_wave(1.0, 0)
+    with pytest.raises(InputError, match="friction"):
+        straight_row(spring=1.0, spins=10.0, friction=0.1).nonlinear_wave(1.0, 0)
+    with pytest.raises(InputError, match="bands there are 0 to 1"):
+        straight_row(spring=1.0, spins=10.0, hinge=2.0).nonlinear_wave(1.0, 2)
+    with pytest.raises(InputError, match="rate 0 rad/s"):
+        straight_row(spring=1.0, spins=10.0).nonlinear_wave(0.0, 0)
+    with pytest.raises(InputError, match="2 waves have its rate"):
+        straight_row(spring=1.0, hinge=2.0).nonlinear_wave(0.0, 0)
+    with pytest.raises(InputError, match="two steps"):
+        honeycomb(spring=1.0, spins=10.0, hinge=2.0).three_waves(1.0)
+    wave = polygon_ring(5, spring=25.0, spins=12.0, hinge=30.0).nonlinear_wave(1.0, 0)
+    with pytest.raises(InputError, match="beyond, the mean and the second"):
+        wave.rate_at(0.7)
+    assert "a² rad/s" in wave.summary()["shift"]
