@@ -22,8 +22,11 @@ from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_s
 from lagrotor.theory.natural_rate import natural_rate
 
 _ORDER = 6
-_PHASES = 12  # of the swing, over which a mean is taken
-_PARTS = 8  # of the duration
+_PHASES = (
+    2 * _ORDER
+)  # of the swing, over which a mean is taken: every harmonic of the form and of its products averages out
+_PARTS = 8  # of the duration: the largest rate of any is taken
+_LEAST = 4  # turns of the swing after the pulse, below which no mean over a run tells the drift from the swing (`mean_error`)
 _LOCAL = 1e-7, 1e-10  # errors of the slow motion's integration
 _PULSE = 1e-10  # local error of the integration through the pulse
 _LARGEST_RATIO = 0.5  # of the last two degrees to the lower ones; beyond, the sum of those left out is no estimate
@@ -36,7 +39,7 @@ def toppling_error(scene: Scene, duration: float) -> float:
 
     Raises:
         InputError: as `toppling_after_shock`, or the duration is no finite number.
-        DomainError: where the orders of the averaged motion do not fall enough, or the duration ends within the pulse.
+        DomainError: where the orders of the averaged motion do not fall enough, or below 4 turns of the swing after the pulse.
     """
     return _errors(scene, duration, "toppling_error")[0]
 
@@ -71,16 +74,18 @@ def cancelling_force_error(scene: Scene, duration: float) -> float:
     if force == 0:  # nothing along x, nothing to cancel
         _errors(with_force(0.0), duration, "cancelling_force_error")
         return 0.0
-    apart = 1e-3 * abs(force)
+    error, least = _errors(with_force(force), duration, "cancelling_force_error")[0], 1e-3 * abs(force)
+    slope = np.diff([toppling_after_shock(with_force(force + step)) for step in (-least, least)])[0] / (2 * least)
+    apart = max(least, 1.05 * error / abs(slope))
     for _ in range(40):
+        if not apart <= abs(force):
+            break
         sides = with_force(force - apart), with_force(force + apart)
         rates = [toppling_after_shock(one) for one in sides]
         errors = [_errors(one, duration, "cancelling_force_error")[0] for one in sides]
         short = max(error / abs(rate) for error, rate in zip(errors, rates, strict=True))
         if short <= 1 and rates[0] * rates[1] < 0:
             return apart
-        if not apart <= abs(force):
-            break
         apart *= max(1.1, min(1.1 * short, 10.0))
     raise DomainError(
         f"cancelling_force_error: about {force:.4g} N the error of the turning is as large as the turning: take a smaller shock "
@@ -95,11 +100,11 @@ def _errors(scene: Scene, duration: float, where: str) -> tuple[float, float]:
     units = natural_units(scene, natural_rate(scene))  # the same for every shock, and the normal form with them
     one, shock = units.scene, units.scene.shock
     assert shock is not None
-    span = duration * units.rate - (shock.end - shock.at)
-    if not span > 0:
+    span, after = duration * units.rate - (shock.end - shock.at), _LEAST * 2 * np.pi / natural_rate(one)
+    if not span > after * (1 - 1e-9):
         raise DomainError(
-            f"{where}: duration = {duration:g} s ends within the pulse, {(shock.end - shock.at) / units.rate:.3g} s after its "
-            "peak: take a longer one"
+            f"{where}: duration = {duration:g} s ends before {_LEAST} turns of the swing after the pulse, over which a mean "
+            f"is known: take {(shock.end - shock.at + after) / units.rate:.3g} s or more after its peak"
         )
     start = integrate_model(MODEL, one, np.array([0.0, shock.end]), _PULSE).states[-1]
     forms = forms_about(one, 0.0, _ORDER)

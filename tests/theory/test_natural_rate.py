@@ -1,14 +1,12 @@
 """The natural rate: known values, the exact model, one rotor, and its error on random pairs."""
 
-import warnings
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, paired_frequency, simulate, sweep
-from lagrotor.errors import DomainError, InputError, LagrotorError, LagrotorWarning
+from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, paired_frequency, simulate
+from lagrotor.errors import DomainError, InputError, LagrotorError
 from lagrotor.models import exact_orbit, upright_orbit
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.variational import flow
@@ -16,7 +14,7 @@ from lagrotor.numerics import measured_order, peak, spectrum
 from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error, twist_coefficient
 from lagrotor.theory.natural_rate import TURNS
 from lagrotor.theory.rate_shift import opposite_share
-from tests.theory.random_pairs import COUNTS, held, random_pair, swinging
+from tests.theory.random_pairs import COUNTS, exact_axes, held, random_pair, swinging
 
 
 def test_known_rates() -> None:
@@ -54,7 +52,7 @@ def test_the_natural_rate_is_the_exact_model_s(w1: float, w2: float, I1: float, 
 
 def any_pair(rng):
     """A bar from 0.15 to 4 axes long, massless or up to 50 kg, any inertia that a bar can have or none; any two spins, equal,
-    opposite or nearly so, of natural rate 1: one sweep then runs them all."""
+    opposite or nearly so, of natural rate 1: one grid of times then reads them all."""
     one, length = random_pair(rng), np.exp(rng.uniform(np.log(0.15), np.log(4)))
     mass = rng.choice([0, 1]) * np.exp(rng.uniform(np.log(0.01), np.log(50)))
     length *= one.rotor.length
@@ -69,10 +67,10 @@ def any_pair(rng):
 def test_natural_rate(count):
     """Swings on the linear mode in any phase. Of amplitudes beyond the range, refused ones are drawn again."""
     rng, held_so_far = np.random.default_rng(1), 0
-    times = np.linspace(0, TURNS * 2 * np.pi, 60 * TURNS + 1)
+    times = np.linspace(0, TURNS * 2 * np.pi, 24 * TURNS + 1)
     while held_so_far < count:
         scenes, errors = [], []
-        while len(scenes) < min(500, count - held_so_far):
+        while len(scenes) < min(2_500, count - held_so_far):
             scene, amplitude = any_pair(rng), 10 ** rng.uniform(-2.2, np.log10(0.3))
             try:
                 errors.append(natural_rate_error(scene, amplitude))
@@ -82,10 +80,8 @@ def test_natural_rate(count):
                 scenes.append(swinging(rng, scene, amplitude))
             except LagrotorError:
                 errors.pop()  # the bar does not reach
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", LagrotorWarning)
-            runs = sweep(scenes, times, 1e-8)
-        seen = [peak(*spectrum(times, rates[:, :, 0].mean(0))) for rates in runs.rates]
+        runs = exact_axes(scenes, [times] * len(scenes), 1e-9)
+        seen = [peak(*spectrum(times, rates[:, :, 0].mean(0))) for _, rates in runs]
         # The spectrum's own error is about 1e-5 of the rate.
         held([(abs(one - 1), error + 1e-5) for one, error in zip(seen, errors, strict=True)], 0, len(scenes), 0)
         held_so_far += len(scenes)
