@@ -245,11 +245,14 @@ def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> t
 
 
 def _centre(scene: Scene, state: Array) -> float:
-    """The lean U of the centre about which a state of `minimal` swings."""
+    """The lean U of the centre about which a state of `minimal` swings. Raises DomainError where that is far from it."""
     forms = forms_about(scene, float(state[0]), 2)
     slow = _linear(scene, forms, state)
     slow[[0, 3]] = 0.0
-    return float(state[0] + (forms.form.vectors[0] @ slow).real)
+    off = float((forms.form.vectors[0] @ slow).real)
+    if not abs(off) < 1:
+        raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
+    return float(state[0]) + off
 
 
 def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:

@@ -10,6 +10,7 @@ A pulse adds the response of `theory.shock_response`. `linear_error` estimates w
 """
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import exp, nan, pi
 from typing import Any
 
@@ -34,7 +35,11 @@ FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which smal
 _SAFETY = 1.1  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02
 FARTHEST_OFF = 0.1  # estimated error beyond which the next orders are no estimate
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
-_A_TURN, _MOST = 24, 100_000  # points a turn of the error's quadrature, and the most it takes
+_A_PART, _A_TURN = (
+    17,
+    24,
+)  # points of the error's quadrature: in all before, within and after a pulse each, and more a turn
+_MOST = 100_000  # the most it takes
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,15 +195,14 @@ def linear_error(scene: Scene, t_end: float) -> float:
         DomainError: as `linear_states`, and for a run of so many turns that the sum would cost more than it saves.
     """
     linear, shock = pair_modes(scene), scene.shock_until(t_end)
-    points = 17 + int(_A_TURN * linear.frequency * t_end / (2 * pi))
-    if points > _MOST:
-        raise DomainError(
-            f"linear: {points // _A_TURN} turns are too many to estimate the error over; use model='minimal'"
-        )
-    t = np.linspace(0.0, t_end, points)
-    if shock is not None:
-        about = shock.at + shock.width * np.linspace(-4, 4, 65)
-        t = np.unique(np.concatenate([t, about[(about > 0) & (about < t_end)]]))
+    turns = linear.frequency * t_end / (2 * pi)
+    if _A_TURN * turns > _MOST:
+        raise DomainError(f"linear: {turns:.0f} turns are too many to estimate the error over; use model='minimal'")
+    pulse = shock.at + shock.width * np.linspace(-4, 4, 65) if shock else np.empty(0)
+    pulse = pulse[(pulse > 0) & (pulse < t_end)]
+    ends = [0.0, *pulse[:1], *pulse[-1:], t_end]
+    parts = (np.linspace(a, b, _A_PART + int(_A_TURN * turns * (b - a) / t_end)) for a, b in pairwise(ends))
+    t = np.unique(np.concatenate([pulse, *parts]))
     states = linear_states(scene, t)
     with np.errstate(all="ignore"):  # of a motion that is not small the corrections may have no end
         first = linear.answer(t, _defect(scene, linear, shock, t, states))

@@ -125,5 +125,12 @@ def test_what_it_does_not_hold_is_refused() -> None:
         simulate(Scene((10, -10), link=None), t, "averaged")
     with pytest.raises(DomainError, match=r"no small motion|moves far"):
         simulate(swinging(0.5), [0.0, 300.0], "averaged")
+    r, heavy = (
+        np.array([-0.6, 0.0, 0.8]),
+        Link(0.56, 6.3, 0.0),
+    )  # the modes about its start put its centre on the joint line
+    fast = consistent_scene((1e-3, -1e-3), [r, r], [[0, 0.3, 0], [0, -0.2, 0.1]], Rotor(1e-3, 1, 1e-3, 1e-3), heavy)
+    with pytest.raises(DomainError, match="no small motion"):
+        simulate(fast, [0.0, 300.0], "averaged")
     with pytest.warns(LagrotorWarning, match=r"averaged does not keep tol = 1e-12.*kept up to t ="):
         simulate(swinging(0.1), turns(swinging(0.1), 50), "averaged", 1e-12)

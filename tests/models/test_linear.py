@@ -11,7 +11,7 @@ from scipy.linalg import expm
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, LagrotorError, SingularError
-from lagrotor.models import linear_error, linear_run
+from lagrotor.models import linear, linear_error, linear_run
 from lagrotor.models.linear import LINEAR_MARGIN, pair_modes
 from lagrotor.models.minimal import MODEL
 from lagrotor.numerics import measured_order
@@ -47,10 +47,10 @@ def test_the_exponential_closes() -> None:
 
 @pytest.mark.parametrize("spins", [(10.0, -7.0), (3.0, 3.0), (5.0, 0.0), (1e-3, -1e-3), (0.0, 0.0)])
 def test_the_exponential_is_the_matrix_exponential(spins: tuple[float, float]) -> None:
-    linear, t = pair_modes(started(0.1, spins)), np.array([0.0, 0.3, 4.0])
-    A = np.block([[np.zeros((3, 3)), np.eye(3)], [np.zeros((3, 3)), -linear.turning]])
+    modes, t = pair_modes(started(0.1, spins)), np.array([0.0, 0.3, 4.0])
+    A = np.block([[np.zeros((3, 3)), np.eye(3)], [np.zeros((3, 3)), -modes.turning]])
     y = np.array([0.1, -0.2, 0.3, 0.5, 0.7, -0.4])
-    assert linear.free(y[:3], y[3:], t) == pytest.approx(np.array([expm(A * s) @ y for s in t]), abs=1e-11)
+    assert modes.free(y[:3], y[3:], t) == pytest.approx(np.array([expm(A * s) @ y for s in t]), abs=1e-11)
 
 
 @pytest.mark.parametrize("spins", [(10, -7), (10, -10), (4, 1)])
@@ -121,6 +121,15 @@ def test_a_pulse_beyond_the_run_is_none() -> None:
     scene, t = started(0.01), np.linspace(0, 1, 5)
     for at in (-1.0, 2.0):
         assert (linear_run(replace(scene, shock=Shock((9, 9, 9), at, 0.05)), t).axes == linear_run(scene, t).axes).all()
+
+
+def test_what_grows_after_a_short_pulse_is_in_the_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A pulse so late and so short that the points of a turn leave none between it and the end."""
+    scene, t = started(0.0, (700, -700)), np.linspace(0, 0.012, 7)
+    scene = replace(scene, shock=Shock((3e5, 6e5, 0), 0.0115, 6e-7))
+    assert 1e-12 < error(scene, t) < linear_error(scene, float(t[-1]))
+    monkeypatch.setattr(linear, "_A_PART", 2)  # twin: the ends of the parts alone
+    assert error(scene, t) > linear_error(scene, float(t[-1]))
 
 
 def test_what_makes_no_sense_is_refused() -> None:
