@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, Complex, coefficients
@@ -34,6 +34,7 @@ class Modes(Shown):
 
     Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
     energy_signs (n,): that of ω² ū·M u + ū·K u, −1 of an oscillation with less energy than rest; 0 of what grows or has no rate.
+    left_out (n,): by how much (rad/s) the inertia lowers each rate to first order, where it is left out; else 0.
     """
 
     rates: Array
@@ -41,6 +42,7 @@ class Modes(Shown):
     shapes: Complex
     topple: int
     energy_signs: NDArray[np.int64]
+    left_out: Array
 
     def summary(self) -> dict[str, str]:
         """Rate and growth of each mode, the fastest growing first, and how many topple, name → words."""
@@ -73,6 +75,17 @@ class SmallMotion:
         """How many degrees of freedom the bars leave."""
         return int(self.mass.shape[-1])
 
+    @property
+    def bands(self) -> int:
+        """How many of the roots there are, but for their conjugates: half as many degrees of freedom as dof without inertia."""
+        return self.dof if self.mass.any() else self.dof // 2
+
+    @property
+    def without_inertia(self) -> "SmallMotion":
+        """The limit of fast spins, C u' + K u = 0: its roots are those of M s² + C s + K that stay finite for M → 0."""
+        unit = np.abs(self.stiffness).max(initial=0) / (np.abs(self.gyroscopic).max(initial=0) or 1.0)
+        return replace(self, mass=0 * self.mass, rate=float(unit) or self.rate)
+
     def at_spins(self, factor: float) -> "SmallMotion":
         """The same with all spins multiplied."""
         return replace(self, gyroscopic=factor * self.gyroscopic)
@@ -83,20 +96,44 @@ class SmallMotion:
 
     @cached_property
     def roots(self) -> Complex:
-        """All 2n roots s of det(M s² + C s + K), nearly zero ones set to zero."""
+        """All 2n roots s of det(M s² + C s + K), n without inertia, nearly zero ones set to zero."""
+        if not self.mass.any():
+            return self.waves[0]
         if self._definite:
             return self._in_seconds(-1j * np.linalg.eigvalsh(self._hermitian[0]))
         return self._in_seconds(np.linalg.eigvals(self.first_order))
 
     @cached_property
     def waves(self) -> tuple[Complex, Complex]:
-        """The roots and their vectors (n, 2n)."""
+        """The roots and their vectors (n, 2n), (n, n) without inertia.
+
+        Raises SingularError where there is no inertia and a motion on which no spin acts.
+        """
+        if not self.mass.any():
+            return self._of_first_order
         if self._definite:
             H, over_L = self._hermitian
             rates, vectors = np.linalg.eigh(H)
             return self._in_seconds(-1j * rates), _dagger(over_L) @ vectors[..., self.dof :, :]
         s, vectors = np.linalg.eig(self.first_order)
         return self._in_seconds(s), vectors[..., : self.dof, :] + 0j
+
+    @property
+    def _of_first_order(self) -> tuple[Complex, Complex]:
+        """Roots and vectors of s C + K: of least energy at rest by K = R R† and i R⁻¹ C R⁻†, whose eigenvalues are i/s."""
+        C, K = (self.gyroscopic + self.damping) * self.rate, self.stiffness + 0j
+        sizes = np.linalg.svd(C, compute_uv=False)
+        if self.dof and not (sizes[..., -1] > _DEPENDENT * sizes[..., 0]).all():
+            raise SingularError(
+                "fast spins: a motion on which no spin acts has no rate without inertia: give each rotor a spin, or keep "
+                "the inertia"
+            )
+        if not self._definite:
+            s, vectors = np.linalg.eig(-np.linalg.solve(C, K))
+            return self._in_seconds(s), vectors
+        over_R = np.linalg.inv(np.linalg.cholesky(K))
+        inverse, vectors = np.linalg.eigh(1j * over_R @ C @ _dagger(over_R))
+        return self._in_seconds(-1j / inverse), _dagger(over_R) @ vectors
 
     def energy_signs(self, roots: Complex, vectors: Complex) -> NDArray[np.int64]:
         """The signs of ω² ū·M u + ū·K u of roots and their vectors, (m,)."""
@@ -228,16 +265,21 @@ def _brace_rows(c: Coefficients) -> Array:
     return rows.reshape(len(n), 2 * len(c.R))
 
 
-def modes(s: Assembly) -> Modes:
+def modes(s: Assembly, inertia: bool = True) -> Modes:
     """The normal modes about upright, those that grow first, then by rate.
 
-    Raises InputError where a bar is not as long as its tips are apart when upright.
+    inertia: False for the limit of fast spins, in which C u' + K u = 0: slow precessions alone, their rates too large by
+    `left_out` and by what is of fourth order in 1/spin of themselves. Nash et al., PNAS 112, 14495 (2015).
+
+    Raises InputError where a bar is not as long as its tips are apart when upright, SingularError without inertia where no spin
+    acts.
     """
-    linear = small_motion(s)
+    whole = small_motion(s)
+    linear = whole if inertia else whole.without_inertia
     roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)
-    real = real[np.argsort(-roots[real].real, kind="stable")][: linear.dof - len(turning)]
+    real = real[np.argsort(-roots[real].real, kind="stable")][: linear.bands - len(turning)]
     kept = np.concatenate([turning, real])
     kept = kept[np.lexsort((roots[kept].imag, -roots[kept].real))]
     shapes = (linear.basis @ vectors[:, kept]).T.reshape(len(kept), -1, 2)
@@ -245,4 +287,7 @@ def modes(s: Assembly) -> Modes:
     lead = shapes.reshape(len(kept), -1)[np.arange(len(kept)), largest.argmax(1)]
     shapes = shapes / lead[:, None, None]
     signs = np.where((roots[kept].imag > 0) & (roots[kept].real <= 0), linear.energy_signs(roots, vectors)[kept], 0)
-    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs)
+    forms = (vectors[:, kept].conj() * (form @ vectors[:, kept]) for form in (whole.mass, whole.gyroscopic))
+    heavy, turning_by = (form.sum(0) for form in forms)
+    left_out = np.zeros(len(kept)) if inertia else roots[kept].imag ** 2 * (heavy / np.abs(turning_by)).real
+    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out)

@@ -32,6 +32,7 @@ class Bloch:
     rows: Array
     away: Array
     rate: float
+    inertia: bool = True
 
     def at(self, q: Array) -> tuple[Matrix, Matrix]:
         """The four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d), zero where phases cancel."""
@@ -50,7 +51,8 @@ class Bloch:
         ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):
             (places,) = np.nonzero(ranks == rank)
-            yield places, on_basis(parts[places], vectors[places, :, rank:], self.rate)
+            motion = on_basis(parts[places], vectors[places, :, rank:], self.rate)
+            yield places, motion if self.inertia else motion.without_inertia
 
 
 def _wave_sum(q: Array, steps: Array, parts: Array, k: int | None = None) -> Matrix:
@@ -73,12 +75,15 @@ def bloch(p: Cell) -> Bloch:
     for (one, left), (other, right) in product(of.items(), repeat=2):
         apart = tuple(b - a for a, b in zip(one, other, strict=True))
         parts[apart] = parts.get(apart, 0) + left.T @ whole @ right
+    between = np.array([*parts.values()])
+    between[:, 0] *= p.inertia
     return Bloch(
-        np.array([*parts.values()]),
+        between,
         np.array([*parts], dtype=float),
         np.array([rows @ copies for copies in of.values()]),
         np.array([*of], dtype=float),
         rate,
+        p.inertia,
     )
 
 

@@ -23,7 +23,8 @@ class Cell:
 
     bars: (i, j, shift) from joint i to joint j of the cell that is `shift` steps away, a whole number, or one a step; (i, j)
     within the cell. braces: (i, j, shift, stiffness, damping), in N/m and N s/m, damping 0 unless given. spins, rotor, load,
-    friction, hinge: one for all, or one a joint; link: one for all, or one a bar; units as of `Structure`.
+    friction, hinge: one for all, or one a joint; link: one for all, or one a bar; units as of `Structure`. inertia: False for the
+    limit of fast spins, in which tilting has none and only slow precessions are left.
 
     Raises InputError for a joint, a shift or a step that makes no sense.
     """
@@ -40,6 +41,7 @@ class Cell:
     friction: Any = 0.0
     hinge: Any = 0.0
     braces: tuple[Any, ...] = ()
+    inertia: bool = True
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -106,6 +108,10 @@ class Cell:
         """
         if len(counts) != len(self.steps) or any(n < 1 for n in counts):
             raise InputError(f"Pattern: piece{counts}: give {len(self.steps)} number(s) of cells, 1 or more")
+        if not self.inertia:
+            raise InputError(
+                "Pattern: piece: a structure has inertia: leave inertia=False out, and ask for modes(inertia=False)"
+            )
         ring = bool(self.turn) and abs(abs(self.turn) * counts[0] - 2 * pi) < 1e-9
         cells = list(product(*(range(n) for n in counts)))
         number = {(i, cell): len(self.joints) * k + i for k, cell in enumerate(cells) for i in range(len(self.joints))}
@@ -147,6 +153,7 @@ class Cell:
             link=tuple(self.link[k] for k, _ in bars) or Link(),
             braces=tuple(brace for _, brace in within(self.braces)),
             gravity=self.gravity,
+            inertia=self.inertia,
             **{name: getattr(self, name) * width for name in ("spins", "rotor", "load", "friction", "hinge")},
         )
 

@@ -102,7 +102,7 @@ def _distances(b: Bloch, q: Array, band: NDArray[np.intp], d: Dispersion) -> Arr
     apart, bands = np.full(q.shape[:2], d.rates.max()).ravel(), np.repeat(band, q.shape[1])
     n = d.rates.shape[1]
     for places, motion in b.motions(q.reshape(-1, 2)):
-        if motion.dof == n:
+        if motion.bands == n:
             rates = np.sort(-motion.roots.imag, axis=-1)[:, n:]
             apart[places] = np.take_along_axis(np.diff(rates), bands[places, None], -1)[:, 0]
     return apart.reshape(q.shape[:2])

@@ -23,8 +23,8 @@ class Dispersion(Shown):
 
     rates (n_q, n_bands) in rad/s and growth (n_q, n_bands) in 1/s: half of the 2 f roots at q, those of the larger rates, in
     rising order; the others are the waves of −q, conjugate. shapes (n_q, n_bands, N, 2). dof (n_q,): the f that the
-    bars leave at q; n_bands is their most, and where there are fewer the row ends in nan. zero_bands: where the bars leave
-    the fewest degrees of freedom, those on which neither spins nor springs nor weight act.
+    bars leave at q, without inertia half of them; n_bands is their most, and where there are fewer the row ends in nan.
+    zero_bands: where the bars leave the fewest degrees of freedom, those on which neither spins nor springs nor weight act.
     """
 
     pattern: Cell
@@ -98,7 +98,7 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
     for first in range(0, len(solved), _TOGETHER):
         together = solved[first : first + _TOGETHER]
         for places, motion in b.motions(points[together]):
-            here, f = together[places], motion.dof
+            here, f = together[places], motion.bands
             dof[here], still[f] = f, min(still.get(f, f), _still(motion))
             if f:
                 s, vectors = motion.waves

@@ -85,6 +85,8 @@ def _wave(p: Cell, b: Bloch, q: Any, band: int) -> _Wave:
 
 
 def _bloch_without_friction(p: Cell) -> Bloch:
+    if not p.inertia:
+        raise InputError("nonlinear waves: inertia=False is of first order alone: keep the inertia")
     if any(p.friction) or any(brace[4] for brace in p.braces):
         raise InputError("nonlinear waves: friction or damping: the waves die; leave it out")
     return bloch(p)

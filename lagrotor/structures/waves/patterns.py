@@ -33,10 +33,12 @@ def polygon_ring(count: int, spring: float | None = None, **more: Any) -> Patter
     return _joined(((0, 0),), ((1, 0),), ((0, 0, 1),), spring, more | {"turn": 2 * pi / count})
 
 
-def honeycomb(spring: float | None = None, **more: Any) -> Pattern:
-    """Two rotors a cell, three bars at each; with `spring` (N/m) braces instead of bars."""
-    joins = ((0, 1, (0, 0)), (0, 1, (-1, 0)), (0, 1, (0, -1)))
-    return _joined(((0, 0), (0, 1)), ((sqrt(3) / 2, 1.5), (-sqrt(3) / 2, 1.5)), joins, spring, more)
+def honeycomb(spring: float | None = None, angle: float = 2 * pi / 3, **more: Any) -> Pattern:
+    """Two rotors a cell, three bars at each, two of them at `angle` (rad) from the third: π/2 are bricks, less are bow ties; with
+    `spring` (N/m) braces instead of bars.
+    """
+    joins, (x, y) = ((0, 1, (0, 0)), (0, 1, (-1, 0)), (0, 1, (0, -1))), (sin(angle), 1 - cos(angle))
+    return _joined(((0, 0), (0, 1)), ((x, y), (-x, y)), joins, spring, more)
 
 
 def square(spring: float | None = None, **more: Any) -> Pattern:
