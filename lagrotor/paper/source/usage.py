@@ -5,7 +5,7 @@ What the print does not settle is a question to the author, who answers in `pape
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from keyword import iskeyword
 from typing import Any
 
@@ -17,6 +17,10 @@ from lagrotor.paper.source.rows import TENSOR, all_boxes, without_thin
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
 # What a δ or Δ before it is no factor of: a difference, a variation, a function of the bracket.
 ACTED_ON = ("letter", "bracket", "fraction", "accent", "group", "big", "partial", "nabla", "root")
+_ENDING = ("relation", "comma", "wide", "text", "arrow")
+_OF_NUMBERS = ("sin", "cos", "tan", "ln", "log", "exp")
+# Letters that custom has as numbers, and those of a sign of its own.
+_NUMBERS = frozenset(["e", "i", "pi", "hbar", "ell", "d", "delta", "Delta", "imath", "prime"])
 _KEYS = ("functions", "letters", "numbers", "usual", "decimal_comma")
 _TIMES = ("tau", "lambda", "s", "sigma", "T", "eta")
 
@@ -30,8 +34,10 @@ class Notation:
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
     before what may be an argument; factors, in a product; apart, touching no other letter; powers, to a number; raised, with
     an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two primes. varied:
-    letter → letters that it is differentiated by. seen: ket, bold, order, hessian, P(D), complex, modular, exponent, dot,
-    other time, times. crossed: vectors, beside a cross or a nabla.
+    letter → letters that it is differentiated by. seen: ket, operators, order, hessian, P(D), complex, modular, exponent, dot,
+    other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed as vectors somewhere.
+    equal: letters and what they are equal to. numeric: letters shown to be numbers, below a fraction bar, under a root, in a
+    sine or a logarithm, equal to numbers.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -56,6 +62,9 @@ class Notation:
     primed: set[str] = field(default_factory=set)
     twice: set[str] = field(default_factory=set)
     crossed: set[str] = field(default_factory=set)
+    arrows: set[str] = field(default_factory=set)
+    numeric: set[str] = field(default_factory=set)
+    equal: list[tuple[Box, list[Box]]] = field(default_factory=list)
     varied: dict[str, set[str]] = field(default_factory=dict)
     seen: set[str] = field(default_factory=set)
 
@@ -96,12 +105,20 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
     found.primed -= found.applied | found.twice  # y and y' of a differential equation
     if "dot" in found.seen and "other time" in found.seen:
         found.seen.add("times")
+    for letter, side in found.equal:
+        found.numeric |= _names(letter) if is_value(side, found) else set()
     return found
 
 
 def stem_of(box: Box) -> str:
     """A letter with its font and without its marks, indices and primes."""
     return box.name + box.style
+
+
+def unscripted(box: Box) -> str:
+    """A letter with its font and marks, without dots, scripts and primes."""
+    marks = tuple(mark for mark in box.marks if not mark.endswith("dot"))
+    return name_of(replace(box, primes=0, sub=None, sup=None, marks=marks))
 
 
 def is_plain_letter(box: Box) -> bool:
@@ -265,6 +282,9 @@ def _look_about(row: list[Box], found: Notation) -> None:
             found.seen.add("hessian")
         if transposed and "vec" not in box.marks:
             found.matrices |= {stem_of(box)} if box.kind == "letter" else held
+        if box.sup and [b.name for b in box.sup] == ["dagger"]:
+            found.seen.add("operators")
+        _look_at_number(box, after, found)
         if box.kind == "function" and box.name in ("Re", "Im", "arg"):
             found.seen.add("complex")
         if box.kind == "function" and box.name in ("det", "tr", "Tr", "rank", "ker", "diag") and after is not None:
@@ -277,8 +297,7 @@ def _look_about(row: list[Box], found: Notation) -> None:
         if box.kind == "bracket":
             _look_at_bracket(box, before, after, held, found)
         elif box.kind == "relation" and before is not None and after is not None:
-            alone = place == 1 or row[place - 2].kind in ("relation", "comma", "wide", "text", "arrow")
-            _look_at_relation(box, before if alone else box, after, found)
+            _look_at_relation(row, place, found)
         elif box.name == "times" or (box.name == "cdot" and before is not None and before.kind == "nabla"):
             found.crossed |= {stem_of(b) for b in (before, after) if b is not None and is_printed_as_vector(b)}
         elif box.kind == "fraction":
@@ -287,11 +306,75 @@ def _look_about(row: list[Box], found: Notation) -> None:
             _look_beside(box, before, after, found)
 
 
-def _look_at_relation(box: Box, before: Box, after: Box, found: Notation) -> None:
-    """A letter that is equal to a matrix, or one of R^(m x n)."""
+def _look_at_number(box: Box, after: Box | None, found: Notation) -> None:
+    """A letter that stands where only a number can."""
+    held: list[Box] = []
+    if box.kind in ("fraction", "root"):
+        held = without_thin(box.parts[1] if box.kind == "fraction" else box.parts[0])
+        if any(b.kind == "operator" and b.name not in ("cdot", "times") for b in held):
+            held = []  # a resolvent
+    elif box.name == "/" and after is not None:
+        held = [after]
+    elif box.kind == "function" and box.name in _OF_NUMBERS[:-1] and after is not None:
+        held = without_thin(after.parts[0]) if after.kind in ("bracket", "fraction") else [after]
+    for each in held:
+        found.numeric |= _names(each)
+
+
+def _names(box: Box) -> set[str]:
+    """The name of a letter with its index, and without."""
+    plain = replace(box, primes=0, sup=None)
+    return {unscripted(box), name_of(plain, index_of(box) or ())} if box.kind == "letter" else set()
+
+
+def is_value(row: list[Box], known: Notation) -> bool:
+    """Whether a row is a number other than 0 and 1, or arithmetic of numbers and of letters that are numbers."""
+    row = without_thin(row)
+    one = [box.name for box in row] in (["0"], ["1"])  # of a ring
+    return bool(row) and not one and all(_is_arithmetic(box, known) for box in row)
+
+
+def _is_arithmetic(box: Box, known: Notation) -> bool:
+    """Whether a box is a sign, a number or a letter that is one, or a bracket, fraction or root of such."""
+    if box.kind == "letter":
+        return box.name != "d" and is_number(known, box) and power_in(box) == bool(box.sup)
+    signs = ("+", "-", "/", "cdot", "pm", "(", *_OF_NUMBERS)
+    return (box.name in signs or box.kind in ("number", "fraction", "root")) and all(
+        _is_arithmetic(each, known) for part in (*box.parts, box.sup or []) for each in part if each.kind != "thin"
+    )
+
+
+def is_number(known: Notation, box: Box) -> bool:
+    """Whether a letter is evidently a number, or a vector that no operator can be.
+
+    As a number it stands below a fraction bar, under a root, in a sine or a logarithm, or is equal to numbers; small letters
+    are numbers by custom, but in a paper that has operators.
+    """
+    stem = stem_of(box)
+    if {box.name, stem} & (known.letters | known.numbers) or (box.name in _NUMBERS and not box.marks):
+        return True
+    if stem in known.matrices:
+        return False
+    operators = bool(known.seen & {"ket", "operators"})
+    if is_printed_as_vector(box):
+        return not operators and (not box.name[0].isupper() or stem in known.crossed or "vec" in box.marks)
+    plain = not (
+        box.upright or box.style in ("cal", "scr", "frak", "bb") or any(not m.endswith("dot") for m in box.marks)
+    )
+    own = name_of(replace(box, primes=0, sup=None), index_of(box) or ()) if operators else unscripted(box)
+    return own in known.numeric or (plain and not operators and box.name[0].islower())
+
+
+def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
+    """A letter that is equal to a matrix or one of R^(m x n), and what a letter is equal to."""
+    before, box, after = row[place - 1 : place + 2]
+    if before.kind != "letter" or (place > 1 and row[place - 2].kind not in _ENDING):
+        return
+    end = next((k for k in range(place + 1, len(row)) if row[k].kind in _ENDING), len(row))
+    found.equal += [(before, row[place + 1 : end])] if box.name in ("=", ":=") else []
     inside = [after, *(each for part in after.parts for each in part)]
     real = box.name == "in" and after.style == "bb" and any(b.name == "times" for b in after.sup or ())
-    if before.kind == "letter" and "vec" not in before.marks and (real or any(b.kind == "matrix" for b in inside)):
+    if "vec" not in before.marks and (real or any(b.kind == "matrix" for b in inside)):
         found.matrices.add(stem_of(before))
 
 
@@ -301,6 +384,7 @@ def _look_at_bracket(box: Box, before: Box | None, after: Box | None, held: set[
         found.seen.add("ket")
     if box.name == "[" and sum(b.kind == "comma" for b in content) == 1 and _is_commutator(content, before, after):
         found.matrices |= held
+        found.seen.add("operators")
     letters = [b for b in content if b.kind == "letter" and any(c.kind == "comma" for c in content)]
     found.primed |= {stem_of(b) for b in letters if b.primes} & {stem_of(b) for b in letters if not b.primes}
 
@@ -323,6 +407,8 @@ def _look_at_derivative(fraction: Box, after: Box | None, found: Notation) -> No
         return
     operands = over[1:] or ([after] if after is not None else [])
     found.differentiated |= {stem_of(b) for b in operands if b.kind == "letter" or not over[1:]}
+    for each in (b for b in under if b.name not in _NUMBERS):
+        found.numeric |= _names(each)
     for box in operands:
         found.varied.setdefault(stem_of(box), set()).update(b.name for b in under if b.kind == "letter")
     if over[0].name == "d" and (under[1].name in _TIMES or (under[1].name == "t" and under[1].sub)):
@@ -331,8 +417,10 @@ def _look_at_derivative(fraction: Box, after: Box | None, found: Notation) -> No
 
 def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notation) -> None:
     stem, sup = stem_of(box), without_thin(box.sup or [])
-    if box.style == "bold" or "vec" in box.marks:
-        found.seen.add("bold")
+    if is_printed_as_vector(box):
+        found.arrows.add(box.name)
+    if "hat" in box.marks and box.name.isupper() and not is_printed_as_vector(box):
+        found.seen.add("operators")
     if any(mark.endswith("dot") for mark in box.marks):
         found.seen.add("dot")
     if box.primes or any(mark.endswith("dot") for mark in box.marks):

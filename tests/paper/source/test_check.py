@@ -79,7 +79,7 @@ STEPS = [
     (r"2\sin\alpha\cos\alpha", r"\sin(2\alpha)", r"\cos(2\alpha)"),
     (r"\frac{1}{1/a + 1/b}", r"\frac{ab}{a + b}", r"\frac{a + b}{ab}"),
     (r"m_1 v_1 + m_2 v_2 - m_1 v_1", "m_2 v_2", "m_2 v_1"),
-    (r"e^{-2kt} e^{kt}", "e^{-kt}", "e^{kt}"),
+    (r"e^{-2k t} e^{k t}", "e^{-k t}", "e^{k t}"),
     (r"\cosh^2 x - \sinh^2 x", "1", "-1"),
     (r"\frac34\cdot\frac25 a", r"\frac{3}{10} a", r"\frac{3}{20} a"),
     (r"\begin{vmatrix} a & b\\ c & d\end{vmatrix}", "ad - bc", "ad + bc"),
