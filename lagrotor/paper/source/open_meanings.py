@@ -35,6 +35,7 @@ from lagrotor.paper.source.usage import (
     power_in,
     simple_argument,
     stem_of,
+    touch,
 )
 
 # Names that are mostly functions: before a bracket they are no factors.
@@ -129,7 +130,7 @@ def _row(reader: FormulaReader, row: list[Box]) -> Marks:
             yield from _row(reader, without_thin(part)[1:] if derived else part)
             derived = False
         if box.kind == "big":
-            yield from _names(reader, without_thin(box.sub or []))
+            yield from _row(reader, [b for b in box.sub or () if b.kind != "relation"])
         if box.sup and power_in(box):
             yield from _row(reader, box.sup)
     yield from _apart(reader, row)
@@ -182,6 +183,7 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
          "with a bar is a name, and no conjugate or complement"),
         ("hat", "hat" in box.marks and not is_printed_as_vector(box), "with a hat is a factor, and no operator or direction"),
         ("dot", "times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
+        ("differential", box.name == "d" and box.style and not box.sub and after is not None, "is a factor, and no differential"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
         ("sign", not (box.name.isalnum() and (len(box.name) == 1 or f"\\{box.name}" in GREEK or box.upright)), "is a letter"),
         ("unit", box.upright and len(box.name) == 1 and box.name not in "deiO" and not (
@@ -478,6 +480,9 @@ def _accent(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     """Evident are a sum over one index with its first and last value or all, a limit, an integral that its differential ends."""
     box, below = row[place], without_thin(row[place].sub or [])
+    rest = row[place + 1 : next((k for k in range(place + 1, len(row)) if row[k].kind in _PARTS), len(row))]
+    if "int" not in box.name and any(b.kind == "operator" and b.name in ("+", "-", "pm") for b in rest[1:]):
+        yield "reach", f"the {box.name} is of the term that follows it alone", ""
     if box.name in ("sum", "prod"):
         counted = len(below) > 2 and is_plain_letter(below[0]) and below[1].name == "=" and bool(box.sup)
         if not (counted or (len(below) == 1 and is_plain_letter(below[0]) and not box.sup)):
@@ -560,7 +565,7 @@ def _names(reader: FormulaReader, row: list[Box]) -> Marks:
     run: list[Box] = []
     for place, box in enumerate([*row, Box("thin", "", -2, -2)]):
         letter = box.kind == "letter" and len(box.name) == 1 and not (box.style or box.upright or box.marks)
-        if run and not (letter and box.at == run[-1].end and is_plain_letter(run[-1])):
+        if run and not (letter and touch(run[-1], box)):
             name = "".join(each.name for each in run)
             called = box.kind == "bracket" and box.name == "(" and is_called(reader, run[-1], box) is True
             product = (

@@ -40,15 +40,15 @@ class PrintedStatement:
 def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]:
     """The statements of a formula, its rows joined where one continues the other."""
     found: list[PrintedStatement] = []
-    for piece in _pieces(strip(row)):
+    for piece in _pieces(reader, strip(row)):
         found += _statements(reader, piece)
     return found
 
 
-def _pieces(row: list[Box]) -> list[list[Box]]:
+def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
     """Rows of a display, each continued ones with what they continue; what stands beside them is a piece of its own."""
     if len(row) == 1 and row[0].kind == "group":
-        return _pieces(strip(row[0].parts[0]))
+        return _pieces(reader, strip(row[0].parts[0]))
     lines = _system(row[0]) if row else None
     beside = strip(row[1:])
     if lines is None or (beside and row[1].kind not in ("wide", "comma", "thin", "text", "bracket")):
@@ -61,6 +61,9 @@ def _pieces(row: list[Box]) -> list[list[Box]]:
         if not line:
             continue
         if pieces and _continues(pieces[-1], line):
+            begins = line[0].name == "-" and pieces[-1][-1].kind not in ("operator", "relation")
+            if begins and any(box.kind == "relation" for box in line):
+                reader.guess("rows", "a row that begins with - and has a relation continues the row before")
             pieces[-1] = [*pieces[-1], *line]
         else:
             pieces.append(line)

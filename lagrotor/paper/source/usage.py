@@ -115,6 +115,12 @@ def stem_of(box: Box) -> str:
     return box.name + box.style
 
 
+def touch(first: Box, second: Box) -> bool:
+    """Whether a letter touches the next, as in a name: capitals do in print, whatever spaces are typed."""
+    letters = is_plain_letter(first) and second.kind == "letter"
+    return letters and (first.end == second.at or (first.name.isupper() and second.name.isupper()))
+
+
 def unscripted(box: Box) -> str:
     """A letter with its font and marks, without dots, scripts and primes."""
     marks = tuple(mark for mark in box.marks if not mark.endswith("dot"))
@@ -441,10 +447,7 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
         marked = box.primes or (sup and [b.kind for b in sup] != ["number"])
         if marked or (simple_argument(content) and any(b.kind == "letter" for b in content)):
             found.applied.add(stem)
-    touching = before is not None and is_plain_letter(before) and before.end == box.at
-    if not touching and not (
-        after is not None and is_plain_letter(box) and after.kind == "letter" and after.at == box.end
-    ):
+    if not any(a is not None and b is not None and touch(a, b) for a, b in ((before, box), (box, after))):
         found.apart.add(box.name)
     beside = ("letter", "number", "fraction", "root")
     if (before is not None and before.kind in beside and before.name not in ("d", "delta", "Delta")) or (
