@@ -71,6 +71,7 @@ _NOTHING = (
     "mathinner", "relax", "hfill", "hfil", "hskip", "kern", "mkern", "notag", "nonumber", "leavevmode", "noindent", "centering",
     "small", "footnotesize", "large", "Large", "normalsize", "tiny", "scriptsize", "ignorespaces", "left.", "right.", "it@",
     "upshape", "rmfamily", "normalfont", "textstyle@", "par", "qedhere", "protect", "break", "penalty", "raggedright",
+    "begingroup", "endgroup",
 )  # fmt: skip
 _DOTS = ("dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotso", "dotsm", "hdots")
 _OPERATORS = {

@@ -124,7 +124,7 @@ def _row(reader: FormulaReader, row: list[Box]) -> Marks:
             yield "sign", f"{reader.source[box.at : box.end]} has its usual meaning", ""
         after = _behind(inner, place)
         if after is not None and after.kind in _FACTORS:
-            yield from _acting(reader, box, after)
+            yield from _acting(reader, box, after, _behind(inner, place + 1))
         derived = box.kind == "fraction" and bool(derivative_mark(box))  # its d is of all that follows it
         for part in box.parts:
             yield from _row(reader, without_thin(part)[1:] if derived else part)
@@ -146,10 +146,13 @@ def _letters(*held: Box) -> set[str]:
     return {b.name for b in all_boxes(list(held)) if b.kind == "letter"}
 
 
-def _acting(reader: FormulaReader, box: Box, after: Box) -> Marks:
+def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Marks:
     """What stands before a factor is a factor itself where its letters are numbers; else it may act on what follows."""
     known = reader.notation
     if box.kind == "letter":
+        called = after.kind == "bracket" and then is not None and (is_printed_as_vector(then) or then.kind == "matrix")
+        if called and not is_number(known, box):
+            yield "matrix", f"{box.name} of its argument is a number, and no matrix", ""
         amplitude = after.kind == "function" and after.name in FUNCTIONS and box.name in _AMPLITUDES and not box.marks
         bracketed = after.kind == "bracket" and after.name in ("(", "[", r"\{")
         held = [] if amplitude or bracketed else [box]
@@ -365,8 +368,14 @@ def _enclosed(reader: FormulaReader, box: Box, before: Box | None, content: list
 
 
 def _magnitude(reader: FormulaReader, content: list[Box]) -> Marks:
-    letters = [b for b in all_boxes(content) if b.kind == "letter"]
-    if any(b.kind == "comma" for b in content) or not all(is_number(reader.notation, b) for b in letters):
+    known, letters = reader.notation, [b for b in all_boxes(content) if b.kind == "letter"]
+    only = (
+        content[0]
+        if len(content) == 1 and content[0].kind == "letter" and not is_printed_as_vector(content[0])
+        else None
+    )
+    shown = only is None or stem_of(only) in known.factors | known.numeric
+    if any(b.kind == "comma" for b in content) or not (shown and all(is_number(known, b) for b in letters)):
         yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
 
 
@@ -532,8 +541,8 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
     """Factors that are set apart by a space, and units in italics."""
     for place, box in enumerate(row[1:-1], 1):
         sides = row[place - 1].kind, row[place + 1].kind
-        wide = box.kind == "thin" and reader.source[box.at : box.end] in ("\\ ", r"\;", "~", r"\enspace")
-        if wide and all(kind in ("letter", "number", "thin", "fraction", "root") for kind in sides):
+        wide = box.kind == "thin" and reader.source[box.at : box.end] not in (r"\,", r"\!")
+        if wide and all(kind in (*_FACTORS, "number", "thin") for kind in sides) and row[place + 1].kind != "big":
             yield "spaces", "what a space parts are factors, and no list", ""
     names = [b.name for b in row if b.kind == "relation"]
     between = row[next((k for k, b in enumerate(row) if b.name == "="), 0) :]
@@ -554,7 +563,9 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
         plain = plain and not any(b.sub or b.upright for b in letters)
         names = [b.name for b in letters]
         joined = "".join(" " * (a.end != b.at) + b.name for a, b in pairwise([*letters[:1], *letters])).split()
-        named = {*names[names[:1] == ["mu"] :]} <= UNITS or {*joined} <= UNITS
+        spaced = side[:1] and side[0].kind == "number" and reader.source[side[0].end :].lstrip().startswith(r"\,")
+        spaced = spaced and all(len(name) == 1 for name in names)
+        named = {*names[names[:1] == ["mu"] :]} <= UNITS | {"Omega"} or {*joined} <= UNITS or spaced
         if letters and plain and side[0].kind == "number" and named:
             yield "unit", f"{letters[0].name} behind the number is a letter, and no unit", ""
         side = []
@@ -615,8 +626,11 @@ def _repeated(row: list[Box]) -> Marks:
                 terms[-1].append(box)
 
     look(row)
-    every = list(all_boxes(row))
-    bound = {each.name for box in every if box.kind == "big" for each in box.sub or ()}
+    bound = {each.name for box in all_boxes(row) if box.kind == "big" for each in box.sub or ()}
+    for box in all_boxes(row):
+        below = [b.name for b in box.sub or () if b.name in _INDICES - bound]
+        if box.kind == "letter" and len(below) > len({*below}) and len(below) > 2:
+            yield "sum", f"an index of {box.name} is not summed over", ""
     counts = [_indices(term) for term in terms if any(b.kind == "letter" for b in all_boxes(term))]
     lowered = [[b.name for box in all_boxes(term) for b in box.sub or ()] for term in terms]
     tensor = {name for name in TENSOR if not any(part.count(name) > 1 for part in lowered)}

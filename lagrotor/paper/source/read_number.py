@@ -22,7 +22,7 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         and row[behind].kind == "thin"
         and row[behind + 1].kind == "number"
         and len(row[behind + 1].name) == 3
-        and re.fullmatch(r"\d{1,3}(?:\d{3})*", text)
+        and re.fullmatch(r"\d{1,3}(?:\d{3})*|\d+\.(?:\d{3})+", text)
         and box.sup is None
     ):
         box = row[behind + 1]

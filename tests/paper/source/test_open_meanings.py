@@ -133,6 +133,10 @@ SETTLED = [
     (r"a = \sum_{i\ne j} b_{ij}", [], "what sum runs over"),
     (r"a = \begin{pmatrix} n\\ k\end{pmatrix}", [], "binomial"),
     (r"a = \partial_i b", [], "what it differentiates by"),
+    (r"y = \exp(-3x) \text{ } z = \exp(x)", [], "what a space parts"),
+    (r"R = 4.84 \, \Omega", [], "Omega behind the number"),
+    (r"R(\theta)\vec F = m\vec a", [], "R of its argument is a number"),
+    (r"T_{ijkl} = -T_{jikl} \text{ and } T_{ijij} = 0", [], "an index of T is not summed over"),
 ]
 
 
