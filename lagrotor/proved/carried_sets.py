@@ -165,8 +165,12 @@ def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ba
 
 
 def by_other_orders(D: Matrix) -> Matrix:
-    """A matrix with a quarter more of each radius: another program's order of operations gives other widths."""
-    return arb_mat(D.nrows(), D.ncols(), [x + arb(0, (radius(x) / 4).upper()) for x in D.entries()])
+    """A matrix with twice each radius and an eighth of the largest: another program's order of operations gives other widths."""
+    radii = [radius(x) for x in D.entries()]
+    least = max_of(radii) / 8
+    return arb_mat(
+        D.nrows(), D.ncols(), [x + arb(0, (r + least).upper()) for x, r in zip(D.entries(), radii, strict=True)]
+    )
 
 
 def narrower(x: Ball, y: Ball) -> Ball:

@@ -1,8 +1,8 @@
 """Certificates: what a proof found, as plain data (JSON) that `check` verifies without the search.
 
 An exact number is text, mantissa in base 16 and power of two: "3p-1" is 3/2. A ball is [midpoint, radius], a matrix a list of
-rows. `motion`: the tape x' = f(x) with its parameters; `start`: x_0 and w; `steps`: of each its length, terms and the node
-at its end.
+rows. `about`: of what the theorem is; `motion`: the tape x' = f(x) with its parameters; `start`: x_0 and w; `steps`: of each
+its length, terms and the node at its end.
 """
 
 from collections.abc import Sequence
@@ -11,6 +11,7 @@ from typing import Any
 from lagrotor.proved.balls import Ball, Matrix, as_text, exact
 from lagrotor.proved.carried_sets import CarriedStep, Node, Start
 from lagrotor.proved.stepping import Motion
+from lagrotor.proved.subjects import Subject
 from lagrotor.proved.tape import Tape
 
 Certificate = dict[str, Any]
@@ -72,11 +73,12 @@ def step_data(step: CarriedStep) -> dict[str, Any]:
     }
 
 
-def flow_data(motion: Motion, start: Start, steps: Sequence[CarriedStep], bits: int) -> Certificate:
+def flow_data(about: Subject, motion: Motion, start: Start, steps: Sequence[CarriedStep], bits: int) -> Certificate:
     """What all certificates of a motion have in common."""
     return {
         "version": VERSION,
         "bits": bits,
+        "about": about,
         "motion": motion_data(motion),
         "start": {"middle": balls_data(start.middle), "spread": balls_data(start.spread)},
         "steps": [step_data(step) for step in steps],

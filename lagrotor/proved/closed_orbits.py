@@ -173,7 +173,7 @@ class OrbitProof:
         """Plain data."""
         problem = self.problem
         with precision(self.bits):
-            flow = flow_data(problem.motion, self.start, self.steps, self.bits)
+            flow = flow_data(orbit.field.about, problem.motion, self.start, self.steps, self.bits)
             sums = {} if orbit.pair_sum is None else {"pair_sum": ball_data(loosened(orbit.pair_sum))}
             return flow | {
                 "kind": "periodic orbit",

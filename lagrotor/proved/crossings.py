@@ -8,13 +8,14 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, radius, rational
+from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, radius
 from lagrotor.proved.carried_sets import CarriedStep, Start, steps_of
 from lagrotor.proved.certificates import Certificate, ball_data, flow_data, tape_data
 from lagrotor.proved.enclosure import TOL, accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of
 from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion, scaled, taylor, with_rest
+from lagrotor.proved.subjects import in_rationals
 from lagrotor.proved.tails import Evaluation, Tailed
 from lagrotor.proved.tape import Tape
 from lagrotor.shown import Shown
@@ -95,7 +96,7 @@ class Crossing(Shown):
     def certificate(self) -> Certificate:
         """Plain data that `check` verifies."""
         with precision(self.bits):
-            flow = flow_data(self.field.motion, self.start, self.steps, self.bits)
+            flow = flow_data(self.field.about, self.field.motion, self.start, self.steps, self.bits)
             return flow | {
                 "observed": observed_data(self.field),
                 "kind": "crossing" if self.crosses else "no crossing",
@@ -158,8 +159,7 @@ def prepared(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[A
 
 def words(expression: sp.Basic) -> dict[str, str]:
     """What an expression is called, and what that means where it is named; decimals are the rational numbers that they mean."""
-    exactly = {x: sp.Rational(str(rational(x, "a number"))) for x in expression.atoms(sp.Float)}
-    written = expression.xreplace(exactly)
+    written = in_rationals(expression)
     if isinstance(written, sp.Eq):
         return {"of": str(written.lhs), "means": str(written.rhs)}
     return {"of": str(written)}
@@ -305,7 +305,7 @@ def means(
             }
             for (e, *_), (since, until), x in zip(spans, ends, values_of, strict=True)
         ]
-        flow = flow_data(made.motion, start, steps, accuracy.bits)
+        flow = flow_data(made.about, made.motion, start, steps, accuracy.bits)
         certificate = flow | {"kind": "means", "observed": observed_data(made), "claim": {"means": claim}}
         whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
         return Means(tuple(whole), tuple(values_of), certificate)

@@ -104,7 +104,7 @@ class Enclosure(Shown):
     def certificate(self) -> Certificate:
         """Plain data that `check` verifies."""
         with precision(self.bits):
-            flow = flow_data(self.field.motion, self.start, self.steps, self.bits)
+            flow = flow_data(self.field.about, self.field.motion, self.start, self.steps, self.bits)
             return flow | {
                 "kind": "enclosure",
                 "claim": {"t": ball_data(self.t), "states": balls_data([loosened(x) for x in self.states])},

@@ -20,6 +20,7 @@ from lagrotor.pair.scene import Scene
 from lagrotor.proved.balls import Ball, Balls, arb, arb_mat, arb_poly, ball, exact
 from lagrotor.proved.exact_structure import exact_number, structure_program
 from lagrotor.proved.stepping import Motion
+from lagrotor.proved.subjects import Subject, exactly_meant, of_program, of_scene, of_structure, of_system
 from lagrotor.proved.tails import ZERO, Evaluation, Tailed
 from lagrotor.proved.tape import Tape, tape_of
 from lagrotor.structures.assembly import Assembly
@@ -32,7 +33,8 @@ class Field:
     """The motion of a system.
 
     program: (states, parameters) → rates of the states; put: exact values of parameters that are in the equations as numbers;
-    values: balls of the others; start: balls of the states; seen: stages of what is observed, and held: what stays zero.
+    values: balls of the others; start: balls of the states; seen: stages of what is observed, and held: what stays zero;
+    about: of what theorems are.
     """
 
     program: Program
@@ -41,6 +43,7 @@ class Field:
     stages: tuple[Stage, ...] = ()
     seen: Mapping[sp.Symbol, sp.Expr] | None = None
     held: tuple[sp.Expr, ...] = ()
+    about: Subject = None
 
     @property
     def states(self) -> tuple[sp.Symbol, ...]:
@@ -115,7 +118,7 @@ def field_of(system: Any, values: Values | None = None, q0: Any = None, v0: Any 
     if isinstance(system, Program):
         n = len(system.outputs)
         start = _numbers("start", [*(q0 if q0 is not None else ()), *(v0 if v0 is not None else ())], n)
-        return Field(system, _values(system.arguments[n:], values or {}), start)
+        return Field(system, _values(system.arguments[n:], values or {}), start, about=of_program(system))
     raise InputError(f"proved: {system!r} must be a System, a Scene, a Structure or a Program")
 
 
@@ -139,17 +142,20 @@ def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
         raise InputError(
             f"proved: the system is written in {', '.join(map(str, system.speeds))}, velocities of its own: leave them out"
         )
+    system = exactly_meant(system)
     n, timed = len(system.c.q), depends_on_time(system)
     stages, accelerations, _ = constrained_motion(system)
     outputs = (*system.c.v, *accelerations, *((sp.S.One,) if timed else ()))
     states = (*system.c.q, *system.c.v, *((t,) if timed else ()))
     held = (*system.constraints, *system.residual)
     own = {name for name, _ in stages} | {*states}
-    used = set().union(*(e.free_symbols for e in (*outputs, *held)), *(e.free_symbols for _, e in stages)) - own
-    parameters = tuple(sorted(used, key=str))
+    used = set().union(*(e.free_symbols for e in (*outputs, *held)), *(e.free_symbols for _, e in stages))
+    named = {s for s in {*system.L.free_symbols, *system.dissipation.free_symbols} if str(s) in {*map(str, values)}}
+    parameters = tuple(sorted((used | named) - own, key=str))
     start = (*_numbers("q0", q0, n), *_numbers("v0", v0, n), *((ZERO,) if timed else ()))
     made = Program((*states, *parameters), tuple(stages), outputs, shared=len(stages) > 100)
-    field = Field(made, _values(parameters, values), start, held=held)
+    about = of_system(system, [*map(str, made.arguments)])
+    field = Field(made, _values(parameters, values), start, held=held, about=about)
     return on_constraints(field) if held else field
 
 
@@ -174,7 +180,7 @@ def scene_field(scene: Scene) -> Field:
     renamed = {name: sp.Symbol(f"seen_{name}", real=True) for name, _ in look.stages}
     seen = dict(zip((*AXES.q, *AXES.v), (e.xreplace(renamed) for e in look.outputs), strict=True))
     looked = tuple((renamed[name], e.xreplace(put | renamed)) for name, e in look.stages)
-    return Field(whole, {}, (*scene_start(scene), *((ZERO,) if timed else ())), looked, seen)
+    return Field(whole, {}, (*scene_start(scene), *((ZERO,) if timed else ())), looked, seen, (), of_scene(scene))
 
 
 def scene_numbers(scene: Scene) -> dict[sp.Symbol, sp.Rational]:
@@ -240,7 +246,7 @@ def structure_field(s: Assembly, tilt: Any, rates: Any) -> Field:
         q += place
         w += rate
     timed = (ZERO,) * (len(made.outputs) - 2 * n)
-    return on_constraints(Field(made, {}, (*q, *w, *timed), held=held))
+    return on_constraints(Field(made, {}, (*q, *w, *timed), held=held, about=of_structure(s)))
 
 
 def _nearest(s: Assembly, tilt: Any, rates: Any) -> Any:

@@ -31,6 +31,7 @@ from lagrotor.proved.multipliers import Kind
 from lagrotor.proved.near_rest import MotionNearRest
 from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
+from lagrotor.proved.subjects import of_scene
 from lagrotor.proved.tape import paced
 from lagrotor.shown import Shown
 
@@ -108,7 +109,7 @@ class Precession(Shown):
             return self._signed(self.period)
 
     def frequency_at(self, r0: Any) -> Ball:
-        """rad/s, of one amplitude of the family.
+        """rad/s, of one amplitude of the family; at r0 = 0, where nothing turns, the limit, which is the natural rate.
 
         Raises:
             DomainError: where it is none of them.
@@ -189,18 +190,16 @@ class Precession(Shown):
     @cached_property
     def certificate(self) -> Certificate:
         """Plain data that `check` verifies."""
-        bar = self.scene.summary()["bar"]
-        who = f"The pair of spins {self.scene.spins[0]:g}, {self.scene.spins[1]:g} rad/s with a bar of {bar}"
         ends = [str(end) for end in self.ends]
         first = self.pieces[0]
         if isinstance(first, PeriodicOrbit):
-            return first.certificate | {"who": who, "claim": first.certificate["claim"] | {"r0": ends}}
+            return first.certificate | {"claim": first.certificate["claim"] | {"r0": ends}}
         with precision(self.bits):
             return {
                 "version": VERSION,
                 "kind": "family",
-                "who": who,
                 "bits": self.bits,
+                "about": of_scene(replace(self.scene, shock=None)),
                 "motion": motion_data(first.proof.problem.motion),
                 "reversals": [list(A), list(B)],
                 "claim": {"r0": ends, "period": ball_data(loosened(self.period)), "kind": self.kind},

@@ -1,11 +1,13 @@
 """The theorem of a certificate in words, composed from the claim that `check` verifies.
 
-What the states and a scene are called are the certificate's own words; every number, kind and expression is claimed.
+Every number, kind and expression is claimed, and what it is about is shown to have the certificate's program.
 """
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
+from hashlib import sha256
 from typing import Any
 
 from lagrotor.proved.balls import Ball, arb, of_text, precision, printed
@@ -83,9 +85,7 @@ def _means(certificate: Certificate) -> str:
 
 
 def _begin(certificate: Certificate) -> str:
-    """From which start, and with which parameters; of what is observed in a scene, which is its own start, nothing."""
-    if certificate["kind"] != "enclosure" and certificate.get("observed") is not None:
-        return ""
+    """Of what this is, from which start, and with which parameters."""
     motion, start = certificate["motion"], certificate["start"]
     rows = [*zip(start["middle"], start["spread"], strict=True), *((x,) for x in motion["parameters"])]
     each = [
@@ -96,12 +96,91 @@ def _begin(certificate: Certificate) -> str:
     rates = (list(motion["operations"][place]) for place in motion["outputs"])
     is_time = [row == ("t", 0, 0) and rate == ["number", "1"] for row, rate in zip(each, rates, strict=False)]
     states = [row for row, own in zip(each, is_time, strict=False) if not own]
-    parameters = [_value(*row) for row in each[size:]]
     moved = [row for row in states if row[1:] != (0, 0)]
     few = len(states) - len(moved) > 2
     said = [_value(*row) for row in (moved if few else states)] + [f"all {'others' if moved else 'states'} 0"] * few
-    given = f", where {', '.join(parameters)}" if parameters else ""
-    return f" This is from t = 0 with {', '.join(said)}{given}."
+    given = _with([_value(*row) for row in each[size:]])
+    return f" This is of {_subject(certificate)}, from t = 0 with {', '.join(said)}{given}."
+
+
+def _with(parameters: Sequence[str]) -> str:
+    return f", where {', '.join(parameters)}" if parameters else ""
+
+
+def _of(certificate: Certificate) -> str:
+    """Of what this is, with which parameters."""
+    fixed = certificate["motion"]["parameters"]
+    names = certificate["motion"]["arguments"][-len(fixed) :] if fixed else []
+    given = [_value(name, *_exactly(x)) for name, x in zip(names, fixed, strict=True)]
+    return f" This is of {_subject(certificate)}{_with(given)}."
+
+
+def _subject(certificate: Certificate) -> str:
+    """What has the certificate's program."""
+    about = certificate["about"]
+    if about is None:
+        tape = [certificate["motion"][name] for name in ("arguments", "operations", "outputs")]
+        return f"the motion whose program has the SHA-256 digest {sha256(json.dumps(tape).encode()).hexdigest()}"
+    ((kind, data),) = about.items()
+    return str(_SUBJECTS[kind](certificate, data))
+
+
+def _number(x: float) -> str:
+    return repr(float(x)).removesuffix(".0")
+
+
+def _row(values: Sequence[float]) -> str:
+    return ", ".join(map(_number, values))
+
+
+def _rotors(x: Mapping[str, float]) -> str:
+    return f"{_number(x['length'])} m, {_number(x['mass'])} kg, I1 = {_number(x['I1'])}, I3 = {_number(x['I3'])} kg m²"
+
+
+def _scene(_: Certificate, data: Any) -> str:
+    bar, shock = data["link"], data["shock"]
+    sizes = f"{_number(bar['length'])} m, {_number(bar['mass'])} kg, {_number(bar['inertia'])} kg m²"
+    pushed = ""
+    if shock:
+        since, width = (_number(shock[name]) for name in ("at", "width"))
+        pushed = f", pushed at rotor {shock['body']} by ({_row(shock['force'])}) N exp(−((t − {since})/{width})²)"
+    return f"the pair of spins {_row(data['spins'])} rad/s with a bar of {sizes} and rotors of {_rotors(data['rotor'])}{pushed}"
+
+
+def _structure(_: Certificate, data: Any) -> str:
+    joints = ", ".join(f"({_row(joint)})" for joint in data["joints"])
+    bars = [f"{i}–{j} of {_number(length)} m" for i, j, length in data["bars"]]
+    links = [f"{_number(x['mass'])} kg, {_number(x['inertia'])} kg m²" for x in data["link"]]
+    parts = [f"rotors at {joints} m of {_each([_rotors(x) for x in data['rotor']])}"]
+    parts += [f"bars {', '.join(bars)}, each of {_each(links)}"] * bool(bars)
+    parts += [f"spins {_row(data['spins'])} rad/s"]
+    parts += [f"gravity {_number(data['gravity'])} m/s²"] * bool(data["gravity"])
+    for name, unit in (("load", "kg"), ("friction", "N m s/rad"), ("spin_friction", "N m s/rad")):
+        parts += [f"{name.replace('_', ' ')} {_row(data[name])} {unit}"] * any(data[name])
+    parts += [
+        f"a brace from {x['tip']} to {x['to']} of {_number(x['stiffness'])} N/m, {_number(x['damping'])} N s/m"
+        for x in data["braces"]
+    ]
+    return f"the structure of {'; '.join(parts)}"
+
+
+def _each(said: Sequence[str]) -> str:
+    """What all are, once where they are alike."""
+    return said[0] if len({*said}) == 1 else "; ".join(said)
+
+
+def _lagrangian(_: Certificate, data: Any) -> str:
+    said = [f"the system with L = {data['L']}"]
+    said += [f"dissipation {data['dissipation']}"] * (data["dissipation"] != "0")
+    said += [f"forces ({', '.join(data['forces'])})"] * bool(data["forces"])
+    said += [f"{g} = 0" for g in (*data["constraints"], *data["rolling"])]
+    said += [f"whatever {', '.join(data['letters'])}"] * bool(data["letters"])
+    return ", ".join(said)
+
+
+def _rates(certificate: Certificate, data: Any) -> str:
+    said = zip(certificate["motion"]["arguments"], data, strict=False)
+    return f"the motion {', '.join(f'{name}′ = {rate}' for name, rate in said)}"
 
 
 def _exactly(data: Sequence[str]) -> tuple[Fraction, ...]:
@@ -118,8 +197,14 @@ def _value(name: str, middle: Fraction, wide: Fraction) -> str:
             Context(prec=digits, rounding=way).divide(Decimal(end.numerator), Decimal(end.denominator))
             for end, way in ((middle - wide, ROUND_CEILING), (middle + wide, ROUND_FLOOR))
         )
-    first, last = (f"{end:f}".rstrip("0").rstrip(".") if "." in f"{end:f}" else f"{end:f}" for end in (low, high))
+    first, last = map(_plain, (low, high))
     return f"{name} = {first}" if wide <= abs(middle) / 2**36 else f"{name} in [{first}, {last}]"
+
+
+def _plain(x: Decimal) -> str:
+    """A decimal, with a power of ten where it is small."""
+    whole = f"{x:f}" if x == 0 or abs(x) > 1e-6 else str(x.normalize()).replace("E", "e")
+    return whole.rstrip("0").rstrip(".") if "." in whole and "e" not in whole else whole
 
 
 def _definitions(named: Sequence[Mapping[str, Any]]) -> str:
@@ -133,11 +218,24 @@ def _periodic_orbit(certificate: Certificate) -> str:
     if "r0" in claim:
         return _precession(certificate)
     period = _claimed(claim["period"])
+    known = (
+        ""
+        if not certificate["reversals"][0] or _keeps_energy(certificate)
+        else _ones(certificate["ones"], claim["kind"])
+    )
     return (
         f"There is a periodic orbit of period {printed(period, 25)} s, frequency {printed(2 * arb.pi() / period, 25)} rad/s, "
-        f"from {_at_states(certificate, claim['start'], '=', 20)}; it is {claim['kind']}."
-        f"{_ones(certificate['ones'] if certificate['reversals'][0] else 0, claim['kind'])}"
+        f"from {_at_states(certificate, claim['start'], '=', 20)}; it is {claim['kind']}.{known}{_of(certificate)}"
     )
+
+
+def _keeps_energy(certificate: Certificate) -> bool:
+    """Whether two multipliers are 1 because the Lagrangian that is named has no time, and nothing else acts."""
+    about = certificate["about"] or {}
+    data = about.get("Lagrangian")
+    if certificate["ones"] != 2 or data is None or "t" in data["letters"]:
+        return False
+    return data["dissipation"] == "0" and not (data["forces"] or data["constraints"] or data["rolling"])
 
 
 def _ones(ones: int, kind: str) -> str:
@@ -156,19 +254,19 @@ def _precession(certificate: Certificate) -> str:
     frequency = printed(2 * arb.pi() / _claimed(claim["period"]), 22)
     turning = "it turns at" if low == high else "they are one smooth curve and turn at frequencies in"
     known = _ones(4, claim.get("kind", "undecided"))
-    return f"{certificate['who']} has, {every}, a paired precession{stable}; {turning} {frequency} rad/s.{known}"
+    who = _subject(certificate)
+    return f"{who[0].upper()}{who[1:]} has, {every}, a paired precession{stable}; {turning} {frequency} rad/s.{known}"
 
 
 def _equilibrium(certificate: Certificate) -> str:
     """Of an equilibrium, with what its stability takes of the system."""
     claim = certificate["claim"]
     given = {
-        "stable": f" Its energy {certificate['energy']} is definite there; that it does not grow is known of the system.",
-        "stable to first order": " That the system is conservative is known of it.",
+        "stable": f" Its energy {certificate['energy']} is definite there and does not grow.",
+        "stable to first order": " It is conservative.",
     }.get(claim["stability"], "")
-    return (
-        f"There is an equilibrium at {_at_states(certificate, claim['q'], '=', 25)}; it is {claim['stability']}.{given}"
-    )
+    at = _at_states(certificate, claim["q"], "=", 25)
+    return f"There is an equilibrium at {at}; it is {claim['stability']}.{given}{_of(certificate)}"
 
 
 def quantities(certificate: Certificate) -> dict[str, Ball]:
@@ -186,6 +284,12 @@ def quantities(certificate: Certificate) -> dict[str, Ball]:
         return dict(zip(certificate["motion"]["arguments"], map(_claimed, states), strict=False))
 
 
+_SUBJECTS: dict[str, Callable[[Certificate, Any], str]] = {
+    "scene": _scene,
+    "structure": _structure,
+    "Lagrangian": _lagrangian,
+    "rates": _rates,
+}
 _WORDS: dict[str, Callable[[Certificate], str]] = {
     "enclosure": _enclosure,
     "crossing": _crossing,

@@ -24,6 +24,7 @@ from lagrotor.proved.enclosure import accuracy_of, loosened
 from lagrotor.proved.fields import Field, Values, system_field, values_at
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
 from lagrotor.proved.statements import theorem_of
+from lagrotor.proved.subjects import exactly_meant
 from lagrotor.proved.tape import Tape, joined
 from lagrotor.shown import Shown
 
@@ -74,7 +75,7 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
         raise InputError(f"equilibrium: {system!r} must be a System")
     if system.multipliers or depends_on_time(system):
         raise InputError("equilibrium: the system must have no constraints and no time: take free coordinates")
-    accuracy = accuracy_of(tol, "equilibrium")
+    accuracy, system = accuracy_of(tol, "equilibrium"), exactly_meant(system)
     n = len(system.c.q)
     with precision(accuracy.bits, accuracy.terms):
         made = system_field(system, values or {}, q0, [0] * n)
@@ -94,12 +95,12 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
             "version": 1,
             "bits": accuracy.bits,
             "kind": "equilibrium",
+            "about": made.about,
             "motion": tape_data(tape) | {"parameters": balls_data(parameters)},
             "middle": exact_data(middle),
             "box": balls_data([loosened(x) for x in box]),
             "A": matrix_data(A),
             "energy": words(system.energy)["of"],
-            "conservative": conservative(system),
             "claim": {"q": balls_data([loosened(x) for x in q]), "stability": stability},
         }
         return ProvedEquilibrium(names, tuple(q), stability, eigenvalues, certificate)
@@ -134,9 +135,10 @@ def located(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Ba
 
 
 def _energy_hessian(made: Field, system: Equations) -> Tape:
-    """The second derivatives of the Jacobi integral by (q, v), row by row."""
+    """The second derivatives of the Jacobi integral by (q, v), row by row, 1 for letters that are not in the equations."""
     states = (*system.c.q, *system.c.v)
-    first = [sp.diff(system.energy, x) for x in states]
+    unused = dict.fromkeys(system.energy.free_symbols - {*made.arguments}, 1)
+    first = [sp.diff(system.energy.xreplace(unused), x) for x in states]
     return made.function([sp.diff(e, x) for e in first for x in states])
 
 

@@ -26,7 +26,7 @@ from lagrotor.proved.near_rest import MotionNearRest, NearRest
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
 from lagrotor.proved.taylor_models import Order, TaylorModel
-from lagrotor.proved.verification import family_checking, near_rest_checking
+from lagrotor.proved.verification import family_checking, near_rest_checking, orbit_checking
 
 ORDER = Order(9, 7)
 FUNCTIONS = {
@@ -319,6 +319,16 @@ def test_a_spoiled_family_is_refused(family: Any, what: str) -> None:
     SPOILS[what](certificate)
     with pytest.raises(NotProved, match=what):
         check(certificate)
+
+
+@pytest.mark.slow
+def test_that_half_a_turn_has_four_ones_is_held_against_its_square(
+    family: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = orbit_checking.trace_of_sheets
+    monkeypatch.setattr(orbit_checking, "trace_of_sheets", lambda a: whole(a).plus(a[0][0].number(arb(1))))
+    with pytest.raises(NotProved, match="other multipliers than four ones and a pair"):
+        check(family.certificate)
 
 
 def test_a_pair_of_amplitudes_that_is_none_is_refused() -> None:

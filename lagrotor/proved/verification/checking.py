@@ -23,11 +23,16 @@ from lagrotor.proved.verification.certified_sets import (
     matrix,
     number,
     read_ball,
-    term,
     unit,
 )
 from lagrotor.proved.verification.orbit_checking import check_family, check_orbit
 from lagrotor.proved.verification.recurrences import ZERO, demand
+from lagrotor.proved.verification.subject_checking import (
+    LagrangianOfWords,
+    check_subject,
+    demand_equal,
+    second_derivatives,
+)
 from lagrotor.proved.verification.tapes import is_place
 from lagrotor.proved.verification.written import tape_of_words
 
@@ -38,8 +43,8 @@ _MORE_BITS = 64
 def check(certificate: Any) -> str:
     """Verify a certificate; returns the theorem that it proves, in words composed from what was verified.
 
-    Of an expression the words themselves are evaluated; the names of states, of what is observed and of a scene are the
-    certificate's own.
+    Of an expression the words themselves are evaluated, and the program is shown to be that of the scene, the structure, the
+    Lagrangian or the rates that the theorem names.
 
     Raises:
         InputError: for what is no certificate.
@@ -58,6 +63,7 @@ def check(certificate: Any) -> str:
     try:
         demand(is_place(certificate["bits"], MOST_BITS), "the precision is no number of bits")
         ctx.prec = certificate["bits"] + _MORE_BITS
+        check_subject(certificate)
         rule(certificate)
         words = theorem_of(certificate)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, RecursionError):
@@ -202,32 +208,31 @@ def check_equilibrium(certificate: Any) -> None:
     )
     claim = certificate["claim"]["stability"]
     demand(claim in ("stable", "stable to first order", "unstable", "undecided"), "the stability is unknown")
+    if claim == "unstable":
+        demand(any(z.real > 0 for z in linear(J, n).eig()), "no eigenvalue is shown to have a positive real part")
+    elif claim != "undecided":
+        check_stable(certificate, J, n, [*wide, *[ZERO] * n, *flow.parameters])
+
+
+def check_stable(certificate: Any, J: Sequence[Dual], n: int, state: list[Ball]) -> None:
+    """A definite energy that does not grow; or eigenvalues apart on the imaginary axis of a conservative system."""
+    claim, about = certificate["claim"]["stability"], certificate["about"]
+    demand(about is not None and "Lagrangian" in about, "no Lagrangian is named whose energy does not grow")
+    system = LagrangianOfWords(certificate, about["Lagrangian"])
+    demand(system.autonomous, "the energy may grow")
     if claim == "stable":
         demand(not grows(J, n), "an eigenvalue has a positive real part")
-        tape = tape_of_words([{"of": certificate["energy"]}], flow.tape["arguments"], None)
-        H = second_derivatives(tape, [*wide, *[ZERO] * n, *flow.parameters], 2 * n)
+        energy = system.words.place(certificate["energy"])
+        demand_equal(system.words, [energy], [system.energy()], "the energy is another")
+        H = second_derivatives(system.words.tape([energy]), [*state, *system.others], 2 * n)
         for k in range(1, 2 * n + 1):
-            minor = arb_mat([row[:k] for row in H[:k]])
-            demand(minor.det() > 0, "the energy is not shown to be definite")
-    elif claim != "undecided":
+            demand(arb_mat([row[:k] for row in H[:k]]).det() > 0, "the energy is not shown to be definite")
+        system.check_friction(state)
+    else:
+        demand(about["Lagrangian"]["dissipation"] == "0", "the system is not conservative")
         values = linear(J, n).eig()
-        if claim == "unstable":
-            demand(any(z.real > 0 for z in values), "no eigenvalue is shown to have a positive real part")
-        else:
-            apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
-            fine = certificate["conservative"] is True and apart and all(z.real.contains(0) for z in values)
-            demand(fine, "the eigenvalues are not shown to be imaginary")
-
-
-def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:
-    """Of a tape's output by its first n arguments, from its series along each of them and each two."""
-
-    def along(*moved: int) -> Ball:
-        rows = [Dual(Rest([x, arb(int(i in moved))], ZERO, 3)) for i, x in enumerate(at)]
-        return term(evaluated(tape, rows, 3)[0].value, 2)
-
-    alone = [along(i) for i in range(n)]
-    return [[2 * alone[i] if i == j else along(i, j) - alone[i] - alone[j] for j in range(n)] for i in range(n)]
+        apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
+        demand(apart and all(z.real.contains(0) for z in values), "the eigenvalues are not shown to be imaginary")
 
 
 def grows(J: Sequence[Dual], n: int) -> bool:

@@ -51,6 +51,10 @@ class Sheet:
         a, b = (x.terms + [none] * (width - len(x.terms)) for x in (self, other))
         return self.like([x + y if sign > 0 else x - y for x, y in zip(a, b, strict=True)], self.rest + other.rest)
 
+    def signed(self, sign: int) -> "Sheet":
+        """Itself, or its negative."""
+        return self if sign > 0 else self.like([], ZERO).plus(self, -1)
+
     def times(self, other: "Sheet") -> "Sheet":
         """The product."""
         if not self.terms or not other.terms:
@@ -333,6 +337,19 @@ def product_of_sheets(a: list[list[Sheet]], b: list[list[Sheet]]) -> list[list[S
             sums.append(total)
         found.append(sums)
     return found
+
+
+def trace_of_sheets(a: list[list[Sheet]]) -> Sheet:
+    """The sum of the diagonal."""
+    total = a[0][0]
+    for i in range(1, len(a)):
+        total = total.plus(a[i][i])
+    return total
+
+
+def may_be(a: Sheet, value: Ball, eps: Ball) -> bool:
+    """Whether what has no s may have a value at an ε."""
+    return bool((_flat(a)(eps) + arb(0, a.rest.upper())).contains(value))
 
 
 def inverse_of_sheets(D: list[list[Sheet]]) -> list[list[Sheet]]:

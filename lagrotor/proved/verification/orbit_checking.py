@@ -18,7 +18,14 @@ from lagrotor.proved.verification.certified_sets import (
     read_ball,
     unit,
 )
-from lagrotor.proved.verification.family_checking import FamilyFlow, inverse_of_sheets, product_of_sheets, sign_of_sheet
+from lagrotor.proved.verification.family_checking import (
+    FamilyFlow,
+    inverse_of_sheets,
+    may_be,
+    product_of_sheets,
+    sign_of_sheet,
+    trace_of_sheets,
+)
 from lagrotor.proved.verification.near_rest_checking import FlowNearRest
 from lagrotor.proved.verification.recurrences import ZERO, demand, rational_of
 from lagrotor.proved.verification.reversals import check_reversal
@@ -82,12 +89,9 @@ def check_amplitude(certificate: Any, claimed: Any) -> None:
 
 
 def check_pair(certificate: Any) -> None:
-    """The states and reversals are the pair's."""
-    demand(
-        certificate["motion"]["arguments"][0] == "U"
-        and certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]],
-        "it is no precession of the pair",
-    )
+    """It is a scene's motion, with the pair's reversals."""
+    own = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
+    demand("scene" in (certificate["about"] or {}) and own, "it is no precession of the pair")
 
 
 def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any) -> None:
@@ -249,19 +253,21 @@ class CheckedPiece:
         return found
 
     def is_shown(self, kind: str, reversals: Any) -> bool:
-        """Whether every orbit is of a kind: energy and momentum leave one pair beside 4 ones, half a turn's μ + 1/μ squared."""
+        """Whether every orbit is of a kind: energy and momentum leave one pair beside 4 ones, half a turn's μ + 1/μ squared.
+
+        That half a turn has 4 ones is held against the trace of its square, (μ + 1/μ)² + 2.
+        """
         D = [row[:6] for row in self.flow.V[:6]]
-        reflected = [
-            [x if s > 0 else x.like([], ZERO).plus(x, -1) for x in row] for row, s in zip(D, reversals[1], strict=True)
-        ]
+        reflected = [[x.signed(s) for x in row] for row, s in zip(D, reversals[1], strict=True)]
         back = product_of_sheets(inverse_of_sheets(D), reflected)
-        half = back[0][0].like([], ZERO)
-        for i, s in enumerate(reversals[0]):
-            half = half.plus(back[i][i], s)
-        half = half.plus(half.number(arb(4)), -1)
-        ends = arb(-1), arb(1)
-        above = sign_of_sheet(half.times(half).plus(half.number(arb(4)), -1), *ends)
-        return above == 1 if kind == "hyperbolic" else above == -1 and sign_of_sheet(half, *ends) != 0
+        part = [[x.signed(s) for x in row] for row, s in zip(back, reversals[0], strict=True)]
+        half = trace_of_sheets(part).plus(part[0][0].number(arb(4)), -1)
+        square = half.times(half)
+        off = trace_of_sheets(product_of_sheets(part, part)).plus(square, -1)
+        two = all(may_be(off, arb(2), arb(eps)) for eps in (-1, 0, 1))
+        demand(two, "half a turn has other multipliers than four ones and a pair")
+        above = sign_of_sheet(square.plus(half.number(arb(4)), -1), arb(-1), arb(1))
+        return above == 1 if kind == "hyperbolic" else above == -1 and sign_of_sheet(half, arb(-1), arb(1)) != 0
 
     def start(self, U: Ball) -> list[Ball]:
         """What was unknown, for the U of a ball."""

@@ -1,4 +1,7 @@
-"""A certificate's tapes, read: each operation is known and on earlier results; the rates of a motion in s = t/pace."""
+"""A certificate's tapes, read: each operation is known and on earlier results; the rates of a motion in s = t/pace.
+
+An operation that no output needs is followed along the motion as all others are; of what is named it says nothing.
+"""
 
 import re
 from collections.abc import Callable

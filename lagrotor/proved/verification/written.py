@@ -10,7 +10,7 @@ from typing import Any
 from lagrotor.errors import NotProved
 from lagrotor.proved.tape import OPERATIONS
 from lagrotor.proved.verification.recurrences import demand
-from lagrotor.proved.verification.tapes import Tape, read_tape
+from lagrotor.proved.verification.tapes import Tape, read_tape, results_of
 
 _LONGEST = 20_000  # characters
 _LARGEST = 10_000  # whole exponent
@@ -31,13 +31,7 @@ def tape_of_words(named: Sequence[Any], arguments: Sequence[str], observed: Any)
             words.constants.pop(name, None)
             demand(meanings.setdefault(name, each["means"]) == each["means"], f"{name} has two meanings")
     places = [words.place(each.get("means", each["of"])) for each in named]
-    needed = {*places}
-    for place, (name, *on) in reversed([*enumerate(words.operations)]):
-        if place not in needed:
-            words.operations[place] = ["number", "0"]
-        elif name in OPERATIONS:
-            needed.update(on)
-    return {"arguments": list(arguments), "operations": words.operations, "outputs": places}
+    return words.tape(places)
 
 
 class Words:
@@ -45,19 +39,25 @@ class Words:
     E and pi are, unless they name an expression."""
 
     def __init__(self, arguments: Sequence[str], observed: Any) -> None:
+        self.arguments = [*arguments]
         self.operations: list[list[Any]] = [["argument", i] for i in range(len(arguments))]
+        self._places = {tuple(operation): place for place, operation in enumerate(self.operations)}
         self.constants = dict(_CONSTANTS)
         self.names = {name: i for i, name in enumerate(arguments)}
         if observed:
-            tape, names, shift = read_tape(observed), observed["names"], len(arguments)
+            tape, names = read_tape(observed), observed["names"]
             fits = tape["arguments"] == list(arguments) and len({*names} - {*arguments}) == len(tape["outputs"])
             demand(fits, "what is observed has other names")
-            for name, *on in tape["operations"]:
-                self.operations.append([name, *((x + shift for x in on) if name in OPERATIONS else on)])
-            self.names |= {name: place + shift for name, place in zip(names, tape["outputs"], strict=True)}
+            self.names |= dict(zip(names, self.include(tape), strict=True))
         own = not any(re.search(r"^\d|[\s+*/().-]", name) or name in {"pi", *_FUNCTIONS} for name in self.names)
         demand(own, "a name of a state or of what is observed is an expression itself")
-        self._places = {tuple(operation): place for place, operation in enumerate(self.operations)}
+
+    def include(self, tape: Tape) -> list[int]:
+        """The places of a tape's outputs, its arguments what is known by their names."""
+        found = results_of(
+            tape, lambda i: self.names[tape["arguments"][i]], lambda x: self.keep("number", x), self.keep
+        )
+        return [found[place] for place in tape["outputs"]]
 
     def keep(self, *operation: Any) -> int:
         """The place of an operation's result."""
@@ -119,6 +119,50 @@ class Words:
     def over(self, above: int, below: int) -> int:
         """A quotient."""
         return self.keep("divide", above, below)
+
+    def slope(self, place: int, along: Mapping[int, int]) -> int:
+        """The derivative of a result along a direction: argument → component, zero for all others."""
+        zero, needed = self.keep("number", "0"), self._below([place])
+        slopes = {at: along.get(at, zero) for at in needed}
+        for at in sorted(needed):
+            name, *on = self.operations[at]
+            if name in OPERATIONS and any(slopes[x] != zero for x in on):
+                slopes[at] = self._slope(at, name, on, [slopes[x] for x in on])
+        return slopes[place]
+
+    def tape(self, places: Sequence[int]) -> Tape:
+        """Results as a tape of what is known by name; what they do not need is zero."""
+        needed, operations = self._below(places), [*self.operations]
+        for place in {*range(len(operations))} - needed:
+            operations[place] = ["number", "0"]
+        return {"arguments": self.arguments, "operations": operations, "outputs": [*places]}
+
+    def _below(self, places: Sequence[int]) -> set[int]:
+        """The results on which some rest, and they themselves."""
+        needed = {*places}
+        for at in range(max(places, default=-1), -1, -1):
+            name, *on = self.operations[at]
+            if at in needed and name in OPERATIONS:
+                needed.update(on)
+        return needed
+
+    def _slope(self, at: int, name: str, on: Sequence[int], by: Sequence[int]) -> int:
+        if name in ("add", "subtract"):
+            return self.keep(name, *by)
+        if name == "multiply":
+            return self.keep("add", self.keep(name, by[0], on[1]), self.keep(name, on[0], by[1]))
+        if name == "divide":
+            return self.over(self.keep("subtract", by[0], self.keep("multiply", at, by[1])), on[1])
+        (a,), one = on, self.keep("number", "1")
+        if name == "sqrt":  # √a a'/(2 a): no identity of roots is needed to compare it
+            return self.over(self.keep("multiply", at, by[0]), self.keep("add", a, a))
+        if name in ("log", "asin", "atan"):
+            square = self.keep("multiply", a, a)
+            beside = self.keep("add" if name == "atan" else "subtract", one, square)
+            return self.over(by[0], a if name == "log" else beside if name == "atan" else self.keep("sqrt", beside))
+        if name == "cos":
+            return self.keep("subtract", self.keep("number", "0"), self.keep("multiply", self.keep("sin", a), by[0]))
+        return self.keep("multiply", at if name == "exp" else self.keep("cos", a), by[0])
 
     def risen(self, name: str, x: int) -> int:
         """exp(x) + exp(−x), or the difference."""

@@ -1,0 +1,210 @@
+"""What a theorem is about: the program's rates are those of the scene, the structure, the Lagrangian or the words that it names.
+
+Decided as `reversals` decides, modulo a prime. The program of a scene or structure is generated again from its numbers; of a
+Lagrangian the equations of Lagrange, with d'Alembert's principle where there are constraints, are formed from its words.
+"""
+
+from collections.abc import Mapping, Sequence
+from itertools import chain, combinations
+from typing import Any
+
+from flint import arb, arb_mat, fmpz_mod_ctx, fmpz_mod_mat
+
+from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.proved.fields import field_of
+from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
+from lagrotor.proved.verification.certified_sets import term
+from lagrotor.proved.verification.recurrences import ZERO, demand
+from lagrotor.proved.verification.reversals import Residues
+from lagrotor.proved.verification.tapes import read_tape
+from lagrotor.proved.verification.written import Words
+from lagrotor.structures.assembly import Assembly, Brace
+
+Ball = Any
+PACED = ("periodic orbit", "family")  # their motions are in units of a pace
+
+
+def check_subject(certificate: Any) -> None:
+    """The program is that of what is named; of no name its digest stands for it."""
+    about = certificate["about"]
+    if about is None:
+        demand(certificate.get("observed") is None, "what is observed has no meaning")
+        return
+    demand(type(about) is dict and len(about) == 1, "a theorem is about one thing")
+    (kind,) = about
+    _RULES[kind](certificate, about[kind])
+
+
+def _rates(words: Words, certificate: Any) -> list[int]:
+    """The places of the states' rates in the certificate's program."""
+    outputs = words.include(read_tape(certificate["motion"]))
+    if certificate["kind"] in PACED:
+        return [words.over(place, len(outputs)) for place in outputs]
+    return outputs
+
+
+def residues(words: Words, places: Sequence[int]) -> tuple[list[int], int]:
+    """Of results modulo a prime, and the prime.
+
+    What is known to be positive comes from earlier results: the program's, along whose motion it was so, not from what is named.
+    """
+    decided = Residues(words.tape(places))
+    return [x.value for x in decided.outputs([])], decided.p
+
+
+def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what: str) -> None:
+    """Results, each the same function of the arguments as another."""
+    demand(len(first) == len(second), what)
+    values, _ = residues(words, [*first, *second])
+    demand(values[: len(first)] == values[len(first) :], what)
+
+
+def _check_generated(certificate: Any, system: Any) -> None:
+    """The program that is generated for a scene or structure, and what is observed of it."""
+    made, arguments, observed = field_of(system), certificate["motion"]["arguments"], certificate.get("observed")
+    words = Words(arguments, None)
+    rates, what = _rates(words, certificate), "the program is not that of what the theorem names"
+    demand(arguments[: len(rates)] == [str(s) for s in made.states], what)
+    demand_equal(words, rates, words.include(read_tape(vars(made.motion.tape))), what)
+    if observed is not None:
+        seen = [*(made.seen or ())]
+        demand(observed["names"] == [str(s) for s in seen], "what is observed has other names")
+        first, other = (words.include(read_tape(tape)) for tape in (observed, vars(made.function(seen))))
+        demand_equal(words, first, other, "what is observed is something else")
+
+
+def _check_scene(certificate: Any, data: Any) -> None:
+    shock = Shock(**data["shock"]) if data["shock"] else None
+    _check_generated(certificate, Scene(data["spins"], Rotor(**data["rotor"]), Link(**data["link"]), shock))
+
+
+def _check_structure(certificate: Any, data: Any) -> None:
+    demand(
+        3 * len(data["joints"]) <= len(certificate["motion"]["outputs"]),
+        "the structure has more rotors than the program",
+    )
+    parts = {"rotor": Rotor, "link": Link, "braces": Brace}
+    _check_generated(
+        certificate, Assembly(**data | {name: [kind(**x) for x in data[name]] for name, kind in parts.items()})
+    )
+
+
+def _check_rates(certificate: Any, data: Any) -> None:
+    """Rates in words."""
+    words = Words(certificate["motion"]["arguments"], None)
+    demand(certificate.get("observed") is None, "what is observed has no meaning")
+    demand_equal(words, _rates(words, certificate), [words.place(text) for text in data], "the rates are others")
+
+
+class LagrangianOfWords:
+    """The certificate's program beside the words of a Lagrangian, of forces, friction and constraints."""
+
+    def __init__(self, certificate: Any, data: Any) -> None:
+        arguments, letters = certificate["motion"]["arguments"], data["letters"]
+        demand(len({*arguments, *letters}) == len(arguments) + len(letters), "a letter has two meanings")
+        demand(certificate.get("observed") is None, "what is observed has no meaning")
+        self.words = words = Words([*arguments, *letters], None)
+        self.rates = _rates(words, certificate)
+        self.n, self.timed = divmod(len(self.rates), 2)
+        zero, one = (words.keep("number", x) for x in "01")
+        self.q, self.v = [*range(self.n)], [*range(self.n, 2 * self.n)]
+        clock = {words.names["t"]: one} if "t" in words.names else {}
+        self.moving = clock | dict(enumerate(self.rates))
+        self.swept = clock | dict(zip(self.q, self.v, strict=True))
+        self.L, self.D = words.place(data["L"]), words.place(data["dissipation"])
+        self.forces = [words.place(text) for text in data["forces"]] or [zero] * self.n
+        residual = [words.slope(words.place(g), self.swept) for g in data["constraints"]]
+        self.residual = residual + [words.place(f) for f in data["rolling"]]
+        self.others = [arb(1)] * len(letters)  # whatever they are, the rates are the same
+        self.autonomous = not clock and not self.residual and data["forces"] == []
+        demand(len(self.forces) == self.n and (not self.timed or arguments[2 * self.n] == "t"), "the states are others")
+
+    def by(self, place: int, letters: Sequence[int]) -> list[int]:
+        """Derivatives of a result."""
+        one = self.words.keep("number", "1")
+        return [self.words.slope(place, {letter: one}) for letter in letters]
+
+    def missing(self) -> list[int]:
+        """d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v."""
+        words, rows = self.words, []
+        by_q, by_v, friction = self.by(self.L, self.q), self.by(self.L, self.v), self.by(self.D, self.v)
+        for p, slope, Q, d in zip(by_v, by_q, self.forces, friction, strict=True):
+            rate = words.keep("subtract", words.slope(p, self.moving), words.keep("add", slope, Q))
+            rows.append(words.keep("add", rate, d))
+        return rows
+
+    def energy(self) -> int:
+        """v·∂L/∂v − L."""
+        words, total = self.words, self.words.keep("subtract", self.words.keep("number", "0"), self.L)
+        for v, p in zip(self.v, self.by(self.L, self.v), strict=True):
+            total = words.keep("add", total, words.keep("multiply", v, p))
+        return total
+
+    def check(self) -> None:
+        """The rates satisfy the equations of motion, and keep the constraints."""
+        words = self.words
+        one, zero = words.keep("number", "1"), words.keep("number", "0")
+        rows = [self.by(f, self.v) for f in self.residual]
+        still = [words.slope(f, self.moving) for f in self.residual]
+        clock = [one] * self.timed
+        found, wanted = (
+            [*self.rates[: self.n], *self.rates[2 * self.n :], *still],
+            [*self.v, *clock, *[zero] * len(still)],
+        )
+        demand_equal(words, found, wanted, "the rates are not those of velocities under the constraints")
+        n, k = self.n, len(rows)
+        slopes = [self.by(p, self.v) for p in self.by(self.L, self.v)]
+        values, p = residues(words, [*chain(*rows), *self.missing(), *chain(*slopes)])
+        prime, G = fmpz_mod_ctx(p), values[: k * n]
+        demand(
+            fmpz_mod_mat(k + 1, n, values[: (k + 1) * n], prime).rank() == k,
+            "the rates do not satisfy Lagrange's equations",
+        )
+        M, back = values[(k + 1) * n :], [0] * k
+        bordered = [*chain(*(M[i * n : i * n + n] + G[i::n] for i in range(n)))]
+        bordered += chain(*(G[j * n : j * n + n] + back for j in range(k)))
+        regular = fmpz_mod_mat(n + k, n + k, bordered, prime).rank() == n + k
+        demand(regular, "the Lagrangian gives no accelerations")
+
+    def check_friction(self, state: list[Ball]) -> None:
+        """Rayleigh's function is quadratic in v, and no principal minor of its matrix is negative over a box about v = 0."""
+        words, n = self.words, self.n
+        slopes, total = self.by(self.D, self.v), words.keep("number", "0")
+        for v, slope in zip(self.v, slopes, strict=True):
+            total = words.keep("add", total, words.keep("multiply", v, slope))
+        demand_equal(
+            words, [total], [words.keep("add", self.D, self.D)], "the friction is not linear in the velocities"
+        )
+        rows = [self.by(slope, self.v) for slope in slopes]
+        values, p = residues(words, [*chain(*rows)])
+        box = [Dual(Rest([x], ZERO, 1)) for x in [*state, *self.others]]
+        exactly = evaluated(words.tape([*chain(*rows)]), box, 1)
+        for places in chain(*(combinations(range(n), k) for k in range(1, n + 1))):
+            at = [i * n + j for i in places for j in places]
+            size = len(places)
+            zero = fmpz_mod_mat(size, size, [values[i] for i in at], fmpz_mod_ctx(p)).rank() < size
+            minor = arb_mat(size, size, [exactly[i].value.at_start() for i in at]).det()
+            demand(zero or minor > 0, "friction is not shown to take energy out")
+
+
+def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:
+    """Of a tape's output by its first n arguments, from its series along each of them and each two."""
+
+    def along(*moved: int) -> Ball:
+        rows = [Dual(Rest([x, arb(int(i in moved))], ZERO, 3)) for i, x in enumerate(at)]
+        return term(evaluated(tape, rows, 3)[0].value, 2)
+
+    alone = [along(i) for i in range(n)]
+    return [[2 * alone[i] if i == j else along(i, j) - alone[i] - alone[j] for j in range(n)] for i in range(n)]
+
+
+def _check_lagrangian(certificate: Any, data: Any) -> None:
+    LagrangianOfWords(certificate, data).check()
+
+
+_RULES: Mapping[str, Any] = {
+    "scene": _check_scene,
+    "structure": _check_structure,
+    "rates": _check_rates,
+    "Lagrangian": _check_lagrangian,
+}
