@@ -285,6 +285,8 @@ def periodic_orbit(
         n = len(made.states)
         if made.varying or made.stages or "t" in map(str, made.states):
             raise InputError("periodic_orbit: values are numbers, and the time is not in the equations")
+        if made.held:
+            raise InputError("periodic_orbit: an orbit is not shown to keep constraints: take free coordinates")
         first, last = reversals_of(system, made, reversals)
         problem = _problem_of(made, first, last, indices(made, held))
         start = [*made.start, length / problem.turns]

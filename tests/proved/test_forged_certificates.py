@@ -20,7 +20,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates
 from lagrotor.models.orbits.shooting import QuarterPeriod
 from lagrotor.numerics import Program
-from lagrotor.proved import NotProved, check, enclose, equilibrium, means, periodic_orbit
+from lagrotor.proved import NotProved, check, enclose, equilibrium, means, no_crossing, periodic_orbit
 from lagrotor.proved.balls import as_text, ball, exact, precision
 from lagrotor.proved.carried_sets import Accuracy, Start, steps_of
 from lagrotor.proved.certificates import ball_data, balls_data, matrix_data, tape_data
@@ -337,3 +337,52 @@ def test_a_certificate_in_which_an_entry_is_another_is_refused_in_words(certific
     for what in (None, 1, "text", [], [certificate], {"version": 1}):
         with pytest.raises(InputError, match="check: a certificate is the dictionary"):
             check(what)
+
+
+REST = equilibrium(PENDULUM, {}, [3.1])
+QUIET = no_crossing(PENDULUM, {}, [1], [0], event=THETA + sp.Rational("1.001"), until=2)
+MADE: dict[str, Any] = {
+    name: json.loads(json.dumps(theorem.certificate))
+    for name, theorem in (("quiet", QUIET), ("mean", MEANS), ("rest", REST))
+} | {"enclosure": ENCLOSURE, "orbit": ORBIT}
+ENTRIES: list[tuple[str, str, Any, str]] = [
+    ("quiet", "claim/time", ["-7p0", "0p0"], "no time is claimed"),
+    ("quiet", "claim/time", ["1p4", "0p0"], "the steps end before"),
+    ("quiet", "event/of", "theta", "may pass zero"),
+    ("quiet", "event/of", "theta/(theta - theta)", "a denominator"),
+    ("quiet", "event/of", "sqrt(theta - 10)**2 + 11", "a root's argument"),
+    ("quiet", "kind", "crossing", "does not change its sign"),
+    ("mean", "claim/means", [], "no mean is claimed"),
+    ("mean", "claim/means/0/until", ["1p0", "2p0"], "a span has no length"),
+    ("rest", "claim/stability", "stable", "an eigenvalue has a positive real part"),
+    ("rest", "claim/stability", "stable to first order", "not shown to be imaginary"),
+    ("rest", "version", True, "version True"),
+    ("rest", "box/0/1", "0p0", "does not hold its middle"),
+    ("orbit", "reversals", [[1, 1], [1, 1]], "not those of the reversal"),
+    ("orbit", "reversals", [[], []], "not followed to its start"),
+    ("orbit", "A", [["0p0"]], "does not close"),
+    ("orbit", "free", [True], "do not fit"),
+    ("orbit", "claim/kind", "elliptic", "pair of multipliers"),
+    ("orbit", "claim/period", [ORBIT["claim"]["period"][0], "0p0"], "the period is another"),
+    ("enclosure", "steps/0/h/0", "-1p0", "has no length"),
+    ("enclosure", "steps/0/terms", 24.0, "no terms"),
+    ("enclosure", "bits", 10**12, "no number of bits"),
+    ("enclosure", "steps/1/node/S", [[["0p0", "0p0"]] * 2] * 2, "does not hold the derivative"),
+    ("enclosure", "steps/1/node/s", [["0p0", "0p0"]] * 2, "does not hold the motion"),
+    ("enclosure", "claim/states/0/1", "-1p0", "a radius is negative"),
+    ("enclosure", "claim/states/0/0", "nan", "not an exact number"),
+    ("enclosure", "start/spread/0", ["0p0", "1p-3"], "does not hold the derivative"),
+]
+
+
+@pytest.mark.parametrize(("name", "path", "entry", "says"), ENTRIES)
+def test_an_entry_that_makes_the_theorem_false_or_empty_is_refused(name: str, path: str, entry: Any, says: str) -> None:
+    false = copy.deepcopy(MADE[name])
+    check(false)
+    *way, last = (int(key) if key.isdigit() else key for key in path.split("/"))
+    at: Any = false
+    for key in way:
+        at = at[key]
+    at[last] = entry
+    with pytest.raises((NotProved, InputError), match=says):
+        check(false)

@@ -111,13 +111,21 @@ OTHERS = {
         put(f"{LAGRANGIAN}/forces", ["y*y_dot"]),
         put(f"{LAGRANGIAN}/L", "x_dot**2/2 + y_dot**2/2"),
         put("motion/arguments/4", "tau"),
+        put("start/middle/4", ["1p0", "0p0"]),  # the time
+        put("start/middle/1", ["3p-1", "0p0"]),  # off the constraint
+        put("start/middle/3", ["1p-60", "0p0"]),  # leaving it
     ],
     "rolling and friction": [
         put(f"{LAGRANGIAN}/rolling/0", "x*x_dot + y_dot"),
         put(f"{LAGRANGIAN}/rolling", []),
         put(f"{LAGRANGIAN}/dissipation", "x_dot**2/11"),
     ],
-    "rates in words": [put("about/rates/1", "-k*x"), put("about/rates", ["v"]), put("about/rates/0", "v + 0*heat")],
+    "rates in words": [
+        put("about/rates/1", "-k*x"),
+        put("motion/arguments/0", "x=1,"),
+        put("about/rates", ["v"]),
+        put("about/rates/0", "v + 0*heat"),
+    ],
     "a scene that is pushed": [
         put("about/scene/spins", [10, -10.000001]),
         put("about/scene/spins", [10, 10]),
@@ -136,6 +144,7 @@ OTHERS = {
         put("about/structure/spins", [10, -10, 8]),
         put("about/structure/joints", [[0, 0], [1, 0], [1, 1], [2, 2]]),
         put("about/structure/gravity", 0),
+        put("start/middle/2", ["1p0", "0p0"]),
         put("about/structure/bars", [[0, 1, 1]]),
         put("about/structure/braces", [{"tip": 0, "to": [9, 9, 9], "stiffness": 1, "damping": 0}]),
     ],

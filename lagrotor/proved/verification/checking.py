@@ -57,7 +57,7 @@ def check(certificate: Any) -> str:
         raise InputError(
             "check: a certificate is the dictionary of `.certificate`, with a known version and kind"
         ) from None
-    if version != 1:
+    if type(version) is not int or version != 1:
         raise InputError(f"check: version {version} of certificates is unknown; this program reads 1")
     before = ctx.prec
     try:
@@ -158,6 +158,7 @@ def check_no_crossing(certificate: Any) -> None:
     """One sign over every step."""
     carried = Carried(certificate)
     claimed = read_ball(certificate["claim"]["time"])
+    demand(claimed > 0, "no time is claimed")
     demand(carried.time.contains(claimed) or carried.time >= claimed, "the steps end before the claimed time")
     signs = {
         sign_over(series, ZERO, arb(1)) for _, _, (series,) in pieces_of(certificate, carried, [certificate["event"]])
@@ -168,6 +169,7 @@ def check_no_crossing(certificate: Any) -> None:
 def check_means(certificate: Any) -> None:
     """The integrals of the expressions over the spans that are claimed, step by step."""
     carried, claims = Carried(certificate), certificate["claim"]["means"]
+    demand(len(claims) > 0, "no mean is claimed")
     spans = [(read_ball(x["since"]), read_ball(x["until"])) for x in claims]
     for since, until in spans:
         demand(bool(since >= 0 and since < until), "a span has no length")

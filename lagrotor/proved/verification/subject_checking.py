@@ -13,7 +13,7 @@ from flint import arb, arb_mat, fmpz_mod_ctx, fmpz_mod_mat
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.proved.fields import field_of
 from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
-from lagrotor.proved.verification.certified_sets import term
+from lagrotor.proved.verification.certified_sets import balls, term
 from lagrotor.proved.verification.recurrences import ZERO, demand
 from lagrotor.proved.verification.reversals import Residues
 from lagrotor.proved.verification.tapes import read_tape
@@ -59,6 +59,20 @@ def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what
     demand(values[: len(first)] == values[len(first) :], what)
 
 
+def _check_start(certificate: Any, words: Words, held: Sequence[int], size: int) -> None:
+    """Along one motion its time begins at 0, and what stays zero may be so at the start; of an orbit or a rest none is shown."""
+    if certificate["kind"] in (*PACED, "equilibrium"):
+        demand(len(held) == 0, "a rest or an orbit is not shown to keep constraints")
+        return
+    start, others = certificate["start"], len(words.arguments) - len(certificate["motion"]["arguments"])
+    at = [x + y for x, y in zip(balls(start["middle"]), balls(start["spread"]), strict=True)]
+    if words.arguments[size - 1] == "t":
+        demand(at[size - 1].is_zero(), "the time does not begin at 0")
+    each = [*at, *balls(certificate["motion"]["parameters"]), *[arb(1)] * others]
+    found = evaluated(words.tape(held), [Dual(Rest([x], ZERO, 1)) for x in each], 1)
+    demand(all(x.value.at_start().contains(0) for x in found), "the start is off the constraints")
+
+
 def _check_generated(certificate: Any, system: Any) -> None:
     """The program that is generated for a scene or structure, and what is observed of it."""
     made, arguments, observed = field_of(system), certificate["motion"]["arguments"], certificate.get("observed")
@@ -66,6 +80,8 @@ def _check_generated(certificate: Any, system: Any) -> None:
     rates, what = _rates(words, certificate), "the program is not that of what the theorem names"
     demand(arguments[: len(rates)] == [str(s) for s in made.states], what)
     demand_equal(words, rates, words.include(read_tape(vars(made.motion.tape))), what)
+    held = words.include(read_tape(vars(made.function(made.held))))
+    _check_start(certificate, words, held, len(rates))
     if observed is not None:
         seen = [*(made.seen or ())]
         demand(observed["names"] == [str(s) for s in seen], "what is observed has other names")
@@ -113,11 +129,15 @@ class LagrangianOfWords:
         self.swept = clock | dict(zip(self.q, self.v, strict=True))
         self.L, self.D = words.place(data["L"]), words.place(data["dissipation"])
         self.forces = [words.place(text) for text in data["forces"]] or [zero] * self.n
-        residual = [words.slope(words.place(g), self.swept) for g in data["constraints"]]
+        held = [words.place(g) for g in data["constraints"]]
+        residual = [words.slope(g, self.swept) for g in held]
         self.residual = residual + [words.place(f) for f in data["rolling"]]
         self.others = [arb(1)] * len(letters)  # whatever they are, the rates are the same
         self.autonomous = not clock and not self.residual and data["forces"] == []
-        demand(len(self.forces) == self.n and (not self.timed or arguments[2 * self.n] == "t"), "the states are others")
+        named = [*(f"{q}_dot" for q in arguments[: self.n]), *["t"] * self.timed]
+        fits = arguments[self.n : len(self.rates)] == named and len(self.forces) == self.n
+        demand(fits, "the states are not coordinates, their velocities and the time")
+        _check_start(certificate, words, [*held, *self.residual], len(self.rates))
 
     def by(self, place: int, letters: Sequence[int]) -> list[int]:
         """Derivatives of a result."""

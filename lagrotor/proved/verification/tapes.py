@@ -12,6 +12,7 @@ from lagrotor.proved.verification.recurrences import demand
 
 Tape = dict[str, Any]
 Value = TypeVar("Value")
+_NAME = re.compile(r"[^\s=,;:<>\[\]!?\"#]+")  # in which nothing else can be said
 _NUMBER = re.compile(r"pi|-?\d+(/\d+)?", re.ASCII)
 
 
@@ -23,9 +24,8 @@ def is_place(x: Any, end: int) -> bool:
 def read_tape(data: Any) -> Tape:
     """The arguments, operations and outputs of a tape. Raises NotProved where one of them is none."""
     arguments, operations, outputs = (list(data[name]) for name in ("arguments", "operations", "outputs"))
-    demand(
-        len({*arguments}) == len(arguments) and all(type(x) is str for x in arguments), "two arguments have one name"
-    )
+    demand(all(type(x) is str and _NAME.fullmatch(x) for x in arguments), "an argument has no name")
+    demand(len({*arguments}) == len(arguments), "two arguments have one name")
     for place, (name, *on) in enumerate(operations):
         if name == "argument":
             fine = len(on) == 1 and is_place(on[0], len(arguments))
