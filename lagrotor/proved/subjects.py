@@ -57,18 +57,18 @@ def of_system(system: Equations, arguments: Sequence[str]) -> Subject:
         name: [str(e) for e in getattr(system, name)] for name in ("constraints", "rolling", "forces")
     }
     data |= {"L": str(system.L), "dissipation": str(system.dissipation), "letters": sorted(letters - {*arguments})}
-    known = readable((system.L, system.dissipation, *acting), [*arguments, *data["letters"]])
+    known = _readable((system.L, system.dissipation, *acting), [*arguments, *data["letters"]])
     return {"Lagrangian": data} if known else None
 
 
 def of_program(program: Program) -> Subject:
     """The rates in words."""
     rates = [in_rationals(e) for e in program.outputs]
-    known = not program.stages and readable(rates, [str(s) for s in program.arguments])
+    known = not program.stages and _readable(rates, [str(s) for s in program.arguments])
     return {"rates": [str(e) for e in rates]} if known else None
 
 
-def readable(expressions: Sequence[sp.Expr], letters: Sequence[str]) -> bool:
+def _readable(expressions: Sequence[sp.Expr], letters: Sequence[str]) -> bool:
     """Whether the second program reads their words."""
     if any(_EXPRESSION.search(name) for name in letters) or any(len(str(e)) > _LONGEST for e in expressions):
         return False
