@@ -4,7 +4,7 @@
 # **Objective.** One row for each of the subjects of the theory past the paper: what the paper has, what holds and to
 # which order, a comparison with the exact model, and the figure.
 #
-# **Assumptions.** Those of the scripts t1 to t13 and n6, from which every formula and every number is taken.
+# **Assumptions.** Those of the scripts t1 to t13, n6 and n7, from which every formula and every number is taken.
 
 # %%
 import sympy as sp
@@ -29,8 +29,9 @@ t11 = PAPER.scripts.run("derivations", "t11_slow_motion")
 t12 = PAPER.scripts.run("derivations", "t12_unequal_spins")
 t13 = PAPER.scripts.run("derivations", "t13_integrals")
 n6 = PAPER.scripts.run("derivations", "n6_resonances")
-Omega_0, energy, wander, growth, power, reached = (
-    sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda", "rho")
+n7 = PAPER.scripts.run("derivations", "n7_nonlinear_waves")
+Omega_0, energy, wander, growth, power, reached, shift = (
+    sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda", "rho", r"\omega-\omega_0")
 )
 
 
@@ -204,6 +205,19 @@ rows = (
         "power "
         f"−{-n6['slope']:.3f}; new for rotors and bars, the mechanism is Cherry's (1925)",
         FigureLink("n6"),
+    ),
+    (
+        "waves of rows and rings",
+        "none",
+        (
+            "the rate of a wave shifts by the square of its amplitude, N = a²/4, with what it forces:",
+            equal(shift, n7["moved"]),
+        ),
+        "orders of what the shift leaves: "
+        + ", ".join(f"{order:.2f} ({name})" for name, order in n7["orders"].items())
+        + f"; a wave of amplitude {n7['pumped'][0]:g} feeds two others {100 * n7['short'][0]:.1f} % slower than by its coupling; "
+        "new for rotors and bars, the method is Whitham's (1965)",
+        FigureLink("n7"),
     ),
 )
 
