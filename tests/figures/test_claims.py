@@ -336,6 +336,11 @@ PAST = [
     ("n7", "the pumped wave gives nearly all, and the exact exchange is that of the law", lambda d: d[
         "least amplitude of the pumped wave"] < 0.2 and d["amplitudes, largest distance in the first exchange"] < 0.1,
      ("said", wider(1.2))),
+    ("n8", "the limit lies above the slow precessions with inertia", lambda d: d["limit over whole, least"] > 1
+     and d["limit over whole, largest"] < 1.05, ("whole", wider(1.1))),
+    ("n8", "the gap closes at 90°, where the Chern numbers change their sign", lambda d: d["gap at 90° (rad/s)"] < 1e-4
+     < 0.1 < d["gap at 120° (rad/s)"] and (d["number above 90°"], d["number below 90°"]) == (-1, 1),
+     ("numbers", lambda numbers: numbers[::-1])),
 ]  # fmt: skip
 
 CLAIMS = [(str(key), *row) for key, *row in SETUP + THEORY + PAST]
@@ -369,7 +374,7 @@ PLOTS = {  # key → panels, entries of the legend
         "b1": (1, 12),
         "b2": (4, 8),
     },
-    **{"n1": (2, 7), "n2": (2, 8), "n3": (4, 8), "n4": (2, 6), "n5": (2, 3), "n6": (2, 6), "n7": (2, 5)},
+    **{"n1": (2, 7), "n2": (2, 8), "n3": (4, 8), "n4": (2, 6), "n5": (2, 3), "n6": (2, 6), "n7": (2, 5), "n8": (2, 5)},
 }
 # Drawn from hundreds of exact orbits or runs; from the waves of wide strips; from every method at every tolerance. What t4
 # and n4 claim is held by a few orbits and runs in theory/test_paired_series and structures/test_damped.
