@@ -110,6 +110,8 @@ class Resonance(Shown):
             " + ".join(f"{f'{m} × ' if m > 1 else ''}{w:.4g}" for m, w, below in parts if below is side)
             for side in (False, True)
         ]
+        if not all(sides):
+            return f"{sides[0] or sides[1]} is as little as {abs(self.detuning):.2g} rad/s"
         return f"{sides[0]} = {sides[1]} rad/s but for {abs(self.detuning):.2g}"
 
     def summary(self) -> dict[str, str]:

@@ -27,6 +27,7 @@ from lagrotor.mechanics.lagrangian import gradient, jacobian, linear_solve, t
 from lagrotor.mechanics.symmetry import legendre
 
 if TYPE_CHECKING:
+    from lagrotor.mechanics.canonical.generating_functions import GeneratedTransformation
     from lagrotor.mechanics.canonical.normal_forms import NormalForm
 
 
@@ -119,10 +120,20 @@ class Hamiltonian:
         brackets = sp.Matrix(2 * n, 2 * n, lambda a, b: self.bracket(new[a], new[b]))
         return decide_equal(brackets, sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]])))
 
+    def generated(self, F: sp.Expr, P: Sequence[sp.Symbol]) -> "GeneratedTransformation":
+        """The canonical transformation of the generating function F(q, P, t): see `generating_functions`."""
+        from lagrotor.mechanics.canonical.generating_functions import generated
+
+        return generated(self, F, P)
+
     def normal_form(
         self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any] | None = None, detuning: float = 0.0
     ) -> "NormalForm":
-        """Birkhoff's normal form through an order about the equilibrium `at`: see `normal_forms.NormalForm`.
+        """Birkhoff's normal form through an order about the equilibrium or steady motion `at`: see `normal_forms.NormalForm`.
+
+        A steady motion is named by the momenta of the angles that turn, which H does not have: it is an equilibrium of what is
+        left, whose form is given. With letters for these momenta the derivatives of the actions' coefficients by them are
+        the mean rates of the angles.
 
         Args:
             at: {coordinate or momentum: value}; where no momentum is named they are those of rest.
@@ -131,7 +142,7 @@ class Hamiltonian:
             detuning: what is combined of the frequencies, in rad/s, up to which a resonance is kept.
 
         Raises:
-            InputError: where `at` is no equilibrium, a coordinate is not named or a letter needs a value.
+            InputError: where `at` is neither, a coordinate is not named or a letter needs a value.
             DomainError: where there are constraints, or H depends on time or is not analytic there.
         """
         from lagrotor.mechanics.canonical.normal_forms import normal_form_at
@@ -146,14 +157,23 @@ class Hamiltonian:
         point = {s: expression(f"normal_form: {s}", v) for s, v in by_symbol(at, x).items()}
         if strange := [str(s) for s in point if s not in x]:
             raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}: name coordinates and momenta")
-        if missing := [str(q) for q in self.q if q not in point and H.has(q)]:
+        turning = {p: point[p] for q, p in zip(self.q, self.p, strict=True) if p in point and not H.has(q)}
+        if turning and len(turning) < len(self.q):
+            H = H.xreplace(turning)
+            angles = {q for q, p in zip(self.q, self.p, strict=True) if p in turning}
+            x, point = (
+                tuple(s for s in x if s not in {*turning, *angles}),
+                {s: v for s, v in point.items() if s not in {*turning, *angles}},
+            )
+        q, p = x[: len(x) // 2], x[len(x) // 2 :]
+        if missing := [str(s) for s in q if s not in point and H.has(s)]:
             raise InputError(f"normal_form: {', '.join(missing)} without a value: the point needs each coordinate's")
         at_rest = dict.fromkeys(x, sp.S.Zero) | point
-        if not point.keys() & {*self.p}:
-            slopes = gradient(H, self.p).xreplace({q: at_rest[q] for q in self.q})
-            still = -slopes.xreplace(dict.fromkeys(self.p, sp.S.Zero))
+        if not point.keys() & {*p}:
+            slopes = gradient(H, p).xreplace({s: at_rest[s] for s in q})
+            still = -slopes.xreplace(dict.fromkeys(p, sp.S.Zero))
             refusal = "normal_form: det ∂²H/∂p∂p = 0 there: name the momenta"
-            at_rest |= dict(zip(self.p, linear_solve(jacobian(slopes, self.p), still, refusal), strict=True))
+            at_rest |= dict(zip(p, linear_solve(jacobian(slopes, p), still, refusal), strict=True))
         return normal_form_at(H, x, at_rest, order, detuning)
 
 

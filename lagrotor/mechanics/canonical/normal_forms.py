@@ -38,6 +38,7 @@ from lagrotor.mechanics.canonical.symplectic import NormalCoordinates, normal_co
 from lagrotor.shown import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
+_STEADY = "of a steady motion name the momenta of its angles; about other periodic orbits no normal form is expanded"
 _SMALL = 1e-16  # of the largest coefficient: what is left of a nilpotent part's series
 
 
@@ -238,7 +239,7 @@ def normal_form_at(
     plain = _expanded(H, x, at, sp.eye(len(x)), order, _number, complex)
     slope, curvature = (np.abs(plain.part(n).coefficients).max(initial=0.0) for n in (1, 2))
     if slope > 1e-9 * max(curvature, 1e-300):
-        raise InputError("normal_form: the point is no equilibrium: ∂H/∂x is not zero there; start from one")
+        raise InputError(f"normal_form: the point is no equilibrium: ∂H/∂x is not zero there; {_STEADY}")
     return normal_form_of_series(plain, order, detuning)
 
 
@@ -311,7 +312,7 @@ def _exact(
             A[where[1], where[0]] += c
     answers = {decide_zero(e).answer for e in slope}
     if "nonzero" in answers:
-        raise InputError(f"normal_form: {dict(at)} is no equilibrium: ∂H/∂x = {list(slope)} there")
+        raise InputError(f"normal_form: {dict(at)} is no equilibrium: ∂H/∂x = {list(slope)} there; {_STEADY}")
     if "undecided" in answers:
         raise NotExactError(f"normal_form: whether ∂H/∂x = {list(slope)} is zero at {dict(at)} is not decided")
     bracket = sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]]))

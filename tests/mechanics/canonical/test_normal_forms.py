@@ -9,9 +9,10 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
-from lagrotor.mechanics import NormalForm, System, coordinates
+from lagrotor.mechanics import NormalForm, System, coordinates, libration
 from lagrotor.mechanics.canonical.normal_forms import normal_form_of_series
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, poisson_bracket, polynomial, variable
+from lagrotor.numerics import measured_order
 
 R = sp.Rational
 
@@ -300,3 +301,46 @@ def test_what_rests_and_what_drifts_keep_the_rate_zero():
                         for i in range(6) for j in range(i, 6)}, 6, float)  # fmt: skip
         form = normal_form_of_series(H, 2)
         assert np.abs(np.array(form.frequencies) - [1, 0, 0]).max() < 1e-9 and form.error < 1e-9
+
+
+def central(potential):
+    c = coordinates("r phi")
+    (r, _), (u, w) = c.q, c.v
+    return r, System(c, (u**2 + r**2 * w**2) / 2 - potential(r)).hamiltonian()
+
+
+def test_a_steady_motion_is_named_by_the_momenta_of_its_angles():
+    """Kepler's circles: K = −1/2(I + P)², so that the perihelion does not turn: ∂K/∂P = ∂K/∂I."""
+    P = sp.Symbol("P", positive=True)
+    r, h = central(lambda r: -1 / r)
+    form = h.normal_form(6, {r: P**2, h.p[1]: P})
+    assert form.frequencies == (P**-3,)
+    I = sp.Symbol("I")
+    K = sum(c * I ** e[0] for e, c in form.actions.items())
+    said = sp.series(-1 / (2 * (I + P) ** 2), I, 0, 4).removeO()
+    assert sp.expand(K - said) == 0
+    assert sp.expand(sp.diff(K, P) - sp.diff(K, I)).coeff(I, 2) == 0
+    # Twin: an oscillator's ellipses, of equal rates at all amplitudes and with two swings of r a turn.
+    s = sp.Symbol("s", positive=True)
+    r, other = central(lambda r: r**2 / 2)
+    assert other.normal_form(6, {r: s, other.p[1]: s**2}).actions == {(0,): s**2, (1,): 2}
+
+
+def test_conical_pendulums_shift_by_their_amplitude_as_the_quadrature_has_it():
+    """The spherical pendulum about its conical motion: rate² = (g/l) (1 + 3 cos²)/cos; its shift against the exact libration."""
+    c = coordinates("theta phi")
+    (theta, phi), (u, w) = c.q, c.v
+    pendulum = System(c, (u**2 + sp.sin(theta) ** 2 * w**2) / 2 + sp.cos(theta))
+    h, lean = pendulum.hamiltonian(), 0.7
+    P = float(sp.sin(lean) ** 2 / sp.sqrt(sp.cos(lean)))
+    form = h.normal_form(4, {theta: lean, h.p[1]: P})
+    assert form.frequencies[0] == pytest.approx(float(sp.sqrt((1 + 3 * sp.cos(lean) ** 2) / sp.cos(lean))))
+    reduced = pendulum.routh({phi: sp.Float(P)}).hamiltonian()
+    rest, off, actions = form.actions[(0,)], [], []
+    for more in (0.002, 0.004, 0.008):
+        exact = libration(reduced, rest + more, lean)
+        off.append(abs(exact.frequency - form.frequencies_at([exact.action])[0]))
+        actions.append(exact.action)
+    assert abs(measured_order(actions, off) - 2) < 0.1 and off[0] < 1e-5
+    with pytest.raises(InputError, match="name the momenta of its angles"):
+        h.normal_form(4, {theta: lean, phi: 0, h.p[0]: 0.1, h.p[1]: P})
