@@ -111,7 +111,7 @@ class Resonance(Shown):
             for side in (False, True)
         ]
         if not all(sides):
-            return f"{sides[0] or sides[1]} is as little as {abs(self.detuning):.2g} rad/s"
+            return f"{sides[0] or sides[1]} is little beside {np.abs(self.rates).max():.4g} rad/s"
         return f"{sides[0]} = {sides[1]} rad/s but for {abs(self.detuning):.2g}"
 
     def summary(self) -> dict[str, str]:

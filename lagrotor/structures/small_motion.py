@@ -201,7 +201,7 @@ def small_motion(s: Assembly) -> SmallMotion:
     if not s.natural:
         raise InputError(
             "modes: a bar is not as long as its tips are apart when upright: small motion is about upright "
-            "axes; simulate it"
+            "axes; give modes_about(rest_near(tilt)), or simulate it"
         )
     c = coefficients(s)
     rank, vectors = left_by(bar_rows(c))
@@ -275,7 +275,11 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
     acts.
     """
     whole = small_motion(s)
-    linear = whole if inertia else whole.without_inertia
+    return modes_of(whole, whole if inertia else whole.without_inertia)
+
+
+def modes_of(whole: SmallMotion, linear: SmallMotion) -> Modes:
+    """The normal modes of a linear system, which is the whole one or what it is without inertia."""
     roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)
@@ -289,5 +293,5 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
     signs = np.where((roots[kept].imag > 0) & (roots[kept].real <= 0), linear.energy_signs(roots, vectors)[kept], 0)
     forms = (vectors[:, kept].conj() * (form @ vectors[:, kept]) for form in (whole.mass, whole.gyroscopic))
     heavy, turning_by = (form.sum(0) for form in forms)
-    left_out = np.zeros(len(kept)) if inertia else roots[kept].imag ** 2 * (heavy / np.abs(turning_by)).real
+    left_out = np.zeros(len(kept)) if linear is whole else roots[kept].imag ** 2 * (heavy / np.abs(turning_by)).real
     return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from lagrotor.pair.scene import Link, Rotor
-from lagrotor.structures import characteristic, critical_spins, resonances, response, small_motion, standing
+from lagrotor.structures import characteristic, critical_spins, leaning, resonances, response, small_motion, standing
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.exact import structure_run
 from lagrotor.structures.exact.closing import check_closure
@@ -49,6 +49,8 @@ class Structure(Assembly):
 
     simulate = structure_run.simulate_structure
     modes = small_motion.modes
+    rest_near = leaning.rest_near
+    modes_about = leaning.modes_about
     stands = standing.stands
     critical_spin = critical_spins.critical_spin
     spin_intervals = resonances.spin_intervals

@@ -289,7 +289,7 @@ def test_a_slow_rate_alone_is_told_in_words():
     lengths = tuple(Rotor(length=x) for x in (1.0, 1.3, 0.8))
     s = Structure([(0, 0), (1, 0), (2.1, 0.3)], [(0, 1), (1, 2)], [1, -0.5, 1], lengths, gravity=9.81)
     fast = replace(s, spins=tuple(1.2 * s.critical_spin() * w for w in s.spins))
-    assert "3 × 0.1974 is as little as 0.59 rad/s" in fast.largest_push().behind
+    assert "3 × 0.1974 is little beside" in fast.largest_push().behind
 
 
 @pytest.mark.slow

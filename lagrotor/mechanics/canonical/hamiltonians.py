@@ -121,10 +121,18 @@ class Hamiltonian:
         return decide_equal(brackets, sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]])))
 
     def generated(self, F: sp.Expr, P: Sequence[sp.Symbol]) -> "GeneratedTransformation":
-        """The canonical transformation of the generating function F(q, P, t): see `generating_functions`."""
-        from lagrotor.mechanics.canonical.generating_functions import generated
+        """The canonical transformation of the generating function F(q, P, t): see `generating_functions`.
 
-        return generated(self, F, P)
+        Raises:
+            DomainError: for kinetic momenta or constraints; else as `generated_transformation`.
+        """
+        from lagrotor.mechanics.canonical.generating_functions import generated_transformation
+
+        if self.constraints or not self.field.is_zero_matrix:
+            raise DomainError(
+                "generated: H must have canonical momenta and no constraints: use independent coordinates"
+            )
+        return generated_transformation(self.H, self.q, self.p, self._function("generated: F", F), P)
 
     def normal_form(
         self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any] | None = None, detuning: float = 0.0

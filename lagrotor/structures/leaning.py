@@ -1,0 +1,113 @@
+"""Rest away from upright, and small motion about it: weight that hinges hold only when axes lean, bars of any length.
+
+On the tangent space of the constraints at rest, r = r₀ + T q with T orthonormal, the exact accelerations a(r, r') give
+
+    q'' = Tᵀ ∂a/∂r T q + Tᵀ ∂a/∂r' T q',    K = −M Tᵀ ∂a/∂r T,    C = −M Tᵀ ∂a/∂r' T,    M = Tᵀ A T,
+
+by central differences of fourth order. Rest is found by steps −|K|⁻¹ ∂V/∂q, Newton's where the energy is least, down elsewhere.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from lagrotor.errors import ConstraintError, InputError
+from lagrotor.numerics.arrays import finite_array
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array
+from lagrotor.structures.exact.closing import close_bars
+from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
+from lagrotor.structures.small_motion import Modes, SmallMotion, modes_of
+
+_STEP = 1e-3  # of the differences, whose error is its fourth power times 10⁻² or so
+_AT_REST = 1e-9  # of the rate squared: accelerations below it are none
+_MOST = 60  # steps
+
+
+def rest_near(s: Assembly, tilt: ArrayLike) -> Array:
+    """The axes (N, 3) of the rest to which lower energy leads from x and y of the axes (N, 2); what is at rest there stays.
+
+    Raises InputError where none is reached, ConstraintError for a tilt that the bars do not allow.
+    """
+    motion, N = exact_motion(s), len(s.joints)
+    given = finite_array("rest_near: tilt", tilt, (N, 2))
+    if not (np.hypot(*given.T) < 1).all():
+        raise InputError(f"rest_near: tilt = {given.tolist()}: x and y of an axis must have x² + y² < 1")
+    r = close_bars(motion, np.column_stack([given, np.sqrt(1 - np.square(given).sum(1))]))
+    for _ in range(_MOST):
+        T = _tangents(motion, r)
+        left = T.T @ motion.accelerations(0.0, r, 0 * r).ravel()
+        if np.abs(left).max(initial=0) < 1e-13 * motion.c.rate**2:
+            return r
+        M = _masses(motion, T)
+        K = -M @ _slopes(motion, r, T)[0]
+        stiff, along = np.linalg.eigh((K + K.T) / 2)
+        soft = np.abs(stiff) < 1e-10 * np.abs(stiff).max()
+        step = along @ (np.where(soft, 0, along.T @ M @ left) / np.where(soft, 1, np.abs(stiff)))
+        moved = r + (T @ step).reshape(N, 3) * min(1.0, 0.2 / max(float(np.abs(step).max()), 1e-300))
+        try:
+            r = close_bars(motion, moved / np.linalg.norm(moved, axis=1)[:, None])
+        except ConstraintError:
+            break
+    if np.abs(left).max(initial=0) < _AT_REST * motion.c.rate**2:
+        return r
+    raise InputError(f"rest_near: no rest is reached from tilt = {given.tolist()}: start nearer to one")
+
+
+def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
+    """The normal modes about a rest at the axes (N, 3), as `rest_near` gives it; shapes are x and y of the changes of the axes.
+
+    Raises InputError where the structure is not at rest there.
+    """
+    motion, N = exact_motion(s), len(s.joints)
+    r = finite_array("modes_about: axes", axes, (N, 3))
+    off = max(
+        float(np.abs(motion.accelerations(0.0, r, 0 * r)).max()) / motion.c.rate**2,
+        float(np.abs(np.square(r).sum(1) - 1).max()),
+    )
+    if not off < 10 * _AT_REST:
+        raise InputError(
+            f"modes_about: the structure is not at rest at these axes, off by {off:.1e}: take those of rest_near"
+        )
+    T = _tangents(motion, r)
+    M = _masses(motion, T)
+    K, C = (-M @ slope for slope in _slopes(motion, r, T))
+    basis = T.reshape(N, 3, -1)[:, :2].reshape(2 * N, -1)
+    linear = SmallMotion(M, (C + C.T) / 2, (C - C.T) / 2, (K + K.T) / 2, basis, motion.c.rate)
+    return modes_of(linear, linear)
+
+
+def _masses(motion: ExactMotion, T: Array) -> Array:
+    """Tᵀ A T."""
+    A = np.diag(motion.c.A)
+    np.add.at(A, (motion.c.i, motion.c.j), motion.c.coupling)
+    np.add.at(A, (motion.c.j, motion.c.i), motion.c.coupling)
+    return np.asarray(T.T @ np.kron(A, np.eye(3)) @ T)
+
+
+def _tangents(motion: ExactMotion, r: Array) -> Array:
+    """An orthonormal basis (3N, n) of what the constraints allow at the axes r."""
+    c, N = motion.c, len(r)
+    rows = np.zeros((N + len(c.i), N, 3))
+    rows[np.arange(N), np.arange(N)] = r
+    each = N + np.arange(len(c.i))
+    rows[each, c.i], rows[each, c.j] = motion.pulls(r)
+    _, sizes, vectors = np.linalg.svd(rows.reshape(len(rows), -1))
+    return np.asarray(vectors[int((sizes > 1e-10 * sizes[0]).sum()) :].T)
+
+
+def _slopes(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array]:
+    """Tᵀ ∂a/∂r T and Tᵀ ∂a/∂r' T at rest, (n, n)."""
+    rate, still = motion.c.rate, 0 * r
+
+    def differences(at: Callable[[Array], tuple[Array, Array]]) -> Array:
+        columns = []
+        for along in T.T.reshape(-1, *r.shape):
+            parts = [
+                w * motion.accelerations(0.0, *at(k * _STEP * along)) for w, k in ((8, 1), (-8, -1), (-1, 2), (1, -2))
+            ]
+            columns.append(T.T @ np.sum(parts, axis=0).ravel() / (12 * _STEP))
+        return np.reshape(columns, (T.shape[1], -1)).T
+
+    return differences(lambda change: (r + change, still)), differences(lambda change: (r, rate * change)) / rate
