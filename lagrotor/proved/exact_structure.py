@@ -42,6 +42,8 @@ def exact_coefficients(s: Assembly) -> Coefficients:
     c = coefficients(s)
     if c.hinge.any():
         raise InputError("proved: a hinge's moment θ/sin θ has no rigorous series here; leave the hinges out")
+    if any(brace.along for brace in s.braces):
+        raise InputError("proved: braces in guides are not taken: leave `along` out")
     R, M, load = (
         _numbers(x) if len(x) else c.R for x in ([r.length for r in s.rotor], [r.mass for r in s.rotor], s.load)
     )

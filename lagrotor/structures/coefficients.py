@@ -27,7 +27,7 @@ class Coefficients:
 
     Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge.
     Per bar (B,): ends i, j, length ell, coupling A_ij. feet: ground joints (N, 3). braces: tip, other tip (−1: the ground),
-    ground point (3,), natural length, stiffness, damping, each with one row a brace.
+    ground point (3,), natural length, direction of its guides (3,) (zero without), stiffness, damping, each with one row a brace.
     """
 
     R: Array
@@ -47,6 +47,7 @@ class Coefficients:
     brace_to: Index
     brace_point: Array
     brace_length: Array
+    brace_along: Array
     stiffness: Array
     damping: Array
 
@@ -83,7 +84,8 @@ def coefficients(s: Assembly) -> Coefficients:
     to = np.array([b.to if isinstance(b.to, int) else -1 for b in s.braces], dtype=np.intp)
     point = np.array([s.upright_tip(b.to) if isinstance(b.to, int) else b.to for b in s.braces]).reshape(-1, 3)
     tip = np.array([b.tip for b in s.braces], dtype=np.intp)
-    start = np.array([s.upright_tip(b.tip) for b in s.braces]).reshape(-1, 3)
+    away = np.array([s.upright_tip(b.tip) for b in s.braces]).reshape(-1, 3) - point
+    along = np.array([b.along or (0.0, 0.0, 0.0) for b in s.braces]).reshape(-1, 3)
     return Coefficients(
         R=R,
         A=A,
@@ -101,7 +103,8 @@ def coefficients(s: Assembly) -> Coefficients:
         brace_tip=tip,
         brace_to=to,
         brace_point=point,
-        brace_length=np.linalg.norm(start - point, axis=1),
+        brace_length=np.where(along.any(1), (along * away).sum(1), np.linalg.norm(away, axis=1)),
+        brace_along=along,
         stiffness=np.array([b.stiffness for b in s.braces], dtype=float),
         damping=np.array([b.damping for b in s.braces], dtype=float),
     )

@@ -71,7 +71,7 @@ def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
         return 0.0
     if least:
         return inf
-    if not s.bars and all(not isinstance(b.to, int) and b.to[:2] == s.joints[b.tip] for b in s.braces):
+    if not s.bars and all(not isinstance(b.to, int) and b.to[:2] == s.joints[b.tip] and not b.along for b in s.braces):
         return inf  # each rotor keeps its energy and its momentum about the vertical, and with them both its actions
     order = next(n for most, n in _ORDERS.items() if linear.dof <= most)
     times = [0.0]

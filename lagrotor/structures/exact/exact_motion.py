@@ -87,22 +87,24 @@ class ExactMotion:
 
     def _brace(self, F: Array, r: Array, v: Array) -> None:
         c = self.c
-        d, swing = self._brace_vectors(r), c.R[c.brace_tip, None] * v[c.brace_tip]
+        swing = c.R[c.brace_tip, None] * v[c.brace_tip]
         joined = c.brace_to >= 0
         other = c.brace_to[joined]
         swing[joined] -= c.R[other, None] * v[other]
-        length = np.linalg.norm(d, axis=1)
-        along = d / length[:, None]
-        pull = c.stiffness * (length - c.brace_length) + c.damping * (along * swing).sum(1)
+        along, stretch = self._stretches(r)
+        pull = c.stiffness * stretch + c.damping * (along * swing).sum(1)
         np.add.at(F, c.brace_tip, -c.R[c.brace_tip, None] * pull[:, None] * along)
         np.add.at(F, other, c.R[other, None] * (pull[:, None] * along)[joined])
 
-    def _brace_vectors(self, r: Array) -> Array:
-        """From the far end of each brace to its tip, (…, braces, 3), m; r (…, N, 3)."""
+    def _stretches(self, r: Array) -> tuple[Array, Array]:
+        """Along which unit vectors the braces pull, (…, braces, 3), and by how much they are longer, m; r (…, N, 3)."""
         c = self.c
         tips = c.feet + c.R[:, None] * r
         joined = (c.brace_to >= 0)[:, None]
-        return tips[..., c.brace_tip, :] - np.where(joined, tips[..., c.brace_to, :], c.brace_point)
+        d = tips[..., c.brace_tip, :] - np.where(joined, tips[..., c.brace_to, :], c.brace_point)
+        guided, length = np.any(c.brace_along, axis=1), np.linalg.norm(d, axis=-1)
+        along = np.where(guided[:, None], c.brace_along, d / np.where(guided, 1.0, length)[..., None])
+        return along, np.where(guided, (along * d).sum(-1), length) - c.brace_length
 
     def across(self, r: Array) -> Array:
         """The bars' R d × r with the axes at both ends, (2, …, B, 3): zero where a bar is in line with both; r (…, N, 3)."""
@@ -116,7 +118,7 @@ class ExactMotion:
         kinetic = (c.A * (v * v).sum(-1)).sum(-1) / 2 + (c.coupling * (v[:, c.i] * v[:, c.j]).sum(-1)).sum(-1)
         theta = np.arctan2(np.hypot(r[..., 0], r[..., 1]), r[..., 2])
         potential = c.gravity * r[..., 2] @ c.S + (c.hinge * theta**2).sum(-1) / 2
-        stretch = np.linalg.norm(self._brace_vectors(r), axis=-1) - c.brace_length
+        _, stretch = self._stretches(r)
         return np.asarray(kinetic + potential + (c.stiffness * stretch**2).sum(-1) / 2)
 
     def axes_and_rates(self, states: Array) -> Array:
@@ -145,7 +147,7 @@ class ExactMotion:
         speed, theta = np.linalg.norm(v, axis=-1), np.arctan2(np.hypot(r[..., 0], r[..., 1]), r[..., 2])
         momentum = (c.A * speed).sum(-1) + (np.abs(c.coupling) * (speed[:, c.i] + speed[:, c.j])).sum(-1)
         weight = abs(c.gravity) * np.abs(c.S).sum() + (c.hinge * theta).sum(-1)
-        stretch = np.linalg.norm(self._brace_vectors(r), axis=-1) - c.brace_length
+        _, stretch = self._stretches(r)
         pull = (c.stiffness * np.abs(stretch) * 2 * c.R[c.brace_tip]).sum(-1)
         return float((c.rate * momentum + weight + pull).max())
 

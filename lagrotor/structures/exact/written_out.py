@@ -177,10 +177,17 @@ def _brace(c: Coefficients, k: int, F: list[_Vector], r: Sequence[_Vector], v: S
     else:
         d = [c.feet[i, m] + c.R[i] * r[i][m] - c.brace_point[k, m] for m in range(3)]
         swing = [c.R[i] * x for x in v[i]]
-    length = by.sqrt(_dot(d, d))
-    pull = c.stiffness[k] * (length - c.brace_length[k]) / length
-    if c.damping[k]:
-        pull = pull + c.damping[k] * _dot(d, swing) / (length * length)
+    if c.brace_along[k].any():  # in guides
+        along = c.brace_along[k].tolist()
+        pull = c.stiffness[k] * (_dot(along, d) - c.brace_length[k])
+        if c.damping[k]:
+            pull = pull + c.damping[k] * _dot(along, swing)
+        d = along
+    else:
+        length = by.sqrt(_dot(d, d))
+        pull = c.stiffness[k] * (length - c.brace_length[k]) / length
+        if c.damping[k]:
+            pull = pull + c.damping[k] * _dot(d, swing) / (length * length)
     for m in range(3):
         F[i][m] = F[i][m] - c.R[i] * (pull * d[m])
         if j >= 0:
