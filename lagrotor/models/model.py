@@ -307,8 +307,8 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
     return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _lower_order()).ravel(), end)
 
 
-def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> float:
-    """The error of axes and rates that would explain how far a run is from conserving what it must.
+def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> Array:
+    """The errors of axes and rates, signed, that would explain how far a run is from conserving what it must.
 
     Args:
         scene: in natural units.
@@ -324,7 +324,7 @@ def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNode
         k = scene.link.length / scene.rotor.length
         bar = seen.axes[1] - seen.axes[0] + np.array([k, 0.0, 0.0])
         lengths.append((np.linalg.norm(bar, axis=-1) - k) * min(1.0, k))
-    defects = [float(np.abs(part).max()) for part in lengths]
+    defects = [part.ravel() for part in lengths]
     before, after = np.ones(len(t), bool), np.zeros(len(t), bool)
     work, turn = (0.0, 0.0), (0.0, 0.0)
     if scene.shock:
@@ -336,10 +336,10 @@ def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNode
     scales = PACE * size, size + 2 * PACE * a + float(np.abs(seen.momenta).max())
     for values, (received, unsure), scale in zip(conserved, (work, turn), scales, strict=True):
         if scale > 0:
-            off = np.abs(values[before] - values[0])
             later = values[after] - (values[0] + received if nodes else values[after][:1])
-            defects += [float(part.max(initial=0.0)) / scale for part in (off, np.abs(later) - unsure)]
-    return max(defects)
+            later = np.sign(later) * np.maximum(np.abs(later) - unsure, 0.0)
+            defects += [(values[before] - values[0]) / scale, later / scale]
+    return np.concatenate(defects)
 
 
 def _received(

@@ -349,7 +349,7 @@ def evolution_of(
             stop.at += begin
             raise
 
-    def defect(times: Array, states: Array) -> float:
+    def defect(times: Array, states: Array) -> Array:
         felt = replace(scene, shock=scene.shock_until(float(times[-1])))
         whole = nodes if nodes and nodes.t[-1] <= times[-1] else None
         return conservation_defect(felt, times, model.observe(scene, states), whole)

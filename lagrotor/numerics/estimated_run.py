@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.calibrated import (
-    ALIKE,
     APART,
     BEYOND,
     CHEAPER,
+    CONFIRMED,
     FIRST,
     GIVEN_UP,
     KEPT,
@@ -30,6 +30,7 @@ from lagrotor.numerics.calibrated import (
     LOOSEST,
     LOST,
     MORE,
+    ODDS,
     RESOLVED,
     ROUNDING,
     SAFETY,
@@ -65,7 +66,8 @@ class Evolution:
     unsure: how far, in units of rounding, the start may be off what it was given as: the companion's is off by as much.
     slack: states (n, d) → how far off, in units of rounding, constraints that are nearly dependent there leave them (n,); of
     the sizes (d,) of the components.
-    defect: times (n,) and states (n, d) → the error that would explain how far the run is from conserving what it must.
+    defect: times (n,) and states (n, d) → the errors, signed, that would explain how far the run is from conserving what it
+    must, of each time and each that is conserved, in the order that they come in.
     difference: of two runs in everything that is conserved, where `distance` sees only a part. watch: times (m,) at which the
     defect needs the run. singular: of a state at which a solver stopped, the words of the singular position that it is at, or
     none. elsewhere: whether the motion can be run by other coordinates, so that one that stops is not tried again. independent:
@@ -81,7 +83,7 @@ class Evolution:
     unsure: float = 1.0
     slack: Callable[[Array], Array] | None = None
     sizes: Array | float = 1.0
-    defect: Callable[[Array, Array], float] | None = None
+    defect: Callable[[Array, Array], Array] | None = None
     difference: Callable[[Array, Array], float] | None = None
     watch: Array = field(default_factory=lambda: np.empty(0))
     singular: Callable[[Array], str] | None = None
@@ -168,7 +170,7 @@ class _Integration:
 @dataclass(frozen=True, eq=False)
 class _Comparison:
     """Two integrations compared in the first `stages`: errors up to each time, lost: when beyond LOST; refusal: why the
-    better one is not the motion up to its last time."""
+    better one is not the motion up to its last time; parted: how far the two are apart."""
 
     loose: _Integration
     tight: _Integration
@@ -176,6 +178,7 @@ class _Comparison:
     errors: Array
     lost: float
     refusal: IntegrationError | None = None
+    parted: float = 0.0
 
     @property
     def error(self) -> float:
@@ -191,7 +194,7 @@ class _Course:
     """A motion, the stages in which it is integrated with the times at which it is watched, and what was spent on it so far.
 
     The first stage is STAGE turns, each other one ends at twice the time of the one before it. spent: evaluations; refused: the
-    local errors at which an integration stopped.
+    local errors at which an integration stopped, or took more than it may.
     """
 
     def __init__(self, evolution: Evolution, times: Array) -> None:
@@ -235,6 +238,8 @@ class _Course:
                 run.stops.append(stop)
                 raise
             self.spent += part.evaluations
+            if part.evaluations > most:  # a solver may find out at its end: it is the last one so tight
+                self.refused.append(run.local)
             run.stages.append(replace(part, states=part.states[1:]) if i else part)
         return run.stages[n]
 
@@ -346,8 +351,10 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         following = yield from _following(course, comparison, tol)
         if following is None:
             break
+        # Where the better run of a pair is off the next by more than was told of it, nothing was known of it.
+        contradicted = following.loose is best.tight and following.parted > best.error
         comparison = following
-        best = min(comparison, best, key=lambda one: one.merit)
+        best = comparison if contradicted else min(comparison, best, key=lambda one: one.merit)
     refusal = best.refusal
     if refusal and not (isinstance(refusal, StopError) and len(best.errors) > 1):
         refusal.evaluations = course.spent
@@ -432,13 +439,13 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
         off = evolution.defect(t, looser), evolution.defect(t, better)
     slack = np.concatenate(slacks[1:])
     resolved = not course.refused and bool(tight.local >= RESOLVED.value * slack[-1])
-    rounding = TELLING.value * ROUNDING.value * (START.value + float(course.turns(t[-1])))
-    alike = _alike(spent, off, rounding, resolved)
+    rounding = ROUNDING.value * (START.value + float(course.turns(t[-1])))
+    counts = _counts(spent, off, rounding, resolved)
     errors = estimated_errors(
-        alike * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
+        counts * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
     grown = errors_up_to(t, np.where(between, 0.0, errors), np.array(evolution.turn))
-    known = max(float(grown[-1]) / alike, tight.local, farther)
+    known = max(float(grown[-1]) / counts, tight.local, farther)
     errors = np.where(between, np.maximum(errors, grown), grown)
     # Once one of the two has stopped, the pair is refused even if it conserves what it must.
     refusal: IntegrationError | None = stop
@@ -446,26 +453,31 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
         way_out = "take other coordinates or a smaller tol" if evolution.elsewhere else "take a smaller tol"
         if not finite:
             refusal = IntegrationError(f"a value is not finite: {way_out}")
-        elif off and off[1] > KEPT.value * known:
+        elif off and (by := _largest(off[1])) > KEPT.value * known:
             refusal = IntegrationError(
-                f"what the motion conserves is off by as much as an error of {off[1]:.1e} makes, although {known:.1e} is "
+                f"what the motion conserves is off by as much as an error of {by:.1e} makes, although {known:.1e} is "
                 f"estimated: the run followed another motion; {way_out}"
             )
-    return _Comparison(loose, tight, len(pairs), errors, lost, refusal)
+    return _Comparison(loose, tight, len(pairs), errors, lost, refusal, float(apart[~between].max(initial=0.0)))
 
 
-def _alike(spent: tuple[int, int], off: tuple[float, float] | None, rounding: float, resolved: bool) -> float:
-    """How many times the difference of two runs counts, from 1 on, as both may be off by nearly the same.
+def _counts(spent: tuple[int, int], off: tuple[Array, Array] | None, rounding: float, resolved: bool) -> float:
+    """How many times SAFETY the difference of two runs counts.
 
-    Errors e and share e differ by (1 − share) e: the better one's is share/(1 − share) times the difference, of two runs that do
-    as their tolerances say a fourth, which SAFETY allows for. off: what both are off conserving, a second measure of their
-    errors, where rounding is not all that it is. spent: their evaluations. resolved: whether SAFETY counts once; where it counts
-    twice and the better run took twice as many, rounding is all that differs, and is in it already.
+    Errors e and share e differ by (1 − share) e: the better one's is odds = share/(1 − share) times the difference. off: how far
+    both are off conserving, a second measure of their errors: odds are those of the better one's to the difference of the two,
+    where rounding is not all that it is. Once where nothing is known, of which SAFETY takes the odds to be ODDS; no less than
+    CONFIRMED. spent: their evaluations. resolved: whether SAFETY is not squared; where it is, and the better run took twice as
+    many, rounding is all that differs, and is in it already.
     """
-    share = CHEAPER.value if spent[1] < spent[0] else 0.0
-    if off and off[1] > rounding and (resolved or spent[1] < 2 * spent[0]):
-        share = max(share, min(off[1] / max(off[0], off[1]), ALIKE.value))
-    return max(1.0, share / (1 - share))
+    counts = CHEAPER.value if spent[1] < spent[0] else 0.0
+    if off and (better := _largest(off[1])) > TELLING.value * rounding and (resolved or spent[1] < 2 * spent[0]):
+        return max(counts, better / max(_largest(off[1] - off[0]), rounding) / ODDS.value, CONFIRMED.value)
+    return max(counts, 1.0)
+
+
+def _largest(values: Array) -> float:
+    return float(np.abs(values).max(initial=0.0))
 
 
 def _states(

@@ -104,9 +104,9 @@ def test_the_work_of_the_shock_is_in_the_energy() -> None:
     assert nodes is not None
     t = np.union1d(np.linspace(0, 3, 50), nodes.t)
     seen = observed(minimal.MODEL, scene, t, 1e-12)
-    assert conservation_defect(scene, t, seen, nodes) < 1e-10
+    assert np.abs(conservation_defect(scene, t, seen, nodes)).max() < 1e-10
     weaker = replace(nodes, weights=0.99 * nodes.weights, lower=0.99 * nodes.lower)
-    assert conservation_defect(scene, t, seen, weaker) > 1e-4  # twin
+    assert np.abs(conservation_defect(scene, t, seen, weaker)).max() > 1e-4  # twin
 
 
 TUMBLING = consistent_scene(

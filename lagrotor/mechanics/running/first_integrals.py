@@ -41,13 +41,13 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
     return tuple(kept)
 
 
-def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], float] | None:
-    """(times (n,), states (n, d)) → the error, relative to the sizes, that would explain how far the integrals are off."""
+def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
+    """(times (n,), states (n, d)) → the errors, relative to the sizes, that would explain how far the integrals are off."""
     conserved = [program.along(values) for program in integrals(system)]
     n = len(system.c.q) + len(system.speeds)
 
-    def defect(times: Array, states: Array) -> float:
-        worst = 0.0
+    def defect(times: Array, states: Array) -> Array:
+        errors = []
         for integral in conserved:
             y = states[:, :n]
             slope = np.zeros(len(times))
@@ -56,8 +56,8 @@ def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Arra
                     slope += np.abs(integral(y + step, times) - integral(y - step, times))[0] / (2 * _STEP)
             known = integral(y, times)[0]
             rounding = 1e-15 * np.abs(known).max()
-            off = np.maximum(np.abs(known - known[0]) - rounding, 0.0)
-            worst = max(worst, float((off / np.maximum(slope, 1e-3 * slope.max() + 1e-300)).max()))
-        return worst
+            off = np.sign(known - known[0]) * np.maximum(np.abs(known - known[0]) - rounding, 0.0)
+            errors.append(off / np.maximum(slope, 1e-3 * slope.max() + 1e-300))
+        return np.concatenate(errors)
 
     return defect if conserved else None

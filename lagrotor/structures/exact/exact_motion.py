@@ -134,12 +134,14 @@ class ExactMotion:
         """The largest difference of a component of r'/rate between states (n, 6 N)."""
         return float(np.abs(self.axes_and_rates(one)[1] - self.axes_and_rates(other)[1]).max(initial=0.0))
 
-    def defect(self, states: Array, conserved: bool) -> float:
-        """How far states (n, 6 N) are off the constraints, or what error explains how far their energy is, where conserved."""
+    def defect(self, states: Array, conserved: bool) -> Array:
+        """How far states (n, 6 N) are off the constraints, and what error explains how far their energy is, where conserved."""
         r, v = self.axes_and_rates(states) * np.array([1.0, self.c.rate])[:, None, None, None]
-        off = float((np.abs(self.off(r)) / np.append(np.ones(len(self.c.R)), self.c.ell)).max())
-        scale = self.energy_scale(r, v) if conserved else 0.0
-        return max(off, float(np.ptp(self.energy(r, v))) / scale) if scale > 0 else off
+        off = (self.off(r) / np.append(np.ones(len(self.c.R)), self.c.ell)).ravel()
+        if not conserved:
+            return off
+        energy = self.energy(r, v)
+        return np.append(off, (energy - energy[0]) / (self.energy_scale(r, v) or 1.0))
 
     def energy_scale(self, r: Array, v: Array) -> float:
         """How much the energy (J) of some of the states r, v (n, N, 3) changes by an error of 1 of axes and v/rate, at most."""
