@@ -73,7 +73,7 @@ ODDS = Calibrated(
     "error of the better of two runs over their difference that SAFETY times the difference is for; where it is measured by "
     "what they conserve, the difference counts in proportion",
     "309 pairs of runs of 422 wide scenes and 100 systems: the measured odds go with the true ones (their logarithms correlate "
-    "by 0.77 and 0.73); of 0.5 as many errors come near what is told as without the measure",
+    "by 0.77 and 0.73); of 0.5 as many errors come near their estimates as without the measure",
     "test_estimated_run.py::test_a_better_run_that_conserves_no_better_is_no_better",
 )
 CONFIRMED = Calibrated(

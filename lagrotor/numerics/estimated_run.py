@@ -351,7 +351,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         following = yield from _following(course, comparison, tol)
         if following is None:
             break
-        # Where the better run of a pair is off the next by more than was told of it, nothing was known of it.
+        # An estimate by which the next run cannot be so far off is wrong.
         contradicted = following.loose is best.tight and following.parted > best.error
         comparison = following
         best = comparison if contradicted else min(comparison, best, key=lambda one: one.merit)
@@ -440,7 +440,8 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     slack = np.concatenate(slacks[1:])
     resolved = not course.refused and bool(tight.local >= RESOLVED.value * slack[-1])
     rounding = ROUNDING.value * (START.value + float(course.turns(t[-1])))
-    counts = _counts(spent, off, rounding, resolved)
+    from_start = RESOLVED.value * evolution.unsure
+    counts = _counts(spent, off, rounding, resolved, resolved and tight.local >= from_start)
     errors = estimated_errors(
         counts * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
@@ -461,18 +462,22 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     return _Comparison(loose, tight, len(pairs), errors, lost, refusal, float(apart[~between].max(initial=0.0)))
 
 
-def _counts(spent: tuple[int, int], off: tuple[Array, Array] | None, rounding: float, resolved: bool) -> float:
+def _counts(
+    spent: tuple[int, int], off: tuple[Array, Array] | None, rounding: float, resolved: bool, alone: bool
+) -> float:
     """How many times SAFETY the difference of two runs counts.
 
     Errors e and share e differ by (1 − share) e: the better one's is odds = share/(1 − share) times the difference. off: how far
     both are off conserving, a second measure of their errors: odds are those of the better one's to the difference of the two,
-    where rounding is not all that it is. Once where nothing is known, of which SAFETY takes the odds to be ODDS; no less than
-    CONFIRMED. spent: their evaluations. resolved: whether SAFETY is not squared; where it is, and the better run took twice as
-    many, rounding is all that differs, and is in it already.
+    where rounding is not all that it is. SAFETY takes ODDS where nothing is known. alone: whether the local errors alone make the
+    two differ, so that odds may be as small as CONFIRMED times that; of other starts nothing is seen in what is conserved.
+    spent: their evaluations. resolved: whether SAFETY is not squared; where it is, and the better run took twice as many,
+    rounding is all that differs, and is in it already.
     """
     counts = CHEAPER.value if spent[1] < spent[0] else 0.0
     if off and (better := _largest(off[1])) > TELLING.value * rounding and (resolved or spent[1] < 2 * spent[0]):
-        return max(counts, better / max(_largest(off[1] - off[0]), rounding) / ODDS.value, CONFIRMED.value)
+        counts = max(counts, better / max(_largest(off[1] - off[0]), rounding) / ODDS.value)
+        return max(counts, CONFIRMED.value if alone else 1.0)
     return max(counts, 1.0)
 
 

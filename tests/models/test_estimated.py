@@ -94,7 +94,10 @@ def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setitem(simulating.MODELS, "minimal", replace(minimal.MODEL, kind=wrong))
     with pytest.raises(IntegrationError, match=r"minimal: .* the run followed another motion"):
         simulate(SHOCKED, T, "minimal", 1e-9)
-    set_to(monkeypatch, "KEPT", np.inf)  # twin: unchecked, it passes with a small error estimate
+    set_to(monkeypatch, "KEPT", np.inf)  # unchecked, what both are off conserving is in the error
+    with pytest.warns(LagrotorWarning, match="minimal does not keep tol"):
+        assert simulate(SHOCKED, T, "minimal", 1e-9).error > 1e-3
+    set_to(monkeypatch, "TELLING", np.inf)  # twin: unheard, it passes with a small error estimate
     assert simulate(SHOCKED, T, "minimal", 1e-9).error < 1e-9
 
 
