@@ -420,10 +420,22 @@ def _fraction(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     mark = derivative_mark(box)
     if mark and any(b.kind == "letter" and b.sup and power_in(b) for b in without_thin(box.parts[0])[1:2]):
         yield "derivative", "the power above is differentiated, and is none of the differential", ""
+    if mark:
+        under = {b.name for b in all_boxes(without_thin(box.parts[1])) if b.kind == "letter"}
+        alone = len(without_thin(box.parts[0])) == 1
+        yield from _taken_at(row if alone else without_thin(box.parts[0]), place + 1 if alone else 1, under)
     if mark in ("D", "delta"):
         yield "derivative", f"the fraction with {mark} is a derivative like any other", ""
     if mark == "d" and "times" in reader.notation.seen and [b.name for b in box.parts[1]][1:] == ["t"]:
         yield "dot", "the derivative by t is the rate that a dot has", ""
+
+
+def _taken_at(row: list[Box], place: int, variables: set[str]) -> Marks:
+    """A derivative of a function whose arguments do not hold what it differentiates by: it is taken there."""
+    if place + 1 < len(row) and row[place].kind == "letter" and row[place + 1].kind == "bracket":
+        inside = _letters(*row[place + 1].parts[0])
+        if any(b.kind == "comma" for b in row[place + 1].parts[0]) and not variables & inside:
+            yield "at", f"the value of {row[place].name} is differentiated, and the derivative is not taken there", ""
 
 
 def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
@@ -523,6 +535,7 @@ def _nabla(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 def _partial(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     below = row[place].sub or []
+    yield from _taken_at(row, place + 1, {b.name for b in below})
     if below and not (len(below) == 1 and below[0].name in _VARIABLES - {"rho"}):
         yield "index", "the index of ∂ is what it differentiates by", ""
 
@@ -544,6 +557,15 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
         wide = box.kind == "thin" and reader.source[box.at : box.end] not in (r"\,", r"\!")
         if wide and all(kind in (*_FACTORS, "number", "thin") for kind in sides) and row[place + 1].kind != "big":
             yield "spaces", "what a space parts are factors, and no list", ""
+    ends = [k for k, b in enumerate(row) if b.kind in _PARTS]
+    for first, last in pairwise(ends):
+        middle = row[first + 1 : last] if row[first].kind == row[last].kind == "relation" else []
+        space = max((k for k, b in enumerate(middle) if b.kind == "thin"), default=0)
+        left = [b.kind for b in middle[space + 1 :]] in (["letter"], ["letter", "bracket"]) and middle[
+            space + 1
+        ].name != "d"
+        if space and left and middle[space - 1].kind in ("letter", "bracket"):
+            yield "spaces", "what a space parts are factors, and no left side", ""
     names = [b.name for b in row if b.kind == "relation"]
     between = row[next((k for k, b in enumerate(row) if b.name == "="), 0) :]
     condition = next((k for k, b in enumerate(between) if b.name in _BOUNDS and b.kind == "relation"), 0)

@@ -37,6 +37,8 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if behind < len(row) and row[behind].kind == "percent":
         return Call("quotient", (node, number(100))), behind + 1
     unit = behind + 1 if behind < len(row) and row[behind].kind == "thin" else behind
+    if unit < len(row) and row[unit].kind in ("unit", "text") and row[unit].name in ("%", r"\%"):
+        return Call("quotient", (node, number(100))), unit + 1
     if unit < len(row) and row[unit].kind in ("unit", "text"):
         return product_of([node, _units(reader, row[unit])]), unit + 1
     if unit < len(row) and row[unit].upright and row[unit].name in _UNIT_LETTERS and row[unit].sub is None:

@@ -317,8 +317,8 @@ def _look_at_number(box: Box, after: Box | None, found: Notation) -> None:
     held: list[Box] = []
     if box.kind in ("fraction", "root"):
         held = without_thin(box.parts[1] if box.kind == "fraction" else box.parts[0])
-        if any(b.kind == "operator" and b.name not in ("cdot", "times") for b in held):
-            held = []  # a resolvent
+        if any(b.kind == "bar" or (b.kind == "operator" and b.name not in ("cdot", "times")) for b in held):
+            held = []  # a resolvent, a number of elements
     elif box.name == "/" and after is not None:
         held = [after]
     elif box.kind == "function" and box.name in _OF_NUMBERS[:-1] and after is not None:

@@ -135,6 +135,10 @@ SETTLED = [
     (r"a = \partial_i b", [], "what it differentiates by"),
     (r"y = \exp(-3x) \text{ } z = \exp(x)", [], "what a space parts"),
     (r"R = 4.84 \, \Omega", [], "Omega behind the number"),
+    (r"E_k = m v \, E_p = m g h", [], "no left side"),
+    (r"\partial_t u(x, 0) = 0", [], "is not taken there"),
+    (r"\frac{\partial u(0, t)}{\partial x} = 0", [], "is not taken there"),
+    (r"a = \frac{1}{|c|}", [], "number of elements"),
     (r"R(\theta)\vec F = m\vec a", [], "R of its argument is a number"),
     (r"T_{ijkl} = -T_{jikl} \text{ and } T_{ijij} = 0", [], "an index of T is not summed over"),
 ]
