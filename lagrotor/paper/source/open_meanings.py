@@ -423,6 +423,9 @@ def _fraction(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     if mark:
         under = {b.name for b in all_boxes(without_thin(box.parts[1])) if b.kind == "letter"}
         alone = len(without_thin(box.parts[0])) == 1
+        then = _behind(row, place) if alone else None
+        if then is not None and then.kind == "bracket" and then.name == ".":
+            yield "at", "what is differentiated is taken at a place, and the derivative is not taken there", ""
         yield from _taken_at(row if alone else without_thin(box.parts[0]), place + 1 if alone else 1, under)
     if mark in ("D", "delta"):
         yield "derivative", f"the fraction with {mark} is a derivative like any other", ""

@@ -280,7 +280,7 @@ def test_what_custom_settles_is_named_as_a_guess(latex: str, guess: str) -> None
         (r"l = 5\,m", "l = 5*m", "a letter, and no unit"),
         (r"l = 5\,\eta", "l = 5*eta", ""),
         (r"l = 83\,\mathrm{\%}", "l = 83/100", ""),
-        (r"l = 1.602\,176 a", "l = 25034/15625*a", ""),
+        (r"l = 1.602\,176", "l = 25034/15625", ""),
         (r"y = e^2/r", "y = e**2/r", "e is a letter, and not Euler's number"),
         (r"x' = \gamma(x - vt)", "xprime = gamma*(x - v*t)", "gamma before ( is a factor"),
         (r"a = b \text{ or } c = d", "a = b; c = d", "what or joins are two statements, and both are meant"),

@@ -139,6 +139,7 @@ SETTLED = [
     (r"\partial_t u(x, 0) = 0", [], "is not taken there"),
     (r"\frac{\partial u(0, t)}{\partial x} = 0", [], "is not taken there"),
     (r"a = \frac{1}{|c|}", [], "number of elements"),
+    (r"\frac{d}{dx}\left.\frac{f}{x}\right|_{x = a} = 0", [], "taken at a place"),
     (r"R(\theta)\vec F = m\vec a", [], "R of its argument is a number"),
     (r"T_{ijkl} = -T_{jikl} \text{ and } T_{ijij} = 0", [], "an index of T is not summed over"),
 ]
