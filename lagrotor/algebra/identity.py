@@ -50,6 +50,7 @@ from lagrotor.algebra.reading import Roots, find_roots, reader
 from lagrotor.algebra.refutation import sample
 from lagrotor.algebra.scalar import parts, scalar, sympified
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
+from lagrotor.algebra.work import kept
 from lagrotor.errors import InputError, NotExactError, TooLargeError
 
 # A divisor larger than this is kept whole in the domain: its factors may take hours to find.
@@ -111,7 +112,7 @@ def decide_zero(expression: sp.Expr, within: Iterable[Any] = ()) -> Decision:
     return _decide(expression, region(within))
 
 
-@lru_cache(maxsize=1024)
+@kept(1024)
 def _decide(expression: sp.Expr, where: Region) -> Decision:
     try:
         exact = _decided(expression)
@@ -179,7 +180,7 @@ def _is_complex(e: sp.Expr, where: Region) -> bool:
 
 
 # Of the differences that a paper's audit decides, three in five come again under other premises.
-@lru_cache(maxsize=1024)
+@kept(1024)
 def _decided(expression: sp.Expr) -> Decision:
     found = survey(expression)
     roots = find_roots(found)

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import lru_cache, reduce
+from functools import reduce
 from itertools import permutations, product
 from typing import Any, TypeAlias
 
 import sympy as sp
 
-from lagrotor.algebra.work import spend
+from lagrotor.algebra.work import kept, spend
 from lagrotor.errors import InputError, WorkError
 
 Signs: TypeAlias = frozenset[int]
@@ -86,7 +86,7 @@ def signs(e: sp.Expr, where: Region = Region()) -> Signs | None:
     return _signs_in(where).of(e)
 
 
-@lru_cache(maxsize=64)
+@kept(64)
 def _signs_in(where: Region) -> _Signs:
     return _Signs(where)
 

@@ -399,6 +399,10 @@ class _Walker:
         """The equations of a display: rows that continue the one before are joined with it."""
         group: list[Row] = []
         previous = ""
+        for place, row in enumerate(rows if kind in ("align", "gather", "alignat", "flalign") else ()):
+            after = next((each for each in rows[place + 1 :] if each.number), None)
+            if after is not None and not (row.number or after.labels):  # amsmath keeps a label until a row has a number
+                row.labels, after.labels = [], row.labels
         for row in rows:
             source = " ".join(latex_of(row.tokens).split())
             if not source.replace("&", "").strip():

@@ -10,12 +10,6 @@ _NAMES = (
 )
 _WORDS = frozenset(_NAMES.split())
 TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
-_JOINING_WORDS = (
-    "where with for if when and or so then thus hence since because such that which is as at in on but while also let "
-    "whenever all any every otherwise provided from by via using to given here mit wobei und oder für wenn mod sonst "
-    "pour si avec où et ou"
-)
-_JOINING = frozenset(_JOINING_WORDS.split())
 _UNIT_NAMES = (
     "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr pc kHz MHz GHz THz kPa "
     "MPa GPa kN kJ kW MW mV kV mA nF pF mH mT l L deg degrees Ohm ohm Nm fm fs ps µs "
@@ -169,11 +163,6 @@ def is_unit_like(text: str) -> bool:
     """Whether a text is a unit: km, m/s^2."""
     words = re.sub(r"[\^{}\d\-~.·]", " ", text.replace("/", " ")).split()
     return bool(words) and all(word in UNITS for word in words)
-
-
-def is_joining(text: str) -> bool:
-    """Whether words join statements: where, for, and."""
-    return text.split(" ")[0].strip(",.;:").lower() in _JOINING
 
 
 def ends_with_bracket(part: list[Box]) -> bool:

@@ -32,7 +32,7 @@ class Notation:
     called: letter → letters that were seen as its arguments; bare: letters seen without a bracket behind them; angles: whole
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
-    before what may be an argument; factors, in a product; apart, touching no other letter; powers, to a number; raised, with
+    before what may be an argument; factors, in a product; apart, touching no other letter; raised, with
     an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two primes. varied:
     letter → letters that it is differentiated by. seen: ket, operators, order, hessian, P(D), complex, modular, exponent, dot,
     other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed as vectors somewhere.
@@ -55,7 +55,6 @@ class Notation:
     applied: set[str] = field(default_factory=set)
     factors: set[str] = field(default_factory=set)
     apart: set[str] = field(default_factory=set)
-    powers: set[str] = field(default_factory=set)
     raised: set[str] = field(default_factory=set)
     differentiated: set[str] = field(default_factory=set)
     matrices: set[str] = field(default_factory=set)
@@ -433,9 +432,7 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
         found.differentiated.add(stem)
     if box.primes > 1:
         found.twice.add(stem)
-    if len(sup) == 1 and sup[0].kind == "number" and sup[0].name not in ("0", "1"):
-        found.powers.add(stem)
-    elif sup and (sup[0].name in (*TENSOR, "0", "1") or (len(sup) > 1 and all(map(is_plain_letter, sup))) or (
+    if sup and (sup[0].name in (*TENSOR, "0", "1") or (len(sup) > 1 and all(map(is_plain_letter, sup))) or (
         box.sub and is_plain_letter(sup[0]) and len(sup) == 1 and is_plain_letter(box.sub[0]))):  # fmt: skip
         found.raised.add(stem)
     called = after is not None and after.kind == "bracket" and after.name in ("(", "[")
