@@ -55,7 +55,7 @@ _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow o
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Resonance(Shown):
-    """A resonance of order 3 or 4 that can feed modes of both signs of energy.
+    """A resonance of order 3 or 4 that can feed modes of both signs of energy, or slow ones that nearly resonate with rest.
 
     Attributes:
         vectors: the k, whole numbers for each mode, nearest first; rates (rad/s) of the modes, negative of those of negative
@@ -192,7 +192,7 @@ def start_of_push(s: Assembly, factor: float, of: Of) -> Array:
 
 
 def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
-    """k ≥ 0 with |k| = order and a small k·rates, of modes of both signs."""
+    """k ≥ 0 with |k| = order and a small k·rates, of modes of both signs, or of slow ones alone, which escape by the same law."""
     near, n = _NEAR * np.abs(rates).max(), len(rates)
     combinations = combinations_with_replacement(range(n), order)
     return [tuple(c.count(j) for j in range(n)) for c in combinations if abs(rates[list(c)].sum()) < near]

@@ -5,7 +5,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from lagrotor import Link, Pattern
+from lagrotor import Link, Pattern, Rotor
 from lagrotor.errors import InputError
 from lagrotor.numerics import measured_order
 from lagrotor.structures import honeycomb, polygon_ring, square, straight_row, wave_amplitude
@@ -17,6 +17,12 @@ def alternating_ring(cells: int, spring: float | None = None, **more: object) ->
     angle, joins = pi / cells, ((0, 1, 0), (1, 0, 1))
     joined = {"bars": joins} if spring is None else {"braces": tuple((*j, spring) for j in joins)}
     return Pattern(((0, 0), (1, 0)), ((1 + cos(angle), sin(angle)),), turn=2 * angle, **joined, **more)
+
+
+MIXED = Pattern(
+    joints=((0, 0), (1, 0)), steps=((1, 1),), turn=pi, bars=((0, 1),), braces=((1, 0, 1, 12.0),), spins=(9.0, 14.0),
+    hinge=(20.0, 31.0), load=(0.0, 0.3), rotor=(Rotor(), Rotor(mass=1.5, length=1.2)),
+)  # fmt: skip
 
 
 def seen(wave, count: int, amplitude: float, band: int) -> tuple[float, float]:
@@ -33,10 +39,14 @@ def seen(wave, count: int, amplitude: float, band: int) -> tuple[float, float]:
         (polygon_ring(5, spring=25.0, spins=12.0, hinge=30.0), 5, 2, 0, (0.04, 0.06, 0.09)),
         (alternating_ring(3, spring=20.0, spins=(15.0, -9.0), hinge=40.0), 3, 1, 1, (0.04, 0.06, 0.09)),
         (polygon_ring(5, spins=14.0, hinge=30.0, link=Link(mass=0.2, inertia=0.05)), 5, 2, 0, (0.03, 0.045, 0.07)),
+        (MIXED, 2, 1, 1, (0.03, 0.045, 0.07)),
     ],
 )
 def test_what_the_shift_leaves_is_of_fourth_order(pattern, count, turns, band, amplitudes) -> None:
-    """Springs, alternating spins, rigid bars; the twin is the shift left out, of second order."""
+    """Springs, alternating spins, rigid bars, unequal rotors with bars and springs in turn at q = π.
+
+    The twin is the shift left out, of second order.
+    """
     wave = pattern.nonlinear_wave(2 * pi * turns / count, band)
     rates, sizes = np.transpose([seen(wave, count, a, band) for a in amplitudes])
     rest = rates - wave.rate - wave.shift * sizes**2

@@ -284,12 +284,18 @@ def test_what_lies_behind_the_largest_push():
     assert "no resonance" in top.behind and top.value > 0
 
 
-def test_a_slow_rate_alone_is_told_in_words():
-    """Rotors of three lengths: three times the slowest rate is small beside the others, and nothing stands on the other side."""
+def test_slow_rates_alone_limit_the_push_and_are_told_in_words():
+    """Rotors of three lengths: nothing stands on the other side of three slow rates, yet beyond their bound a run falls."""
     lengths = tuple(Rotor(length=x) for x in (1.0, 1.3, 0.8))
     s = Structure([(0, 0), (1, 0), (2.1, 0.3)], [(0, 1), (1, 2)], [1, -0.5, 1], lengths, gravity=9.81)
-    fast = replace(s, spins=tuple(1.2 * s.critical_spin() * w for w in s.spins))
-    assert "3 × 0.1974 is little beside" in fast.largest_push().behind
+    fast = replace(s, spins=tuple(1.7 * s.critical_spin() * w for w in s.spins))
+    largest, steep = fast.largest_push(), np.array([[0.033, 0.785], [0.025, 0.0], [0.201, -0.585]])
+    assert "3 × 0.654 is little beside 26.64 rad/s" in largest.behind
+    assert trusted_push(fast) > 0.186 > 1.5 * largest.value
+    assert measured_fall(fast, 0.186 * steep, 60.0, tol=1e-7) < 60 and np.linalg.norm(steep) == pytest.approx(
+        1, abs=1e-2
+    )
+    assert measured_fall(fast, 0.98 * largest.value * steep, 60.0, tol=1e-7) == inf
 
 
 @pytest.mark.slow
