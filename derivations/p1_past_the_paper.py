@@ -4,7 +4,7 @@
 # **Objective.** One row for each of the subjects of the theory past the paper: what the paper has, what holds and to
 # which order, a comparison with the exact model, and the figure.
 #
-# **Assumptions.** Those of the scripts t1 to t13, n6 and n7, from which every formula and every number is taken.
+# **Assumptions.** Those of the scripts t1 to t14, n6 and n7, from which every formula and every number is taken.
 
 # %%
 import sympy as sp
@@ -28,6 +28,7 @@ t10 = PAPER.scripts.run("derivations", "t10_conserved")
 t11 = PAPER.scripts.run("derivations", "t11_slow_motion")
 t12 = PAPER.scripts.run("derivations", "t12_unequal_spins")
 t13 = PAPER.scripts.run("derivations", "t13_integrals")
+t14 = PAPER.scripts.run("derivations", "t14_guiding_centre")
 n6 = PAPER.scripts.run("derivations", "n6_resonances")
 n7 = PAPER.scripts.run("derivations", "n7_nonlinear_waves")
 Omega_0, energy, wander, growth, power, reached, shift = (
@@ -192,6 +193,18 @@ rows = (
         f"neighbours of a swing of r_0 = 0.05 part as the power {t13['power']:.2f} of time, of one of 0.3 by a factor "
         f"exp({t13['fast'][40] / 40:.2f}) per turn; such a run is known for {t13['horizon']:.0f} turns",
         FigureLink("t13"),
+    ),
+    (
+        "the guiding centre",
+        "none",
+        (
+            "unequal spins are a charged particle in three dimensions; where nearly nothing swings the centre keeps to a line of "
+            "constant flux, with h half the angle between the axes,",
+            t14["flux"],
+        ),
+        "orders of the error of its path: "
+        + "; ".join(f"{order:.2f} ({name})" for name, order in t14["measured"].items()),
+        FigureLink("t14"),
     ),
     (
         "what spins hold",

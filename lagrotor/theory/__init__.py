@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from lagrotor.theory.averaging import quartic_lagrangian as quartic_lagrangian
     from lagrotor.theory.averaging import quartic_routhian as quartic_routhian
     from lagrotor.theory.averaging import slow_rates as slow_rates
+    from lagrotor.theory.charged_particle import GuidingCentre as GuidingCentre
+    from lagrotor.theory.charged_particle import guiding_centre as guiding_centre
+    from lagrotor.theory.charged_particle import leaning_field as leaning_field
+    from lagrotor.theory.charged_particle import leaning_state as leaning_state
     from lagrotor.theory.closed_form import ClosedForm as ClosedForm
     from lagrotor.theory.drift_after_shock import cancelling_impulse as cancelling_impulse
     from lagrotor.theory.drift_after_shock import mean_square_twist as mean_square_twist

@@ -273,6 +273,9 @@ PAST = [
      ("half", wider(1.3))),
     ("t12", "exact orbits lie on both laws", lambda d:
      d["largest distance, shift"] < 0.02 and d["largest distance, drift"] < 0.02, ("exact shift", wider(1.05))),
+    ("t14", "the law is on the exact centres, to a tenth of their way of the push that drifts most", lambda d: all(
+        off(d, name, f"exact, {name}") < 0.1 * max(np.ptp(d[n][:, 1]) for n in d["PUSHES"]) for name in d["PUSHES"]),
+     ("both ways", wider(1.3))),
     ("b1", "no method lies below the front", lambda d: all(
         any(n <= spent and error <= least for n, error in d["front"])
         for spent, least in zip(d["evaluations"].ravel(), d["errors"].ravel(), strict=True) if least == least),
@@ -371,6 +374,7 @@ PLOTS = {  # key → panels, entries of the legend
         "t11": (3, 5),
         "t12": (2, 3),
         "t13": (4, 3),
+        "t14": (2, 5),
         "b1": (1, 12),
         "b2": (4, 8),
     },

@@ -10,7 +10,12 @@ from lagrotor.numerics import generated
 
 def derived_files() -> dict[Path, str]:
     """Every `generated.txt` of the package, derived anew."""
-    for name in ("models.simulate", "models.orbits.precession", "report.interactive.interactive"):
+    for name in (
+        "models.simulate",
+        "models.orbits.precession",
+        "theory.charged_particle",
+        "report.interactive.interactive",
+    ):
         import_module(f"lagrotor.{name}")
     return generated.files()
 

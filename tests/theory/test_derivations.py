@@ -13,7 +13,7 @@ STEMS = [stem for stem in PAPER.scripts.names("derivations") if stem.startswith(
 STEPWISE = dict.fromkeys(STEMS, 8) | {"t4_orbit_family": 3, "t7_duration": 5, "t10_conserved": 5, "t13_integrals": 1}
 # Exact orbits by the hundred, long runs or long algebra: tests beside this one hold their
 # laws to a few.
-LONG = ("t5_floquet", "t11_slow_motion", "t12_unequal_spins")
+LONG = ("t5_floquet", "t11_slow_motion", "t12_unequal_spins", "t14_guiding_centre")
 SCRIPTS = [pytest.param(stem, marks=pytest.mark.slow) if stem in LONG else stem for stem in STEMS]
 
 
@@ -69,6 +69,8 @@ MUTANTS = [
         "apart**3 * sigma**2 * (sigma - 5) / (8 * k)",
     ),
     ("t12_unequal_spins", "slower = (sigma - 1) * ((sigma + 1)", "slower = (sigma - 1) * ((sigma - 1)"),
+    ("t14_guiding_centre", "(G_1 - G_2) * sp.sin(h) ** 2 / k", "(G_1 + G_2) * sp.sin(h) ** 2 / k"),
+    ("t14_guiding_centre", "u_v = -J * B.dot(slope)", "u_v = J * B.dot(slope)"),
     ("t8_toppling", "e = b * nu**2 - G * nu / k", "e = b * nu**2 + G * nu / k"),
     ("t8_toppling", "(-(G_1 + G_2) * nu, 0, 0)", "(0, 0, 0)"),
     ("t9_twist", "2 * mu_1 * mu_3 - mu_1**2 / 2", "2 * mu_1 * mu_3"),
