@@ -19,8 +19,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, consistent_scene, simulate
 from lagrotor.numerics import measured_order
-from lagrotor.pair import leaning_lagrangian
-from lagrotor.pair.lagrangians import leaning_frame
+from lagrotor.pair import leaning_frame, leaning_lagrangian
 from lagrotor.pair.notation import G_1, G_2, LEANING, a, b, k, r0, sigma
 from lagrotor.paper import Remark, prove
 from lagrotor.theory import GuidingCentre, guiding_centre, leaning_field, twist_coefficient

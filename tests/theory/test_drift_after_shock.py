@@ -77,10 +77,14 @@ def exact_drifts(scenes, turns):
     return np.array(found)
 
 
-@pytest.mark.parametrize(("bars", "shocks"), [(2, 5), pytest.param(500, 20, marks=pytest.mark.slow)])
-def test_the_drift_is_within_its_errors(bars, shocks):
+# Seed, bars and shocks on each: ten thousand in ten parts of a minute or two.
+PARTS = [(4, 2, 5), *(pytest.param(seed, 50, 20, marks=pytest.mark.slow) for seed in range(10, 20))]
+
+
+@pytest.mark.parametrize(("seed", "bars", "shocks"), PARTS)
+def test_the_drift_is_within_its_errors(seed, bars, shocks):
     """Any opposite pair, shocks in any direction on either rotor; refused ones are drawn again."""
-    rng, refused, scenes, turns, errors = np.random.default_rng(4), 0, [], [], []
+    rng, refused, scenes, turns, errors = np.random.default_rng(seed), 0, [], [], []
     for _ in range(bars):
         one, wanted = opposite_pair(rng), len(scenes) + shocks
         for _ in range(10 * shocks):
@@ -98,14 +102,14 @@ def test_the_drift_is_within_its_errors(bars, shocks):
     # The run's own error, its tolerance a turn, is some 1e-9 of the rates.
     off, told = np.abs(seen - laws).ravel(), (errors + left + 1e-8 * np.abs(laws)).ravel()
     assert len(scenes) > 0.95 * bars * shocks
-    held([*zip(off, told, strict=True)], refused, bars * shocks, 0.6)
+    held([*zip(off, told, strict=True)], refused, bars * shocks, 0.8)
     assert (off > told / 2).mean() > 0.2  # twin: half the errors would not hold
 
 
-@pytest.mark.parametrize(("bars", "shocks"), [(2, 2), pytest.param(1000, 18, marks=pytest.mark.slow)])
-def test_the_exact_cancelling_force_is_within_its_error(bars, shocks):
+@pytest.mark.parametrize(("seed", "bars", "shocks"), [(6, 2, 2), *PARTS[1:]])
+def test_the_exact_cancelling_force_is_within_its_error(seed, bars, shocks):
     """So far on either side the exact mean turning has opposite signs; at a tenth of it mostly the same."""
-    rng, refused, scenes, turns = np.random.default_rng(6), 0, [], []
+    rng, refused, scenes, turns = np.random.default_rng(seed), 0, [], []
     for _ in range(bars):
         one = opposite_pair(rng)
         for _ in range(shocks):
