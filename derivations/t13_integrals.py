@@ -37,22 +37,24 @@ prove(leaning_lagrangian().diff(LEANING.q[2]), 0, "the azimuth does not occur", 
 
 
 # %%
-def start(r0: float, momentum: float) -> Scene:
-    """A swing of amplitude r0 from upright with P/G."""
-    pair = Scene((10, -10), link=Link(1.5, 12.0, 0.1))
-    turn = -momentum * pair.momenta[0] / (2 * sum(pair.inertias))
-    return consistent_scene(
-        pair.spins, ((0, 0, 1),) * 2, ((r0 * natural_rate(pair), turn, 0),) * 2, pair.rotor, pair.link
-    )
+PAIR = Scene((10, -10), link=Link(1.5, 12.0, 0.1))
+RATE = natural_rate(PAIR)
 
 
-def log_distances(scene: Scene, turns: int) -> np.ndarray:
-    """ln of how far a neighbour has parted, turn by turn."""
-    rate = natural_rate(scene)
-    through, state, time = flow(scene), MODEL.start(scene), 2 * np.pi / rate
-    unit, total = np.repeat([1.0, rate], 3), [0.0]
+def start(r0: float, momentum: float, phase: float = 0.0) -> Scene:
+    """Upright with the energy of a swing of amplitude r0, as a swing (phase 0) or a twist (π/2), and P/G."""
+    turn = -momentum * PAIR.momenta[0] / (2 * sum(PAIR.inertias))
+    swing, twist = r0 * RATE * np.cos(phase), r0 * RATE * np.sin(phase) * np.sqrt(PAIR.sigma)
+    rates = ((swing, turn - twist, 0), (swing, turn + twist, 0))
+    return consistent_scene(PAIR.spins, ((0, 0, 1),) * 2, rates, PAIR.rotor, PAIR.link)
+
+
+def log_distances(scene: Scene, turns: int, piece: int = 1) -> np.ndarray:
+    """ln of how far a neighbour has parted, after every `piece` turns."""
+    through, state, time = flow(scene), MODEL.start(scene), 2 * np.pi / RATE * piece
+    unit, total = np.repeat([1.0, RATE], 3), [0.0]
     direction = unit * np.array([0.5, 0.6, 0.2, 0.3, -0.4, 0.3])
-    for _ in range(turns):
+    for _ in range(turns // piece):
         step = through(state, time, 1e-9)
         state, direction = step.end, step.slope @ direction
         size = float(np.linalg.norm(direction / unit))
@@ -80,8 +82,8 @@ Remark(
 # %%
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", LagrotorWarning)
-    run = simulate(wide, np.linspace(0, 40 * 2 * np.pi / natural_rate(wide), 801), tol=1e-6)
-horizon = run.horizon * natural_rate(wide) / (2 * np.pi)
+    run = simulate(wide, np.linspace(0, 40 * 2 * np.pi / RATE, 801), tol=1e-6)
+horizon = run.horizon * RATE / (2 * np.pi)
 reach = float(np.interp(np.log(1e-6 / 1e-14), fast, np.arange(41)))
 assert 0.4 * reach < horizon < 2.5 * reach
 Remark(

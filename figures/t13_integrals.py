@@ -11,14 +11,13 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor import Link, Scene, consistent_scene, natural_rate, simulate
+from lagrotor import Scene, simulate
 from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, OKABE_ITO
 from lagrotor.errors import LagrotorError, LagrotorWarning
-from lagrotor.models.minimal import MODEL
-from lagrotor.models.orbits.variational import flow
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
-PAIR = Scene((10, -10), link=Link(1.5, 12.0, 0.1))
-RATE, (SELF, SHARED), G = natural_rate(PAIR), PAIR.inertias, PAIR.momenta[0]
+MADE = PAPER.scripts.run("derivations", "t13_integrals")
+PAIR, RATE, start, log_distances = (MADE[name] for name in ("PAIR", "RATE", "start", "log_distances"))
 AMPLITUDES, MOMENTA = np.array([0.05, 0.1, 0.2, 0.3, 0.4, 0.5]), np.array([-0.6, -0.3, -0.1, 0.0, 0.1, 0.3, 0.6])
 TURNS, PIECE, SECTION, TOL = 30, 3, 100, 1e-6
 SECTIONS = ((0.1, -0.3), (0.3, 0.1))  # r_0, P/G
@@ -29,28 +28,12 @@ TITLE = "Are the integrals complete?"
 
 
 # %%
-def start(r0: float, momentum: float, phase: float = 0.0) -> Scene:
-    """Upright with the energy of a swing of amplitude r0, as a swing (phase 0) or a twist (π/2), and P/G."""
-    swing, turn = r0 * RATE * np.cos(phase), -momentum * G / (2 * (SELF + SHARED))
-    twist = r0 * RATE * np.sin(phase) * np.sqrt(PAIR.sigma)
-    rates = ((swing, turn - twist, 0), (swing, turn + twist, 0))
-    return consistent_scene(PAIR.spins, ((0, 0, 1),) * 2, rates, PAIR.rotor, PAIR.link)
-
-
 def exponent(scene: Scene) -> float:
     """The largest Lyapunov exponent per turn over TURNS, of a fixed direction; NaN where bar and axes come into line."""
-    through, state, time = flow(scene), MODEL.start(scene), 2 * np.pi / RATE * PIECE
-    unit, total = np.repeat([1.0, RATE], 3), 0.0
-    direction = unit * np.array([0.5, 0.6, 0.2, 0.3, -0.4, 0.3])
     try:
-        for _ in range(TURNS // PIECE):
-            step = through(state, time, 1e-9)
-            state, direction = step.end, step.slope @ direction
-            size = float(np.linalg.norm(direction / unit))
-            direction, total = direction / size, total + np.log(size)
+        return float(log_distances(scene, TURNS, PIECE)[-1]) / TURNS
     except LagrotorError:
         return np.nan
-    return total / TURNS
 
 
 def section(scene: Scene) -> tuple[np.ndarray, float]:

@@ -128,11 +128,15 @@ def test_the_floquet_numbers_hold_together() -> None:
     assert 0 < found.exponent_error < 1e-9
 
 
-@pytest.mark.parametrize(("bars", "amplitudes"), [(2, 10), pytest.param(200, 50, marks=pytest.mark.slow)])
-def test_growth_and_turning_are_within_their_error(bars: int, amplitudes: int) -> None:
+# Seed, bars and amplitudes on each: ten thousand in ten parts of a minute.
+PARTS = [(8, 2, 10), *(pytest.param(seed, 20, 50, marks=pytest.mark.slow) for seed in range(10, 20))]
+
+
+@pytest.mark.parametrize(("seed", "bars", "amplitudes"), PARTS)
+def test_growth_and_turning_are_within_their_error(seed: int, bars: int, amplitudes: int) -> None:
     """Of random bars, against the series through r0^20 where that is known better, down to amplitudes at which rounding hides the
     kind."""
-    rng, pairs = np.random.default_rng(8), []
+    rng, pairs = np.random.default_rng(seed), []
     for _ in range(bars):
         length, mass = np.exp(rng.uniform(-1.2, 1.2)), rng.choice([0.0, np.exp(rng.uniform(-4.6, 1.2))])
         scene = Scene(spins=(10, -10), link=Link(length, mass, mass * length**2 * rng.uniform(0, 0.6)))
