@@ -137,6 +137,8 @@ def test_what_makes_no_sense_is_refused() -> None:
     with pytest.raises(InputError, match="two steps"):
         honeycomb(spring=1.0, spins=10.0, hinge=2.0).three_waves(1.0)
     wave = polygon_ring(5, spring=25.0, spins=12.0, hinge=30.0).nonlinear_wave(1.0, 0)
-    with pytest.raises(InputError, match="beyond, the mean and the second"):
-        wave.rate_at(0.7)
+    for amplitude in (0.7, -0.1, float("nan")):
+        with pytest.raises(InputError, match="beyond, the mean and the second"):
+            wave.rate_at(amplitude)
+    assert wave.rate_at(wave.trusted) == wave.rate + wave.shift * wave.trusted**2
     assert "a² rad/s" in wave.summary()["shift"]
