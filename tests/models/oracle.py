@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from lagrotor import Scene
 
 Extended = NDArray[np.longdouble]
-X = np.longdouble
 _EDGE = 7  # widths from its peak at which a pulse is below 80-bit rounding of it
 
 
@@ -28,7 +27,7 @@ def _cross(p: list[Any], q: list[Any]) -> list[Any]:
 
 
 @cache
-def _solver(bar: bool, tol: float) -> Any:
+def _solver(bar: bool, tol: float, X: Any) -> Any:
     """par: 1/(a + b), 1/(a − b), k, G_1, G_2, torques on axis 1 and 2, 1/width. Time from the pulse's peak."""
     import heyoka as hy
 
@@ -78,9 +77,9 @@ def _solve(S: list[list[Any]], b: list[Any]) -> list[Any]:
     return b
 
 
-def pace(scene: Scene) -> Any:
+def pace(scene: Scene, X: Any = np.longdouble) -> Any:
     """A rate (rad/s) of the scene: spins, start, and what the shock adds."""
-    together, apart = _inertias(scene)
+    together, apart = _inertias(scene, X)
     G, least = sum(abs(X(G)) for G in scene.momenta), min(together, apart)
     push = X(0)
     if scene.shock:
@@ -89,7 +88,7 @@ def pace(scene: Scene) -> Any:
     return G / least + np.linalg.norm(np.array(scene.rates, dtype=float)) + push or X(1)
 
 
-def _inertias(scene: Scene) -> tuple[Any, Any]:
+def _inertias(scene: Scene, X: Any) -> tuple[Any, Any]:
     """a + b and a − b, neither as a difference."""
     rotor, R = scene.rotor, X(scene.rotor.length)
     J = X(rotor.I1) + X(rotor.mass) * R**2 / 4
@@ -98,17 +97,25 @@ def _inertias(scene: Scene) -> tuple[Any, Any]:
     return J + X(scene.link.mass) * R**2 / 2, J + 2 * X(scene.link.inertia) * (R / X(scene.link.length)) ** 2
 
 
-def exact_axes(scene: Scene, times: Any, tol: float = 1e-19, off: Any = None, most_steps: int = 3_000_000) -> Extended:
-    """Axes (2, n, 3) at times (n,) in s, started off by `off` (2, 2, 3), axes and rates in units of the scene's rate.
+def exact_axes(
+    scene: Scene,
+    times: Any,
+    tol: float = 1e-19,
+    off: Any = None,
+    most_steps: int = 3_000_000,
+    X: Any = np.longdouble,
+) -> Extended:
+    """Axes (2, n, 3) at times (n,) in s, started off by `off` (2, 2, 3), axes and rates in units of the scene's rate;
+    X: the numbers, of 80 bits or heyoka's of 128.
 
     NaN from where the solver stops.
     """
-    together, apart = _inertias(scene)
-    least, rate = min(together, apart), pace(scene)
+    together, apart = _inertias(scene, X)
+    least, rate = min(together, apart), pace(scene, X)
     shock, R = scene.shock, X(scene.rotor.length)
     at = X(shock.at) * rate if shock else X(0)
     width = X(shock.width) * rate if shock else X(1)
-    solver = _solver(scene.link is not None, tol)
+    solver = _solver(scene.link is not None, tol, X)
     k = X(scene.link.length) / R if scene.link else X(1)
     r, v = np.array(scene.axes, dtype=X), np.array(scene.rates, dtype=X) / rate
     if off is not None:
@@ -117,8 +124,8 @@ def exact_axes(scene: Scene, times: Any, tol: float = 1e-19, off: Any = None, mo
     torque = [X(f) * R / (least * rate**2) for f in shock.force] if shock else []
     begin, asked = -at, np.array(times, dtype=X) * rate - at
     reach = _EDGE * width
-    edges = sorted({begin, asked[-1], *((e for e in (-reach, reach) if begin < e < asked[-1]) if shock else ())})
-    solver.state[:] = np.concatenate([*_onto(r, v, k, scene.link is not None)])
+    edges = sorted([begin, asked[-1], *((e for e in (-reach, reach) if begin < e < asked[-1]) if shock else ())])
+    solver.state[:] = np.concatenate([*_onto(r, v, k, scene.link is not None, X)])
     found = np.full((len(asked), 12), X("nan"))
     solver.time = begin
     for left, right in pairwise(edges):
@@ -141,7 +148,7 @@ def _to(solver: Any, t: Any, longest: Any, most_steps: int) -> bool:
     return "time_limit" in str(outcome) and bool(np.isfinite(solver.state).all())
 
 
-def _onto(r: Extended, v: Extended, k: Any, bar: bool) -> tuple[Extended, ...]:
+def _onto(r: Extended, v: Extended, k: Any, bar: bool, X: Any) -> tuple[Extended, ...]:
     """(s, d, s', d') of the nearest start on the constraints: what doubles left off is below the oracle's digits."""
     for _ in range(4):
         (r1, r2), e, zero = r, np.array([k, X(0), X(0)]), np.zeros(3, X)
@@ -149,7 +156,8 @@ def _onto(r: Extended, v: Extended, k: Any, bar: bool) -> tuple[Extended, ...]:
         G = [[*r1, *zero], [*zero, *r2], [*(-e - r2), *(e - r1)]]
         n = 3 if bar else 2
         G, g = np.array(G[:n], X), np.array(g[:n], X)
-        inverse = np.linalg.pinv(G.astype(float) @ G.T.astype(float), rcond=1e-15).astype(X)
+        inverse = np.linalg.pinv(G.astype(float) @ G.T.astype(float), rcond=1e-15)
+        inverse = np.array([[X(float(part)) for part in row] for row in inverse], X)
         q, w = r.ravel() - G.T @ (inverse @ g), v.ravel() - G.T @ (inverse @ (G @ v.ravel()))
         r, v = q.reshape(2, 3), w.reshape(2, 3)
     return r[0] + r[1], r[1] - r[0], v[0] + v[1], v[1] - v[0]
