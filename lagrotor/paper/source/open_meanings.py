@@ -189,8 +189,8 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         ("differential", box.name == "d" and box.style and not box.sub and after is not None, "is a factor, and no differential"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
         ("sign", not (box.name.isalnum() and (len(box.name) == 1 or f"\\{box.name}" in GREEK or box.upright)), "is a letter"),
-        ("unit", box.upright and len(box.name) == 1 and box.name not in "deiO" and not (
-            place and (row[place - 1].kind == "number" or row[place - 1].upright)), "is a letter, and no unit or operator"),
+        ("unit", box.upright and (len(box.name) == 1 or box.name in UNITS) and box.name not in ("d", "e", "i", "O")
+         and not (place and (row[place - 1].kind in ("number", "unit") or row[place - 1].upright)), "is no unit or operator"),
         ("laplacian", _is_laplacian(box, after), "is a letter, and no Laplacian"),
     )  # fmt: skip
     for key, is_open, what in open_:
@@ -411,6 +411,12 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Marks:
 
 
 def _number(reader: FormulaReader, row: list[Box], place: int) -> Marks:
+    box, after = row[place], _behind(row, place)
+    term = (
+        after is not None and after.kind == "letter" and bool(box.sup) and "1" in (box.name, (box.sup or [box])[0].name)
+    )
+    if term or (box.sup and [b.name for b in box.sup] == ["1"]):  # 1^1 S_0
+        yield "power", f"{box.name} has a power, and is no sign of a term", ""
     if len(row[place].name) > 1 and row[place].name.isdecimal() and row[place].name[0] == "0":
         yield "digits", f"{row[place].name} is a number, and no row of digits", ""
 

@@ -6,11 +6,10 @@ from fractions import Fraction
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_scripts import power_of
+from lagrotor.paper.source.rows import UNITS
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, number, product_of
 
 _MOST_DIGITS = 1000
-_UNIT_WORDS = "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr pc"
-_UNIT_LETTERS = frozenset(_UNIT_WORDS.split())
 _UNIT = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s,·]|\\[,.%]|-?\d+|[{}]")
 
 
@@ -41,7 +40,7 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         return Call("quotient", (node, number(100))), unit + 1
     if unit < len(row) and row[unit].kind in ("unit", "text"):
         return product_of([node, _units(reader, row[unit])]), unit + 1
-    if unit < len(row) and row[unit].upright and row[unit].name in _UNIT_LETTERS and row[unit].sub is None:
+    if unit < len(row) and row[unit].upright and row[unit].name in UNITS and row[unit].sub is None:
         if unit == behind and len(row[unit].name) == 1:
             reader.guess("unit", f"upright {row[unit].name} behind a number is a unit")
         return product_of([node, power_of(reader, Letter(f"unit_{row[unit].name}"), row[unit])]), unit + 1

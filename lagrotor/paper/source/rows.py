@@ -13,7 +13,7 @@ TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
 _UNIT_NAMES = (
     "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr pc kHz MHz GHz THz kPa "
     "MPa GPa kN kJ kW MW mV kV mA nF pF mH mT l L deg degrees Ohm ohm Nm fm fs ps µs "
-    "µm um barn mb"
+    "µm um pm barn mb"
 )
 UNITS = frozenset(_UNIT_NAMES.split())
 

@@ -281,6 +281,7 @@ def test_what_custom_settles_is_named_as_a_guess(latex: str, guess: str) -> None
         (r"l = 5\,\eta", "l = 5*eta", ""),
         (r"l = 83\,\mathrm{\%}", "l = 83/100", ""),
         (r"l = 1.602\,176", "l = 25034/15625", ""),
+        (r"l = 29.6\,\mathrm{fm}", "l = 148/5*unit_fm", ""),
         (r"y = e^2/r", "y = e**2/r", "e is a letter, and not Euler's number"),
         (r"x' = \gamma(x - vt)", "xprime = gamma*(x - v*t)", "gamma before ( is a factor"),
         (r"a = b \text{ or } c = d", "a = b; c = d", "what or joins are two statements, and both are meant"),

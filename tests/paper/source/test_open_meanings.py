@@ -136,6 +136,8 @@ SETTLED = [
     (r"y = \exp(-3x) \text{ } z = \exp(x)", [], "what a space parts"),
     (r"R = 4.84 \, \Omega", [], "Omega behind the number"),
     (r"E_k = m v \, E_p = m g h", [], "no left side"),
+    ("a = 1^2S_{1/2}", [], "no sign of a term"),
+    (r"E = \frac{a}{2}\,\mathrm{eV}", [], "no unit or operator"),
     (r"\partial_t u(x, 0) = 0", [], "is not taken there"),
     (r"\frac{\partial u(0, t)}{\partial x} = 0", [], "is not taken there"),
     (r"a = \frac{1}{|c|}", [], "number of elements"),
