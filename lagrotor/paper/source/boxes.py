@@ -315,6 +315,8 @@ class _Reader:
             else box
             for box in self.argument()
         ]
+        while content and content[0].kind == "thin":  # \mathrm{d}^{\,3}
+            content = content[1:]
         if item.text == "^":
             if content and all(b.kind == "letter" and b.name == "prime" for b in content):
                 self.primed(target, item, len(content))

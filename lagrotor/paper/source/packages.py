@@ -250,7 +250,7 @@ _PHYSICS: dict[str, Package] = {
     **dict.fromkeys((r"\dv", r"\derivative", r"\odv"), _derivative(r"\mathrm{d}")),
     **dict.fromkeys((r"\pdv", r"\pderivative", r"\partialderivative"), _derivative(r"\partial")),
     **dict.fromkeys((r"\fdv", r"\functionalderivative"), _derivative(r"\delta")),
-    **dict.fromkeys((r"\dd", r"\differential"), _differential),
+    **dict.fromkeys((r"\dd", r"\differential", r"\odif"), _differential),
     **dict.fromkeys((r"\qty", r"\quantity"), _quantity),
     **dict.fromkeys((r"\vb", r"\vectorbold"), _as(r"\mathbf{#1}")),
     **dict.fromkeys((r"\va", r"\vectorarrow"), _as(r"\vec{\mathbf{#1}}")),

@@ -107,12 +107,13 @@ def _taken_out(node: Node, box: Box) -> tuple[Node, Node]:
         if node.name == "quotient":
             inner, found = _taken_out(node.args[0], box)
             return Call("quotient", (inner, node.args[1])), found
-        if node.name == "product":
+        if node.name in ("product", "matmul"):
             for place, each in enumerate(node.args):
                 if _holds(each):
                     inner, found = _taken_out(each, box)
                     rest = [*node.args[:place], *([] if inner == number(1) else [inner]), *node.args[place + 1 :]]
-                    return product_of(rest or [number(1)]), found
+                    ordered = node.name == "matmul" and len(rest) > 1
+                    return Call("matmul", tuple(rest)) if ordered else product_of(rest or [number(1)]), found
         if node.name == "sum" and _holds(node.args[-1]):
             inner, found = _taken_out(node.args[-1], box)
             return Call("sum", (*node.args[:-1], inner)), found
@@ -135,7 +136,7 @@ def _vector_differential(node: Node) -> bool:
 def _holds(node: Node) -> bool:
     return isinstance(node, Call) and (
         node.name == "differential"
-        or (node.name in ("product", "quotient", "negative", "sum") and any(map(_holds, node.args)))
+        or (node.name in ("product", "matmul", "quotient", "negative", "sum") and any(map(_holds, node.args)))
     )
 
 

@@ -75,6 +75,8 @@ READ = {
     r"p = \text{const}\qquad (t > 0)": "p = const; t = 0",
     r"y = 4\pi\left(\frac{m}{k}\right)^{3/2}": "y = 4*pi*(m/k)**(3/2)",
     r"V = \iiint_D f(x, y, z)\,dx\,dy\,dz": "V = Integral(f(x, y, z), volume(x, y, z), over_D)",
+    r"\int |z\rangle\langle z|\,dz = 1": "Integral(matmul(ket(z), bra(z)), z) = 1",
+    r"f = \int g(\vec s)\,\mathrm{d}^{\,3}\vec s": "f = Integral(g(svec), differential(svec, 3))",
     r"Z = \int d^3r_1\,d^3r_2\,f": "Z = Integral(f, volume(differential(r_1, 3), differential(r_2, 3)))",
     r"\int_V\nabla\cdot\mathbf E\,dV = \int_V\nabla^2\phi\,dV":
         "Integral(divergence(Ebold), V, over_V) = Integral(laplacian(phi), V, over_V)",
