@@ -17,7 +17,7 @@ from lagrotor.mechanics import System, coordinates, t
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proved import NotProved, check, crossing, enclose, equilibrium, precession
-from lagrotor.proved.verification.reversals import Residues
+from lagrotor.proved.verification.reversals import points_of
 from lagrotor.proved.verification.written import Words
 
 C = coordinates("theta")
@@ -166,6 +166,27 @@ def test_a_theorem_of_something_else_is_refused(name: str, k: int, certificates:
         check(other)
 
 
+ROOTS = {
+    "a root in the mass": -sp.sqrt(1 - U**2 - V**2) + 1 / sp.sqrt(X**2 + Y**2),
+    "a third": (U**2 + V**2) / 2 - sp.cbrt(1 + X**2),
+    "tenths, π and √2": sp.pi * (U**2 + V**2) / 2 - (1 + X**2) ** sp.Rational(17, 10) + sp.sqrt(2) * sp.cos(Y),
+    "four roots": (U**2 + V**2) / 2 + sum(1 / sp.sqrt((X - i) ** 2 + (Y - 1) ** 2) for i in range(2, 6)),
+    "seven roots": (U**2 + V**2) / 2 + sum(1 / sp.sqrt((X - i) ** 2 + (Y - 1) ** 2) for i in range(2, 9)),
+}
+
+
+@pytest.mark.parametrize("name", ROOTS)
+def test_roots_are_what_their_squares_say(name: str) -> None:
+    found = json.loads(
+        json.dumps(enclose(System(PLANE, ROOTS[name]), {}, ["0.5", 0], [0, "0.25"], "0.02", 1e-9).certificate)
+    )
+    check(found)
+    data = found["about"]["Lagrangian"]
+    other = found | {"about": {"Lagrangian": data | {"L": data["L"] + " + x**3/10**9"}}}
+    with pytest.raises(NotProved, match="do not satisfy Lagrange's equations"):
+        check(other)
+
+
 def test_an_orbit_names_its_parameters_and_a_precession_its_pair() -> None:
     orbit = json.loads(json.dumps(precession(Scene((10, -10)), "0.204", 1e-12).certificate))
     words = check(orbit)
@@ -218,7 +239,7 @@ def test_slopes_of_words_are_those_of_sympy(name: str) -> None:
                 found.append(rule(*(found[i] for i in on)))
         true = mp.mpf(str(sp.N(expected.subs({x: sp.Rational(37, 100), v: sp.Rational(81, 100)}), 30)))
         assert abs(found[slope] - true) < mp.mpf("1e-25")
-    assert len({r.value for r in Residues(words.tape([slope, place])).outputs([])}) == 2
+    assert len({r.value for r in next(points_of(words.tape([slope, place]))).outputs([])}) == 2
 
 
 def test_decimals_of_a_system_are_not_rounded_on_their_way_to_its_equations() -> None:

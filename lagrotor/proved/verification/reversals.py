@@ -2,16 +2,19 @@
 
 It is an identity of rational functions of letters: the arguments, π, and functions of them, where sin, asin and atan are odd,
 sin² + cos² = 1, e^(a+b) = e^a e^b, √a and e^(n log a) are powers of a. It is held modulo a prime of 512 bits at one point, both
-from a digest of the tape. A false one holds there with a chance of at most its degree over the prime (Schwartz and Zippel), here
-below 2⁻²⁵⁰, however small the difference is as a number; one that needs more of the functions is refused. The laws of roots and
-logarithms hold where their arguments are positive: at S x nothing has to be positive that was not so at x, where the motion
-was followed.
+from a digest of the tape, at which what has a root is a square, and for both signs of each root, up to four; roots of more are
+letters, of which less is known. A false one holds there with a chance of at most its degree over the prime (Schwartz and
+Zippel), here below 2⁻²⁵⁰, however small the difference is as a number; one that needs more of the functions is refused. The laws
+of roots and logarithms hold where their arguments are positive: at S x nothing has to be positive that was not so at x, where the
+motion was followed.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from fractions import Fraction
+from functools import lru_cache
 from hashlib import sha512
-from math import floor
+from math import floor, gcd
 from typing import Any, NamedTuple
 
 from sympy import nextprime
@@ -22,6 +25,8 @@ from lagrotor.proved.verification.tapes import Tape, results_of
 Terms = Mapping[int, Fraction]
 _DEGREE = 2**256
 _PARTS = 5040
+_ODD = 315  # roots that every residue has once
+_MOST_ROOTS, _MOST_TRIES, _OF_ONE_PRIME = 4, 256, 64
 
 
 class Residue(NamedTuple):
@@ -36,24 +41,56 @@ def check_reversal(tape: Tape, signs: Any) -> None:
     """f(S x) = −S f(x) for the signs ±1 of the states x."""
     fits = len(signs) == len(tape["outputs"]) and all(type(s) is int and abs(s) == 1 for s in signs)
     demand(fits, "a reversal is a sign 1 or −1 of each state")
-    residues = Residues(tape)
-    rates = residues.outputs([1] * len(signs))
-    followed = len(residues.domain)
-    images = residues.outputs(signs)
-    demand(
-        len(residues.domain) == followed,
-        "time reversed the motion may leave where its roots and logarithms are defined",
-    )
-    for s, a, b in zip(signs, rates, images, strict=True):
-        demand((s * a.value + b.value) % residues.p == 0, "time reversed is no motion")
+    for residues in points_of(tape):
+        rates = residues.outputs([1] * len(signs))
+        followed = len(residues.domain)
+        stays, images = False, list[Residue]()
+        with suppress(NoSquareError):  # then something has a root that had none
+            images = residues.outputs(signs)
+            stays = len(residues.domain) == followed
+        demand(stays, "time reversed the motion may leave where its roots and logarithms are defined")
+        for s, a, b in zip(signs, rates, images, strict=True):
+            demand((s * a.value + b.value) % residues.p == 0, "time reversed is no motion")
+
+
+class NoSquareError(Exception):
+    """What has a root is no square at a point."""
+
+
+def points_of(tape: Tape) -> Iterator["Residues"]:
+    """For each sign of each root a prime and a point at which all roots are residues; or one at which they are letters."""
+    letters = Residues(tape, None)
+    letters.outputs([])
+    found = [_point_of(tape, signs) for signs in range(2**letters.roots if letters.roots <= _MOST_ROOTS else 0)]
+    whole = [point for point in found if point is not None]
+    yield from whole if whole and len(whole) == len(found) else [Residues(tape, None)]
+
+
+def _point_of(tape: Tape, signs: int) -> "Residues | None":
+    for attempt in range(_MOST_TRIES):
+        with suppress(NoSquareError):
+            Residues(tape, attempt, signs).outputs([])
+            return Residues(tape, attempt, signs)
+    return None
+
+
+@lru_cache(maxsize=64)
+def _prime(seed: str) -> int:
+    """The next one after a number of 512 bits with which −1 is no square, and odd roots are unique."""
+    p = int(nextprime(int(sha512(seed.encode()).hexdigest(), 16)))
+    while not (p % 4 == 3 and gcd(p - 1, _ODD) == 1):
+        p = int(nextprime(p))
+    return p
 
 
 class Residues:
-    """The results of a tape, modulo a prime."""
+    """The results of a tape, modulo a prime; attempt: which of its points, none where roots are letters; signs: a bit a root."""
 
-    def __init__(self, tape: Tape) -> None:
-        self.tape, self._digest = tape, sha512(str(tape).encode()).hexdigest()
-        self.p = int(nextprime(int(self._digest, 16)))
+    def __init__(self, tape: Tape, attempt: int | None, signs: int = 0) -> None:
+        self.tape, self._digest = tape, sha512(f"{tape} {attempt}".encode()).hexdigest()
+        self.p = _prime(f"{tape} {(attempt or 0) // _OF_ONE_PRIME}")
+        self._signs = None if attempt is None else signs
+        self._roots: dict[int, int] = {}  # of what has one, by its logarithm's letter
         self._logarithms: dict[int, Terms] = {}  # of what is positive: exponentials, and what has a logarithm or a root
         self._halves: dict[
             int, tuple[Terms, Residue, int]
@@ -149,9 +186,33 @@ class Residues:
             y = x if of_log else x * _PARTS
             found = self._product(found, base, floor(y))
             if y != floor(y):
-                found = self._product(found, self._letter(self._point("exp", letter, str(y - floor(y)))), 1)
+                root = self._root(letter, base, y - floor(y)) if of_log else None
+                found = self._product(found, root or self._letter(self._point("exp", letter, str(y - floor(y)))), 1)
         self._logarithms[found.value] = terms
         return found
+
+    @property
+    def roots(self) -> int:
+        """How many have two signs."""
+        return len(self._roots)
+
+    def _root(self, letter: int, a: Residue, power: Fraction) -> Residue | None:
+        """a^power, as far as residues have it: √a with the sign that its bit says, and odd roots."""
+        odd = power.denominator if power.denominator % 2 else power.denominator // 2
+        if odd != power.denominator and self._signs is None:
+            self._roots[letter] = 0
+        if self._signs is None or _ODD % odd:
+            return None
+        value = a.value
+        if odd != power.denominator:
+            if letter not in self._roots:
+                place, root = len(self._roots), pow(value, (self.p + 1) // 4, self.p)
+                self._roots[letter] = self.p - root if self._signs >> place & 1 else root
+            value = self._roots[letter]
+            if value * value % self.p != a.value:
+                raise NoSquareError
+        whole = power.numerator * pow(odd, -1, self.p - 1) % (self.p - 1)
+        return self._letter(pow(value, whole, self.p), a.degree + 1)
 
 
 def _added(a: Terms, b: Terms, times: int) -> Terms:

@@ -4,7 +4,7 @@ Decided as `reversals` decides, modulo a prime. The program of a scene or struct
 Lagrangian the equations of Lagrange, with d'Alembert's principle where there are constraints, are formed from its words.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, combinations
 from typing import Any
 
@@ -15,7 +15,7 @@ from lagrotor.proved.fields import field_of
 from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
 from lagrotor.proved.verification.certified_sets import balls, term
 from lagrotor.proved.verification.recurrences import ZERO, demand
-from lagrotor.proved.verification.reversals import Residues
+from lagrotor.proved.verification.reversals import points_of
 from lagrotor.proved.verification.tapes import read_tape
 from lagrotor.proved.verification.written import Words
 from lagrotor.structures.assembly import Assembly, Brace
@@ -43,20 +43,20 @@ def _rates(words: Words, certificate: Any) -> list[int]:
     return outputs
 
 
-def residues(words: Words, places: Sequence[int]) -> tuple[list[int], int]:
-    """Of results modulo a prime, and the prime.
+def residues(words: Words, places: Sequence[int]) -> Iterator[tuple[list[int], int]]:
+    """Of results modulo a prime, and the prime, for each sign of roots.
 
     What is known to be positive comes from earlier results: the program's, along whose motion it was so, not from what is named.
     """
-    decided = Residues(words.tape(places))
-    return [x.value for x in decided.outputs([])], decided.p
+    for point in points_of(words.tape(places)):
+        yield [x.value for x in point.outputs([])], point.p
 
 
 def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what: str) -> None:
     """Results, each the same function of the arguments as another."""
     demand(len(first) == len(second), what)
-    values, _ = residues(words, [*first, *second])
-    demand(values[: len(first)] == values[len(first) :], what)
+    for values, _ in residues(words, [*first, *second]):
+        demand(values[: len(first)] == values[len(first) :], what)
 
 
 def _check_start(certificate: Any, words: Words, held: Sequence[int], size: int) -> None:
@@ -174,17 +174,15 @@ class LagrangianOfWords:
         demand_equal(words, found, wanted, "the rates are not those of velocities under the constraints")
         n, k = self.n, len(rows)
         slopes = [self.by(p, self.v) for p in self.by(self.L, self.v)]
-        values, p = residues(words, [*chain(*rows), *self.missing(), *chain(*slopes)])
-        prime, G = fmpz_mod_ctx(p), values[: k * n]
-        demand(
-            fmpz_mod_mat(k + 1, n, values[: (k + 1) * n], prime).rank() == k,
-            "the rates do not satisfy Lagrange's equations",
-        )
-        M, back = values[(k + 1) * n :], [0] * k
-        bordered = [*chain(*(M[i * n : i * n + n] + G[i::n] for i in range(n)))]
-        bordered += chain(*(G[j * n : j * n + n] + back for j in range(k)))
-        regular = fmpz_mod_mat(n + k, n + k, bordered, prime).rank() == n + k
-        demand(regular, "the Lagrangian gives no accelerations")
+        for values, p in residues(words, [*chain(*rows), *self.missing(), *chain(*slopes)]):
+            prime, G = fmpz_mod_ctx(p), values[: k * n]
+            own = fmpz_mod_mat(k + 1, n, values[: (k + 1) * n], prime).rank() == k
+            demand(own, "the rates do not satisfy Lagrange's equations")
+            M, back = values[(k + 1) * n :], [0] * k
+            bordered = [*chain(*(M[i * n : i * n + n] + G[i::n] for i in range(n)))]
+            bordered += chain(*(G[j * n : j * n + n] + back for j in range(k)))
+            regular = fmpz_mod_mat(n + k, n + k, bordered, prime).rank() == n + k
+            demand(regular, "the Lagrangian gives no accelerations")
 
     def check_friction(self, state: list[Ball]) -> None:
         """Rayleigh's function is quadratic in v, and no principal minor of its matrix is negative over a box about v = 0."""
@@ -196,7 +194,7 @@ class LagrangianOfWords:
             words, [total], [words.keep("add", self.D, self.D)], "the friction is not linear in the velocities"
         )
         rows = [self.by(slope, self.v) for slope in slopes]
-        values, p = residues(words, [*chain(*rows)])
+        ((values, p), *_) = residues(words, [*chain(*rows)])
         box = [Dual(Rest([x], ZERO, 1)) for x in [*state, *self.others]]
         exactly = evaluated(words.tape([*chain(*rows)]), box, 1)
         for places in chain(*(combinations(range(n), k) for k in range(1, n + 1))):
