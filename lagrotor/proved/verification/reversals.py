@@ -58,20 +58,16 @@ class NoSquareError(Exception):
 
 
 def points_of(tape: Tape) -> Iterator["Residues"]:
-    """For each sign of each root a prime and a point at which all roots are residues; or one at which they are letters."""
+    """One prime and point at which all roots are residues, with each sign of each; or at which they are letters."""
     letters = Residues(tape, None)
     letters.outputs([])
-    found = [_point_of(tape, signs) for signs in range(2**letters.roots if letters.roots <= _MOST_ROOTS else 0)]
-    whole = [point for point in found if point is not None]
-    yield from whole if whole and len(whole) == len(found) else [Residues(tape, None)]
-
-
-def _point_of(tape: Tape, signs: int) -> "Residues | None":
-    for attempt in range(_MOST_TRIES):
+    for attempt in range(_MOST_TRIES if letters.roots <= _MOST_ROOTS else 0):
         with suppress(NoSquareError):
-            Residues(tape, attempt, signs).outputs([])
-            return Residues(tape, attempt, signs)
-    return None
+            for signs in range(2**letters.roots):
+                Residues(tape, attempt, signs).outputs([])
+            yield from (Residues(tape, attempt, signs) for signs in range(2**letters.roots))
+            return
+    yield Residues(tape, None)
 
 
 @lru_cache(maxsize=64)
