@@ -726,6 +726,10 @@ class Expander:
         for suffix in suffixes:
             for folder in (self.file.parent, self.file.parent.parent):
                 path = folder / f"{name}{suffix}"
+                if not path.is_file() and path.parent.is_dir():  # as kpathsea finds it on every system
+                    path = next(
+                        (each for each in path.parent.iterdir() if each.name.lower() == path.name.lower()), path
+                    )
                 if path.is_file() and path.suffix in (".tex", ".sty", ".cls", ".ltx", ".def", ".inp"):
                     self._take_in(read_text(path, "latin-1"), path.name)
                     return True

@@ -113,6 +113,11 @@ def test_a_package_that_looks_at_what_comes_next_hides_no_display(call: str, num
     assert (found[0][1], found[-1][1]) == ("a = b", "c = d") and len(found) == len(numbers)
 
 
+def test_a_file_is_found_by_its_name_in_other_capitals(tmp_path: Path) -> None:
+    body = r"\input{Side}\begin{equation} a = b \end{equation}"
+    assert [number for number, _ in equations_of(tmp_path, body, side_tex=r"\setcounter{equation}{3}")] == ["4"]
+
+
 @pytest.mark.parametrize(("star", "number"), [("*", "8"), ("", "5")])
 def test_a_class_that_looks_at_what_comes_next_keeps_the_numbers(star: str, number: str, tmp_path: Path) -> None:
     body = rf"\notes[a][b] \lemma{star} \begin{{equation}} a = b \end{{equation}}"
