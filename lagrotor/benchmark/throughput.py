@@ -11,7 +11,7 @@ import numpy as np
 
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.sweeps.ensemble import CHUNK, started, sweep
+from lagrotor.models.sweeps.ensemble import CHUNK, scenes_from_states, sweep
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.theory.paired_precession.series_orbit import series_orbit
@@ -34,7 +34,7 @@ class Throughput:
 def displaced_family(n: int, r0: float = 0.204) -> list[Scene]:
     """n opposite pairs displaced from the paired precession: its start at `r0` scaled from a quarter to one and a half."""
     scene = Scene((10.0, -10.0))
-    return started(scene, np.linspace(0.25, 1.5, n)[:, None] * MODEL.start(exact_orbit(scene, r0).scene))
+    return scenes_from_states(scene, np.linspace(0.25, 1.5, n)[:, None] * MODEL.start(exact_orbit(scene, r0).scene))
 
 
 def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughput]:

@@ -77,9 +77,9 @@ ODDS = Calibrated(
     "test_estimated_run.py::test_a_better_run_that_conserves_no_better_is_no_better",
 )
 CONFIRMED = Calibrated(
-    0.5,
+    2 / 3,
     "least times SAFETY that the difference of two runs counts, where what they conserve says that the better one is much better",
-    "the pairs of ODDS: where the odds are said to be below a fourth, a twentieth of the true ones is above 0.5, one above 0.8",
+    "490 runs of 382 wide scenes of seeds 424242 and 777123: of 0.5 two exceed their estimate, by up to a fifth, of 2/3 none",
     "test_estimated_run.py::test_a_better_run_that_conserves_no_better_is_no_better",
 )
 CHEAPER = Calibrated(

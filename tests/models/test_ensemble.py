@@ -15,7 +15,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import integrate_model, natural_units, typical_rate
 from lagrotor.models.sweeps import chunk, ensemble
 from lagrotor.models.sweeps.chunk import MODELS, run_chunk
-from lagrotor.models.sweeps.ensemble import started
+from lagrotor.models.sweeps.ensemble import scenes_from_states
 
 T = np.array([0.0, 0.4, 1.0, 2.5])
 UP = ((0, 0, 1), (0, 0, 1))
@@ -23,7 +23,7 @@ STATE = np.array([0.1, 0.05, 0.02, 0.3, 1.2, -0.4])
 
 
 def family(n, scene=None):
-    return started(scene or Scene((10.0, -10.0)), STATE * np.linspace(0.3, 1.5, n)[:, None])
+    return scenes_from_states(scene or Scene((10.0, -10.0)), STATE * np.linspace(0.3, 1.5, n)[:, None])
 
 
 def mixed():
@@ -186,12 +186,12 @@ def test_bad_arguments(scenes, more):
 
 
 def test_started_keeps_the_states():
-    scenes = started(Scene((10.0, -10.0), link=Link(0.7)), [STATE, 2 * STATE])
+    scenes = scenes_from_states(Scene((10.0, -10.0), link=Link(0.7)), [STATE, 2 * STATE])
     np.testing.assert_allclose([MODEL.start(s) for s in scenes], [STATE, 2 * STATE], atol=1e-14)
     with pytest.raises(InputError):
-        started(Scene((1.0, 1.0)), STATE)
+        scenes_from_states(Scene((1.0, 1.0)), STATE)
     with pytest.raises(SingularError):
-        started(Scene((1.0, 1.0), link=None), [STATE])
+        scenes_from_states(Scene((1.0, 1.0), link=None), [STATE])
 
 
 def test_the_fast_extra_runs_the_same_ensemble():

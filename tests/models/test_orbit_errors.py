@@ -25,7 +25,7 @@ from lagrotor import (
 )
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit
-from lagrotor.models.orbits.precession import sampled
+from lagrotor.models.orbits.precession import orbit_harmonics
 from lagrotor.theory import PrecessionOrbit, series_orbit
 from lagrotor.theory.paired_precession.orbit_harmonics import start_of
 
@@ -45,7 +45,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
 
 
 def exact(scene: Scene, r0: float) -> PrecessionOrbit:
-    return sampled(exact_orbit(scene, r0), scene, r0)
+    return orbit_harmonics(exact_orbit(scene, r0), scene, r0)
 
 
 def off(one: PrecessionOrbit, other: PrecessionOrbit) -> float:
@@ -178,7 +178,7 @@ def collocated(scene: Scene, r0: float, guess: PrecessionOrbit) -> tuple[float, 
 )
 def test_the_exact_orbit_is_that_of_collocation_within_its_error(scene: Scene, r0: float) -> None:
     orbit = exact_orbit(scene, r0)
-    answer = sampled(orbit, scene, r0)
+    answer = orbit_harmonics(orbit, scene, r0)
     frequency, harmonics = collocated(scene, r0, answer)
     apart = (
         np.abs(harmonics[: len(answer.harmonics)] - answer.harmonics).sum()

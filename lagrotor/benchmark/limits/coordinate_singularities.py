@@ -14,7 +14,7 @@ from lagrotor.models.model import Model, integrate_model
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spheres import CLEARANCE
 from lagrotor.models.spring_link.rigid_body import printed_rotation
-from lagrotor.models.sweeps.ensemble import started
+from lagrotor.models.sweeps.ensemble import scenes_from_states
 from lagrotor.pair.scene import Link, Scene
 
 Array = NDArray[np.float64]
@@ -118,7 +118,7 @@ def passes(miss: float) -> bool:
 
 def fold_difference(tol: float) -> float:
     """Largest difference of the axes between minimal and spheres while a bar of 0.6 R folds over."""
-    scene = started(Scene((3.0, -3.0), link=Link(0.6)), [[0.0, 0.3, 0.0, 0.2, 3.0, 0.1]])[0]
+    scene = scenes_from_states(Scene((3.0, -3.0), link=Link(0.6)), [[0.0, 0.3, 0.0, 0.2, 3.0, 0.1]])[0]
     one, other = (simulate(scene, np.linspace(0, 1, 51), model, tol).axes for model in ("minimal", "spheres"))
     return float(np.abs(one - other).max())
 

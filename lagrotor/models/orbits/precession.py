@@ -45,7 +45,7 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
             break
         if orbit.error <= tol and orbit.frequency_error <= wanted:
             return orbit
-    orbit = sampled(exact_orbit(scene, amplitude), scene, amplitude)
+    orbit = orbit_harmonics(exact_orbit(scene, amplitude), scene, amplitude)
     if orbit.error > tol or orbit.frequency_error > wanted:
         raise DomainError(
             f"precession_orbit: at r0 = {r0:g} neither the series nor the exact orbit, known to {orbit.error:.1e}, reaches "
@@ -54,7 +54,7 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
     return orbit
 
 
-def sampled(exact: ExactOrbit, scene: Scene, r0: float) -> PrecessionOrbit:
+def orbit_harmonics(exact: ExactOrbit, scene: Scene, r0: float) -> PrecessionOrbit:
     """An exact orbit as harmonics: sampled over a quarter period, as many times as the harmonics need to fall to its error.
 
     Raises DomainError where 512 harmonics are too few.

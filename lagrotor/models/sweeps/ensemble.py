@@ -182,7 +182,7 @@ def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iter
             future.cancel()
 
 
-def started(scene: Scene, states: ArrayLike) -> list[Scene]:
+def scenes_from_states(scene: Scene, states: ArrayLike) -> list[Scene]:
     """`scene` started from each of the minimal model's states (n, 6): U, chi, alpha and their rates (1/s).
 
     Every state of the minimal model is on the bar, so no start needs to be brought onto it.
@@ -190,7 +190,7 @@ def started(scene: Scene, states: ArrayLike) -> list[Scene]:
     """
     table = np.asarray(states, dtype=float)
     if table.ndim != 2 or table.shape[1] != 6 or not np.isfinite(table).all():
-        raise InputError(f"started: states of shape {table.shape} must be finite and of shape (n, 6)")
+        raise InputError(f"scenes_from_states: states of shape {table.shape} must be finite and of shape (n, 6)")
     seen = MODEL.observe(scene, table)
     axes, rates = (part.swapaxes(0, 1).tolist() for part in (seen.axes, seen.rates))
     return [replace(scene, axes=r, rates=v) for r, v in zip(axes, rates, strict=True)]
