@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import DomainError, InputError
+from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.calibrated_factors import LARGEST_SWING
@@ -82,11 +83,14 @@ class GuidingCentre:
         """(beta, h, alpha) in rad at ascending times t (n,) in s after the scene's start: (n, 3).
 
         Raises:
+            InputError: unless the times are finite, ascending and not before 0.
             DomainError: where the bar comes into line with an axis before.
         """
         from scipy.integrate import solve_ivp
 
-        times = np.atleast_1d(np.asarray(t, dtype=float))
+        times = check_times("guiding_centre", t)
+        if times[0] < 0:
+            raise InputError(f"guiding_centre: t[0] = {times[0]:g} s is before the start; take times from 0 on")
 
         def rhs(_: float, y: Array) -> Array:
             at = _at(self.scene, y[0], y[1])

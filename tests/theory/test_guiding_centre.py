@@ -94,3 +94,6 @@ def test_what_it_does_not_hold_is_refused():
         guiding_centre(leaning(Scene((11, 5)), rates=(6, 4, 6, -3)))
     with pytest.raises(DomainError, match=r"comes into line with an axis \d+.* s after the start"):
         guiding_centre(leaning(Scene((11, 5), link=Link(0.5)))).path([0, 10.0, 20.0, 30.0, 40.0, 500.0])
+    for times in ([0, 2, 1], [-1.0, 1], [np.nan], "soon"):
+        with pytest.raises(InputError, match="guiding_centre: t"):
+            guiding_centre(scene).path(times)
