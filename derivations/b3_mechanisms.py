@@ -13,23 +13,23 @@
 
 # %%
 from lagrotor.benchmark.mechanism_tables import (
+    BESIDE_HEAD,
     DECISION_HEAD,
     MECHANISM_HEAD,
-    SINGLE_HEAD,
     TARGET_HEAD,
+    beside_rows,
     decision_rows,
     mechanism_rows,
-    single_rows,
     target_rows,
 )
-from lagrotor.benchmark.records import LINKS, recorded_arm_and_bicycle, recorded_mechanisms
+from lagrotor.benchmark.records import LINKS, recorded_bodies_and_lagrangians, recorded_mechanisms
 from lagrotor.paper import Table
 
 found = recorded_mechanisms()
-single = recorded_arm_and_bicycle()
-where, where_single = (
+beside = recorded_bodies_and_lagrangians()
+where, where_beside = (
     f"{machine['processor']}, {machine['cores']} cores, Python {machine['Python']}"
-    for machine in (found.machine, single["machine"])
+    for machine in (found.machine, beside["machine"])
 )
 versions = ", ".join(f"{name} {number}" for name, number in found.versions.items())
 each = {kind: (found.operations[kind][-1] - found.operations[kind][-2]) // (n[-1] - n[-2]) for kind, n in LINKS.items()}
@@ -62,13 +62,15 @@ tables = [
         "The same steps with the exact decision and with sympy's simplify in its place, from a run of its own.",
     ),
     Table(
-        "Mechanisms: an arm of six joints, and the bicycle",
-        SINGLE_HEAD,
-        tuple(single_rows(single["rows"])),
-        "From bodies, from their Lagrangian written out, and by sympy: lambdify with common subexpressions, then numpy's solve; "
-        "times: over lagrotor's from bodies. "
-        "The bicycle is that of sympy's own test, in its letters, of four coordinates; Lagrange's method was not measured. "
-        f"Processor time on {where_single}, by `python -m benchmarks.arm_and_bicycle --record`.",
+        "Mechanisms from bodies and from a Lagrangian, beside sympy",
+        BESIDE_HEAD,
+        tuple(beside_rows(beside["rows"], beside["longest"])),
+        "From bodies beside KanesMethod; from the Lagrangian written out, the writing included, beside LagrangesMethod, of "
+        "sympy's own energies of the same bodies, for the bicycle of this one. sympy's right-hand sides are lambdify's "
+        "with common subexpressions, then numpy's solve. rhs differs by: from lagrotor's of bodies, relative. A method that used "
+        f"{beside['longest']:g} s was ended, larger mechanisms were not given to it. The bicycle is that of sympy's own test, "
+        f"in its letters, the arm one of six joints. One run, processor time on {where_beside}, by "
+        "`python -m benchmarks.bodies_and_lagrangians --record`.",
     ),
 ]
 tables[0]

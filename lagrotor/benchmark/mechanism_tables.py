@@ -10,7 +10,17 @@ _Row = tuple[str, ...]
 _RUN = f"run to {scientific(MECHANISM_ERROR)} rad (ms)"
 MECHANISM_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", _RUN, "by", "rhs differs by")
 DECISION_HEAD = ("two formulations", "same_as (ms)", "they agree", "simplify (ms)", "they agree", "times")
-SINGLE_HEAD = ("mechanism", "tool", "ready (ms)", "times", "rhs (µs)", "times", "rhs differs by")
+BESIDE_HEAD = (
+    "mechanism",
+    "from",
+    "ready (ms)",
+    "sympy (ms)",
+    "times",
+    "rhs (µs)",
+    "sympy (µs)",
+    "times",
+    "rhs differs by",
+)
 TARGET_HEAD = ("what", "wanted", "measured")
 _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _METHODS = ("KanesMethod", "LagrangesMethod")
@@ -31,22 +41,31 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
     ]
 
 
-def single_rows(rows: Sequence[dict[str, Any]]) -> list[_Row]:
-    """One row a tool on the arm and the bicycle, each time also over the first tool's, or the reason why it has none."""
-    first = {row["mechanism"]: row for row in reversed(rows)}
-    return [
-        (
-            row["mechanism"],
-            row["tool"],
-            *(
-                cell
-                for what, unit in (("ready", 1e3), ("rhs", 1e6))
-                for cell in (_number(row[what], unit), _ratio(row[what], first[row["mechanism"]][what]))
-            ),
-            row["reason"] or _off(row["difference"]),
-        )
-        for row in rows
-    ]
+def beside_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
+    """One row a mechanism and what it is made from, lagrotor beside sympy's method of the same; where that did not end within
+    the `longest` processor time, s, the reason, and the least that the times can be."""
+    table, made = list[_Row](), {(row["mechanism"], row["tool"]): row for row in rows}
+    for name in dict.fromkeys(row["mechanism"] for row in rows):
+        for source, method in zip(("bodies", "Lagrangian"), _METHODS, strict=True):
+            ours, theirs = made[name, f"lagrotor, {source}"], made[name, method]
+            reason = theirs["reason"]
+            least = f"over {longest / ours['ready']:.0f}" if reason and ours["ready"] else "—"
+            table.append(
+                (
+                    name,
+                    source,
+                    ours["reason"] or _number(ours["ready"], 1e3),
+                    reason or _number(theirs["ready"], 1e3),
+                    least if reason else _ratio(theirs["ready"], ours["ready"]),
+                    _number(ours["rhs"], 1e6),
+                    _number(theirs["rhs"], 1e6),
+                    _ratio(theirs["rhs"], ours["rhs"]),
+                    " and ".join(
+                        dict.fromkeys(_off(x["difference"]) for x in (ours, theirs) if x["difference"] is not None)
+                    ),
+                )
+            )
+    return table
 
 
 def decision_rows(decided: Sequence[Decided]) -> list[_Row]:

@@ -13,9 +13,9 @@ from typing import Any, Literal
 
 from lagrotor.errors import LagrotorError
 
-SPEED, MECHANISMS, STRUCTURES, ARM_AND_BICYCLE = (
+SPEED, MECHANISMS, STRUCTURES, BODIES_AND_LAGRANGIANS = (
     Path(__file__).with_name(f"recorded_{name}.json")
-    for name in ("speed", "mechanisms", "structures", "arm_and_bicycle")
+    for name in ("speed", "mechanisms", "structures", "bodies_and_lagrangians")
 )
 MechanismKind = Literal["rods", "gyroscopes"]
 LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # of the mechanisms
@@ -125,15 +125,16 @@ def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
         raise _unreadable(STRUCTURES, error) from None
 
 
-def recorded_arm_and_bicycle() -> dict[str, Any]:
-    """An arm and a bicycle: machine, and rows of mechanism, tool, ready and rhs in s, difference, reason.
+def recorded_bodies_and_lagrangians() -> dict[str, Any]:
+    """Mechanisms from bodies and from their Lagrangian: machine, longest (s, of one tool), and rows of mechanism, tool, ready and
+    rhs in s, difference, reason.
 
     Raises LagrotorError if it is unreadable.
     """
     try:
-        return dict(json.loads(ARM_AND_BICYCLE.read_text(encoding="utf-8")))
+        return dict(json.loads(BODIES_AND_LAGRANGIANS.read_text(encoding="utf-8")))
     except _UNREADABLE as error:
-        raise _unreadable(ARM_AND_BICYCLE, error) from None
+        raise _unreadable(BODIES_AND_LAGRANGIANS, error) from None
 
 
 def _unreadable(file: Path, error: Exception) -> LagrotorError:

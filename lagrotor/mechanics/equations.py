@@ -20,6 +20,7 @@ import sympy as sp
 
 from lagrotor.algebra import check_names, decide_zero, derivative
 from lagrotor.algebra.evidence import points
+from lagrotor.algebra.parts import letters_of
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.expressions import expression, no_coordinate, put_in, shortest
@@ -153,10 +154,10 @@ class Equations:
         velocities, higher = {*self.c.v}, {*self.c.a}
         for name in ("constraints", "rolling", "forces"):
             for i, e in enumerate(getattr(self, name)):
-                _free_of(f"{name}[{i}]", e, higher, "an equation of motion gives them; write it without")
+                _free_of(f"{name}[{i}]", e.free_symbols, higher, "an equation of motion gives them; write it without")
                 if name == "constraints":
                     way = "a holonomic constraint depends on coordinates and time alone; integrate it, or give it to rolling"
-                    _free_of(f"constraints[{i}]", e, velocities, way)
+                    _free_of(f"constraints[{i}]", e.free_symbols, velocities, way)
                     if all(decide_zero(slope).answer == "zero" for slope in gradient(e, self.c.q)):
                         raise InputError(f"System: constraints[{i}]: {e} = 0 binds no coordinate: leave it out")
                 elif name == "rolling":
@@ -170,7 +171,7 @@ class Equations:
                             f"System: rolling[{i}] = {e} is not affine in the velocities: its reaction is not defined by "
                             "d'Alembert's principle; write it as sum_j A_j(q, t) v_j + b(q, t)"
                         )
-        _free_of("dissipation", self.dissipation, higher, "D depends on q, v and t alone")
+        _free_of("dissipation", self.dissipation.free_symbols, higher, "D depends on q, v and t alone")
         if self.dissipation != 0 and not self.dissipation.free_symbols & velocities:
             raise InputError(
                 f"System: dissipation = {self.dissipation} has no velocity: it is Rayleigh's function D(q, v) with the "
@@ -182,7 +183,7 @@ class Equations:
         """Raise InputError for a reaction of no constraint, or one that stands elsewhere than in forces and dissipation."""
         names = self.multiplier_names
         places = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
-        elsewhere = set().union(getattr(self.lagrangian, "free_symbols", ()), *(e.free_symbols for e in places))
+        elsewhere = self.letters.union(*(e.free_symbols for e in places))
         for s in sorted(set().union(elsewhere, *(e.free_symbols for e in acting)), key=str):
             name = str(s)[len("reaction(") : -1] if str(s).startswith("reaction(") else None
             if name is not None and (s in elsewhere or name not in names):
@@ -207,7 +208,16 @@ class Equations:
             t,
             acting,
             self.velocities,
-            getattr(self.lagrangian, "free_symbols", ()) if self.bodies else (),
+            self.letters if self.bodies else (),
+        )
+
+    @cached_property
+    def letters(self) -> set[sp.Symbol]:
+        """The symbols of the Lagrangian."""
+        return (
+            letters_of(self.lagrangian)
+            if isinstance(self.lagrangian, sp.Basic)
+            else {*getattr(self.lagrangian, "free_symbols", ())}
         )
 
     @cached_property
@@ -215,13 +225,16 @@ class Equations:
         """The Lagrangian as an expression."""
         L = expression("System: L", self.lagrangian)
         no_coordinate("System: L", L, (*self.c.q, *self.c.v, *self.c.a))
-        check_names("System", *self._letters, L)
-        acting = L.free_symbols.union(
-            *(sp.sympify(e, strict=True).free_symbols for e in (*self.forces, *self.residual))
-        )
+        check_names("System", *self._letters, self.letters)
+        acting = self.letters.union(*(sp.sympify(e, strict=True).free_symbols for e in (*self.forces, *self.residual)))
         if own := sorted(str(s) for s in acting if re.fullmatch(r"_a\d+", str(s))):
             raise InputError(f"System: {', '.join(own)}: names as _a0 are those of generated programs; rename")
-        _free_of("L", L, {*self.c.a}, "a Lagrangian depends on q, v and t; add the total derivative that removes them")
+        _free_of(
+            "L",
+            self.letters,
+            {*self.c.a},
+            "a Lagrangian depends on q, v and t; add the total derivative that removes them",
+        )
         return L
 
     @property
@@ -291,7 +304,7 @@ class Equations:
         forces have that: the multipliers in `motion` and `power`."""
         names = [name.replace(" ", "_") for name in self.multiplier_names]
         acting = (*self.constraints, *self.rolling, self.dissipation, *self.forces)
-        letters = set(self.c.q).union(getattr(self.lagrangian, "free_symbols", ()), *(e.free_symbols for e in acting))
+        letters = self.letters.union(self.c.q, *(e.free_symbols for e in acting))
         stem = "Lambda" if {f"lambda_{name}" for name in names} & {str(s) for s in letters} else "lambda"
         plain = (sp.Symbol(f"{stem}_{name}", real=True) for name in names)
         return tuple(own if own in letters else s for own, s in zip(self.reactions, plain, strict=True))
@@ -439,6 +452,6 @@ def _falling(dissipation: sp.Expr, c: Coordinates) -> str | None:
     return None
 
 
-def _free_of(name: str, e: sp.Expr, unwanted: set[sp.Symbol], way: str) -> None:
-    if inside := e.free_symbols & unwanted:
-        raise InputError(f"System: {name} contains {', '.join(sorted(map(str, inside)))}: {way}")
+def _free_of(name: str, inside: set[sp.Symbol], unwanted: set[sp.Symbol], way: str) -> None:
+    if inside & unwanted:
+        raise InputError(f"System: {name} contains {', '.join(sorted(map(str, inside & unwanted)))}: {way}")

@@ -8,6 +8,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra import normal_form
 from lagrotor.algebra.enclosures import jet_of
+from lagrotor.algebra.parts import length, parts
 from lagrotor.errors import InputError, NotExactError
 
 _PLAIN = (
@@ -24,16 +25,19 @@ def expression(where: str, given: Any) -> sp.Expr:
         e = None
     if not isinstance(e, sp.Expr) or isinstance(e, sp.MatrixExpr | sp.MatrixBase):
         raise InputError(f"{where} = {given!r} is no expression: build it from sympy symbols")
-    if any(not d.expr.atoms(AppliedUndef) for d in e.atoms(sp.Derivative)):
+    inside = parts(e)
+    if any(isinstance(d, sp.Derivative) and not d.expr.atoms(AppliedUndef) for d in inside):
         raise InputError(f"{where} = {e}: {_PLAIN}")
-    e = e.doit() if e.has(sp.Derivative, sp.Subs) else e
-    if strange := [d for d in e.atoms(sp.Derivative) if jet_of(d) is None]:
+    if any(isinstance(d, sp.Derivative | sp.Subs) for d in inside):
+        e = e.doit()
+        inside = parts(e)
+    if strange := [d for d in inside if isinstance(d, sp.Derivative) and jet_of(d) is None]:
         raise InputError(
             f"{where} contains {strange[0]}, which is no derivative of a function of symbols: write it out"
         )
-    if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
+    if {sp.nan, sp.zoo, sp.oo, -sp.oo} & {*inside}:
         raise InputError(f"{where} = {e} is not finite: correct it")
-    if e.has(sp.I):
+    if sp.I in inside:
         raise InputError(f"{where} = {e} is complex: what a system moves by is real; write its real part")
     return e
 
@@ -48,7 +52,7 @@ def no_coordinate(where: str, given: Any, names: Iterable[sp.Symbol]) -> None:
 def unknown_functions(given: Any) -> list[sp.Expr]:
     """The functions U(r), y(t) … in expressions of which nothing is known but their name, in a fixed order."""
     listed = [sp.sympify(e, strict=True) for e in (given if isinstance(given, Iterable) else (given,))]
-    return sorted(set().union(*(e.atoms(AppliedUndef) for e in listed)), key=sp.default_sort_key)
+    return sorted({e for e in parts(*listed) if isinstance(e, AppliedUndef)}, key=sp.default_sort_key)
 
 
 def put_in(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
@@ -76,9 +80,14 @@ def with_jets(e: sp.Expr, made: Callable[[str, tuple[int, ...], tuple[sp.Expr, .
     return e.func(*(with_jets(a, made) for a in e.args))
 
 
+def longer(e: sp.Expr, operations: int) -> bool:
+    """Whether an expression, written out, has more operations; it may be too long to be written out."""
+    return length(e) > 10 * operations or bool(sp.count_ops(e) > operations)
+
+
 def shortest(e: sp.Expr) -> sp.Expr:
     """The expression, its normal form, or that with A sin² for A − A cos²: whichever has the fewest operations."""
-    if sp.count_ops(e) > _MOST_OPERATIONS:
+    if longer(e, _MOST_OPERATIONS):
         return e
     if jets := jets_of(e):
         letters = {jet: sp.Dummy() for jet in jets}

@@ -5,7 +5,7 @@ import sympy as sp
 from lagrotor.algebra import derivative
 from lagrotor.algebra.enclosures import jet_of
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import jets_of, shortest
+from lagrotor.mechanics.expressions import jets_of, longer, shortest
 from lagrotor.mechanics.glossary import latex, letter_latex
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.symmetry import cyclic_coordinates
@@ -23,7 +23,7 @@ def formulas(system: Equations) -> dict[str, list[str]]:
     c = system.c
     if system.bodies and len(c.q) > _MOST_COORDINATES:
         return {"Bodies": [rf"{len(system.bodies)}\ \text{{bodies in {len(c.q)} coordinates}}"]}
-    short = sp.count_ops(system.L) <= _MOST_OPERATIONS
+    short = not longer(system.L, _MOST_OPERATIONS)
     own = system.kinematics if short else None
     put = dict(zip(c.v, own.velocity, strict=True)) if own and not own.stages else {}
     rates = tuple(dict.fromkeys((*c.a, *system.speed_rates)))

@@ -15,12 +15,12 @@ from benchmarks.mechanisms.own_tools import OWN
 from benchmarks.mechanisms.tool import Ready, Tool
 from lagrotor.benchmark import records
 from lagrotor.benchmark.mechanism_tables import (
+    BESIDE_HEAD,
     MECHANISM_HEAD,
-    SINGLE_HEAD,
     TARGET_HEAD,
+    beside_rows,
     decision_rows,
     mechanism_rows,
-    single_rows,
     target_rows,
 )
 from lagrotor.benchmark.records import LINKS, Decided, Measured, MechanismKind, recorded_mechanisms
@@ -105,15 +105,18 @@ def test_the_tables_say_what_is_wanted_and_a_dash_for_what_is_missing() -> None:
         ("yes", "3000", "yes", "300"),
         ("yes", "60000", "did not end", "over 6000"),
     ]
-    single = {"mechanism": "arm", "reason": "", "ready": 0.4, "rhs": 2e-5, "difference": 0.0}
-    rows = [single | {"tool": "bodies"}, single | {"tool": "Kane", "ready": 6.04, "rhs": 1e-4, "difference": 2e-15}]
-    rows += [single | {"tool": "Lagrange", "ready": None, "rhs": None, "difference": None, "reason": "over 90 s"}]
-    assert [row[2:] for row in single_rows(rows)] == [
-        ("400", "1.0", "20", "1.0", "0"),
-        ("6040", "15.1", "100", "5.0", "2×10⁻¹⁵"),
-        ("—", "—", "—", "—", "over 90 s"),
+    arm = {"mechanism": "arm", "reason": "", "ready": 0.4, "rhs": 2e-5, "difference": 0.0}
+    rows = [
+        arm | {"tool": "lagrotor, bodies"},
+        arm | {"tool": "KanesMethod", "ready": 6.04, "rhs": 1e-4, "difference": 2e-15},
     ]
-    assert all(len(row) == len(SINGLE_HEAD) for row in single_rows(rows))
+    rows += [arm | {"tool": "lagrotor, Lagrangian", "difference": 1e-15}]
+    rows += [dict.fromkeys(arm) | {"mechanism": "arm", "tool": "LagrangesMethod", "reason": "over 60 s"}]
+    assert [row[2:] for row in beside_rows(rows, 60)] == [
+        ("400", "6040", "15.1", "20", "100", "5.0", "0 and 2×10⁻¹⁵"),
+        ("400", "over 60 s", "over 150", "20", "—", "—", "1×10⁻¹⁵"),
+    ]
+    assert all(len(row) == len(BESIDE_HEAD) for row in beside_rows(rows, 60))
     counts, ready = (
         {"rods": [10, 20, 41, 90], "gyroscopes": [10, 20, 41]},
         {"rods": [0.1, 0.2, 0.3, 0.9], "gyroscopes": [0.1]},

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from benchmarks.arm_and_bicycle import TOOLS as TOOLS_ON_ONE
+from benchmarks.bodies_and_lagrangians import CHAINS
 from benchmarks.mechanisms.comparison import TOOLS
 from lagrotor.drawing import paper_style
 from lagrotor.paper.rotor_pair.own_paper import PAPER
@@ -20,7 +20,7 @@ def drawn():
 
 
 def test_the_tables_are_the_record(made):
-    found, (wanted, tools, decided, single) = made["found"], made["tables"]
+    found, (wanted, tools, decided, beside) = made["found"], made["tables"]
     assert all(found.machine["processor"] in table.note for table in (wanted,)) and len(tools.rows) == len(
         found.measured
     )
@@ -28,8 +28,10 @@ def test_the_tables_are_the_record(made):
     (own,) = (x for x in found.measured if (x.kind, x.n, x.tool) == ("rods", 6, "lagrotor"))
     assert row[2:4] == (f"{1e3 * own.ready:.3g}", f"{1e6 * own.rhs:.3g}")
     assert len(decided.rows) == len(found.decided)
-    assert [row[:2] for row in single.rows[::3]] == [("arm", TOOLS_ON_ONE[0]), ("bicycle", TOOLS_ON_ONE[0])]
-    assert all(row["reason"] or row["difference"] < 1e-9 for row in made["single"]["rows"])
+    names = [*CHAINS["rods"], *CHAINS["gyroscopes"], "arm", "bicycle"]
+    assert [row[:2] for row in beside.rows] == [(name, source) for name in names for source in ("bodies", "Lagrangian")]
+    assert all(row["reason"] or row["difference"] < 1e-9 for row in made["beside"]["rows"])
+    assert not [row for row in made["beside"]["rows"] if row["reason"] and row["tool"].startswith("lagrotor")]
     assert all(len(row) == len(table.head) for table in made["tables"] for row in table.rows)
 
 

@@ -30,7 +30,6 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, t}
     acting = (
-        system.lagrangian,
         *system.constraints,
         *system.rolling,
         system.dissipation,
@@ -38,7 +37,8 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
         *others,
         *(e for _, e in system.velocities),
     )
-    letters = {str(s): s for e in acting for s in getattr(e, "free_symbols", ()) if s not in moving}
+    every = system.letters.union(*(getattr(e, "free_symbols", ()) for e in acting))
+    letters = {str(s): s for s in every if s not in moving}
     values = {name: value for name, value in values.items() if not isinstance(value, FunctionValue | sp.Lambda)}
     for name, value in values.items():
         letter = letters.get(str(name))

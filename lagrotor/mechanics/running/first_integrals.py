@@ -12,7 +12,7 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero, derivative
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import put_in
+from lagrotor.mechanics.expressions import longer, put_in
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -35,7 +35,7 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
         at_rest = dict.fromkeys(system.c.v, sp.S.Zero)
         if all(decide_zero(put_in(e, at_rest)).answer == "zero" for e in system.rolling):
             kept.append(energy_program(system))
-    if written and sp.count_ops(system.L) <= _WRITTEN:
+    if written and not longer(system.L, _WRITTEN):
         for q in cyclic_coordinates(system):
             kept.append(function_program(system, derivative(system.L, system.c.v[system.c.q.index(q)])))
     return tuple(kept)

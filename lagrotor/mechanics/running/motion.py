@@ -10,6 +10,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
+from lagrotor.algebra.parts import written
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
@@ -149,7 +150,7 @@ class SampledMotion(Run):
 def digest_of(system: Equations) -> str:
     """What identifies the equations of a system."""
     parts = (
-        system.lagrangian if system.bodies else system.L,
+        system.lagrangian if system.bodies else written(system.L),
         system.constraints,
         system.rolling,
         system.dissipation,

@@ -24,7 +24,7 @@ from lagrotor.mechanics.bodies.joints import joints, tree_energy
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.equations import Equations, push_left, rows_left
-from lagrotor.mechanics.expressions import unknown_functions, with_jets
+from lagrotor.mechanics.expressions import longer, unknown_functions, with_jets
 from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t, total_derivative
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 from lagrotor.mechanics.running.function_values import FunctionValue, jet_name
@@ -238,8 +238,8 @@ def _is_plain(name: str) -> bool:
 def depends_on_time(system: Equations) -> bool:
     """Whether t is in the Lagrangian, a force, the friction, a constraint or a velocity of one's own."""
     own = [e for _, e in system.velocities]
-    expressions = (system.lagrangian, system.dissipation, *system.forces, *system.constraints, *system.rolling, *own)
-    return any(t in e.free_symbols for e in expressions)
+    expressions = (system.dissipation, *system.forces, *system.constraints, *system.rolling, *own)
+    return t in system.letters or any(t in e.free_symbols for e in expressions)
 
 
 def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
@@ -268,7 +268,7 @@ def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], lis
     friction = bool(system.push.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
         return under_constraints(*by_tree, G, gamma, friction)
-    if (base := _joint_speeds(system)) is not None and sp.count_ops(system.L) > _REDUCED:
+    if (base := _joint_speeds(system)) is not None and longer(system.L, _REDUCED):
         stages, a, held = constrained_motion(base, every=False)
         lam = dict(zip(base.left, held, strict=True))
         own = sp.Matrix([e for _, e in system.velocities])
@@ -297,7 +297,7 @@ def _base_stages(system: Equations, base: Equations) -> list[Stage]:
 
 @lru_cache(maxsize=64)
 def _is_long(system: Equations) -> bool:
-    return bool(sp.count_ops(system.L) > _LONG) and not unknown_functions(system.L)
+    return longer(system.L, _LONG) and not unknown_functions(system.L)
 
 
 @lru_cache(maxsize=64)

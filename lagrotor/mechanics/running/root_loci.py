@@ -112,8 +112,10 @@ def _rates(
     turn = None if period is None else expression(f"{where}: period", period)
     of_period = {str(s) for s in turn.free_symbols} if turn is not None else set()
     period_values = {s: x for s, x in values.items() if str(s) in of_period}
-    acting = (system.lagrangian, *system.constraints, *system.rolling, system.dissipation, *system.forces)
-    own = {*names} & {str(s) for e in acting for s in e.free_symbols}  # the others are letters of the motion alone
+    acting = (*system.constraints, *system.rolling, system.dissipation, *system.forces)
+    own = {*names} & {
+        str(s) for s in system.letters.union(*(e.free_symbols for e in acting))
+    }  # the others are letters of the motion alone
     if (
         strangers := {*names}
         - own

@@ -1,5 +1,6 @@
 """Equations of long Lagrangians by sweeps: against sympy's derivatives, and against the recursion of the same bodies."""
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -8,7 +9,7 @@ import sympy as sp
 
 from benchmarks.mechanisms.chains import VALUES, chain, g, l, m
 from lagrotor.errors import InputError
-from lagrotor.mechanics import Coordinates, System, coordinates, motion_program, t
+from lagrotor.mechanics import Coordinates, System, SystemRun, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.running.programs import equations_of_speeds
 from lagrotor.mechanics.running.sweeps import backward_sweep, expression_stages, forward_sweep
@@ -112,3 +113,26 @@ def test_a_letter_named_as_a_stage_is_refused() -> None:
     c, own = coordinates("x y z"), sp.Symbol("_a0", real=True)
     with pytest.raises(InputError, match="_a0: names as _a0 are those of generated programs"):
         System(c, sum(v**2 for v in c.v) / 2 - own * long_potential(c)).rhs({own: 1})
+
+
+def test_a_lagrangian_whose_parts_are_shared_runs_though_it_cannot_be_written_out(tmp_path) -> None:
+    """V = u_40(q) with u_{k+1} = sin u_k + cos u_k: 10¹² parts, 121 different ones."""
+    c, k = coordinates("q"), sp.Symbol("k", positive=True)
+    u = k * c.q[0]
+    for _ in range(40):
+        u = sp.sin(u) + sp.cos(u)
+    system = System(c, c.v[0] ** 2 / 2 - u)
+
+    def force(q: float) -> float:
+        value, slope = 0.7 * q, 0.7
+        for _ in range(40):
+            value, slope = math.sin(value) + math.cos(value), slope * (math.cos(value) - math.sin(value))
+        return -slope
+
+    np.testing.assert_allclose(system.rhs({k: 0.7})(0.0, np.array([0.4, 0.1])), [0.1, force(0.4)], rtol=1e-12)
+    run = system.simulate({k: 0.7}, (0.4,), (0.0,), [0, 0.5, 1.0])
+    np.testing.assert_allclose(run.energy, run.energy[0], rtol=1e-8)
+    again = SystemRun.load(run.save(tmp_path / "run.npz"), system)
+    np.testing.assert_array_equal(again.q, run.q)
+    with pytest.raises(InputError):
+        SystemRun.load(tmp_path / "run.npz", System(c, c.v[0] ** 2 / 2 + u))
