@@ -206,7 +206,7 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, starts
 
         self, values = function_values.put_functions("consistent", self, values)
-        return starts.consistent(self, values, q0, v0, t)
+        return starts.consistent("consistent", self, values, q0, v0, t)
 
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
         """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.flow`."""

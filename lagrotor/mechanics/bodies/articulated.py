@@ -64,7 +64,7 @@ def tree_accelerations(
             D = keep(s[0].dot(U[0]) + s[1].dot(U[1]))
             if D == 0:
                 raise SingularError(
-                    f"simulate: the mass matrix is singular: {speeds[number]} moves no mass; use fewer coordinates, or give the "
+                    f"System: the mass matrix is singular: {speeds[number]} moves no mass; use fewer coordinates, or give the "
                     "bodies that it turns an inertia"
                 )
             inverse = keep(1 / D)

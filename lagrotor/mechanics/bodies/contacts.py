@@ -119,11 +119,11 @@ def contact(
             f"rolls_on: {surface!r} is no surface: Plane(frame), Sphere(frame, radius) or Cylinder(frame, radius)"
         )
     r = expression("rolls_on: radius", radius)
-    if r.is_nonpositive:
-        raise InputError(f"rolls_on: radius = {r} must be positive")
+    if not r.is_positive:
+        raise InputError(f"rolls_on: radius = {r} must be positive, a letter declared so: Symbol('r', positive=True)")
     if isinstance(surface, Sphere):
         R = expression("rolls_on: radius of the surface", surface.radius)
-        if R.is_nonpositive or (surface.hollow and (R - r).is_nonpositive):
+        if not R.is_positive or (surface.hollow and (R - r).is_nonpositive):
             least = f"larger than that of the ball inside, {r}" if surface.hollow else "positive"
             raise InputError(f"rolls_on: radius = {R} of the surface must be {least}")
     ground, axes = surface.frame, ground_axes(surface.frame)

@@ -78,9 +78,10 @@ class Pathway:
             sp.Matrix(vector_of(f"around: {name}", given, 3)) for name, given in (("centre", centre), ("axis", axis))
         )
         R, size = expression("around: radius", radius), a.dot(a)
-        if size == 0 or R.is_nonpositive or side not in (1, -1):
+        if size == 0 or not R.is_positive or side not in (1, -1):
             raise InputError(
-                f"around: radius = {radius}, axis = {axis}, side = {side}: give a positive radius, a direction, ±1"
+                f"around: radius = {radius}, axis = {axis}, side = {side}: give a positive radius (a letter that is declared "
+                "positive), a direction, ±1"
             )
         a = a / sp.sqrt(size)
         rise = (q - p).dot(a)

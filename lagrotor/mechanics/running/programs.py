@@ -365,7 +365,7 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
         bound = M + G.T * sp.diag(*made) * G
         if _regular(system, stages, bound.xreplace(made)):
             return [*made.items()], sp.diag(*made), bound
-    raise SingularError(singular_mass("simulate", M, system.c))
+    raise SingularError(singular_mass("System", M, system.c))
 
 
 def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> bool:
@@ -416,7 +416,7 @@ def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[
     try:
         return solve_symmetric(S, right, prefix)
     except SingularError:
-        raise SingularError(dependent_rows("simulate", "det S = 0")) from None
+        raise SingularError(dependent_rows("System", "det S = 0")) from None
 
 
 @lru_cache(maxsize=64)

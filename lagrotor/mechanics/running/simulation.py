@@ -116,7 +116,7 @@ def simulate_system(
     if engine == "fast" and any(isinstance(value, FunctionValue) for value in dict(values).values()):
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
     h, n = with_events(system, values, given), len(system.c.q)
-    q, v = state_vector("q0", q0, n), state_vector("v0", v0, len(system.speeds), system)
+    q, v = state_vector("simulate", "q0", q0, n), state_vector("simulate", "v0", v0, len(system.speeds), system)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
     for event in h.events:
@@ -214,7 +214,7 @@ def _up_to_its_end(run: SystemRun) -> SystemRun:
 
 def _on_constraints(system: Equations, values: Values, q0: Array, v0: Array, begin: float) -> tuple[Array, Array]:
     """The start, which must be on the constraints but for rounding."""
-    q, v = consistent(system, values, q0, v0, begin)
+    q, v = consistent("simulate", system, values, q0, v0, begin)
     start = np.concatenate([q0, v0])
     off = np.abs(np.concatenate([q, v]) - start).max()
     if off > _OFF * (1 + np.abs(start).max()):

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import InputError
+from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics.constraints import project_position, project_velocity
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.linear_modes import no_turn
@@ -14,7 +14,9 @@ from lagrotor.numerics.arrays import real_array
 _LEAST_NORM = 1e-3  # of a quaternion, from which the nearest of norm 1 is reached
 
 
-def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0) -> tuple[Array, Array]:
+def consistent(
+    where: str, system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0
+) -> tuple[Array, Array]:
     """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t; (q, u) for velocities of
     one's own, in the metric of their numbers.
 
@@ -22,12 +24,12 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
     of norm 0.
     """
     n, m, h = len(system.c.q), len(system.speeds), len(system.constraints)
-    q, v = state_vector("q0", q0, n), state_vector("v0", v0, m, system)
+    q, v = state_vector(where, "q0", q0, n), state_vector(where, "v0", v0, m, system)
     for joint in system.ball_joints:
         if (size := float(np.linalg.norm(q[[system.c.q.index(s) for s in joint.quaternion]]))) < _LEAST_NORM:
-            raise InputError(f"simulate: {no_turn(joint.quaternion, size)}")
+            raise InputError(f"{where}: {no_turn(joint.quaternion, size)}")
     given = start_program(system)
-    rest = (t, *parameter_values(given, values, "consistent"))
+    rest = (t, *parameter_values(given, values, where))
     ends = np.cumsum([m * m, h, h * n, len(system.left) * m])
 
     def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
@@ -40,7 +42,10 @@ def consistent(system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, 
     if h:
         M, _, slope, _, _ = parts(q, v)
         metric_there = metric(M, slope) if system.kinematics is None else None
-        placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2], q, metric_there)
+        try:
+            placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2], q, metric_there)
+        except (ConstraintError, SingularError) as error:
+            raise type(error)(str(error).replace("project_position", where, 1)) from None
         q = np.asarray(placed, float)
     mass, _, _, slope, wanted = parts(q, np.zeros(m))  # wanted: b, so that G u + b = 0
     if not system.left:
@@ -57,13 +62,13 @@ def metric(mass: Array, slope: Array) -> Array:
     return np.asarray(mass + slope.T / np.square(slope).sum(1) @ slope * np.trace(mass) / len(mass))
 
 
-def state_vector(name: str, given: ArrayLike, n: int, system: Equations | None = None) -> Array:
+def state_vector(where: str, name: str, given: ArrayLike, n: int, system: Equations | None = None) -> Array:
     """n finite numbers; of velocities where a system is given."""
     vector = real_array(given)
     if vector is None:
-        raise InputError(f"simulate: {name} = {given!r} must be {n} numbers")
+        raise InputError(f"{where}: {name} = {given!r} must be {n} numbers")
     if vector.shape != (n,) or not np.isfinite(vector).all():
         own = system is not None and system.kinematics is not None
         each = f"of {', '.join(map(str, system.speeds))}" if system and own else "one for each coordinate"
-        raise InputError(f"simulate: {name} = {given!r} must be {n} finite numbers, {each}")
+        raise InputError(f"{where}: {name} = {given!r} must be {n} finite numbers, {each}")
     return vector

@@ -140,7 +140,7 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
         raise InputError(f"{where}: {dict(at)} must be finite")
     if system.multipliers:
         n = len(c.q)
-        near = np.concatenate(consistent(system, values, start[:n], start[n:], time))
+        near = np.concatenate(consistent(where, system, values, start[:n], start[n:], time))
         if np.abs(near - start).max() > _OFF * (1 + np.abs(start).max()):
             shown = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
             raise ConstraintError(
