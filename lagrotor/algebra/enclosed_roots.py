@@ -121,7 +121,7 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
             continue
         if K is not None and all(wide[s][0] < K[s][0] and K[s][1] < wide[s][1] for s in unknowns):
             root = enclosed_root(here.equations, unknowns, {s: sum(side) / 2 for s, side in K.items()})
-            if root is not None and all(K[s][0] <= root[s][0] and root[s][1] <= K[s][1] for s in unknowns):
+            if root is not None and all(wide[s][0] <= root[s][0] and root[s][1] <= wide[s][1] for s in unknowns):
                 known = any(all(_meet(root[s], other[s]) for s in unknowns) for other in roots)
                 inside = all(_meet(root[s], box[s]) for s in unknowns)
                 if inside and not known and not any(_may_vanish(d, root) for d in below):

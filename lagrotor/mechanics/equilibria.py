@@ -7,6 +7,7 @@ is not returned. Where no factor can be solved so, the equilibrium is refused wi
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
+from math import isfinite
 from typing import Any
 
 import sympy as sp
@@ -92,7 +93,9 @@ def _in_box(
         raise InputError(
             "equilibria: a box is searched without constraints: solve them for coordinates by in_coordinates"
         )
-    letters = system.L.free_symbols | system.push.free_symbols
+    letters = system.letters | system.push.free_symbols
+    if strangers := {*map(str, values)} - {*map(str, letters)}:
+        raise InputError(f"equilibria: values name {min(strangers)}, which the system does not have: leave it out")
     numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol(values, letters).items()}
     still = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
     forces = [put_in(e, still).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
@@ -128,6 +131,8 @@ def _rational(where: str, given: Any) -> sp.Rational:
     try:
         if isinstance(given, str | bool):
             raise TypeError
+        if not isfinite(given):
+            raise ValueError
         return sp.Rational(given) if isinstance(given, int | float | sp.Rational) else sp.Rational(float(given))
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{where} = {given!r} must be a finite number") from None
@@ -179,8 +184,11 @@ def _at_right_angles(system: Equations, conditions: Sequence[sp.Expr], wanted: S
 
 
 def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[sp.Symbol, ...]:
-    names = [*(unknowns.replace(",", " ").split() if isinstance(unknowns, str) else unknowns)]
-    known = {str(s): s for s in sorted(system.L.free_symbols | {*system.c.q} | system.push.free_symbols, key=str)}
+    if not isinstance(unknowns, Sequence):
+        raise InputError(f"equilibria: unknowns = {unknowns!r} must be names of letters, 'theta phi'")
+    names = unknowns.replace(",", " ").split() if isinstance(unknowns, str) else unknowns
+    letters = (system.letters | {*system.c.q} | system.push.free_symbols) - {*system.c.v, *system.speeds, t}
+    known = {str(s): s for s in sorted(letters, key=str)}
     if strangers := [str(name) for name in names if str(name) not in known]:
         raise InputError(f"equilibria: {', '.join(strangers)} not in the system: solve for some of {', '.join(known)}")
     return tuple(known[str(name)] for name in names) or system.c.q

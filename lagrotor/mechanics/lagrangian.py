@@ -60,6 +60,8 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     if not isinstance(names, Sequence):
         raise InputError(f"coordinates: {names!r} must be names: coordinates('phi theta psi')")
     stems = names.replace(",", " ").split() if isinstance(names, str) else list(names)
+    if strange := [stem for stem in stems if not isinstance(stem, str)]:
+        raise InputError(f"coordinates: {strange[0]!r} must be a name: coordinates('phi theta psi')")
     q, v, a = (tuple(sp.Symbol(stem + order, real=True) for stem in stems) for order in ("", "_dot", "_ddot"))
     return Coordinates(q, v, a)
 

@@ -115,6 +115,10 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
     Raises InputError when an old coordinate is neither given nor kept.
     """
     old = system.c
+    if not isinstance(c, Coordinates) or not isinstance(where, Mapping):
+        raise InputError(
+            f"in_coordinates: give new coordinates(…) and {{old: expression in them, …}}, not {c!r}, {where!r}"
+        )
     if lost := [str(q) for q in old.q if q not in where and q not in c.q]:
         raise InputError(
             f"in_coordinates: {', '.join(lost)} neither given nor among the new coordinates {c.q}: give it"

@@ -109,6 +109,8 @@ def conserved(system: Equations, f: sp.Expr) -> Decision:
     is "undecided".
     """
     f = expression("conserved: f", f)
+    if f.free_symbols & {*system.c.a} or not f.free_symbols & {*system.c.q, *system.c.v, *system.speeds, t}:
+        raise InputError(f"conserved: f = {f} must be an expression in q, v and t")
     if system.kinematics is not None and not system.kinematics.stages and not system.left:
         moved = _rate_along_speeds(system, f)
     else:

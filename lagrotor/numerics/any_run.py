@@ -83,7 +83,7 @@ class Run(Shown):
     @property
     def error(self) -> float:
         """The estimated largest error over the run, relative to the state's size."""
-        return float(self.errors[-1])
+        return float(self.errors[-1]) if len(self.errors) else 0.0
 
     @property
     @abstractmethod

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
-from sympy.printing.numpy import NumPyPrinter
+from sympy.printing.numpy import SciPyPrinter
 from sympy.printing.pycode import AbstractPythonCodePrinter, MpmathPrinter, PythonCodePrinter
 
 from lagrotor.errors import InputError
@@ -59,7 +59,7 @@ class _Scalars(_Printer, PythonCodePrinter):  # type: ignore[misc]
         return super()._print_Pow(expr, rational=rational)
 
 
-class _Arrays(_Printer, NumPyPrinter):  # type: ignore[misc]
+class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
     """Of arrays."""
 
     module = "numpy"

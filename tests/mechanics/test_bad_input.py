@@ -8,7 +8,19 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import LagrotorError, LagrotorWarning
-from lagrotor.mechanics import Coordinates, Event, Frame, Impact, System, coordinates, legendre, t
+from lagrotor.mechanics import (
+    Coordinates,
+    Event,
+    Frame,
+    Impact,
+    Pathway,
+    System,
+    SystemRun,
+    coordinates,
+    legendre,
+    libration,
+    t,
+)
 
 m, l, g, k = sp.symbols("m l g k", positive=True)
 b, M = sp.symbols("b M", real=True)
@@ -48,6 +60,7 @@ BAD: dict[str, Callable[[], Any]] = {
     # Coordinates
     "no name": lambda: coordinates(""),
     "a number for names": lambda: coordinates(3),  # type: ignore[arg-type]
+    "symbols for names": lambda: coordinates([sp.Symbol("x")]),  # type: ignore[list-item]
     "a name twice": lambda: coordinates("x y x"),
     "the time as a coordinate": lambda: coordinates("t"),
     "a coordinate that is another's velocity": lambda: coordinates("x x_dot"),
@@ -234,6 +247,21 @@ BAD: dict[str, Callable[[], Any]] = {
     "a coordinate that is lost": lambda: point.in_coordinates(A, {x: q}),
     "momenta that are taken": lambda: legendre(SWING, A, (q,)),
     "a first integral of text": lambda: pendulum.conserved("E"),  # type: ignore[arg-type]
+    # Doors
+    "an infinite value in a box": lambda: pendulum.equilibria(values=VALUES | {"g": np.inf}, box={q: (-1, 1)}),
+    "a letter of no system in a box": lambda: pendulum.equilibria(values=VALUES | {"z": 1}, box={q: (-1, 1)}),
+    "an equilibrium's velocity": lambda: pendulum.equilibria("theta_dot"),
+    "a number for unknowns": lambda: pendulum.equilibria(3),  # type: ignore[arg-type]
+    "whether an acceleration is conserved": lambda: pendulum.conserved(a),
+    "whether a letter is conserved": lambda: pendulum.conserved(g),
+    "old coordinates for new": lambda: pendulum.in_coordinates(3, {q: q}),  # type: ignore[arg-type]
+    "a system for a Hamiltonian": lambda: libration(pendulum, 1.0, 0.0),  # type: ignore[arg-type]
+    "a run of nothing": lambda: SystemRun.load("run.npz", None),  # type: ignore[arg-type]
+    "an energy that is not real": lambda: run(System(A, v**2 / 2 - sp.log(q)), {}, (-1,)),
+    "a section that does not change": lambda: run().crossings(m),
+    "a picture of no crossing": lambda: run().crossings(q - 7).plot(),
+    "an input that moves": lambda: pendulum.linearise({q: 0}, VALUES, inputs=(q,)),
+    "a radius without a sign": lambda: Pathway.around(P, (2, 0, 0), (x, y, 0), M),
 }
 
 
@@ -257,6 +285,21 @@ def test_a_hundred_kinds_are_tried_and_their_neighbours_are_accepted() -> None:
         assert System(A, SWING, dissipation=dissipation).dissipation == dissipation
     System(P, FLAT, dissipation=u**2 + w**2 + sp.Rational(19, 10) * u * w)
     assert body(1, (1, 1, 2)).mass == 1 and body(0, (0, 0, 5)).mass == 0  # a disc; motion in a plane
+
+
+@pytest.mark.parametrize(
+    ("door", "call"),
+    {
+        "consistent": lambda: circle.consistent(VALUES, (1, 2, 3), (0, 0)),
+        "linearise": lambda: circle.linearise({x: 0, y: 0}, VALUES),
+        "root_locus": lambda: pendulum.root_locus({q: 0}, {m: 1, l: 1}, g, [-1, 1]),
+        "crossings": lambda: run().crossings(q - sp.Symbol("h")),
+        "System": lambda: System(P, m * u**2 / 2).rhs({m: 1}),
+    }.items(),
+)
+def test_a_refusal_names_the_door(door: str, call: Callable[[], Any]) -> None:
+    with pytest.raises(LagrotorError, match=f"^{door}: "):
+        call()
 
 
 def test_a_kinetic_energy_that_is_negative_is_said() -> None:

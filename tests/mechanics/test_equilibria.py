@@ -93,3 +93,15 @@ def test_a_pole_of_a_force_is_no_equilibrium_and_what_is_proved_is_told() -> Non
 def test_equilibria_lie_between_the_poles_of_a_tangent(force: sp.Expr, roots: tuple[float, ...]) -> None:
     rests = System(c, v**2 / 2, forces=(force,)).equilibria(values={}, box={x: (-4, 4)})
     assert sorted(float(rest.at[x]) for rest in rests) == pytest.approx(roots, abs=1e-9)
+
+
+def test_forces_that_are_linear_have_their_one_equilibrium() -> None:
+    """Krawczyk's box is then a point, narrower than the root's."""
+    c, k = coordinates("x y"), sp.Symbol("k", positive=True)
+    (x, y), (u, v) = c.q, c.v
+    L = (u**2 + v**2) / 2 - k * (x**2 + y**2 + (x - y) ** 2) / 2
+    (place,) = System(c, L).equilibria(values={k: 4}, box={x: (-1, 2), y: (-1, 1)})
+    assert {*place.at.values()} == {0.0} and all(low < 0 < high for low, high in place.enclosure.values())
+    (place,) = System(c, L + x).equilibria(values={k: 1}, box={x: (-1, 2), y: (-1, 1)})
+    assert [float(e) for e in place.at.values()] == pytest.approx([2 / 3, 1 / 3])
+    assert System(c, L + 9 * x).equilibria(values={k: 1}, box={x: (-1, 2), y: (-1, 1)}) == ()

@@ -160,6 +160,8 @@ def _in_one_coordinate(
     h: Hamiltonian, energy: float, at: float, values: Mapping[Any, Any] | None
 ) -> tuple[sp.Expr, float, float]:
     """H(q, p) with its values, quadratic in p, the energy and the place as numbers."""
+    if not isinstance(h, Hamiltonian):
+        raise InputError(f"libration: h = {h!r} must be a Hamiltonian: system.hamiltonian() makes it")
     if len(h.q) != 1 or h.constraints or h.H.has(sp.Symbol("t", real=True)):
         raise DomainError(
             "libration: one degree of freedom without constraints and time: reduce by Routh's transform first"

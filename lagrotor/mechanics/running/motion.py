@@ -96,7 +96,7 @@ class SampledMotion(Run):
         return evaluate_in_phases(self.switched, e, self.t, self.states)
 
     def _values(self, *expressions: sp.Expr) -> Array:
-        return function_program(self.system, *expressions).along(self.values)(self.states, self.t)
+        return function_program(self.system, *expressions).along(self.values, "evaluate")(self.states, self.t)
 
     def at(self: Kind, times: ArrayLike) -> Kind:
         """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""

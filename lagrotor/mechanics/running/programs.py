@@ -77,9 +77,9 @@ class Generated:
         """(*arguments) → outputs, for numbers and arrays."""
         return compile_program(self.program, "numpy")
 
-    def along(self, values: Mapping[Any, Any]) -> Callable[[Array, Array], Array]:
+    def along(self, values: Mapping[Any, Any], where: str = "simulate") -> Callable[[Array, Array], Array]:
         """(states (n, ≥ N + m), q and u first; times (n,)) → outputs (k, n), for a program in q, u and t."""
-        function, parameters, d = self.function, parameter_values(self, values), len(self.states) - 1
+        function, parameters, d = self.function, parameter_values(self, values, where), len(self.states) - 1
 
         def outputs(states: Array, times: Array) -> Array:
             with np.errstate(all="ignore"):

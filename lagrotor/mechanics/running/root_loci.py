@@ -113,9 +113,8 @@ def _rates(
     of_period = {str(s) for s in turn.free_symbols} if turn is not None else set()
     period_values = {s: x for s, x in values.items() if str(s) in of_period}
     acting = (*system.constraints, *system.rolling, system.dissipation, *system.forces)
-    own = {*names} & {
-        str(s) for s in system.letters.union(*(e.free_symbols for e in acting))
-    }  # the others are letters of the motion alone
+    letters = system.letters.union(*(e.free_symbols for e in acting))
+    own = {*names} & {*map(str, letters)}  # the others are letters of the motion alone
     if (
         strangers := {*names}
         - own
@@ -134,7 +133,7 @@ def _rates(
         point = {s: put(e) for s, e in places.items()}
         mine = {**values, **{name: x for name, x in known.items() if name in own}}
         if turn is None:
-            return state_space(system, point, mine).rates
+            return state_space(system, point, mine, where=where).rates
         T = put_in(put(turn), by_symbol(period_values, turn.free_symbols))
         roots = monodromy_matrix(system, point, mine, T).multipliers
         return np.asarray(np.log(roots + (roots == 0)) / float(T))

@@ -36,6 +36,8 @@ def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | Non
     """
     from lagrotor.drawing.run_figure import coordinates_figure, curves_figure
 
+    if not len(run.t):
+        raise InputError("plot: the run has no times, as that of crossings where there are none")
     units = {str(s): f" [{entry.unit}]" for s, entry in (glossary or {}).items() if entry.unit not in ("", "1")}
     if not what:
         labels = {f"${letter_latex(q)}${units.get(str(q), '')}": run.q[:, i] for i, q in enumerate(run.system.c.q)}

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.flow import (
     Array,
@@ -141,6 +142,8 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
 
     largest = np.abs(states[:, : n + m]).max(0)
     at_rest, moving = energy(0 * u), energy(u)
+    if not np.isfinite(moving[0]):
+        raise InputError("simulate: the energy has no real value at the start: give a Lagrangian that has one there")
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))
     least, top = np.zeros(m), float(largest[n:].max()) or 1.0
     for i, speed in enumerate(np.where(largest[n:] > _LOST * top, largest[n:], top)):

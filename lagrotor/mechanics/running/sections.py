@@ -12,6 +12,7 @@ import sympy as sp
 from lagrotor.algebra import derivative
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.mechanics.expressions import expression, vector_of
+from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
 from lagrotor.mechanics.running.motion import SampledMotion
@@ -36,7 +37,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     if len(run.t) < 2:
         raise InputError("crossings: a run of one sample crosses nothing: simulate to a later time")
     section, size = with_values(expression("crossings: section", section), run.values), run.switched.size
-    value = function_program(run.system, section).along(run.values)
+    value = function_program(run.system, section).along(run.values, "crossings")
     touch = max(run.tol, _LEAST) * _change(run, section)
     passages: list[tuple[float, int, Array]] = []
     hidden: list[tuple[float, float]] = []
@@ -102,6 +103,8 @@ def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direct
 def _change(run: SampledMotion, section: sp.Expr) -> float:
     """The most by which a section changes where each component of the state changes by its size."""
     symbols, sizes = (*run.system.c.q, *run.system.speeds), run.scales.sizes
+    if not section.free_symbols & {*symbols, *run.system.c.v, *run.system.c.a, *run.system.multipliers, t}:
+        raise InputError(f"crossings: section = {section} does not change: give q, v or t in it")
     if run.system.kinematics is not None:
         moving = [v for v in run.system.c.v if v not in symbols]
         symbols, sizes = (*symbols, *moving), np.append(sizes, [np.abs(run.evaluate(v)).max() for v in moving])

@@ -65,6 +65,8 @@ class SystemRun(SampledMotion):
         Raises:
             InputError: where it is no such file, or one of another system.
         """
+        if not isinstance(system, Equations):
+            raise InputError(f"load: system = {system!r} must be the System that it is a run of")
         given = check_events(system, events)
         system, more = put_functions("load", system, functions or {}, [e for event in given for e in event.expressions])
         given, saved = tuple(event_with(event, lambda e: with_values(e, more)) for event in given), read_run(path)

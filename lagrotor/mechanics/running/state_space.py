@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression
+from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.admission import check_pole, check_values
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import (
@@ -66,31 +67,34 @@ def state_space(
     values: Values,
     inputs: Sequence[sp.Symbol] = (),
     outputs: Sequence[sp.Expr] = (),
+    where: str = "linearise",
 ) -> StateSpace:
     """The linear system about a point at which all accelerations vanish: see `linear_modes.linearise`."""
-    wanted = tuple(expression(f"linearise: outputs[{i}]", e) for i, e in enumerate(outputs))
+    wanted = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
     if not isinstance(values, Mapping) or len({*map(str, inputs)}) < len(inputs):
+        raise InputError(f"{where}: values = {values!r} must be a dictionary, and inputs = {inputs} different letters")
+    if strangers := {*inputs} & {*system.c.q, *system.c.v, *system.speeds, t}:
         raise InputError(
-            f"linearise: values = {values!r} must be a dictionary, and inputs = {inputs} different letters"
+            f"{where}: the input {min(strangers, key=str)} moves: inputs are letters of forces or constraints"
         )
     known = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
-    check_values("linearise", system, known, wanted)
+    check_values(where, system, known, wanted)
     if depends_on_time(system):
         raise InputError(
-            "linearise: the motion depends on time explicitly: give functions F(t) as inputs, or simulate it"
+            f"{where}: the motion depends on time explicitly: give functions F(t) as inputs, or simulate it"
         )
-    start = point_state("linearise", system, at, known)
-    motion = motion_slope("linearise", motion_program(system), known, inputs)
+    start = point_state(where, system, at, known)
+    motion = motion_slope(where, motion_program(system), known, inputs)
     rate, J, B = motion(start)
     n, d = len(system.c.q), len(start)
     size = max(1.0, float(np.abs(start).max()))
     if not np.isfinite(J).all():
-        raise SingularError(f"linearise: the equations are singular at {dict(at)}: use coordinates regular there")
+        raise SingularError(f"{where}: the equations are singular at {dict(at)}: use coordinates regular there")
     least = _STEADY * size * float(np.abs(J[n:d]).max()) + _ROUNDING
     if np.abs(rate[n:]).max() > least:
         rates = system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds]
         left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
-        raise SingularError(f"linearise: {dict(at)} is no steady motion: {left} is left over; start from one")
+        raise SingularError(f"{where}: {dict(at)} is no steady motion: {left} is left over; start from one")
     A, P, back = local_slope(system, start, rate, J)
     later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
     for joint in system.ball_joints:  # a turn about a fixed axis
@@ -100,11 +104,11 @@ def state_space(
     other = local_slope(system, later, onward, J)[0]
     if np.abs(onward[n:]).max() > least or np.abs(other - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
         raise InputError(
-            "linearise: what moves there enters the equations, whose coefficients change with time: use coordinates that "
+            f"{where}: what moves there enters the equations, whose coefficients change with time: use coordinates that "
             "turn along with the motion"
         )
-    free, T = tangent_space("linearise", system, known, start)
-    _, C, D = motion_slope("linearise", function_program(system, *wanted), known, inputs)(np.append(start, 0.0))
+    free, T = tangent_space(where, system, known, start)
+    _, C, D = motion_slope(where, function_program(system, *wanted), known, inputs)(np.append(start, 0.0))
     states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
     return StateSpace(states, A[free] @ T, (back @ B)[free], C[:, :d] @ P @ T, D)
 

@@ -1,6 +1,7 @@
 """Runs of any system: closed solutions, independent integrations, conserved quantities, refusals."""
 
 import importlib.util
+import math
 import warnings
 from pathlib import Path
 
@@ -428,3 +429,10 @@ def test_constraints_that_are_nearly_dependent_are_known_no_better_than_they_can
     monkeypatch.setattr(simulation, "DEPENDENT", simulation.DEPENDENT._replace(value=0.0))  # twin
     told, true = told_and_true()
     assert true > 3 * told
+
+
+def test_special_functions_have_an_energy() -> None:
+    """A particle in the field of a smeared charge: V = erf q."""
+    c = coordinates("q")
+    run = System(c, c.v[0] ** 2 / 2 - sp.erf(c.q[0])).simulate({}, (0.5,), (1.0,), [0, 0.5, 1.0])
+    np.testing.assert_allclose(run.energy, 0.5 + math.erf(0.5), rtol=1e-8)
