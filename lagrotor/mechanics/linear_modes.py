@@ -89,20 +89,41 @@ class LinearSystem:
 
         It is sufficient and, but for equality, necessary.
         Without friction (det(s² M + s C + K) even in s): all roots s² real, negative and distinct: the coefficients and
-        the Hankel minors of the roots' power sums are positive. Otherwise: the Routh–Hurwitz determinants are positive.
+        the Hankel minors of the roots' power sums are positive; without gyroscopic forces these are real, and may be equal.
+        Otherwise: the Routh–Hurwitz determinants are positive.
         Factors that are positive by the symbols' assumptions are divided out. Zero roots, of cyclic coordinates, are left
-        aside.
+        aside. Rates that several independent modes have at any parameters, as those of a spherical pendulum, count once.
         """
-        return stability_condition(sp.Poly(self.characteristic(_S), _S))
+        natural = all(map(_is_zero, (*self.gyroscopic, *(self.stiffness - self.stiffness.T))))
+        return stability_condition(self._pencil(_S), _S, natural)
 
 
-def stability_condition(polynomial: sp.Poly) -> sp.Basic:
-    """When the roots of a characteristic polynomial are as `LinearSystem.stable_if` says."""
-    coefficients = [_reduce(c) for c in polynomial.all_coeffs()]
+def stability_condition(pencil: sp.Matrix, s: sp.Symbol, natural: bool = False) -> sp.Basic:
+    """When the roots s of det(pencil) = 0 are as `LinearSystem.stable_if` says; natural: of s² M + K, both symmetric."""
+    coefficients = [_reduce(c) for c in _last_invariant(pencil, s).all_coeffs()]
     while coefficients and _is_zero(coefficients[-1]):
         coefficients.pop()
     even = all(_is_zero(c) for c in coefficients[1::2])
+    if natural:
+        return _conjunction([_reduce(x / coefficients[0]) for x in coefficients[2::2]])
     return _conjunction(_all_negative(coefficients[::2]) if even else _hurwitz(coefficients))
+
+
+def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> sp.Poly:
+    """The determinant without what the minors of order n − 1 have in common of its repeated factors: these stay repeated where
+    motions grow as t exp(s t). Gantmacher, vol. 1, ch. VI (invariant polynomials)."""
+    _, factors = sp.factor_list(sp.numer(sp.together(pencil.det(method="berkowitz"))))
+    lasting = sp.Mul(*(f**k for f, k in factors if f.has(s)))
+    repeated = [(f, k) for f, k in factors if k > 1 and f.has(s) and f != s]
+    minors = [sp.Poly(e, s) for e in pencil.adjugate(method="berkowitz") if e != 0] if repeated else []
+    for f, k in repeated:
+        shared = 0
+        while shared < k - 1 and all(
+            all(map(_is_zero, m.rem(sp.Poly(f ** (shared + 1), s)).all_coeffs())) for m in minors
+        ):
+            shared += 1
+        lasting /= f**shared
+    return sp.Poly(lasting, s)
 
 
 def point_of(where: str, system: Equations, at: Mapping[Any, Any], letters: Iterable[sp.Symbol]) -> dict[Any, Any]:

@@ -48,7 +48,7 @@ class StateEquations:
     def stable_if(self) -> sp.Basic:
         """When every motion but a drift stays bounded or decays: see `LinearSystem.stable_if`."""
         s = sp.Symbol("s")
-        return stability_condition(sp.Poly(self.characteristic(s), s))
+        return stability_condition(sp.eye(self.A.rows) * s - self.A, s)
 
 
 def state_equations(

@@ -251,3 +251,18 @@ def test_what_cannot_be_solved_is_tried_at_right_angles() -> None:
     with pytest.raises(InputError, match=r"12 are at multiples of a right angle, the first at \{a: 0, b: 0\}"):
         system.equilibria()
     assert system.linearise({a: 0, b: 0}).modes()
+
+
+def test_rates_of_independent_modes_may_be_equal_and_those_of_dependent_ones_not() -> None:
+    k, d = sp.symbols("k d", real=True)
+    c = coordinates("x y")
+    (x, y), (u, v) = c.q, c.v
+    free, rest = (u**2 + v**2) / 2, {x: 0, y: 0}
+    assert System(c, free - k * (x**2 + y**2) / 2).linearise(rest).stable_if == (k > 0)
+    damped = System(c, free - (x**2 + y**2) / 2, forces=(-d * u, -d * v))
+    assert damped.linearise(rest).stable_if == damped.linearise(rest, inputs=(), outputs=(x,)).stable_if == (d > 0)
+    assert (
+        System(c, free - (x**2 + y**2) / 2, forces=(0, x)).linearise(rest).stable_if == sp.false
+    )  # y grows as t sin t
+    ring = System(c, free - (x**2 + (x - y) ** 2 + y**2) / 2 - k * (x + y) ** 2 / 2)
+    assert ring.linearise(rest).stable_if == sp.And(k + 2 > 0, 2 * k + 1 > 0)
