@@ -20,7 +20,7 @@ import sympy as sp
 
 from lagrotor.algebra import check_names, decide_zero, derivative
 from lagrotor.algebra.evidence import points
-from lagrotor.algebra.parts import letters_of
+from lagrotor.algebra.subexpressions import free_letters
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.expressions import expression, no_coordinate, put_in, shortest
@@ -215,7 +215,7 @@ class Equations:
     def letters(self) -> set[sp.Symbol]:
         """The symbols of the Lagrangian."""
         return (
-            letters_of(self.lagrangian)
+            free_letters(self.lagrangian)
             if isinstance(self.lagrangian, sp.Basic)
             else {*getattr(self.lagrangian, "free_symbols", ())}
         )

@@ -8,7 +8,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra import normal_form
 from lagrotor.algebra.enclosures import jet_of
-from lagrotor.algebra.parts import length, parts
+from lagrotor.algebra.subexpressions import length, subexpressions
 from lagrotor.errors import InputError, NotExactError
 
 _PLAIN = (
@@ -25,12 +25,12 @@ def expression(where: str, given: Any) -> sp.Expr:
         e = None
     if not isinstance(e, sp.Expr) or isinstance(e, sp.MatrixExpr | sp.MatrixBase):
         raise InputError(f"{where} = {given!r} is no expression: build it from sympy symbols")
-    inside = parts(e)
+    inside = subexpressions(e)
     if any(isinstance(d, sp.Derivative) and not d.expr.atoms(AppliedUndef) for d in inside):
         raise InputError(f"{where} = {e}: {_PLAIN}")
     if any(isinstance(d, sp.Derivative | sp.Subs) for d in inside):
         e = e.doit()
-        inside = parts(e)
+        inside = subexpressions(e)
     if strange := [d for d in inside if isinstance(d, sp.Derivative) and jet_of(d) is None]:
         raise InputError(
             f"{where} contains {strange[0]}, which is no derivative of a function of symbols: write it out"
@@ -52,7 +52,7 @@ def no_coordinate(where: str, given: Any, names: Iterable[sp.Symbol]) -> None:
 def unknown_functions(given: Any) -> list[sp.Expr]:
     """The functions U(r), y(t) … in expressions of which nothing is known but their name, in a fixed order."""
     listed = [sp.sympify(e, strict=True) for e in (given if isinstance(given, Iterable) else (given,))]
-    return sorted({e for e in parts(*listed) if isinstance(e, AppliedUndef)}, key=sp.default_sort_key)
+    return sorted({e for e in subexpressions(*listed) if isinstance(e, AppliedUndef)}, key=sp.default_sort_key)
 
 
 def put_in(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:

@@ -14,7 +14,7 @@ from operator import attrgetter
 import sympy as sp
 
 from lagrotor.algebra import derivative
-from lagrotor.algebra.parts import parts
+from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t
@@ -53,7 +53,7 @@ def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
 
 def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
     """An expression as a stage after those of all its parts. A sum that has all terms of another one is made of that."""
-    sums = sorted((s for s in parts(e) if s.is_Add), key=lambda s: len(s.args))
+    sums = sorted((s for s in subexpressions(e) if s.is_Add), key=lambda s: len(s.args))
     terms = {s: {*s.args} for s in sums}
     known = dict[sp.Expr, sp.Expr]()
 

@@ -13,7 +13,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import decide_zero, derivative
-from lagrotor.algebra.parts import parts
+from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression, vector_of
@@ -126,7 +126,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         places.append(system.lagrangian)
     put: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
-    for atom in sorted({e for e in parts(*places) if isinstance(e, _JUMPING)}, key=sp.default_sort_key):
+    for atom in sorted({e for e in subexpressions(*places) if isinstance(e, _JUMPING)}, key=sp.default_sort_key):
         w = atom.args[0] - atom.args[1] if isinstance(atom, sp.Max | sp.Min) else atom.args[0]
         if w.free_symbols & moving and (not isinstance(atom, sp.Max | sp.Min) or len(atom.args) == 2):
             w = sp.expand(w)

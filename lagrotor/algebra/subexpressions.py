@@ -5,7 +5,7 @@ import sympy as sp
 _WRITTEN = 100_000  # parts of an expression up to which it is written out
 
 
-def parts(*given: sp.Basic) -> list[sp.Basic]:
+def subexpressions(*given: sp.Basic) -> list[sp.Basic]:
     """Every different part of expressions, after those that it is made of."""
     made = dict[sp.Basic, None]()
     left = [(e, False) for e in reversed(given)]
@@ -18,10 +18,10 @@ def parts(*given: sp.Basic) -> list[sp.Basic]:
     return list(made)
 
 
-def letters_of(e: sp.Basic) -> set[sp.Symbol]:
+def free_letters(e: sp.Basic) -> set[sp.Symbol]:
     """Its free symbols."""
     inside = dict[sp.Basic, set[sp.Symbol]]()
-    for part in parts(e):
+    for part in subexpressions(e):
         bound = getattr(part, "bound_symbols", ())
         inside[part] = part.free_symbols if part.is_Atom or bound else set().union(*(inside[a] for a in part.args))
     return inside[e]
@@ -30,7 +30,7 @@ def letters_of(e: sp.Basic) -> set[sp.Symbol]:
 def length(e: sp.Basic) -> int:
     """How many parts it has where all are written out."""
     counts = dict[sp.Basic, int]()
-    for part in parts(e):
+    for part in subexpressions(e):
         counts[part] = 1 + sum(counts[a] for a in part.args)
     return counts[e]
 
@@ -40,6 +40,6 @@ def written(e: sp.Basic) -> str:
     if length(e) < _WRITTEN:
         return str(e)
     number = dict[sp.Basic, str]()
-    for part in parts(e):
+    for part in subexpressions(e):
         number[part] = f"#{len(number)}"
     return " ".join(f"{type(p).__name__}({', '.join(number[a] for a in p.args) or p})" for p in number)
