@@ -219,16 +219,15 @@ def _made(name: str, tool: str, values: Mapping[Any, float]) -> Rhs:
 
 
 def _measured(send: Callable[[Any], None], spend: Callable[[], Any], name: str, tool: str) -> None:
-    """Ready once, before anything else is made of the mechanism, so that nothing of it is remembered."""
+    """Ready once: of a second time something would be remembered."""
     values = sympys_bicycle()[1] if name == "bicycle" else {}
-    spend()
-    _made("2 rods", tool, values)  # what is imported once
+    known = _rates(name, TOOLS[0], _made(name, TOOLS[0], values)(0.0, _state(name, TOOLS[0])))
+    state = _state(name, tool)
     clear_cache()
+    spend()
     before = _clock()
     rhs = _made(name, tool, values)
     ready = _clock() - before
-    known = _rates(name, TOOLS[0], _made(name, TOOLS[0], values)(0.0, _state(name, TOOLS[0])))
-    state = _state(name, tool)
     off = np.abs(_rates(name, tool, rhs(0.0, state)) - known).max() / np.abs(known).max()
     send((ready, _time_of(lambda: rhs(0.0, state)) if off < SAME else None, float(off)))
 
