@@ -165,12 +165,13 @@ def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ba
 
 
 def by_other_orders(D: Matrix) -> Matrix:
-    """A matrix with twice each radius and an eighth of the largest: another program's order of operations gives other widths."""
+    """A matrix with a quarter more of each radius: another program's order of operations gives other widths. Where they are what
+    the series leave out, whose bounds are others, twice each and an eighth of the largest."""
     radii = [radius(x) for x in D.entries()]
-    least = max_of(radii) / 8
-    return arb_mat(
-        D.nrows(), D.ncols(), [x + arb(0, (r + least).upper()) for x, r in zip(D.entries(), radii, strict=True)]
-    )
+    most = max_of(radii)
+    more, least = (arb(0.25), arb(0)) if most > _WIDE else (arb(1), most / 8)
+    wide = [x + arb(0, (more * r + least).upper()) for x, r in zip(D.entries(), radii, strict=True)]
+    return arb_mat(D.nrows(), D.ncols(), wide)
 
 
 def narrower(x: Ball, y: Ball) -> Ball:

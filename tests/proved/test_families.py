@@ -331,6 +331,13 @@ def test_that_half_a_turn_has_four_ones_is_held_against_its_square(
         check(family.certificate)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("r0", "tol"), [(("0.3", "0.31"), 1e-13), (("0.2", "0.205"), 1e-14)])
+def test_narrow_pieces_show_that_their_orbits_are_hyperbolic(r0: tuple[str, str], tol: float) -> None:
+    found = precession(Scene((10, -10)), r0, tol)
+    assert found.kind == "hyperbolic" and "hyperbolic" in check(json.loads(json.dumps(found.certificate)))
+
+
 def test_a_pair_of_amplitudes_that_is_none_is_refused() -> None:
     for r0 in (("-0.1", "0.1"), ("0.1", "0.1"), (0, 1), (0, 0)):
         with pytest.raises(DomainError, match="must lie between 0 and 1, the lowest of a pair first"):
