@@ -94,7 +94,7 @@ def _in_box(
             "equilibria: a box is searched without constraints: solve them for coordinates by in_coordinates"
         )
     letters = system.letters | system.push.free_symbols
-    if strangers := {*map(str, values)} - {*map(str, letters)}:
+    if strangers := {name for name in values if isinstance(name, str)} - {*map(str, letters)}:
         raise InputError(f"equilibria: values name {min(strangers)}, which the system does not have: leave it out")
     numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol(values, letters).items()}
     still = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
