@@ -101,17 +101,26 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
         return rest if stopped else velocity
 
     first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(left, segment.start)).max()), segment.longest, right - left)
-    bare = None if segment.time_to_singular else getattr(segment.rhs, "bare", None)
+    bare, unwatched = None if segment.time_to_singular else getattr(segment.rhs, "bare", None), 0
     if bare:
+
+        def counted(s: float, y: Array) -> list[float]:
+            nonlocal unwatched
+            unwatched += 1
+            if unwatched > segment.budget:  # scipy's bound is one of steps between two outputs
+                raise OverflowError
+            velocity: list[float] = bare(s, y)
+            return velocity
+
         try:
-            states, log = _odeint(segment, bare, error, first)
+            states, log = _odeint(segment, counted, error, first)
             if _successful(states, log):
-                return Stretch(states[1:-1], states[-1], int(log["nfe"][-1]) + 1)
+                return Stretch(states[1:-1], states[-1], unwatched + 1)
         except LOST:
             pass
-    # What fails unwatched is run again to see where; it takes the same steps, which were taken twice.
+    # What fails unwatched is run again to see where: it takes the same steps.
     states, log = _odeint(segment, watched, error, first)
-    spent = (spent + 1) * (2 if bare else 1)
+    spent += 1 + unwatched
     if stopped or not _successful(states, log):
         # Of one that fails by itself, what comes after its last step is no number that it made.
         states = states[1:-1][segment.t_eval <= done]

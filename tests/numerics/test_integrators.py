@@ -285,3 +285,27 @@ def test_lsoda_hands_back_what_it_reached(last: float, budget: int, cause: str) 
     assert np.abs(stop.reached.states[:, 0] - np.cos(times[:n])).max() < 1e-5
     whole = Segment(lambda s, y: [y[1], -y[0]], np.array([1.0, 0.0]), 0.0, 100.0, times, budget=10**5)
     assert len(lsoda(whole, 1e-8).states) == 100
+
+
+@pytest.mark.parametrize("budget", [500, 10**5])
+def test_unwatched_lsoda_spends_no_more_than_its_budget_in_all(budget: int) -> None:
+    """Not between each two outputs; twin: with enough it comes to its end, and each evaluation is made once."""
+    times, calls = np.linspace(1.0, 100.0, 100), [0]
+
+    def rates(s: float, y: Array) -> list[float]:
+        calls[0] += 1
+        return [y[1], -y[0]]
+
+    def watched(s: float, y: Array) -> list[float]:
+        return rates(s, y)
+
+    watched.bare = rates  # type: ignore[attr-defined]
+    segment = Segment(watched, np.array([1.0, 0.0]), 0.0, 100.0, times, budget=budget)
+    if budget == 500:
+        with pytest.raises(StopError) as stopped:
+            lsoda(segment, 1e-8)
+        assert stopped.value.cause == "budget" and stopped.value.reached
+        assert stopped.value.evaluations == pytest.approx(calls[0], abs=3) and calls[0] < 2 * budget + 5
+    else:
+        run = lsoda(segment, 1e-8)
+        assert 1_000 < run.evaluations == pytest.approx(calls[0], abs=3)
