@@ -146,3 +146,23 @@ def test_no_run_takes_ten_times_a_plain_dop853_that_is_as_exact() -> None:
                 break
     assert len(ratios) > 20 and max(ratios) < 10
     assert max(ratios) > 1  # twin: two runs are never for nothing
+
+
+def in_metres(metres: float) -> tuple[Structure, list[list[float]]]:
+    """Three rotors of that length in a row, and a tilt that their bars nearly allow."""
+    rotor, link = Rotor(1, metres, 0.7 * metres**2, 0.5 * metres**2), Link(metres, 0.2, 0.05 * metres**2)
+    joints = [(0.0, 0.0), (metres, 0.0), (metres, metres)]
+    return Structure(joints, [(0, 1), (1, 2)], [5, -5, 8], rotor, link), [[0.1, 0.003], [0.1004, 0.001], [0.1, 0.002]]
+
+
+@pytest.mark.parametrize("metres", [1e-6, 1.0, 1e5])
+def test_a_structure_of_any_size_starts_on_its_bars_and_is_held_to_the_same(metres: float) -> None:
+    """Of a millionth of a metre the bars were closed within 10⁻¹⁵ m², a thousandth of their squares; of 10⁵ m a bar that was
+    off by rounding was 10⁵ times as much, and its runs were refused."""
+    s, tilt = in_metres(metres)
+    run, same = (each.simulate([0.0, 0.3], given, tol=1e-10) for each, given in ((s, tilt), in_metres(1.0)))
+    assert np.abs(run.link_length / metres - 1).max() < 1e-13
+    assert run.axes == pytest.approx(same.axes, abs=1e-10) and run.evaluations < 1.2 * same.evaluations
+    longer = np.append(1.01 * same.axes[:, 0], 0 * same.axes[:, 0])[None]
+    off, of_one = (exact_motion(each).defect(longer, False) for each in (s, same.structure))
+    assert off == pytest.approx(of_one, rel=1e-6) and np.abs(of_one).max() > 1e-3

@@ -40,19 +40,22 @@ def close_bars(motion: ExactMotion, r: Array) -> Array:
 
     Raises ConstraintError where they do not.
     """
-    y = np.concatenate([r.ravel(), np.zeros(r.size)])
+    y, area = np.concatenate([r.ravel(), np.zeros(r.size)]), float((motion.c.ell**2).max(initial=0.0))
+    unit = np.append(np.ones(len(r)), np.full(len(motion.c.ell), area))
     with np.errstate(all="ignore"):
         for _ in range(50):
-            far = np.abs(motion.off(y[: r.size].reshape(r.shape))).max()
-            if far < 1e-15 * max(1.0, float((motion.c.ell**2).max(initial=1.0))):
+            far = np.abs(motion.off(y[: r.size].reshape(r.shape)) / unit).max()
+            if far < 1e-15:
                 break
             step = motion.project(y) - y
             size = np.abs(step).max()
             y = y + step * min(1.0, 0.5 / size) if size > 0 else y
             if not np.isfinite(size) or size < 1e-16:
                 break
-    if not far < 1e-11 * max(1.0, float((motion.c.ell**2).max(initial=1.0))):
-        raise ConstraintError(f"no position of the axes satisfies them (nearest found: {far:.2g} m² off)")
+    if not far < 1e-11:
+        raise ConstraintError(
+            f"no position of the axes satisfies them (nearest found: {far:.2g} off, bars in units of ell² = {area:.3g} m²)"
+        )
     return y[: r.size].reshape(r.shape)
 
 

@@ -135,9 +135,11 @@ class ExactMotion:
         return float(np.abs(self.axes_and_rates(one)[1] - self.axes_and_rates(other)[1]).max(initial=0.0))
 
     def defect(self, states: Array, conserved: bool) -> Array:
-        """How far states (n, 6 N) are off the constraints, and what error explains how far their energy is, where conserved."""
-        r, v = self.axes_and_rates(states) * np.array([1.0, self.c.rate])[:, None, None, None]
-        off = (self.off(r) / np.append(np.ones(len(self.c.R)), self.c.ell)).ravel()
+        """The errors of axes that explain how far states (n, 6 N) are off the constraints and, where conserved, their energy."""
+        c = self.c
+        r, v = self.axes_and_rates(states) * np.array([1.0, c.rate])[:, None, None, None]
+        R = np.maximum(c.R[c.i], c.R[c.j])
+        off = (self.off(r) / np.append(np.ones(len(c.R)), R * np.maximum(R, c.ell))).ravel()
         if not conserved:
             return off
         energy = self.energy(r, v)
