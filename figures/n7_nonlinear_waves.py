@@ -86,7 +86,8 @@ def measure() -> dict[str, float]:
 _off, _apart, _least = measure().values()
 CAPTION = (
     f"Left: ring of {CORNERS} rotors with heavy bars, on hinges; exact runs of amplitude {AMPLITUDE:g} are within "
-    f"{100 * _off:.1f} % of the largest of their shifts from the law. At the poles the second harmonic is itself a wave. Right: "
+    f"{100 * _off:.1f} % of the largest of their shifts from the law. At the poles the second harmonic is itself a wave; the "
+    f"kink at 2π/{CORNERS} is that of the amplitude, a path's larger semi-axis: there tips move on circles. Right: "
     "a hexagon of springs, tuned so that the waves of three and four turns of phase add up to that of one, which starts with "
     f"{PUMPED:g} beside {SEED:g} of the first, falls to {_least:.2f} of its size and returns. In 30 s exact amplitudes are "
     f"within {100 * _apart:.0f} % of it from the law of second order, which leaves out that the rates shift."

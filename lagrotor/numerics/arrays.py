@@ -16,6 +16,8 @@ def finite_array(
     Raises InputError where it is none.
     """
     try:
+        if kind is not complex and np.iscomplexobj(given):
+            raise TypeError
         array: NDArray[Any] = np.array(given, dtype=kind)
     except (TypeError, ValueError):
         raise InputError(f"{where} = {given!r} must be numbers{f' of shape {shape}' if shape else ''}") from None

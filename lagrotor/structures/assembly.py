@@ -118,9 +118,13 @@ class Assembly:
         stiffness = not_negative(brace.stiffness, f"Structure: {where} stiffness", "N/m")
         damping = not_negative(brace.damping, f"Structure: {where} damping", "N s/m")
         ends = [self.upright_tip(tip), self.upright_tip(to) if isinstance(to, int) else to]
-        if tip == to or ends[0] == ends[1]:
+        along = (
+            ()
+            if isinstance(brace.along, tuple) and not brace.along
+            else finite_vector(brace.along, f"Structure: {where} along", "1")
+        )
+        if tip == to or (ends[0] == ends[1] and not along):
             raise InputError(f"Structure: {where} has both ends at one place: join two different points")
-        along = finite_vector(brace.along, f"Structure: {where} along", "1") if _row(brace.along) else ()
         size = hypot(*along)
         if along and not size:
             raise InputError(f"Structure: {where} along = {along} has no direction: leave it out, or give one")

@@ -52,6 +52,14 @@ class Coefficients:
     damping: Array
 
     @property
+    def inertia(self) -> Array:
+        """A, (N, N)."""
+        A = np.diag(self.A)
+        np.add.at(A, (self.i, self.j), self.coupling)
+        np.add.at(A, (self.j, self.i), self.coupling)
+        return A
+
+    @property
     def upright(self) -> Array:
         """All axes upright, (N, 3)."""
         return np.tile([0.0, 0.0, 1.0], (len(self.R), 1))

@@ -18,9 +18,10 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.small_motion import Modes, SmallMotion, modes_of
+from lagrotor.structures.small_motion import Modes, SmallMotion, left_by, modes_of
 
 _STEP = 1e-3  # of the differences, whose error is its fourth power times 10⁻² or so
+_SOFT = 1e-9  # of the largest stiffness: one below it, within their error, is none
 _AT_REST = 1e-9  # of the rate squared: accelerations below it are none
 _MOST = 60  # steps
 
@@ -40,10 +41,8 @@ def rest_near(s: Assembly, tilt: ArrayLike) -> Array:
         left = T.T @ motion.accelerations(0.0, r, 0 * r).ravel()
         if np.abs(left).max(initial=0) < 1e-13 * motion.c.rate**2:
             return r
-        M = _masses(motion, T)
-        K = -M @ _slopes(motion, r, T)[0]
-        stiff, along = np.linalg.eigh((K + K.T) / 2)
-        soft = np.abs(stiff) < 1e-10 * np.abs(stiff).max()
+        M, stiff, along, _ = _linear(motion, r, T)
+        soft = stiff == 0
         step = along @ (np.where(soft, 0, along.T @ M @ left) / np.where(soft, 1, np.abs(stiff)))
         moved = r + (T @ step).reshape(N, 3) * min(1.0, 0.2 / max(float(np.abs(step).max()), 1e-300))
         try:
@@ -56,34 +55,32 @@ def rest_near(s: Assembly, tilt: ArrayLike) -> Array:
 
 
 def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
-    """The normal modes about a rest at the axes (N, 3), as `rest_near` gives it; shapes are x and y of the changes of the axes.
+    """The normal modes about a rest at the axes (N, 3), as `rest_near` gives it; shapes (n, N, 3) are changes of the axes.
 
-    Raises InputError where the structure is not at rest there.
+    Raises InputError where the structure is not at rest there, or its bars do not reach.
     """
     motion, N = exact_motion(s), len(s.joints)
     r = finite_array("modes_about: axes", axes, (N, 3))
     off = max(
         float(np.abs(motion.accelerations(0.0, r, 0 * r)).max()) / motion.c.rate**2,
-        float(np.abs(np.square(r).sum(1) - 1).max()),
+        float((np.abs(motion.off(r)) / np.append(np.ones(N), motion.c.ell**2)).max()),
     )
     if not off < 10 * _AT_REST:
         raise InputError(
             f"modes_about: the structure is not at rest at these axes, off by {off:.1e}: take those of rest_near"
         )
     T = _tangents(motion, r)
-    M = _masses(motion, T)
+    M, stiff, along, C = _linear(motion, r, T)
+    linear = SmallMotion(M, (C + C.T) / 2, (C - C.T) / 2, along * stiff @ along.T, T, motion.c.rate)
+    return modes_of(linear, linear, components=3)
+
+
+def _linear(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array, Array, Array]:
+    """M, the eigenvalues (soft ones zero) and vectors of K, and C, at rest at r."""
+    M = np.asarray(T.T @ np.kron(motion.c.inertia, np.eye(3)) @ T)
     K, C = (-M @ slope for slope in _slopes(motion, r, T))
-    basis = T.reshape(N, 3, -1)[:, :2].reshape(2 * N, -1)
-    linear = SmallMotion(M, (C + C.T) / 2, (C - C.T) / 2, (K + K.T) / 2, basis, motion.c.rate)
-    return modes_of(linear, linear)
-
-
-def _masses(motion: ExactMotion, T: Array) -> Array:
-    """Tᵀ A T."""
-    A = np.diag(motion.c.A)
-    np.add.at(A, (motion.c.i, motion.c.j), motion.c.coupling)
-    np.add.at(A, (motion.c.j, motion.c.i), motion.c.coupling)
-    return np.asarray(T.T @ np.kron(A, np.eye(3)) @ T)
+    stiff, along = np.linalg.eigh((K + K.T) / 2)
+    return M, np.where(np.abs(stiff) < _SOFT * np.abs(stiff).max(initial=0), 0, stiff), along, C
 
 
 def _tangents(motion: ExactMotion, r: Array) -> Array:
@@ -93,8 +90,8 @@ def _tangents(motion: ExactMotion, r: Array) -> Array:
     rows[np.arange(N), np.arange(N)] = r
     each = N + np.arange(len(c.i))
     rows[each, c.i], rows[each, c.j] = motion.pulls(r)
-    _, sizes, vectors = np.linalg.svd(rows.reshape(len(rows), -1))
-    return np.asarray(vectors[int((sizes > 1e-10 * sizes[0]).sum()) :].T)
+    rank, vectors = left_by(rows.reshape(len(rows), -1))
+    return np.asarray(vectors[:, int(rank) :])
 
 
 def _slopes(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array]:

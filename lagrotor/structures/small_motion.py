@@ -34,7 +34,8 @@ class Modes(Shown):
 
     Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
     energy_signs (n,): that of ω² ū·M u + ū·K u, −1 of an oscillation with less energy than rest; 0 of what grows or has no rate.
-    left_out (n,): by how much (rad/s) the inertia lowers each rate to first order, where it is left out; else 0.
+    left_out (n,): by how much (rad/s) the inertia lowers each rate to first order, where it is left out; else 0. Below zero where
+    it raises it, under weight. Of modes_about shapes (n, N, 3) are changes of the axes.
     """
 
     rates: Array
@@ -125,8 +126,8 @@ class SmallMotion:
         sizes = np.linalg.svd(C, compute_uv=False)
         if self.dof and not (sizes[..., -1] > _DEPENDENT * sizes[..., 0]).all():
             raise SingularError(
-                "fast spins: a motion on which no spin acts has no rate without inertia: give each rotor a spin, or keep "
-                "the inertia"
+                "fast spins: a motion on which no spin acts has no rate without inertia: give each rotor a spin and leave "
+                f"an even number of degrees of freedom (here {self.dof}), or keep the inertia"
             )
         if not self._definite:
             s, vectors = np.linalg.eig(-np.linalg.solve(C, K))
@@ -233,15 +234,12 @@ def matrices(c: Coefficients) -> Array:
 
     Of numbers or of symbols, as the coefficients are.
     """
-    A = np.diag(c.A)
-    np.add.at(A, (c.i, c.j), c.coupling)
-    np.add.at(A, (c.j, c.i), c.coupling)
     one = np.eye(2, dtype=int)
     C, K = (np.kron(np.diag(d), one) for d in (c.friction, c.hinge - c.gravity * c.S))
     for k, row in enumerate(_brace_rows(c)):
         C += c.damping[k] * np.outer(row, row)
         K += c.stiffness[k] * np.outer(row, row)
-    return np.array([np.kron(A, one), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
+    return np.array([np.kron(c.inertia, one), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
 
 
 def bar_rows(c: Coefficients) -> Array:
@@ -279,20 +277,22 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
     return modes_of(whole, whole if inertia else whole.without_inertia)
 
 
-def modes_of(whole: SmallMotion, linear: SmallMotion) -> Modes:
-    """The normal modes of a linear system, which is the whole one or what it is without inertia."""
+def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Modes:
+    """The normal modes of a linear system, which is the whole one or what it is without inertia; components: of each axis."""
     roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)
     real = real[np.argsort(-roots[real].real, kind="stable")][: linear.bands - len(turning)]
     kept = np.concatenate([turning, real])
     kept = kept[np.lexsort((roots[kept].imag, -roots[kept].real))]
-    shapes = (linear.basis @ vectors[:, kept]).T.reshape(len(kept), -1, 2)
+    shapes = (linear.basis @ vectors[:, kept]).T.reshape(len(kept), -1, components)
     largest = np.abs(shapes).reshape(len(kept), -1)
     lead = shapes.reshape(len(kept), -1)[np.arange(len(kept)), largest.argmax(1)]
     shapes = shapes / lead[:, None, None]
     signs = np.where((roots[kept].imag > 0) & (roots[kept].real <= 0), linear.energy_signs(roots, vectors)[kept], 0)
-    forms = (vectors[:, kept].conj() * (form @ vectors[:, kept]) for form in (whole.mass, whole.gyroscopic))
-    heavy, turning_by = (form.sum(0) for form in forms)
-    left_out = np.zeros(len(kept)) if linear is whole else roots[kept].imag ** 2 * (heavy / np.abs(turning_by)).real
+    left_out = np.zeros(len(kept))
+    if linear is not whole:
+        rates, u = roots[kept].imag, vectors[:, kept]
+        heavy, turned = ((u.conj() * (form @ u)).sum(0) for form in (whole.mass, whole.gyroscopic))
+        np.divide(rates**2 * heavy.real, turned.imag, out=left_out, where=rates > 0)
     return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out)

@@ -82,7 +82,13 @@ def test_what_weight_tips_over_precesses_with_less_energy_than_rest() -> None:
     heavy = Structure(joints=[(0, 0), (1, 0)], braces=[(0, 1, 2.0)], spins=[200.0, 150.0], gravity=9.81)
     limit, whole = heavy.modes(inertia=False), heavy.modes()
     assert (limit.energy_signs == -1).all() and not limit.topple
-    assert np.sort(limit.rates) == pytest.approx(np.sort(whole.rates)[:2], rel=1e-3)
+    slow = np.sort(whole.rates)[:2]
+    assert np.sort(limit.rates) == pytest.approx(slow, rel=1e-3)
+    # The inertia raises them.
+    rising = np.argsort(limit.rates)
+    assert (limit.left_out < 0).all()
+    assert (limit.rates - limit.left_out)[rising] == pytest.approx(slow, rel=3e-6) != limit.rates[rising]
+    assert (Structure(joints=[(0, 0)], spins=9.0).modes(inertia=False).left_out == 0).all()  # nothing pulls it back
 
 
 def test_bars_leave_slow_precessions_of_their_own() -> None:
@@ -103,3 +109,7 @@ def test_spins_that_do_not_act_are_refused() -> None:
         honeycomb(**HANGING).piece(2, 2)
     with pytest.raises(InputError, match="inertia"):
         honeycomb(**HANGING).nonlinear_wave((0.3, 0.4), 0)
+    with pytest.raises(InputError, match="True or False"):
+        honeycomb(**{**HANGING, "inertia": "no"})
+    with pytest.raises(InputError, match="angle"):
+        honeycomb(angle="x", **HANGING)

@@ -51,9 +51,21 @@ def test_a_brace_in_guides_moves_exactly_as_its_energy_and_as_its_small_motion()
     assert rates == pytest.approx(np.sort(s.modes().rates), rel=1e-9)
 
 
+def test_a_guide_holds_a_tip_at_its_place_where_a_spring_between_two_points_has_no_direction():
+    s = Structure([(0, 0)], braces=[Brace(0, (0, 0, 1), 40.0, along=(1, 0, 0))])
+    assert s.modes().rates == pytest.approx([0, np.sqrt(40.0 / coefficients(s).A[0])])
+    run = s.simulate(np.linspace(0, 3, 31), [(0.2, 0.1)], tol=1e-8)
+    assert np.ptp(run.energy) < 1e-6 * run.energy.max()
+    with pytest.raises(InputError, match="both ends at one place"):
+        Structure([(0, 0)], braces=[Brace(0, (0, 0, 1), 40.0)])
+
+
 def test_braces_in_guides_are_written_down_and_read_back_and_refused_without_a_direction():
     s = yaw_braced(5.0, (1.0, 2.0))
     assert s.braces[0].along == (0.0, 1.0, 0.0) and structure_of(tomllib.loads(toml_of(s))) == s
+    assert "along" not in toml_of(replace(s, braces=[Brace(0, 1, 5.0)]))
+    with pytest.raises(InputError, match="along = 'y' must be 3 numbers"):
+        replace(s, braces=[Brace(0, 1, 1.0, along="y")])
     with pytest.raises(InputError, match="no direction"):
         replace(s, braces=[Brace(0, 1, 1.0, along=(0, 0, 0))])
     assert "k" in str(s.characteristic().polynomial)

@@ -50,13 +50,32 @@ def test_the_exact_motion_beside_a_lean_is_that_of_its_modes() -> None:
     modes = BENT.modes_about(axes)
     fastest = int(modes.rates.argmax())
     rate, shape, off = modes.rates[fastest], modes.shapes[fastest], []
-    change = np.column_stack([shape, -(axes[:, :2] * shape).sum(1) / axes[:, 2]])
     t = np.linspace(0, 6 / rate, 40)
     for size in (1e-3, 2e-3, 4e-3):
-        run = BENT.simulate(t, axes + size * change.real, -size * rate * change.imag, tol=1e-9)
+        run = BENT.simulate(t, axes + size * shape.real, -size * rate * shape.imag, tol=1e-9)
         wave = (shape[:, None] * np.exp(1j * rate * t)[:, None]).real
-        off.append(np.abs(run.axes[..., :2] - axes[:, None, :2] - size * wave).max())
+        off.append(np.abs(run.axes - axes[:, None] - size * wave).max())
     assert np.polyfit(np.log((1e-3, 2e-3, 4e-3)), np.log(off), 1)[0] == pytest.approx(2, abs=0.15)
+
+
+def test_an_axis_that_rests_level_swings_up_and_down() -> None:
+    """κ π/2 = g S; up and down A ω² = κ, and x and y alone could not tell it."""
+    s = Structure([(0, 0)], **HEAVY)
+    c = coefficients(s)
+    level = replace(s, hinge=9.81 * c.S[0] / (np.pi / 2))
+    axes = level.rest_near([(0.99, 0)])
+    modes = level.modes_about(axes)
+    assert axes[0] == pytest.approx([1, 0, 0]) and modes.rates == pytest.approx(
+        [0, np.sqrt(level.hinge[0] / c.A[0])], abs=1e-6
+    )
+    assert np.abs(modes.shapes[:, 0]) == pytest.approx(np.array([[0, 1, 0], [0, 0, 1]]), abs=1e-9)
+
+
+def test_a_motion_that_nothing_pulls_back_does_not_fall_by_rounding() -> None:
+    axes = BENT.rest_near(np.random.default_rng(1).uniform(-0.6, 0.6, (3, 2)))
+    modes = BENT.modes_about(axes)
+    assert modes.rates[0] == modes.growth.max() == modes.topple == 0
+    assert BENT.modes_about(BENT.rest_near(np.zeros((3, 2)))).topple > 0  # twin: upright it falls
 
 
 def test_bars_of_any_length_have_modes_where_they_rest() -> None:
@@ -71,6 +90,12 @@ def test_bars_of_any_length_have_modes_where_they_rest() -> None:
 def test_what_is_no_rest_is_refused() -> None:
     with pytest.raises(InputError, match="not at rest"):
         BENT.modes_about([(0.6, 0, 0.8), (0.6, 0, 0.8), (0.6, 0, 0.8)])
+    free = Structure([(0, 0), (1, 0)], [(0, 1)])
+    assert free.modes_about([(0.6, 0, 0.8)] * 2).topple == 0
+    with pytest.raises(InputError, match="not at rest"):  # nothing pulls, but the bar does not reach
+        free.modes_about([(0, 0, 1), (0.6, 0, 0.8)])
+    with pytest.raises(InputError, match="numbers of shape"):
+        BENT.rest_near(0.1j * np.ones((3, 2)))
     with pytest.raises(InputError, match="x² \\+ y² < 1"):
         BENT.rest_near([(1, 0), (0, 0), (0, 0)])
     with pytest.raises(InputError, match="shape"):

@@ -1,5 +1,6 @@
 """Waves beyond first order: the shift of their rate against exact runs and the heavy top, and where three of them meet."""
 
+from dataclasses import replace
 from math import cos, pi, sin, sqrt
 
 import numpy as np
@@ -8,8 +9,17 @@ import pytest
 from lagrotor import Link, Pattern, Rotor
 from lagrotor.errors import InputError
 from lagrotor.numerics import measured_order
-from lagrotor.structures import honeycomb, polygon_ring, square, straight_row, wave_amplitude
+from lagrotor.structures import (
+    honeycomb,
+    local_hamiltonian,
+    normal_form_of,
+    polygon_ring,
+    square,
+    straight_row,
+    wave_amplitude,
+)  # fmt: skip
 from lagrotor.structures.coefficients import coefficients
+from lagrotor.structures.small_motion import small_motion
 
 
 def alternating_ring(cells: int, spring: float | None = None, **more: object) -> Pattern:
@@ -72,6 +82,39 @@ def test_rotors_that_lean_alike_are_a_heavy_top(band: int) -> None:
     assert abs(measured_order(small, rest) - 4) < 0.1 and rest[-1] < 1e-3 * wave.rate
 
 
+@pytest.mark.parametrize(
+    ("pattern", "count", "waves"),
+    [
+        (polygon_ring(3, spring=25.0, spins=-12.0, hinge=30.0), 3, ((1, 0), (1, 1), (2, 0))),
+        (replace(MIXED, spins=(2.0, -14.0)), 2, ((0, 0), (0, 2), (1, 1))),
+        (
+            polygon_ring(5, spins=40.0, load=0.2, gravity=9.81, link=Link(mass=0.3, inertia=0.05)),
+            5,
+            ((1, 0), (2, 0), (2, -1)),
+        ),
+    ],
+)
+def test_the_shift_is_that_of_the_normal_form_of_a_ring(pattern, count, waves) -> None:
+    """ω_j + 2 c_j I with the action I of the ring, by canonical transformations of its Hamiltonian: springs, opposite spins with
+    bars, slow waves with less energy than rest, of bands below zero. The twin is c of another mode."""
+    s = pattern.piece(count)
+    form, rate, basis = normal_form_of(s), local_hamiltonian(s).rate, local_hamiltonian(s).basis
+    linear = small_motion(s)
+    unit = np.abs(linear.mass).max() * rate
+    frequencies = np.real(form.frequencies) * rate
+    own = [form.actions.get(tuple(2 * (i == j) for i in range(len(frequencies))), 0) for j in range(len(frequencies))]
+    for turns, band in waves:
+        wave = pattern.nonlinear_wave(2 * pi * turns / count, band)
+        tilts, rates = (x.reshape(-1) @ basis for x in wave.state(count, amplitude=1e-7))
+        # twice the energy of the linear wave is 2 |ω| times its action
+        energy = rates @ linear.mass @ rates / 2 + tilts @ linear.stiffness @ tilts / 2
+        action, shift = np.abs(energy) / wave.rate / unit / 1e-14, 2 * np.array(own) * wave.energy_sign
+        mode = int(np.argmin(np.abs(frequencies - wave.energy_sign * wave.rate)))
+        assert abs(frequencies[mode]) == pytest.approx(wave.rate) and np.sign(energy) == wave.energy_sign
+        assert wave.shift == pytest.approx(shift[mode] * action * rate, rel=1e-5)
+        assert np.abs(np.delete(shift, mode) * action * rate / wave.shift - 1).min() > 1e-2
+
+
 @pytest.mark.parametrize("spring", [None, 30.0])
 def test_two_rotors_a_cell_are_the_ring_of_one(spring: float | None) -> None:
     more = {"spring": spring, "spins": 13.0, "hinge": 25.0, "link": Link(mass=0.1, inertia=0.02)}
@@ -123,6 +166,18 @@ def test_energies_of_both_signs_grow_together() -> None:
     assert all(w.growth(k, 1.0) > 0 for w in growing for k in range(3))
 
 
+def test_a_triad_may_have_a_wave_that_is_numbered_at_the_opposite_wave_number_and_leaves_out_what_grows() -> None:
+    pattern = polygon_ring(6, spring=4.0, spins=9.0, gravity=9.81, load=0.3)
+    assert pattern.dispersion(np.linspace(0, 2 * pi, 25)).falls
+    triad = next(w for w in pattern.three_waves(0.0) if min(w.bands) < 0)
+    assert triad.rates[0] + triad.rates[1] == pytest.approx(triad.rates[2]) and triad.rates.min() > 0
+    k = int(np.argmin(triad.bands))
+    opposite = pattern.dispersion(-triad.q[k]).rates[0]
+    assert opposite[-1 - triad.bands[k]] == pytest.approx(-triad.rates[k])
+    with pytest.raises(InputError, match=f"it is band {triad.bands[k]} of −q"):
+        pattern.nonlinear_wave(-triad.q[k], -1 - triad.bands[k])
+
+
 def test_what_makes_no_sense_is_refused() -> None:
     with pytest.raises(InputError, match="first order only"):
         straight_row(spins=10.0, hinge=10.0).nonlinear_wave(1.0, 0)
@@ -137,8 +192,17 @@ def test_what_makes_no_sense_is_refused() -> None:
     with pytest.raises(InputError, match="two steps"):
         honeycomb(spring=1.0, spins=10.0, hinge=2.0).three_waves(1.0)
     wave = polygon_ring(5, spring=25.0, spins=12.0, hinge=30.0).nonlinear_wave(1.0, 0)
-    for amplitude in (0.7, -0.1, float("nan")):
-        with pytest.raises(InputError, match="beyond, the mean and the second"):
+    for amplitude, said in ((0.7, "beyond"), (-0.1, "beyond"), (float("nan"), "finite"), ("a", "number")):
+        with pytest.raises(InputError, match=said):
             wave.rate_at(amplitude)
+    for q in ("a", 1j, float("nan"), [1.0, 2.0]):
+        with pytest.raises(InputError, match="q"):
+            wave.pattern.nonlinear_wave(q, 0)
+        with pytest.raises(InputError, match="q"):
+            wave.pattern.three_waves(q)
+    with pytest.raises(InputError, match="1 or more"):
+        wave.state(-1, amplitude=0.1)
+    with pytest.raises(InputError, match="another number"):
+        wave_amplitude(wave.pattern, wave.pattern.piece(4).simulate([0, 0.1], np.zeros((4, 2))), (5,), 1.0, 0)
     assert wave.rate_at(wave.trusted) == wave.rate + wave.shift * wave.trusted**2
     assert "a² rad/s" in wave.summary()["shift"]

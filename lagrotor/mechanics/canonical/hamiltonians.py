@@ -160,13 +160,19 @@ class Hamiltonian:
             raise DomainError(
                 "normal_form: H must have canonical momenta, no constraints and no time: use independent coordinates"
             )
-        letters = by_symbol(values or {}, self.H.free_symbols)
-        H = self.H.xreplace({s: expression(f"normal_form: {s}", v) for s, v in letters.items()})
         point = {s: expression(f"normal_form: {s}", v) for s, v in by_symbol(at, x).items()}
+        letters = by_symbol(values or {}, self.H.free_symbols.union(*(v.free_symbols for v in point.values())))
+        known = {s: expression(f"normal_form: {s}", v) for s, v in letters.items()}
+        H, point = self.H.xreplace(known), {s: v.xreplace(known) for s, v in point.items()}
         if strange := [str(s) for s in point if s not in x]:
             raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}: name coordinates and momenta")
         turning = {p: point[p] for q, p in zip(self.q, self.p, strict=True) if p in point and not H.has(q)}
         if turning and len(turning) < len(self.q):
+            if H.xreplace({q: v for q, v in point.items() if q in self.q}).has(sp.zoo, sp.nan):
+                raise DomainError(
+                    f"normal_form: with other momenta than {turning} H is singular at {point}: use coordinates that are "
+                    "regular there"
+                )
             H = H.xreplace(turning)
             angles = {q for q, p in zip(self.q, self.p, strict=True) if p in turning}
             x, point = (

@@ -7,6 +7,8 @@ from itertools import product
 from math import pi
 from typing import Any, Self
 
+import numpy as np
+
 from lagrotor.errors import InputError
 from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures.assembly import Brace
@@ -45,6 +47,8 @@ class Cell:
 
     def __post_init__(self) -> None:
         put = object.__setattr__
+        if not isinstance(self.inertia, bool):
+            raise InputError(f"Pattern: inertia = {self.inertia!r} must be True or False")
         for name in ("joints", "steps"):
             put(self, name, tuple((float(x), float(y)) for x, y in getattr(self, name)))
         if len(self.steps) not in (1, 2) or not self.joints:
@@ -101,19 +105,23 @@ class Cell:
             z += sum(n * complex(*step) for n, step in zip(shift, self.steps, strict=True))
         return z.real, z.imag
 
+    def cells(self, *counts: int) -> list[Shift]:
+        """The cells of a piece, so many along each step, the last step fastest. Raises InputError as `piece` does."""
+        if len(counts) != len(self.steps) or not all(isinstance(n, int | np.integer) and n > 0 for n in counts):
+            raise InputError(f"Pattern: piece{counts}: give {len(self.steps)} number(s) of cells, 1 or more")
+        return list(product(*map(range, counts)))
+
     def piece(self, *counts: int) -> Structure:
         """The finite structure of so many cells along each step, its border free; a ring where turn × count is a full turn.
 
         Joint i of cell n is rotor N n + i, the last step fastest. Raises InputError as `Structure` does.
         """
-        if len(counts) != len(self.steps) or any(n < 1 for n in counts):
-            raise InputError(f"Pattern: piece{counts}: give {len(self.steps)} number(s) of cells, 1 or more")
         if not self.inertia:
             raise InputError(
                 "Pattern: piece: a structure has inertia: leave inertia=False out, and ask for modes(inertia=False)"
             )
         ring = bool(self.turn) and abs(abs(self.turn) * counts[0] - 2 * pi) < 1e-9
-        cells = list(product(*(range(n) for n in counts)))
+        cells = self.cells(*counts)
         number = {(i, cell): len(self.joints) * k + i for k, cell in enumerate(cells) for i in range(len(self.joints))}
 
         def within(joined: Sequence[Any]) -> Iterator[tuple[int, int, int]]:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.small_motion import SmallMotion
@@ -86,10 +87,10 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
         InputError: for a q of another shape.
     """
     d = len(p.steps)
-    points = np.asarray(q, dtype=float)
+    points = finite_array("dispersion: q", q)
     points = points[:, None] if points.ndim == 1 and d == 1 else points
-    if points.ndim != 2 or points.shape[1] != d or not len(points) or not np.isfinite(points).all():
-        raise InputError(f"dispersion: q must be finite numbers (n_q, {d}) in rad a cell, not of shape {points.shape}")
+    if points.ndim != 2 or points.shape[1] != d or not len(points):
+        raise InputError(f"dispersion: q must be numbers (n_q, {d}) in rad a cell, not of shape {points.shape}")
     b, most = bloch(p), 2 * len(p.joints)
     rates, growth = np.full((2, len(points), most), np.nan)
     shapes = np.full((len(points), most, most), np.nan, dtype=complex)

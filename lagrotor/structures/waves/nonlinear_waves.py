@@ -22,6 +22,8 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, polynomial, total
+from lagrotor.numerics.arrays import finite_array
+from lagrotor.pair.quantities import finite_number
 from lagrotor.shown import Shown
 from lagrotor.structures.coefficients import Array, Coefficients, Complex
 from lagrotor.structures.exact.structure_run import StructureRun
@@ -62,26 +64,25 @@ class _Wave:
     slope: float
 
 
-def _wave(p: Cell, b: Bloch, q: Any, band: int) -> _Wave:
-    where = f"band {band!r} at q = {np.round(q, 6).tolist()}"
-    d = dispersion(p, np.reshape(q, (1, -1)))
+def _wave(p: Cell, b: Bloch, q: ArrayLike, band: int) -> _Wave:
+    at = finite_array("nonlinear waves: q", q).reshape(1, -1)
+    d, where = dispersion(p, np.vstack([at, -at])), f"band {band!r} at q = {np.round(at[0], 6).tolist()}"
     if isinstance(band, bool) or not isinstance(band, int | np.integer) or not -d.dof[0] <= band < d.dof[0]:
-        raise InputError(f"nonlinear waves: {where}: the bands there are 0 to {d.dof[0] - 1}")
-    rate, growth = (each[0, : d.dof[0]][band] for each in (d.rates, d.growth))
-    beside = np.abs(d.rates[0, : d.dof[0]] - rate) < _SAME * d.rates[0, d.dof[0] - 1]
-    if beside.sum() > 1:
-        raise InputError(
-            f"nonlinear waves: {where}: {beside.sum()} waves have its rate, {rate:g} rad/s: which is not said"
-        )
+        raise InputError(f"nonlinear waves: {where}: the bands there are 0 to {d.dof[0] - 1}, or −1 to {-d.dof[0]}")
+    n, below = int(d.dof[0]), int(band < 0)
+    rates = np.concatenate([-d.rates[1, n - 1 :: -1], d.rates[0, :n]])
+    rate, growth = float(rates[n + band]), float(d.growth[below, -1 - band if below else band])
     if not rate > 0 or growth:
-        raise InputError(
-            f"nonlinear waves: {where} has the rate {rate:g} rad/s and grows by {growth:g} 1/s: take another"
-        )
-    s = d.shapes[0, : d.dof[0]][band]
+        other = f"it is band {-1 - band} of −q" if rate < 0 else "take another"
+        raise InputError(f"nonlinear waves: {where} has the rate {rate:g} rad/s and grows by {growth:g} 1/s: {other}")
+    beside = (np.abs(rates - rate) < _SAME * np.abs(rates).max()).sum()
+    if beside > 1:
+        raise InputError(f"nonlinear waves: {where}: {beside} waves have its rate, {rate:g} rad/s: which is not said")
+    s = d.shapes[1, -1 - band].conj() if below else d.shapes[0, band]
     largest = max(np.linalg.svd(np.array([x.real, x.imag]), compute_uv=False)[0] for x in s)
     shape = (s / largest).ravel()
-    (M, _, G, _), _ = b.at(d.q[0])
-    return _Wave(d.q[0], float(rate), shape, float((shape.conj() @ (2 * rate * M + 1j * G) @ shape).real))
+    (M, _, G, _), _ = b.at(at[0])
+    return _Wave(at[0], rate, shape, float((shape.conj() @ (2 * rate * M + 1j * G) @ shape).real))
 
 
 def _bloch_without_friction(p: Cell) -> Bloch:
@@ -182,7 +183,7 @@ class NonlinearWave(Shown):
         Raises:
             InputError: for an amplitude that is not from 0 to `trusted`.
         """
-        if not 0 <= amplitude <= self.trusted:
+        if not 0 <= finite_number(amplitude, "NonlinearWave: amplitude", "1") <= self.trusted:
             raise InputError(
                 f"NonlinearWave: amplitude = {amplitude!r} must be from 0 to {self.trusted:.3g}: beyond, the mean and the second "
                 "harmonic are no longer small; simulate it"
@@ -197,7 +198,7 @@ class NonlinearWave(Shown):
         """
         omega = self.rate_at(amplitude)
         point = np.array([1, 1, *self.forced * amplitude / 2]) * amplitude / 2
-        cells = np.array(list(product(*(range(n) for n in counts))))
+        cells = np.array(self.pattern.cells(*counts))
         tilts, rates = np.zeros((2, len(cells), len(self.tips)), dtype=complex)
         for k, f in enumerate(self.tips):
             theta = f.exponents @ self.multiples
@@ -223,14 +224,14 @@ def nonlinear_wave(p: Cell, q: ArrayLike, band: int) -> NonlinearWave:
     Args:
         p: the pattern.
         q: (d,), rad a cell.
-        band: as `dispersion` numbers them at q.
+        band: as `dispersion` numbers them at q; −1 − k is the wave k of −q where its rate there is below zero.
 
     Raises:
         InputError: with friction, for a wave without a rate or one that grows, where bars do not allow it beyond first order, and
             where what it forces, its mean or second harmonic, is in resonance.
     """
     b = _bloch_without_friction(p)
-    wave = _wave(p, b, np.atleast_1d(np.asarray(q, dtype=float)), band)
+    wave = _wave(p, b, q, band)
     still, twice = (next(b.motions(m * wave.q[None]))[1] for m in (0, 2))
     bases = [wave.shape[:, None], wave.shape.conj()[:, None], still.basis[0], twice.basis[0], twice.basis[0].conj()]
     multiples = np.repeat([1.0, -1, 0, 2, -2], [basis.shape[1] for basis in bases])
@@ -265,14 +266,15 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
         run: of the piece.
         counts: of its cells.
         q: (d,), rad a cell.
-        band: as `dispersion` numbers them at q.
+        band: as in `nonlinear_wave`.
 
     Raises:
-        InputError: as `nonlinear_wave`.
+        InputError: as `nonlinear_wave`, and for a run of another piece.
     """
     b = _bloch_without_friction(p)
-    wave = _wave(p, b, np.atleast_1d(np.asarray(q, dtype=float)), band)
-    cells = np.array(list(product(*(range(n) for n in counts))))
+    wave, cells = _wave(p, b, q, band), np.array(p.cells(*counts))
+    if len(run.axes) != len(cells) * len(p.joints):
+        raise InputError(f"wave_amplitude: the run has {len(run.axes)} rotors, piece{tuple(counts)} another number")
     back = np.exp(-1j * (p.turn * cells[:, 0]))[:, None, None]
     U, V = (
         np.tensordot(np.exp(-1j * cells @ wave.q), np.stack([x.real, x.imag], -1), 1)
@@ -363,34 +365,47 @@ class ThreeWaves(Shown):
 def three_waves(p: Cell, q: float) -> tuple[ThreeWaves, ...]:
     """All triads in which a wave of q, rad a cell, and another one add up to a third, of a pattern with one step.
 
-    Found between 181 wave numbers by the sign of ω₁ + ω₂ − ω₃ and then to rounding: where it touches zero without a change
-    of sign, none is found.
+    bands as in `nonlinear_wave`, below zero where waves of −q have rates below zero; waves that grow are left out.
+    Found between 181 wave numbers by the sign of ω₁ + ω₂ − ω₃ and then to rounding: where it touches zero without a change of
+    sign, none is found.
 
     Raises:
-        InputError: for a pattern with two steps, where such triads are curves; with friction, and for waves that grow.
+        InputError: for a pattern with two steps, where such triads are curves, with friction, and where two waves of a triad have
+            one q and rate.
     """
     from scipy.optimize import brentq
 
     if len(p.steps) != 1:
         raise InputError("three_waves: a pattern with two steps: triads are curves there; take a strip")
     b, others = _bloch_without_friction(p), np.linspace(0, 2 * np.pi, _POINTS) + 1e-4
+    q = float(finite_array("three_waves: q", q, ()))
 
-    def rates(at: Array) -> Array:
-        return dispersion(p, np.reshape(at, (-1, 1))).rates
+    def waves(at: Array) -> dict[int, Complex]:
+        """Of each band rate + i growth."""
+        d = dispersion(p, np.concatenate([at, -at]))
+        own, opposite = np.split(d.rates + 1j * d.growth, 2)
+        return dict(enumerate(own.T)) | {-1 - k: -f.conj() for k, f in enumerate(opposite.T)}
 
-    (first,), second, third = rates(np.array([q])), rates(others), rates(others + q)
-    found, highest = [], float(np.nanmax([np.nanmax(first), np.nanmax(second)]))
-    for i, j, k in product(*(range(each.shape[-1]) for each in (first, second, third))):
+    first, second, third = waves(np.array([q])), waves(others), waves(others + q)
+    found, highest = [], max(float(np.nanmax(np.abs(f))) for f in second.values())
+    for (i, (rate,)), j, k in product(first.items(), second, third):
 
-        def missed(x: float, i: int = i, j: int = j, k: int = k) -> float:
-            return float(first[i] + rates(np.array([x]))[0, j] - rates(np.array([x + q]))[0, k])
+        def three(x: float, rate: complex = rate, j: int = j, k: int = k) -> Complex:
+            return np.array([rate, waves(np.array([x]))[j][0], waves(np.array([x + q]))[k][0]])
 
-        off = first[i] + second[:, j] - third[:, k]
-        for n in np.flatnonzero(off[:-1] * off[1:] < 0):
-            x = float(brentq(missed, others[n], others[n + 1], xtol=1e-13))
-            if abs(missed(x)) < _SAME * highest:
+        off = (rate + second[j] - third[k]).real
+        sound = _is_sound(rate) & _is_sound(second[j]) & _is_sound(third[k])
+        for n in np.flatnonzero((off[:-1] * off[1:] < 0) & sound[:-1] & sound[1:]):
+            x = float(brentq(lambda x: float((three(x) @ [1, 1, -1]).real), others[n], others[n + 1], xtol=1e-13))
+            at = three(x)
+            if abs((at @ [1, 1, -1]).real) < _SAME * highest and _is_sound(at).all():
                 found.append(_triad(p, b, np.array([[q], [x], [q + x]]), (i, j, k)))
     return tuple(found)
+
+
+def _is_sound(wave: Any) -> Any:
+    """Whether its rate is above zero and it does not grow."""
+    return (wave.real > 0) & (wave.imag == 0)
 
 
 def _triad(p: Cell, b: Bloch, q: Array, bands: tuple[int, int, int]) -> ThreeWaves:

@@ -7,6 +7,7 @@ from math import cos, pi, sin, sqrt
 from typing import Any
 
 from lagrotor.errors import InputError
+from lagrotor.pair.quantities import finite_number
 from lagrotor.structures.waves.pattern import Pattern
 
 
@@ -37,6 +38,7 @@ def honeycomb(spring: float | None = None, angle: float = 2 * pi / 3, **more: An
     """Two rotors a cell, three bars at each, two of them at `angle` (rad) from the third: π/2 are bricks, less are bow ties; with
     `spring` (N/m) braces instead of bars.
     """
+    angle = finite_number(angle, "honeycomb: angle", "rad")
     joins, (x, y) = ((0, 1, (0, 0)), (0, 1, (-1, 0)), (0, 1, (0, -1))), (sin(angle), 1 - cos(angle))
     return _joined(((0, 0), (0, 1)), ((x, y), (-x, y)), joins, spring, more)
 

@@ -324,6 +324,10 @@ def test_a_steady_motion_is_named_by_the_momenta_of_its_angles():
     s = sp.Symbol("s", positive=True)
     r, other = central(lambda r: r**2 / 2)
     assert other.normal_form(6, {r: s, other.p[1]: s**2}).actions == {(0,): s**2, (1,): 2}
+    # Values of letters that the point alone has; where other momenta are singular nothing is said.
+    assert h.normal_form(4, {r: P**2, h.p[1]: P}, {P: 2}).actions == h.normal_form(4, {r: 4, h.p[1]: 2}).actions
+    with pytest.raises(DomainError, match="with other momenta"):
+        other.normal_form(4, {r: 0, other.p[1]: 0})
 
 
 def test_conical_pendulums_shift_by_their_amplitude_as_the_quadrature_has_it():
