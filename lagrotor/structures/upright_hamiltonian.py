@@ -8,7 +8,7 @@ The second sum is the spins' part, whose force is G_i r_i × r_i'. A bar along n
 constraint |d|² = ℓ² gives as a series in q: u = Z q + rows⁺ s(q), where s ← s + (|d|² − ℓ²)/2ℓ gains an order at each step.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from math import comb
@@ -17,7 +17,15 @@ import numpy as np
 from scipy.special import binom
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.canonical.polynomials import Polynomial, constant, inverse_matrix, polynomial, total, variable
+from lagrotor.mechanics.canonical.polynomials import (
+    Polynomial,
+    constant,
+    inverse_matrix,
+    linear_form,
+    polynomial,
+    total,
+    variable,
+)  # fmt: skip
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, coefficients
 from lagrotor.structures.small_motion import bar_rows, small_motion
@@ -86,13 +94,12 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
 
 def _axes(c: Coefficients, basis: Array, order: int) -> list[Row]:
     """x, y, z of each axis as polynomials in q, through the order; exact through order − 1 in x and y."""
-    q = [variable(k, basis.shape[1], kind=float) for k in range(basis.shape[1])]
     back = np.linalg.pinv(bar_rows(c))
     return on_bars(
         c,
-        [_combined(row, q) for row in basis],
+        [linear_form(row, float) for row in basis],
         lambda u: [axis_of(u[k : k + 2], order) for k in range(0, len(u), 2)],
-        lambda bound: [_combined(row, bound) for row in back],
+        lambda bound: [combined(row, bound) for row in back],
         order,
     )
 
@@ -108,7 +115,7 @@ def on_bars(
     return axes
 
 
-def _combined(numbers: Array, row: Row) -> Polynomial:
+def combined(numbers: Array | Sequence[float], row: Row) -> Polynomial:
     """The sum of polynomials, each times its number."""
     return total(
         [f.times(number) for number, f in zip(numbers, row, strict=True) if number] or [_none(row[0].variables)]
@@ -185,7 +192,7 @@ def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
         d = [axes[tip][k].times(c.R[tip]) + constant(place[k], n, float) for k in range(3)]
         d = [d[k] - axes[to][k].times(c.R[to]) for k in range(3)] if to >= 0 else d
         if c.brace_along[b].any():
-            stretch = total([_combined(c.brace_along[b], d), constant(-c.brace_length[b], n, float)])
+            stretch = total([combined(c.brace_along[b], d), constant(-c.brace_length[b], n, float)])
             terms.append(stretch.product(stretch, order).times(c.stiffness[b] / 2))
             continue
         longer = (total([part.product(part, order) for part in d]) - constant(c.brace_length[b] ** 2, n, float)).times(

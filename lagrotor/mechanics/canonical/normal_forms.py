@@ -30,6 +30,7 @@ from lagrotor.mechanics.canonical.polynomials import (
     Exponents,
     Polynomial,
     lie_transform,
+    linear_form,
     poisson_bracket,
     polynomial,
     total,
@@ -250,10 +251,7 @@ def normal_form_of_series(H: Polynomial, order: int, detuning: float = 0.0) -> N
     """
     n = H.variables // 2
     A, normal = quadratic_modes(H)
-    rows = [
-        polynomial({tuple(int(i == j) for i in range(2 * n)): c for j, c in enumerate(row)}, 2 * n)
-        for row in normal.vectors
-    ]
+    rows = [linear_form(row) for row in normal.vectors]
     full = Polynomial(H.exponents, H.coefficients + 0j).through(order).substitute(rows, order)
     quadratic = normal_quadratic(A, normal.vectors, normal.weights, normal.frequencies)
     series = total([quadratic, *(full.part(d) for d in (0, *range(3, order + 1)))])
@@ -345,12 +343,8 @@ def _expanded(
     kind: Any,
 ) -> Polynomial:
     """H at x = at + vectors y, a polynomial in y."""
-    m = len(x)
     convert = value if kind is object else complex
-    moved = {
-        s: polynomial({tuple(int(i == j) for i in range(m)): convert(vectors[k, j]) for j in range(m)}, m, kind)
-        for k, s in enumerate(x)
-    }
+    moved = {s: linear_form([convert(vectors[k, j]) for j in range(len(x))], kind) for k, s in enumerate(x)}
     return LocalSeries(at, moved, order, value).of(H)
 
 

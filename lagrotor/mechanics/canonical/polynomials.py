@@ -129,6 +129,12 @@ def variable(k: int, variables: int, one: Any = 1.0, kind: Any = complex) -> Pol
     return polynomial({tuple(int(j == k) for j in range(variables)): one}, variables, kind)
 
 
+def linear_form(row: Sequence[Any] | Coefficients, kind: Any = complex) -> Polynomial:
+    """sum_j row_j x_j."""
+    units = map(tuple, np.eye(len(row), dtype=int).tolist())
+    return polynomial(dict(zip(units, row, strict=True)), len(row), kind)
+
+
 def constant(value: Any, variables: int, kind: Any = complex) -> Polynomial:
     """A number as a polynomial."""
     return polynomial({(0,) * variables: value}, variables, kind)

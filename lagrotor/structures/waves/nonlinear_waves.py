@@ -21,13 +21,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.canonical.polynomials import Polynomial, polynomial, total
+from lagrotor.mechanics.canonical.polynomials import Polynomial, linear_form, total
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.pair.quantities import finite_number
 from lagrotor.shown import Shown
 from lagrotor.structures.coefficients import Array, Coefficients, Complex
 from lagrotor.structures.exact.structure_run import StructureRun
-from lagrotor.structures.upright_hamiltonian import Row, axis_of, on_bars, over_length, potential_of, turned
+from lagrotor.structures.upright_hamiltonian import Row, axis_of, combined, on_bars, over_length, potential_of, turned
 from lagrotor.structures.waves.bloch import Bloch, bloch, cell_coefficients
 from lagrotor.structures.waves.cell import Cell
 from lagrotor.structures.waves.dispersion import dispersion
@@ -103,7 +103,8 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
         for j, shift in p.neighbours:
             x, y, z = (phases.apart(f, shift) for f in axes[j])
             turn = p.turn * shift[0]
-            axes.append([_sum((x, np.cos(turn)), (y, -np.sin(turn))), _sum((x, np.sin(turn)), (y, np.cos(turn))), z])
+            C, S = np.cos(turn), np.sin(turn)
+            axes.append([combined((C, -S), [x, y]), combined((S, C), [x, y]), z])
         return axes
 
     def back(bound: Row) -> Row:
@@ -111,7 +112,7 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
         for k, f in enumerate(bound):
             by = np.linalg.pinv(b.at(f.exponents @ phases.q)[1], rcond=1e-10)[:, :, k]
             moved.append([f.times(column) for column in by.T])
-        return [_sum(*((row[k], 1) for row in moved)) for k in range(len(u))]
+        return [total([row[k] for row in moved]) for k in range(len(u))]
 
     axes = on_bars(c, u, axes_of, back, order)
     for k in range(len(c.i)):
@@ -124,11 +125,6 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
     L = _kinetic(c, axes, phases, order) - potential_of(c, axes, order)
     e = np.exp(1j * (L.exponents @ phases.q))
     return L.where((np.abs(e - 1) < _SAME).all(1)), axes
-
-
-def _sum(*terms: tuple[Polynomial, float]) -> Polynomial:
-    some = terms[0][0]
-    return total([some.part(-1), *(f.times(factor) for f, factor in terms if factor)])
 
 
 def _kinetic(c: Coefficients, axes: list[Row], phases: _Phases, order: int) -> Polynomial:
@@ -236,7 +232,7 @@ def nonlinear_wave(p: Cell, q: ArrayLike, band: int) -> NonlinearWave:
     bases = [wave.shape[:, None], wave.shape.conj()[:, None], still.basis[0], twice.basis[0], twice.basis[0].conj()]
     multiples = np.repeat([1.0, -1, 0, 2, -2], [basis.shape[1] for basis in bases])
     phases = _Phases(np.outer(multiples, wave.q), multiples * wave.rate)
-    L, axes = _averaged(p, b, _field(np.hstack(bases)), phases, 4)
+    L, axes = _averaged(p, b, [linear_form(row) for row in np.hstack(bases)], phases, 4)
     L = L.where(L.exponents @ multiples == 0)
     own, forcing, curvature = _by_what_is_forced(L)
     forced = -np.linalg.pinv(curvature, rcond=_ZERO) @ forcing
@@ -295,12 +291,6 @@ def _part(tips: tuple[Polynomial, ...], multiples: Array, point: Complex, m: int
     order = np.where(np.arange(len(multiples)) < 2, 1, 2)
     parts = [f.where((f.exponents @ order == 2) & (f.exponents @ multiples == m)).at(point) for f in tips]
     return np.reshape(parts, (-1, 2))
-
-
-def _field(columns: Complex) -> Row:
-    """u = columns (2N, m) x, polynomials in x."""
-    m = columns.shape[1]
-    return [polynomial({tuple(int(i == j) for i in range(m)): c for j, c in enumerate(row)}, m) for row in columns]
 
 
 def _by_what_is_forced(L: Polynomial) -> tuple[complex, Complex, Complex]:
@@ -413,7 +403,7 @@ def _triad(p: Cell, b: Bloch, q: Array, bands: tuple[int, int, int]) -> ThreeWav
     columns = np.stack([s for w in waves for s in (w.shape, w.shape.conj())], 1)
     signs, slopes = np.tile([1.0, -1.0], 3), np.array([w.slope for w in waves])
     carried = np.repeat(q, 2, axis=0) * signs[:, None], np.repeat([w.rate for w in waves], 2) * signs
-    L, _ = _averaged(p, b, _field(columns), _Phases(*carried), 3)
+    L, _ = _averaged(p, b, [linear_form(row) for row in columns], _Phases(*carried), 3)
     v = L.terms.get((1, 0, 1, 0, 0, 1), 0j)
     v = v if abs(v) > _ZERO * max(abs(w.slope) * w.rate for w in waves) else 0j
     return ThreeWaves(
