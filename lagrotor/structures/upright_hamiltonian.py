@@ -25,7 +25,7 @@ from lagrotor.mechanics.canonical.polynomials import (
     polynomial,
     total,
     variable,
-)  # fmt: skip
+)
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, coefficients
 from lagrotor.structures.small_motion import bar_rows, small_motion
