@@ -14,13 +14,12 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from sympy.core.cache import clear_cache
 
 from benchmarks.machine import machine
 from benchmarks.mechanisms.chains import JOINTS, VALUES, chain
 from benchmarks.mechanisms.comparison import SAME, _clock, _time_of
 from benchmarks.mechanisms.sympy_tools import kane, lagrange
-from benchmarks.mechanisms.tool import in_own_process
+from benchmarks.mechanisms.tool import forget_all, in_own_process
 from lagrotor.benchmark.records import BODIES_AND_LAGRANGIANS, LINKS, MechanismKind
 from lagrotor.files import write_text
 from lagrotor.mechanics import Frame, System, coordinates
@@ -219,11 +218,11 @@ def _made(name: str, tool: str, values: Mapping[Any, float]) -> Rhs:
 
 
 def _measured(send: Callable[[Any], None], spend: Callable[[], Any], name: str, tool: str) -> None:
-    """Ready once: of a second time something would be remembered."""
+    """Ready once, as after a start: what the known rates were made with is forgotten."""
     values = sympys_bicycle()[1] if name == "bicycle" else {}
     known = _rates(name, TOOLS[0], _made(name, TOOLS[0], values)(0.0, _state(name, TOOLS[0])))
     state = _state(name, tool)
-    clear_cache()
+    forget_all()
     spend()
     before = _clock()
     rhs = _made(name, tool, values)

@@ -15,13 +15,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sympy.core.cache import clear_cache
 
 from benchmarks.mechanisms.chains import JOINTS, VALUES, chain, start
 from benchmarks.mechanisms.engine_tools import ENGINES
 from benchmarks.mechanisms.own_tools import OWN
 from benchmarks.mechanisms.sympy_tools import SYMPY
-from benchmarks.mechanisms.tool import Ready, Rhs, Tool, in_own_process
+from benchmarks.mechanisms.tool import Ready, Rhs, Tool, forget_all, in_own_process
 from lagrotor.benchmark.method import TOLERANCES
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Measured, MechanismKind
 from lagrotor.mechanics.running.programs import motion_program
@@ -89,7 +88,7 @@ def _prepared(tool: Tool, kind: MechanismKind, n: int) -> tuple[Ready, float]:
     """Ready, and the least time of that: of one where it takes seconds, of five with empty caches where it does not."""
     times: list[float] = []
     while len(times) < 5 and sum(times) < 2:
-        clear_cache()
+        forget_all()
         before = _clock()
         ready = tool.prepare(kind, n)
         times.append(_clock() - before)
@@ -101,7 +100,7 @@ def ready_in_turns(kind: MechanismKind, rounds: int = 15) -> list[float]:
     times: dict[int, list[float]] = {n: [] for n in LINKS[kind]}
     for _ in range(rounds):
         for n, taken in times.items():
-            clear_cache()
+            forget_all()
             gc.collect()
             before = _clock()
             OWN["lagrotor"].prepare(kind, n)

@@ -1,5 +1,7 @@
 """A tool on a mechanism: how it is made ready, its right-hand side, and its runs."""
 
+import functools
+import gc
 import multiprocessing
 import signal
 from collections.abc import Callable
@@ -9,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.algebra.subexpressions import forget
 from lagrotor.benchmark.records import MechanismKind
 
 Array = NDArray[np.float64]
@@ -33,6 +36,14 @@ class Tool:
     module: str = "sympy"
     install: str = ""
     others: tuple[str, ...] = ()  # modules needed besides
+
+
+def forget_all() -> None:
+    """Let go of what sympy and lagrotor remember of what they made before, for it to be made anew."""
+    forget()
+    for one in gc.get_objects():
+        if isinstance(one, functools._lru_cache_wrapper) and (one.__module__ or "").startswith("lagrotor"):
+            one.cache_clear()
 
 
 def in_own_process(work: Callable[..., None], seconds: float, *given: Any) -> Any:

@@ -1,8 +1,18 @@
 """The parts of an expression, each once: a Lagrangian of 24 rods has 2,000 different parts, and 6×10⁸ where it is written out."""
 
+from operator import is_
+from typing import Any
+
 import sympy as sp
+from sympy.core.cache import clear_cache
 
 _WRITTEN = 100_000  # parts of an expression up to which it is written out
+_MOST = 200_000  # parts that are known at a time
+
+_KNOWN = dict[
+    Any, sp.Basic
+]()  # by class and either the numbers of the arguments or, where there are none, the part itself
+_OWN = set[int]()  # the numbers of those
 
 
 def subexpressions(*given: sp.Basic) -> list[sp.Basic]:
@@ -43,3 +53,41 @@ def written(e: sp.Basic) -> str:
     for part in subexpressions(e):
         number[part] = f"#{len(number)}"
     return " ".join(f"{type(p).__name__}({', '.join(number[a] for a in p.args) or p})" for p in number)
+
+
+def with_shared_parts(e: sp.Expr) -> sp.Expr:
+    """The expression, each part of it the same object as an equal part of those before.
+
+    sympy compares objects that are equal part by part, as often as each is written out; its own memory of the last 1,000 results
+    does so when an expression of shared parts is made a second time. Objects that are the same are not compared.
+    """
+    if len(_KNOWN) > _MOST:
+        forget()
+    own = dict[int, sp.Basic]()
+    left: list[tuple[sp.Basic, bool]] = [(e, False)]
+    while left:
+        part, whole = left.pop()
+        if id(part) in _OWN or id(part) in own:
+            continue
+        if not whole:
+            left += [(part, True), *((a, False) for a in part.args)]
+            continue
+        args = [own.get(id(a), a) for a in part.args]
+        key = (part.func, *map(id, args)) if args else (part.func, part)
+        if (same := _KNOWN.get(key)) is None:
+            same = part
+            if any(a is not b for a, b in zip(args, part.args, strict=True)):
+                made = part.func(*args)
+                alike = made.func == part.func and len(made.args) == len(args) and all(map(is_, made.args, args))
+                same = made if alike else part
+            _KNOWN[key] = same
+            _OWN.add(id(same))
+        own[id(part)] = same
+    return own.get(id(e), e)
+
+
+def forget() -> None:
+    """Let go of the parts that are known, and of what sympy remembers of them."""
+    _KNOWN.clear()
+    _OWN.clear()
+    clear_cache()

@@ -126,8 +126,8 @@ def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
 
 
 def recorded_bodies_and_lagrangians() -> dict[str, Any]:
-    """Mechanisms from bodies and from their Lagrangian: machine, longest (s, of one tool), and rows of mechanism, tool, ready and
-    rhs in s, difference, reason.
+    """Mechanisms from bodies and from their Lagrangian: machine, longest (s, of one tool), rows of mechanism, tool, ready and
+    rhs in s, difference, reason; note, where they are not of one quiet run.
 
     Raises LagrotorError if it is unreadable.
     """

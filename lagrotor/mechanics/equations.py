@@ -90,7 +90,7 @@ class Equations:
         self._check_symbols()
         self._check_reactions(acting)
         if not self.bodies:
-            _ = self.L  # checked now; an energy of bodies is written out when it is needed
+            object.__setattr__(self, "lagrangian", self.L)  # now; an energy of bodies is written out when it is needed
         _ = self.kinematics
 
     def _take_velocities(self) -> None:

@@ -8,7 +8,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra import normal_form
 from lagrotor.algebra.enclosures import jet_of
-from lagrotor.algebra.subexpressions import length, subexpressions
+from lagrotor.algebra.subexpressions import length, subexpressions, with_shared_parts
 from lagrotor.errors import InputError, NotExactError
 
 _PLAIN = (
@@ -25,6 +25,7 @@ def expression(where: str, given: Any) -> sp.Expr:
         e = None
     if not isinstance(e, sp.Expr) or isinstance(e, sp.MatrixExpr | sp.MatrixBase):
         raise InputError(f"{where} = {given!r} is no expression: build it from sympy symbols")
+    e = with_shared_parts(e)
     inside = subexpressions(e)
     if any(isinstance(d, sp.Derivative) and not d.expr.atoms(AppliedUndef) for d in inside):
         raise InputError(f"{where} = {e}: {_PLAIN}")

@@ -16,6 +16,7 @@ from typing import Any, TypeVar
 import sympy as sp
 
 from lagrotor.algebra import check_names, decide_equal, decide_zero
+from lagrotor.algebra.subexpressions import with_shared_parts
 from lagrotor.errors import InputError
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, total_derivative
@@ -121,7 +122,7 @@ class MovingFrame:
         """ω, in the frame's own axes, (3, 1)."""
         if self.parent is None:
             return sp.zeros(3, 1)
-        return self.rotation.T * self.parent.angular_velocity + self.own_rate
+        return (self.rotation.T * self.parent.angular_velocity + self.own_rate).applyfunc(with_shared_parts)
 
     @cached_property
     def origin_velocity(self) -> sp.Matrix:
@@ -130,14 +131,14 @@ class MovingFrame:
             return sp.zeros(3, 1)
         d = self.shift
         carried = self.parent.angular_velocity.cross(d) + d.applyfunc(lambda e: total_derivative(e, self.c))
-        return self.rotation.T * (self.parent.origin_velocity + carried)
+        return (self.rotation.T * (self.parent.origin_velocity + carried)).applyfunc(with_shared_parts)
 
     def place(self, point: Vector = (0, 0, 0), seen: "MovingFrame | None" = None) -> sp.Matrix:
         """Where a point of the frame is, in the axes of the ground, or of a frame `seen` that it descends from."""
         position = sp.Matrix(list(point))
         frame: MovingFrame = self
         while frame is not seen and frame.parent is not None:
-            position = frame.rotation * position + frame.shift
+            position = (frame.rotation * position + frame.shift).applyfunc(with_shared_parts)
             frame = frame.parent
         return position
 
