@@ -6,6 +6,7 @@ which takes about three quarters of the time of a function and a wrapper around 
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import reduce
 from operator import attrgetter
 from typing import Any
 
@@ -63,6 +64,17 @@ class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
     """Of arrays."""
 
     module = "numpy"
+
+    def _print_Max(self, expr: sp.Max) -> str:
+        return self._of_two("maximum", expr)
+
+    def _print_Min(self, expr: sp.Min) -> str:
+        return self._of_two("minimum", expr)
+
+    def _of_two(self, name: str, expr: sp.Expr) -> str:
+        """A function of two, of all the arguments: sympy 1.13.0 stacks them, which takes no number beside an array."""
+        name = self._module_format(f"numpy.{name}")
+        return reduce(lambda a, b: f"{name}({a}, {b})", map(self._print, expr.args))
 
 
 class _Digits(_Printer, MpmathPrinter):  # type: ignore[misc]

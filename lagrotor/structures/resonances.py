@@ -12,7 +12,8 @@ largest value at N = 1, no start below ρ passes the barrier of δ N/d − κ N^
     |δ| > ½ d² κ (ρ²/x)^((d−2)/2),     x + (2/d) x^(d/2) = 1 − 2/d:    |δ| > 18 c ρ for d = 3.
 
 All of it is of the terms of degree d; d = 3 are the waves of Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199. For d = 4 the
-actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j.
+actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j, of modes of equal
+rates in any of their bases.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -211,7 +212,9 @@ def _resonance(
     scale = np.abs(n.series.coefficients).max()
     if not len(up.coefficients) or np.abs(up.coefficients).max() < _NOTHING * scale:
         return None
-    falls = order == 3 or any(_outweighs(part, k) for k in vectors)
+    groups = _of_equal_rates(np.real(n.frequencies))
+    different = {tuple(sum(k[j] for j in g) for g in groups): k for k in vectors}.values()
+    falls = order == 3 or any(_outweighs(part, k, groups) for k in different)
     nearest = min(group, key=lambda k: abs(np.dot(k, rates)))
     over = np.linalg.inv(n.vectors)[:size][modes] @ pushed
     lead = total([up, _conjugate(up)]) if order == 3 else part
@@ -227,12 +230,42 @@ def _conjugate(f: Polynomial) -> Polynomial:
     return Polynomial(np.hstack([f.exponents[:, n:], f.exponents[:, :n]]), f.coefficients.conj())
 
 
-def _outweighs(part: Polynomial, k: tuple[int, ...]) -> bool:
-    """Whether 2 |P| exceeds the actions' own terms along |z_j|² = k_j."""
+def _outweighs(part: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -> bool:
+    """Whether 2 |P| exceeds the actions' own terms somewhere where |z_j|² adds up to what k_j does, over modes of equal rates.
+
+    Modes of equal rates have any basis, and all of them count. As the phase of P is free, it exceeds them where own terms and
+    2 Re P together take both signs.
+    """
+    from scipy.optimize import minimize
+
     n = len(k)
-    own = sum(c.real * float(np.prod(np.array(k, float) ** e[:n])) for e, c in part.terms.items() if e[:n] == e[n:])
-    feeding = part.terms.get((*k, *(0,) * n), 0)
-    return 2 * abs(feeding) * float(np.prod(np.array(k, float) ** (np.array(k) / 2))) > abs(own)
+    of = np.array([[j in g for j in range(n)] for g in groups])
+    sums = of @ k
+    up, down = part.exponents[:, :n] @ of.T, part.exponents[:, n:] @ of.T
+    fed = ((up == sums) & (down == 0)).all(1) | ((down == sums) & (up == 0)).all(1)
+    chosen = (fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1)
+    powers, coefficients = part.exponents[chosen], part.coefficients[chosen]
+    double = np.hstack([of[sums > 0]] * 2)  # real and imaginary parts
+    sizes = np.sqrt(sums[sums > 0])
+
+    def value(x: Array, sign: float = 1.0) -> tuple[float, Array]:
+        """The terms at x, its groups brought to their sums, and the gradient."""
+        norms = np.sqrt(double @ x**2)
+        scale = (sizes / norms) @ double
+        z = (scale * x)[:n] + 1j * (scale * x)[n:]
+        point = np.concatenate([z, z.conj()])
+        terms = coefficients * np.prod(point**powers, axis=1)
+        by_z = ((terms @ powers)[:n] / np.where(z == 0, 1, z)) * 2
+        slope = np.concatenate([by_z.real, -by_z.imag])
+        along = (double @ (x * slope) / norms**2) @ double
+        return sign * float(terms.sum().real), sign * scale * (slope - along * x)
+
+    moving = np.flatnonzero(double.any(0))
+    draw = np.random.default_rng(0)
+    starts = np.zeros((8, 2 * n))
+    starts[:, moving] = draw.standard_normal((8, len(moving)))
+    sign = np.sign(value(starts[0])[0])
+    return any(minimize(value, x, sign, jac=True, method="BFGS").fun < 0 for x in starts)
 
 
 def _largest(f: Polynomial, modes: Any) -> float:

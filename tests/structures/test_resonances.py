@@ -9,7 +9,7 @@ import pytest
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical import normal_forms
-from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial
+from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.numerics import measured_order
 from lagrotor.structures import (
@@ -21,7 +21,7 @@ from lagrotor.structures import (
     normal_form_of,
     resonant_factors,
 )
-from lagrotor.structures.resonances import _new_coordinates, trusted_push
+from lagrotor.structures.resonances import _new_coordinates, _outweighs, trusted_push
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}
@@ -180,6 +180,27 @@ def test_what_is_said_does_not_depend_on_the_basis_of_modes_of_equal_rates(monke
     assert np.abs(shapes[0] - shapes[1]).max() > 0.05 and np.isfinite(told).all()
     assert told[1] == pytest.approx(told[0], rel=3e-8)
     normal_form_of.cache_clear()
+
+
+@pytest.mark.parametrize(("fed", "falls"), [(1.2, True), (0.8, False)])
+def test_whether_own_terms_stop_it_does_not_depend_on_the_basis_of_modes_of_equal_rates(fed, falls):
+    """|z₁|⁴ + 50 |z₂|⁴ + 2 c Re z₁³ z₃ falls along z₂ = 0 alone: seen by no coefficient of another basis of z₁, z₂."""
+    a, b, c, *conjugates = (variable(j, 6) for j in range(6))
+    c_size = fed * 9 / (2 * 3**1.5)
+
+    def terms(x, y, z, xc, yc, zc):
+        own = [x.power(2, 4).product(xc.power(2, 4), 4), y.power(2, 4).product(yc.power(2, 4), 4).times(50)]
+        return total([*own, *(u.power(3, 4).product(w, 4).times(c_size) for u, w in ((x, z), (xc, zc)))])
+
+    def mixed(u, v):
+        return (u + v).times(0.5**0.5), (u - v).times(0.5**0.5)
+
+    plain = terms(a, b, c, *conjugates)
+    rotated = terms(*mixed(a, b), c, *mixed(*conjugates[:2]), conjugates[2])
+    for part in (plain, rotated):
+        assert _outweighs(part, (3, 0, 1), [[0, 1], [2]]) is falls
+    assert _outweighs(plain, (3, 0, 1), [[0], [1], [2]]) is falls
+    assert not any(_outweighs(rotated, k, [[0], [1], [2]]) for k in ((3, 0, 1), (2, 1, 1), (1, 2, 1), (0, 3, 1)))
 
 
 @pytest.mark.slow
