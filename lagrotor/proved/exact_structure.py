@@ -1,7 +1,7 @@
 """A structure's equations of motion with exact numbers: what `written_out` writes for floats, recorded as stages."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from operator import add, mul, neg, sub, truediv
 from typing import Any
 
@@ -14,6 +14,7 @@ from lagrotor.numerics import recorded_numbers
 from lagrotor.numerics.codegen import Program, Stage
 from lagrotor.numerics.recorded_numbers import Recorded, Term
 from lagrotor.proved.balls import rational
+from lagrotor.proved.statements import as_upright
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Coefficients, coefficients
 from lagrotor.structures.exact.written_out import structure_accelerations
@@ -50,9 +51,10 @@ def exact_coefficients(s: Assembly) -> Coefficients:
     I1, I3 = (_numbers([getattr(r, name) for r in s.rotor]) for name in ("I1", "I3"))
     A, S = I1 + M * R**2 / 4 + load * R**2, M * R / 2 + load * R
     bars = [(int(i), int(j)) for i, j in zip(c.i, c.j, strict=True)]
+    lengths = [_bar(s, *bar) for bar in s.bars]
     coupling = []
-    for (i, j), ell, link in zip(bars, c.ell, s.link, strict=True):
-        m, K = exact_number(link.mass), exact_number(link.inertia) / exact_number(ell) ** 2
+    for (i, j), ell, link in zip(bars, lengths, s.link, strict=True):
+        m, K = exact_number(link.mass), exact_number(link.inertia) / ell**2
         for end in (i, j):
             A[end] += R[end] ** 2 * (m / 4 + K)
             S[end] += R[end] * m / 2
@@ -67,12 +69,21 @@ def exact_coefficients(s: Assembly) -> Coefficients:
         friction=_numbers(s.friction),
         gravity=exact_number(s.gravity),
         feet=_numbers(c.feet),
+        ell=np.array(lengths, dtype=object),
         coupling=np.array(coupling, dtype=object),
         brace_point=_numbers(c.brace_point) if len(c.brace_point) else c.brace_point,
         brace_length=np.array([_length(c, k) for k in range(len(c.stiffness))], dtype=object),
         stiffness=_numbers(c.stiffness) if len(c.stiffness) else c.stiffness,
         damping=_numbers(c.damping) if len(c.damping) else c.damping,
     )
+
+
+def _bar(s: Assembly, i: int, j: int, ell: float) -> sp.Expr:
+    """A bar's length: as it is written or, where that is the rounded distance of the upright tips, this distance."""
+    if not as_upright(asdict(s), i, j, ell):
+        return exact_number(ell)
+    ends = [[*map(exact_number, (*s.joints[k], s.rotor[k].length))] for k in (i, j)]
+    return sp.sqrt(sum((x - y) ** 2 for x, y in zip(*ends, strict=True)))
 
 
 def _length(c: Coefficients, k: int) -> sp.Expr:
@@ -127,10 +138,9 @@ def _held(c: Coefficients, letters: Coordinates) -> tuple[sp.Expr, ...]:
     q, v = ([sp.Matrix(part[3 * i : 3 * i + 3]) for i in range(len(c.R))] for part in (letters.q, letters.v))
     places = [(r.dot(r) - 1) / 2 for r in q]
     rates = [r.dot(w) for r, w in zip(q, v, strict=True)]
-    for i, j in zip(c.i.tolist(), c.j.tolist(), strict=True):
-        upright = sp.Matrix(c.feet[j]) - sp.Matrix(c.feet[i]) + sp.Matrix([0, 0, c.R[j] - c.R[i]])
+    for i, j, ell in zip(c.i.tolist(), c.j.tolist(), c.ell, strict=True):
         d = sp.Matrix(c.feet[j]) - sp.Matrix(c.feet[i]) + c.R[j] * q[j] - c.R[i] * q[i]
         swing = c.R[j] * v[j] - c.R[i] * v[i]
-        places.append((d.dot(d) - upright.dot(upright)) / 2)
+        places.append((d.dot(d) - ell**2) / 2)
         rates.append(d.dot(swing))
     return (*places, *rates)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from hashlib import sha256
+from math import hypot
 from typing import Any
 
 from lagrotor.proved.balls import Ball, arb, of_text, precision, printed
@@ -149,7 +150,7 @@ def _scene(_: Certificate, data: Any) -> str:
 
 def _structure(_: Certificate, data: Any) -> str:
     joints = ", ".join(f"({_row(joint)})" for joint in data["joints"])
-    bars = [f"{i}–{j} of {_number(length)} m" for i, j, length in data["bars"]]
+    bars = [f"{i}–{j} {_bar(data, i, j, length)}" for i, j, length in data["bars"]]
     links = [f"{_number(x['mass'])} kg, {_number(x['inertia'])} kg m²" for x in data["link"]]
     parts = [f"rotors at {joints} m of {_each([_rotors(x) for x in data['rotor']])}"]
     parts += [f"bars {', '.join(bars)}, each of {_each(links)}"] * bool(bars)
@@ -162,6 +163,23 @@ def _structure(_: Certificate, data: Any) -> str:
         for x in data["braces"]
     ]
     return f"the structure of {'; '.join(parts)}"
+
+
+def as_upright(data: Any, i: int, j: int, length: float) -> bool:
+    """Whether a bar is, to rounding, as long as its tips are apart when all axes are upright: then it is so exactly."""
+    (x, y), (a, b) = data["joints"][i], data["joints"][j]
+    return length == hypot(hypot(x - a, y - b), data["rotor"][i]["length"] - data["rotor"][j]["length"])
+
+
+def _bar(data: Any, i: int, j: int, length: float) -> str:
+    places = [(*data["joints"][k], data["rotor"][k]["length"]) for k in (i, j)]
+    (*ends, own) = ([Fraction(repr(float(x))) for x in row] for row in (*places, [length]))
+    exactly = sum((x - y) ** 2 for x, y in zip(*ends, strict=True)) == own[0] ** 2
+    return (
+        f"of {_number(length)} m"
+        if exactly or not as_upright(data, i, j, length)
+        else "as long as its tips are apart upright"
+    )
 
 
 def _each(said: Sequence[str]) -> str:

@@ -166,6 +166,64 @@ def test_a_theorem_of_something_else_is_refused(name: str, k: int, certificates:
         check(other)
 
 
+ENERGY = "x_dot**2/2 + y_dot**2/2"
+CIRCLE = "x**2/2 + y**2/2 - 1/2"
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "refusal"),
+    [
+        ("L", f"sin(pi)*({ENERGY} - x*t)", "give accelerations"),  # zero, though no identity of letters
+        ("L", f"(sin(2) - 2*sin(1)*cos(1))*({ENERGY} - x*t)", "give accelerations"),
+        ("constraints", [f"(4*atan(1) - pi)*({CIRCLE})"], "give accelerations"),
+        ("constraints", ["x**2/2 + y**2/2 - c/2"], "letters without a value"),
+        ("letters", ["c,x:y"], "no name"),
+        ("letters", ["c\u200b"], "no name"),
+        ("L", f"{ENERGY} - x*t + 0*log(-1 - x**2)", "positive"),
+        ("L", f"{ENERGY} - x*t + sqrt(-1 - x**2) - sqrt(-1 - x**2)", "positive"),
+    ],
+)
+def test_what_is_named_is_what_its_words_say_at_the_start(
+    key: str, value: Any, refusal: str, certificates: Any
+) -> None:
+    """Functions of numbers are letters modulo a prime: independent there, though they may cancel."""
+    found = certificates["constraint, time and forces"]
+    data = found["about"]["Lagrangian"] | ({"letters": ["c"]} if key != "letters" else {}) | {key: value}
+    if key == "L" and "*(" in value:  # all that acts is scaled
+        data["forces"] = [f"{value.split('*(')[0]}*({f})" for f in data["forces"]]
+    with pytest.raises(NotProved, match=refusal):
+        check(found | {"about": {"Lagrangian": data}})
+
+
+def test_the_time_is_no_parameter() -> None:
+    """L = x'²/2 − (1 + t) x²/2 at a fixed t is another motion."""
+    c = coordinates("x")
+    (q,), (w,) = c.q, c.v
+    found = json.loads(
+        json.dumps(enclose(System(c, w**2 / 2 - (1 + K) * q**2 / 2), {K: 2}, [1], [0], "0.1").certificate)
+    )
+    text = json.dumps(found).replace('"k"', '"t"').replace("k + 1", "t + 1")
+    with pytest.raises(NotProved, match="t is not the time"):
+        check(json.loads(text))
+
+
+def test_a_bar_has_the_length_that_is_named() -> None:
+    """Longer than the tips are apart upright; and a root, that no decimal is."""
+    pair = Structure([(0, 0), (1, 0)], [(0, 1, 1.2)], spins=(10, -10))
+    found = enclose(pair, None, [(-0.1, 0), (0.1, 0)], [(0, 0)] * 2, "0.01", 1e-12)
+    x = dict(zip(map(str, found.field.states), found.states, strict=True))
+    apart = [int(letter == "x") + x[f"{letter}_1"] - x[f"{letter}_0"] for letter in "xyz"]
+    assert abs(sum(d * d for d in apart) - 1.44) < 1e-9
+    assert "bars 0–1 of 1.2 m" in check(json.loads(json.dumps(found.certificate)))
+    other = json.loads(json.dumps(found.certificate))
+    other["about"]["structure"]["bars"] = [[0, 1, 1]]
+    with pytest.raises(NotProved):
+        check(other)
+    skew = Structure([(0.1, 0.3), (0.3, 0.7)], [(0, 1)], spins=(10, -10), link=Link(1, 1, 0.1))
+    words = check(enclose(skew, None, [(0.1, 0)] * 2, [(0, 0)] * 2, "0.01", 1e-12).certificate)
+    assert "bars 0–1 as long as its tips are apart upright" in words
+
+
 ROOTS = {
     "a root in the mass": -sp.sqrt(1 - U**2 - V**2) + 1 / sp.sqrt(X**2 + Y**2),
     "a third": (U**2 + V**2) / 2 - sp.cbrt(1 + X**2),

@@ -11,12 +11,13 @@ from typing import Any
 from flint import arb, arb_mat, fmpz_mod_ctx, fmpz_mod_mat
 
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
-from lagrotor.proved.fields import field_of
+from lagrotor.proved.exact_structure import structure_program
+from lagrotor.proved.fields import Field, field_of
 from lagrotor.proved.verification.bounded_series import Dual, Rest, evaluated
-from lagrotor.proved.verification.certified_sets import balls, term
+from lagrotor.proved.verification.certified_sets import balls, number, read_ball, term
 from lagrotor.proved.verification.recurrences import ZERO, demand
 from lagrotor.proved.verification.reversals import points_of
-from lagrotor.proved.verification.tapes import read_tape
+from lagrotor.proved.verification.tapes import is_name, read_tape
 from lagrotor.proved.verification.written import Words
 from lagrotor.structures.assembly import Assembly, Brace
 
@@ -26,6 +27,12 @@ PACED = ("periodic orbit", "family")  # their motions are in units of a pace
 
 def check_subject(certificate: Any) -> None:
     """The program is that of what is named; of no name its digest stands for it."""
+    arguments, rates = certificate["motion"]["arguments"], certificate["motion"]["outputs"]
+    if "t" in arguments:
+        place, starts = arguments.index("t"), certificate.get("start", {}).get("middle", [])
+        own = place < len(rates) and certificate["motion"]["operations"][rates[place]] == ["number", "1"]
+        demand(own and place < len(starts) and read_ball(starts[place]).is_zero(), "t is not the time from 0 on")
+        demand(read_ball(certificate["start"]["spread"][place]).is_zero(), "t is not the time from 0 on")
     about = certificate["about"]
     if about is None:
         demand(certificate.get("observed") is None, "what is observed has no meaning")
@@ -59,29 +66,42 @@ def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what
         demand(values[: len(first)] == values[len(first) :], what)
 
 
-def _check_start(certificate: Any, words: Words, held: Sequence[int], size: int) -> None:
-    """Along one motion its time begins at 0, and what stays zero may be so at the start; of an orbit or a rest none is shown."""
+def _check_start(certificate: Any, words: Words, held: Sequence[int]) -> None:
+    """Along one motion what stays zero may be so at the start; of an orbit or a rest none is shown."""
     if certificate["kind"] in (*PACED, "equilibrium"):
         demand(len(held) == 0, "a rest or an orbit is not shown to keep constraints")
         return
-    start, others = certificate["start"], len(words.arguments) - len(certificate["motion"]["arguments"])
-    at = [x + y for x, y in zip(balls(start["middle"]), balls(start["spread"]), strict=True)]
-    if words.arguments[size - 1] == "t":
-        demand(at[size - 1].is_zero(), "the time does not begin at 0")
-    each = [*at, *balls(certificate["motion"]["parameters"]), *[arb(1)] * others]
-    found = evaluated(words.tape(held), [Dual(Rest([x], ZERO, 1)) for x in each], 1)
-    demand(all(x.value.at_start().contains(0) for x in found), "the start is off the constraints")
+    spread = balls(certificate["start"]["spread"])
+    found = _values(words, held, [x + y for x, y in zip(_middle(certificate), spread, strict=True)], certificate)
+    demand(all(x.contains(0) for x in found), "the start is off the constraints")
 
 
-def _check_generated(certificate: Any, system: Any) -> None:
+def _middle(certificate: Any) -> list[Ball]:
+    """Of the start or of the rest."""
+    if certificate["kind"] == "equilibrium":
+        at = [number(x) for x in certificate["middle"]]
+        return [*at, *[ZERO] * len(at)]
+    return balls(certificate["start"]["middle"])
+
+
+def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate: Any) -> list[Ball]:
+    """Results at a start, whose letters are 1. Raises NotProved where one is not defined."""
+    known = [*at, *balls(certificate["motion"]["parameters"])]
+    each = [*known, *[arb(1)] * (len(words.arguments) - len(known))]
+    found = [x.value.at_start() for x in evaluated(words.tape(places), [Dual(Rest([x], ZERO, 1)) for x in each], 1)]
+    demand(all(x.is_finite() for x in found), "what is named is not defined at the start")
+    return found
+
+
+def _check_generated(certificate: Any, made: Field) -> None:
     """The program that is generated for a scene or structure, and what is observed of it."""
-    made, arguments, observed = field_of(system), certificate["motion"]["arguments"], certificate.get("observed")
+    arguments, observed = certificate["motion"]["arguments"], certificate.get("observed")
     words = Words(arguments, None)
     rates, what = _rates(words, certificate), "the program is not that of what the theorem names"
     demand(arguments[: len(rates)] == [str(s) for s in made.states], what)
     demand_equal(words, rates, words.include(read_tape(vars(made.motion.tape))), what)
     held = words.include(read_tape(vars(made.function(made.held))))
-    _check_start(certificate, words, held, len(rates))
+    _check_start(certificate, words, held)
     if observed is not None:
         seen = [*(made.seen or ())]
         demand(observed["names"] == [str(s) for s in seen], "what is observed has other names")
@@ -91,7 +111,7 @@ def _check_generated(certificate: Any, system: Any) -> None:
 
 def _check_scene(certificate: Any, data: Any) -> None:
     shock = Shock(**data["shock"]) if data["shock"] else None
-    _check_generated(certificate, Scene(data["spins"], Rotor(**data["rotor"]), Link(**data["link"]), shock))
+    _check_generated(certificate, field_of(Scene(data["spins"], Rotor(**data["rotor"]), Link(**data["link"]), shock)))
 
 
 def _check_structure(certificate: Any, data: Any) -> None:
@@ -100,16 +120,20 @@ def _check_structure(certificate: Any, data: Any) -> None:
         "the structure has more rotors than the program",
     )
     parts = {"rotor": Rotor, "link": Link, "braces": Brace}
-    _check_generated(
-        certificate, Assembly(**data | {name: [kind(**x) for x in data[name]] for name, kind in parts.items()})
+    program, held = structure_program(
+        Assembly(**data | {name: [kind(**x) for x in data[name]] for name, kind in parts.items()})
     )
+    _check_generated(certificate, Field(program, {}, (), held=held))
 
 
 def _check_rates(certificate: Any, data: Any) -> None:
     """Rates in words."""
     words = Words(certificate["motion"]["arguments"], None)
     demand(certificate.get("observed") is None, "what is observed has no meaning")
-    demand_equal(words, _rates(words, certificate), [words.place(text) for text in data], "the rates are others")
+    rates = _rates(words, certificate)
+    named = [words.place(text) for text in data]
+    demand_equal(words, rates, named, "the rates are others")
+    _values(words, named, _middle(certificate), certificate)
 
 
 class LagrangianOfWords:
@@ -118,6 +142,7 @@ class LagrangianOfWords:
     def __init__(self, certificate: Any, data: Any) -> None:
         arguments, letters = certificate["motion"]["arguments"], data["letters"]
         demand(len({*arguments, *letters}) == len(arguments) + len(letters), "a letter has two meanings")
+        demand(all(map(is_name, letters)), "a letter has no name")
         demand(certificate.get("observed") is None, "what is observed has no meaning")
         self.words = words = Words([*arguments, *letters], None)
         self.rates = _rates(words, certificate)
@@ -137,7 +162,10 @@ class LagrangianOfWords:
         named = [*(f"{q}_dot" for q in arguments[: self.n]), *["t"] * self.timed]
         fits = arguments[self.n : len(self.rates)] == named and len(self.forces) == self.n
         demand(fits, "the states are not coordinates, their velocities and the time")
-        _check_start(certificate, words, [*held, *self.residual], len(self.rates))
+        own = words.below([*held, *self.residual]).isdisjoint(range(len(arguments), len(words.arguments)))
+        demand(own, "a constraint has letters without a value")
+        _check_start(certificate, words, [*held, *self.residual])
+        self.certificate = certificate
 
     def by(self, place: int, letters: Sequence[int]) -> list[int]:
         """Derivatives of a result."""
@@ -173,16 +201,18 @@ class LagrangianOfWords:
         )
         demand_equal(words, found, wanted, "the rates are not those of velocities under the constraints")
         n, k = self.n, len(rows)
-        slopes = [self.by(p, self.v) for p in self.by(self.L, self.v)]
-        for values, p in residues(words, [*chain(*rows), *self.missing(), *chain(*slopes)]):
-            prime, G = fmpz_mod_ctx(p), values[: k * n]
-            own = fmpz_mod_mat(k + 1, n, values[: (k + 1) * n], prime).rank() == k
+        for values, p in residues(words, [*chain(*rows), *self.missing()]):
+            own = fmpz_mod_mat(k + 1, n, values, fmpz_mod_ctx(p)).rank() == k
             demand(own, "the rates do not satisfy Lagrange's equations")
-            M, back = values[(k + 1) * n :], [0] * k
-            bordered = [*chain(*(M[i * n : i * n + n] + G[i::n] for i in range(n)))]
-            bordered += chain(*(G[j * n : j * n + n] + back for j in range(k)))
-            regular = fmpz_mod_mat(n + k, n + k, bordered, prime).rank() == n + k
-            demand(regular, "the Lagrangian gives no accelerations")
+        slopes = [self.by(p, self.v) for p in self.by(self.L, self.v)]
+        whole = [M + [row[i] for row in rows] for i, M in enumerate(slopes)]
+        whole += [row + [zero] * k for row in rows]
+        places = [*chain(*whole), self.L, self.D, *self.forces]
+        found = _values(words, places, _middle(self.certificate), self.certificate)
+        regular = (
+            arb_mat(n + k, n + k, found[: (n + k) ** 2]).det() != 0
+        )  # as a ball: letters modulo a prime may be dependent
+        demand(regular, "the Lagrangian is not shown to give accelerations")
 
     def check_friction(self, state: list[Ball]) -> None:
         """Rayleigh's function is quadratic in v, and no principal minor of its matrix is negative over a box about v = 0."""

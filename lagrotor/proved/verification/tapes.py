@@ -21,10 +21,15 @@ def is_place(x: Any, end: int) -> bool:
     return type(x) is int and 0 <= x < end
 
 
+def is_name(x: Any) -> bool:
+    """Whether x names one thing and says nothing else; all of it is seen."""
+    return type(x) is str and x.isprintable() and _NAME.fullmatch(x) is not None
+
+
 def read_tape(data: Any) -> Tape:
     """The arguments, operations and outputs of a tape. Raises NotProved where one of them is none."""
     arguments, operations, outputs = (list(data[name]) for name in ("arguments", "operations", "outputs"))
-    demand(all(type(x) is str and _NAME.fullmatch(x) for x in arguments), "an argument has no name")
+    demand(all(map(is_name, arguments)), "an argument has no name")
     demand(len({*arguments}) == len(arguments), "two arguments have one name")
     for place, (name, *on) in enumerate(operations):
         if name == "argument":

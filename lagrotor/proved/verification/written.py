@@ -122,7 +122,7 @@ class Words:
 
     def slope(self, place: int, along: Mapping[int, int]) -> int:
         """The derivative of a result along a direction: argument → component, zero for all others."""
-        zero, needed = self.keep("number", "0"), self._below([place])
+        zero, needed = self.keep("number", "0"), self.below([place])
         slopes = {at: along.get(at, zero) for at in needed}
         for at in sorted(needed):
             name, *on = self.operations[at]
@@ -132,12 +132,12 @@ class Words:
 
     def tape(self, places: Sequence[int]) -> Tape:
         """Results as a tape of what is known by name; what they do not need is zero."""
-        needed, operations = self._below(places), [*self.operations]
+        needed, operations = self.below(places), [*self.operations]
         for place in {*range(len(operations))} - needed:
             operations[place] = ["number", "0"]
         return {"arguments": self.arguments, "operations": operations, "outputs": [*places]}
 
-    def _below(self, places: Sequence[int]) -> set[int]:
+    def below(self, places: Sequence[int]) -> set[int]:
         """The results on which some rest, and they themselves."""
         needed = {*places}
         for at in range(max(places, default=-1), -1, -1):
