@@ -1,6 +1,10 @@
 """What the paper states of motions, as theorems with their certificates; the numbers of docs/proved.md."""
 
+import re
+import tomllib
 from dataclasses import replace
+from decimal import Decimal
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -29,6 +33,22 @@ def test_the_precession_of_figure_21_turns_more_slowly_than_the_printed_rate() -
     assert abs(float(orbit.frequency.mid()) - corrected.frequency) <= corrected.frequency_error + 1e-14
     page = (Path(__file__).parents[2] / "docs" / "proved.md").read_text(encoding="utf-8")
     assert "7.9181412672010302" in page and "7.9181412672010302" in orbit.summary()["frequency [rad/s]"]
+
+
+def test_the_numbers_of_the_page_are_those_on_record() -> None:
+    """Each decimal of a claim's row is in its theorems on record, to within one of its last digit."""
+    page = (Path(__file__).parents[2] / "docs" / "proved.md").read_text(encoding="utf-8")
+    record = tomllib.loads((files("lagrotor.paper.rotor_pair") / "recorded.toml").read_text(encoding="utf-8"))
+    decimals = re.compile(r"\d+\.\d+")
+
+    def stands(number: str, claim: str) -> bool:
+        known = map(Decimal, decimals.findall(" ".join(record[claim]["theorems"])))
+        return any(abs(x - Decimal(number)) <= Decimal(1).scaleb(-len(number.partition(".")[2])) for x in known)
+
+    rows = re.findall(r"^\| (C\d\d): [^|]*\| (.*) \|$", page, re.MULTILINE)
+    assert len(rows) == sum("theorems" in x for x in record.values() if isinstance(x, dict))
+    assert not [(claim, x) for claim, said in rows for x in decimals.findall(said) if not stands(x, claim)]
+    assert not stands("1.244", "C02") and not stands("16.185", "C20")
 
 
 @pytest.mark.slow
