@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 import sympy as sp
 
 from lagrotor.algebra.work import kept, spend
-from lagrotor.errors import InputError, WorkError
+from lagrotor.errors import InputError
 
 Signs: TypeAlias = frozenset[int]
 Bound: TypeAlias = tuple[sp.Expr, bool]
@@ -96,17 +96,26 @@ class _Signs:
         self.where = where
         self.facts = [(*_primitive(e), strict) for e, strict in where.above]
         self.known: dict[sp.Expr, Signs | None] = {}
+        self.open: set[sp.Expr] = set()
+        self.circles = 0
 
     def of(self, e: sp.Expr) -> Signs | None:
-        if e not in self.known:
-            self.known[e] = None  # while it is sought
-            try:
-                spend(e)
-                self.known[e] = self._sought(e)
-            except WorkError:
-                del self.known[e]
-                raise
-        return self.known[e]
+        """The signs of a part; what rests on one still sought is not kept, so that none depends on the order of asking."""
+        if e in self.known:
+            return self.known[e]
+        if e in self.open:
+            self.circles += 1
+            return None
+        circles = self.circles
+        self.open.add(e)
+        try:
+            spend(e)
+            found = self._sought(e)
+        finally:
+            self.open.remove(e)
+        if self.circles == circles:
+            self.known[e] = found
+        return found
 
     def _sought(self, e: sp.Expr) -> Signs | None:
         if e.is_zero:
@@ -180,13 +189,13 @@ class _Signs:
                 return None
             return NONNEGATIVE if isinstance(e, sp.acos) else found
         if isinstance(e, sp.acosh):
-            return NONNEGATIVE if is_nonnegative(u - 1, self.where) else None
+            return NONNEGATIVE if (self.of(u - 1) or ANY) <= NONNEGATIVE else None
         if isinstance(e, sp.log):
             return self.of(u - 1) if found <= NONNEGATIVE else None
         if isinstance(e, sp.gamma | sp.factorial) and found <= NONNEGATIVE:
             return POSITIVE
         if isinstance(e, sp.elliptic_k | sp.elliptic_e) and len(e.args) == 1:
-            return POSITIVE if is_nonnegative(1 - u, self.where) else None
+            return POSITIVE if (self.of(1 - u) or ANY) <= NONNEGATIVE else None
         if isinstance(e, sp.besselj | sp.besseli | sp.besselk | sp.bessely):
             positive = self.of(e.args[1]) == POSITIVE
             return (POSITIVE if isinstance(e, sp.besselk) else ANY) if positive else None

@@ -11,7 +11,8 @@ from collections import Counter, defaultdict
 from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
-from itertools import chain, islice
+from functools import cached_property
+from itertools import chain, islice, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,7 @@ from lagrotor.paper.source.tree import (
     sympy_expression,
     text_of,
 )
-from lagrotor.paper.source.usage import Notation, notation_of
+from lagrotor.paper.source.usage import Notation, letters_printed, notation_of
 
 HOLDS, REFUTED, UNITS, MEANINGS, BEFORE = (
     "would hold", "would be refuted", "dimensions differ", "two meanings", "used before it is given",
@@ -51,6 +52,9 @@ _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 _MOST_SLIPS, _MEMORY = 120, 60
 # Formulas of the text that give a value: with a unit, or in units where it is 1.
 _VALUED = re.compile(r"\\(?:mathrm|rm|text|hbar)\b|k_")
+# What the text may say of letters; relations that make nothing of one letter out of another.
+_RELATION = re.compile(r"=|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
+_BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 # The one guess that verdicts rest on: that log is the natural logarithm.
 _ANY_BASE = "log is"
 
@@ -94,19 +98,21 @@ class _Checker:
         self.source, self.readings, self.notation = source, readings, notation
         self.opaque = Opaque()
         self.before: list[_Read] = []
+        self.place = 0
         self.statements = [
             _Read(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
         ]
 
     def findings(self) -> Iterator[StepFinding]:
         """Every finding."""
-        for each, reading in self.readings:
+        for place, (each, reading) in enumerate(self.readings):
+            self.place = place
             if not reading.whole:
                 what, helps = reading.stop or ("", "")
                 yield self._finding(each, 0, None, "not read", f"{what}: {helps}")
                 continue
-            for place, statement in enumerate(reading.statements):
-                yield from self._steps(each, self._continued(each, statement) if not place else statement, reading)
+            for number, statement in enumerate(reading.statements):
+                yield from self._steps(each, statement if number else self._continued(each, statement), reading)
             yield from self._against_cited(each, reading)
             if not _guess(reading):
                 self.before += [_Read(each, s) for s in reading.statements if s.kind == "equation"]
@@ -197,12 +203,13 @@ class _Checker:
             if (value := _constant(a)) is not None and decided(a, value) == "zero":
                 return REFUTED, f"the left side is {value} for all values of its letters"
             return "undecided", "it is a condition, not an identity"
-        if related := self._related(own):
-            return "undecided", f"{', '.join(related)} may be used"
         difference = "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(sp.factor_terms(a - b))
-        if (slip := self._slip(left, right, a, b)) is not None:
-            return REFUTED, f"the two sides differ by {difference}; {slip}"
-        return "undecided", f"the two sides differ by {difference}: it may be a condition"
+        slip = self._slip(left, right, a, b)
+        if slip is None:
+            return "undecided", f"the two sides differ by {difference}: it may be a condition"
+        if related := next(self._related(own), None):
+            return "undecided", f"{related} may be used"
+        return REFUTED, f"the two sides differ by {difference}; {slip}"
 
     def _slip(self, left: Node, right: Node, a: Any, b: Any) -> str | None:
         """The one change with which the two sides agree."""
@@ -219,14 +226,34 @@ class _Checker:
                     return f"with {said} they agree"
         return None
 
-    def _related(self, letters: set[str]) -> list[str]:
-        """Equations before that relate these letters and no others, besides definitions that were put in."""
-        found = []
-        for read in self.before[-_MEMORY:]:
-            names = _letters_of(read)
-            if names and names <= letters and len(names) > 1:
-                found.append(f"({read.equation.id})")
-        return list(dict.fromkeys(found))
+    def _related(self, letters: set[str]) -> Iterator[str]:
+        """What the text, and the equations before whether they are read or not, say of these letters and no others."""
+        before = ((f"({each.id})", each.latex, reading) for each, reading in self.readings[: self.place])
+        for name, latex, reading in chain(before, self._said):
+            if reading.whole:
+                related = any(
+                    _letters_of(s) <= letters and {*s.relations} - _BOUNDS and not self._says_nothing(s)
+                    for s in reading.statements
+                )
+            else:
+                named = letters_printed(latex)
+                related = bool(named) and named <= {letter.split("_")[0] for letter in letters}
+            if related:
+                yield name
+
+    @cached_property
+    def _said(self) -> list[tuple[str, str, Reading]]:
+        """The relations of the text."""
+        return [
+            (f"${latex}$", latex, read_formula(latex, self.notation))
+            for latex in self.source.inline
+            if _RELATION.search(latex)
+        ]
+
+    def _says_nothing(self, statement: PrintedStatement) -> bool:
+        """Whether an equation is an identity, which relates no letters."""
+        sides = [_expression_of(side.node, self.opaque) for side in statement.sides]
+        return None not in sides and all(decided(a, b) == "zero" for a, b in pairwise(sides))
 
     def _put_in(self, a: Any, b: Any) -> tuple[tuple[Any, Any], list[str]]:
         """Both sides with the definitions before put in, and the equations that were used."""
@@ -359,9 +386,9 @@ class _Checker:
             why = whole.add(sides)
             if why is not None and read is not None:
                 broken.append((read, why, near))
-        letters = Counter(name for read, _, _ in broken for name in _letters_of(read))
+        letters = Counter(name for read, _, _ in broken for name in _letters_of(read.statement))
         for read, why, near in broken:
-            if near or all(letters[name] == 1 for name in _letters_of(read)):
+            if near or all(letters[name] == 1 for name in _letters_of(read.statement)):
                 yield self._finding(read.equation, 0, None, UNITS, why)
 
     def _values(self) -> Iterator[tuple[str, list[Node], None]]:
@@ -390,15 +417,23 @@ class _Checker:
                 continue
             definitions[first.name] = place, read
         for name, (place, read) in definitions.items():
-            users = [r for r in self.statements[:place] if name in _letters_of(r)]
+            chapter = read.equation.section.split(".")[0]  # in another a letter may have another meaning
+            users = [
+                r
+                for r in self.statements[:place]
+                if name in _letters_of(r.statement) and r.equation.section.split(".")[0] == chapter
+            ]
             if users and users[0].equation.id != read.equation.id:
                 yield self._finding(users[0].equation, 0, None, BEFORE, f"{name} is given in ({read.equation.id})")
         if self.notation.exponential and "e" in self.notation.bare:
-            yield self._finding(self.readings[0][0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
+            own = [(each, notation_of([each.latex])) for each, _ in self.readings]
+            letter = [each for each, seen in own if "e" in seen.bare]  # none: e is a letter in the text alone
+            places = [*letter, *(each for each, seen in own if seen.exponential), self.readings[0][0]]
+            yield self._finding(places[0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
 
 
-def _letters_of(read: _Read) -> set[str]:
-    return {name for side in read.statement.sides for name in letters_of(side.node)}
+def _letters_of(statement: PrintedStatement) -> set[str]:
+    return {name for side in statement.sides for name in letters_of(side.node)}
 
 
 def _guess(reading: Reading) -> str:

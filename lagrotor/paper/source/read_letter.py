@@ -8,7 +8,7 @@ from lagrotor.paper.source.read_derivative import read_differential
 from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of
 from lagrotor.paper.source.rows import strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
-from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument
+from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument, stem_of
 
 _ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
 
@@ -146,7 +146,7 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
 
 
 def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
-    """A function of its arguments; x(t) is the letter x."""
+    """A function of its arguments; x(t) is the letter x where no x, whatever its index, has another argument in the paper."""
     given = [reader.expression(part) for part in arguments(bracket.parts[0]) if strip(part)]
     if box.name == "O" or (box.name == "o" and not box.sub):
         return Call("order" if box.name == "O" else "smaller_than", tuple(given))
@@ -157,11 +157,7 @@ def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
         why = f"whether {box.sup[0].name} is an upper index or a power is open"  # type: ignore[index]
         raise FormulaError(box.at, why, "write both indices below, or brackets around the power")
     name = name_of(box, index_parts(reader, box), mark_of(reader, box) or ())
-    if (
-        tuple(given) == (Letter("t"),)
-        and "t" not in reader.bound
-        and not (reader.notation.called.get(name, {"t"}) - {"t"})
-    ):
+    if tuple(given) == (Letter("t"),) and "t" not in reader.bound and stem_of(box) not in reader.notation.elsewhere:
         node: Node = named
     else:
         node = Call(f"{name}", tuple(given))

@@ -32,12 +32,12 @@ class Notation:
     called: letter → letters that were seen as its arguments; bare: letters seen without a bracket behind them; angles: whole
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
-    before what may be an argument; factors, in a product; apart, touching no other letter; raised, with
-    an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two primes. varied:
-    letter → letters that it is differentiated by. seen: ket, operators, order, hessian, P(D), complex, modular, exponent, dot,
-    other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed as vectors somewhere.
-    equal: letters and what they are equal to. numeric: letters shown to be numbers, below a fraction bar, under a root, in a
-    sine or a logarithm, equal to numbers.
+    before what may be an argument; elsewhere, before another than t; factors, in a product; apart, touching no other letter;
+    raised, with an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two
+    primes. varied: letter → letters that it is differentiated by. seen: ket, operators, order, hessian, P(D), complex,
+    modular, exponent, dot, other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed
+    as vectors somewhere. equal: letters and what they are equal to. numeric: letters shown to be numbers, below a fraction
+    bar, under a root, in a sine or a logarithm, equal to numbers.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -53,6 +53,7 @@ class Notation:
     exponential: bool = False
     usual: frozenset[str] = frozenset()
     applied: set[str] = field(default_factory=set)
+    elsewhere: set[str] = field(default_factory=set)
     factors: set[str] = field(default_factory=set)
     apart: set[str] = field(default_factory=set)
     raised: set[str] = field(default_factory=set)
@@ -107,6 +108,14 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
     for letter, side in found.equal:
         found.numeric |= _names(letter) if is_value(side, found) else set()
     return found
+
+
+def letters_printed(latex: str) -> set[str]:
+    """The letters of a formula, whether it is read or not; none where it falls into no parts."""
+    try:
+        return {unscripted(box) for box in all_boxes(boxes(latex)) if box.kind == "letter"}
+    except (FormulaError, RecursionError):
+        return set()
 
 
 def stem_of(box: Box) -> str:
@@ -439,14 +448,19 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
     if called and after is not None:
         found.seen |= {"order"} if box.name == "O" else set()
         found.seen |= {"P(D)"} if [b.name for b in after.parts[0]] == ["D"] else set()
-    if called and after is not None:
         content = after.parts[0]
+        simple, names = simple_argument(content), {b.name for b in content if b.kind == "letter"}
         marked = box.primes or (sup and [b.kind for b in sup] != ["number"])
-        if marked or (simple_argument(content) and any(b.kind == "letter" for b in content)):
+        if marked or (simple and names):
             found.applied.add(stem)
+        if simple and names - {"t"} and not box.sup:
+            found.elsewhere.add(stem)
     if not any(a is not None and b is not None and touch(a, b) for a, b in ((before, box), (box, after))):
         found.apart.add(box.name)
     beside = ("letter", "number", "fraction", "root")
+    rates = called and after is not None and any(m.endswith("dot") for b in all_boxes(after.parts[0]) for m in b.marks)
+    if called and not rates:  # b y(n - k) shows no factor y; a sum of rates is no argument
+        return
     if (before is not None and before.kind in beside and before.name not in ("d", "delta", "Delta")) or (
         after is not None and after.kind in (*beside, "function") and box.name not in ("d", "delta", "Delta")
     ):

@@ -236,3 +236,35 @@ def test_a_latin_1_source_is_read(tmp_path: Path) -> None:
         "\\documentclass{article}\\begin{document}% \xa9 caf\xe9\n\\[ a = b \\]\\end{document}".encode("latin-1")
     )
     assert [each.latex for each in read_source(file).equations] == ["a = b"]
+
+
+SLIP = r"\[ E = (x + y)^2 = x^2 - 2xy + y^2 \] "
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        r"\[ xy = 0 \]", r"\[ |y| = 0 \]", "Let $xy = 0$.", r"For $y = 0$,", r"For $y\ll x$,", r"As $y\to 0$,",
+        r"\[ \lVert y\rVert_{\|x} = 0 \]",
+    ],
+)  # fmt: skip
+def test_what_the_text_says_of_the_letters_of_a_step_may_be_used(said: str, tmp_path: Path) -> None:
+    assert REFUTED not in verdicts(tmp_path, said + SLIP)
+
+
+@pytest.mark.parametrize(
+    "said", [r"\[ (x + y)^2 = x^2 + 2xy + y^2 \]", r"\[ y = z w \]", "Let $y > 0$ and $x$ be large.", "With $z = 1$,"]
+)
+def test_identities_bounds_and_other_letters_say_nothing_of_a_step(said: str, tmp_path: Path) -> None:
+    assert REFUTED in verdicts(tmp_path, said + SLIP)
+
+
+def test_a_letter_of_another_chapter_is_not_used_before_it_is_given(tmp_path: Path) -> None:
+    spring, wave = r"\section{Spring} \[ F = k x \] ", r"\[ k \equiv 2\pi/\lambda \]"
+    assert BEFORE in verdicts(tmp_path, spring + wave)
+    assert BEFORE not in verdicts(tmp_path, spring + r"\section{Wave}" + wave)
+
+
+def test_e_with_two_meanings_is_named_where_it_is_a_letter(tmp_path: Path) -> None:
+    (found,) = findings(tmp_path, "\\[ a = b \\]\n\\[ y = e^{ax} \\]\n\\[ F = e E \\]")
+    assert (found.verdict, found.line) == (MEANINGS, 5)

@@ -327,3 +327,9 @@ def test_a_bra_ends_at_its_bar_where_a_sign_follows() -> None:
 def test_a_primed_index_of_a_sum_keeps_its_prime() -> None:
     assert said(r"a = \sum_{j'=1}^m b_{j'}") == "a = Sum(b_jprime, jprime, 1, m)"
     assert said(r"a = \sum_{i j'} b_{i j'}").endswith("i, all, all, jprime)")
+
+
+def test_a_letter_with_another_argument_elsewhere_keeps_its_t_with_every_index() -> None:
+    latex = r"P_{n+1}(t) = P_{n-1}(t) + \dot P_n(t)"
+    assert said(latex) == "P_nplus1 = P_nminus1 + P_n_dot"
+    assert said(latex, "P_n(x) = 1") == "P_nplus1(t) = P_nminus1(t) + P_n_dot(t)"

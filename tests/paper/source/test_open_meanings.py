@@ -276,3 +276,9 @@ def test_no_verdict_rests_on_a_marked_reading(tmp_path: Path) -> None:
         file.write_text(rf"\documentclass{{article}}\begin{{document}}\[ {latex} \]\[ a b = d \]\end{{document}}")
         verdicts.append([each.verdict for each in check_source(read_source(file)) if each.step])
     assert verdicts == [[REFUTED], ["undecided"]]
+
+
+def test_a_letter_before_brackets_alone_is_shown_to_be_no_factor() -> None:
+    latex = "a = b_k y(n - k)"
+    assert guesses(latex)
+    assert not guesses(latex, "y b = 2")
