@@ -269,32 +269,36 @@ def march(
 ) -> Stretch:
     """The states (q, v, t, mode) at the times, the first of which is that of the start, and the times of jumps.
 
+    Time is counted from the start: by a clock far from zero each event would be rounded to the spacing of doubles there.
+
     Where an event ends the motion, or it cannot be followed further, the state stays as it is there, its time included.
     observe: called with the time at which a phase began, the ends of each step since then, and its dense output, (q, u).
     companion: by steps that a run without it does not take, in phases that are too short for the local error to set them.
     Raises StopError with what was reached, where the solver stops.
     """
-    end, y, now, mode, spent = float(times[-1]), start[: h.size], float(times[0]), h.mode(start), 0
+    clock, since = float(start[h.size]), times - times[0]
+    end, y, now, mode, spent = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
     if mode.ended:
         return Stretch(np.repeat(start[None], len(times), axis=0), start, 0)
     parts, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
-    span, first = end - now, COMPANION_FIRST.value if companion else 1.0
+    first = COMPANION_FIRST.value if companion else 1.0
 
     def add(states: Array) -> None:
-        later = times[times > now]
+        later = times[since > now]
         parts.append(
             np.array([h.state(y, t, mode) for y, t in zip(states, later, strict=False)]).reshape(-1, len(start))
         )
 
     while now < end and not mode.ended:
         try:
-            stretch, hit = _smooth(h, y, now, mode, times[times > now], local, budget - spent, observe, habit, first)
+            later = since[since > now] - now
+            stretch, hit = _smooth(h, y, clock + now, mode, later, local, budget - spent, observe, habit, first)
         except StopError as stop:
             reached = stop.reached or Stretch(np.empty((0, h.size)), y, 0)
             add(reached.states)
-            last = h.state(reached.end, now + stop.at, mode)
+            last = h.state(reached.end, clock + now + stop.at, mode)
             so_far = Stretch(np.concatenate(parts), last, spent + stop.evaluations, tuple(jumps))
-            raise StopError(now + stop.at, stop.reason, so_far, cause=stop.cause) from None
+            raise StopError(clock + now + stop.at, stop.reason, so_far, cause=stop.cause) from None
         spent += stretch.evaluations
         add(stretch.states)
         y = stretch.end[: h.size]
@@ -306,13 +310,13 @@ def march(
         past.append(now)
         habit = past[-1] - past[-2] if len(past) > 1 else 0.0
         try:
-            gone = _accumulating(history, past, span)
-            y, now, mode = _switch(h, Moment(y, now, mode), hit, gone)
+            gone = _accumulating(history, past, end, clock)
+            y, _, mode = _switch(h, Moment(y, clock + now, mode), hit, gone)
         except StopError as stop:
-            mode, now = _end(h, mode, Ending(stop.cause, stop.at, stop.reason.rstrip("."))), stop.at
+            mode, now = _end(h, mode, Ending(stop.cause, stop.at, stop.reason.rstrip("."))), stop.at - clock
         if hit.kind in ("gap", "event"):
-            jumps.append(now)
-    last = h.state(y, now, mode)
+            jumps.append(clock + now)
+    last = h.state(y, clock + now, mode)
     known = sum(map(len, parts))
     parts.append(np.repeat(last[None], len(times) - known, axis=0))
     return Stretch(np.concatenate(parts), last, spent, tuple(jumps))
@@ -338,8 +342,8 @@ def _smooth(
     habit: float,
     first: float,
 ) -> tuple[Stretch, Hit | None]:
-    """The motion in one phase, from `now` to the first of its conditions that ends, or to the last time. habit: the time that
-    has passed between the last two events of a kind. first: as `dop853_steps` has it."""
+    """The motion in one phase, from `now` to the first of its conditions that ends, or to the last of the times, which count
+    from there. habit: the time that has passed between the last two events of a kind. first: as `dop853_steps` has it."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
@@ -349,9 +353,7 @@ def _smooth(
     watch = phase.condition_program.along(numbers)
 
     rhs = scaled_rhs(phase.motion.rhs(*parameter_values(phase.motion, numbers)), scale)
-    segment = Segment(
-        rhs, y / scale, 0.0, times[-1] - now, times, budget=budget, project=scaled_projection(project, scale)
-    )
+    segment = Segment(rhs, y / scale, 0.0, times[-1], times, budget=budget, project=scaled_projection(project, scale))
     parts, done, solver = [np.empty((0, len(y)))], 0, None
     try:
         for solver in dop853_steps(segment, local / SAFETY, first):
@@ -367,8 +369,8 @@ def _smooth(
             until = right if hit is None else hit.since
             if observe is not None:
                 observe(now, left, until, curve)
-            reached = int(np.searchsorted(times - now, until, side="right"))
-            parts.append(curve(times[done:reached] - now))
+            reached = int(np.searchsorted(times, until, side="right"))
+            parts.append(curve(times[done:reached]))
             done = reached
             if hit is not None:
                 y = curve(np.array([until]))[0]
@@ -543,9 +545,9 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
     return mode
 
 
-def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float) -> float | None:
+def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float, clock: float) -> float | None:
     """What is left to the time at which events accumulate, each a constant part of the one before it: where that is next to
-    nothing. Raises StopError where they are too many."""
+    nothing. clock: what it showed at the start. Raises StopError where they are too many."""
     now = past[-1]
     if len(past) > _HABIT:
         intervals = np.diff(past[-_HABIT - 1 :])
@@ -554,9 +556,9 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
         if (np.diff(intervals) < 0).all() and left <= _GONE * span:
             return float(left)
     if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * (1 + abs(now)):
-        raise StopError(now, "events follow each other without time between them")
+        raise StopError(clock + now, "events follow each other without time between them")
     if sum(map(len, history.values())) > MOST_EVENTS.value:
-        raise StopError(now, f"{MOST_EVENTS.value:,} events", cause="budget")
+        raise StopError(clock + now, f"{MOST_EVENTS.value:,} events", cause="budget")
     return None
 
 

@@ -220,7 +220,8 @@ def run_solver(
         raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
     rate, n_b = rate_function(system, shock), len(system.vertices)
     size = max(float(np.linalg.norm(arms, axis=1).max()) for arms in system.vertices) or 1.0
-    at, width = (shock.at, shock.width) if shock else (0.0, 0.0)
+    # Far from zero a clock has few digits for steps.
+    at, width = (shock.at, shock.width) if shock else (float(times[0]), 0.0)
     stiff = np.linalg.eigvalsh(system.joint_mobility())[-1] * system.stiffness if system.joints else 0.0
     turn = (
         2

@@ -207,3 +207,16 @@ def test_a_run_without_events_says_nothing_of_them() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert OSCILLATOR.simulate({}, (1,), (0,), (0, 1)).ending.kind == "end"
+
+
+@pytest.mark.parametrize(("begin", "system"), [(2.0**24, "ball"), (-(2.0**27), "ball"), (2.0**24, "rubbing")])
+def test_events_far_from_the_zero_of_the_clock_are_as_exact(begin: float, system: str) -> None:
+    """Each impact, and each turn of what rubs, was rounded to the spacing of doubles at `begin`, 4×10⁻⁹ and 3×10⁻⁸ s."""
+    x, v = C.q[0], C.v[0]
+    ball = System(C, v**2 / 2 - 9.81 * x), Impact(x, 0.75)
+    moving, *events = ball if system == "ball" else (System(C, v**2 / 2 - x**2 / 2, forces=(-0.125 * sp.sign(v),)),)
+    times = np.arange(0.0, 3.0, 0.375)
+    near, far = (moving.simulate({}, (1.0,), (0.5,), at + times, 1e-11, events=events) for at in (0.0, begin))
+    off = far.scales.distance(np.hstack([near.q, near.v]), np.hstack([far.q, far.v]))
+    assert (off <= far.errors + near.errors).all() and off.max() < 1e-12
+    assert len(near.t) == 8 and near.v.min() < -0.5 < 0.5 <= near.v.max()
