@@ -201,7 +201,9 @@ def linear_error(scene: Scene, t_end: float) -> float:
     pulse = shock.at + shock.width * np.linspace(-4, 4, 65) if shock else np.empty(0)
     pulse = pulse[(pulse > 0) & (pulse < t_end)]
     ends = [0.0, *pulse[:1], *pulse[-1:], t_end]
-    parts = (np.linspace(a, b, _A_PART + int(_A_TURN * turns * (b - a) / t_end)) for a, b in pairwise(ends))
+    parts = (
+        np.linspace(a, b, _A_PART + int(_A_TURN * linear.frequency * (b - a) / (2 * pi))) for a, b in pairwise(ends)
+    )
     t = np.unique(np.concatenate([pulse, *parts]))
     states = linear_states(scene, t)
     with np.errstate(all="ignore"):  # of a motion that is not small the corrections may have no end

@@ -176,3 +176,12 @@ def test_the_linear_error_is_bounded(count: int) -> None:
     assert (
         sum(error > estimate / LINEAR_MARGIN.value for estimate, error in found) > count / 20
     )  # twin: without a margin
+
+
+@pytest.mark.parametrize("at", [0.0, 1.5])
+def test_a_single_time_is_the_start(at: float) -> None:
+    """A run without a length was a division by zero."""
+    scene = consistent_scene((10, -9), ((0.01, 0, 1), (0.012, 0.003, 1)), ((0, 0.1, 0), (0, 0.1, 0)))
+    assert linear_error(scene, 0.0) < 1e-12
+    run = simulate(scene, [at], "auto")
+    assert run.axes[:, 0] == pytest.approx(np.array(scene.axes), abs=1e-14) and run.error < 1e-12
