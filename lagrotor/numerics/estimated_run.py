@@ -441,7 +441,8 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     resolved = not course.refused and bool(tight.local >= RESOLVED.value * slack[-1])
     rounding = ROUNDING.value * (START.value + float(course.turns(t[-1])))
     from_start = RESOLVED.value * evolution.unsure
-    counts = _counts(spent, off, rounding, resolved, resolved and tight.local >= from_start)
+    parted = float(apart[~between].max(initial=0.0))
+    counts = _counts(spent, off, rounding, resolved, parted if resolved and tight.local >= from_start else 0.0)
     errors = estimated_errors(
         counts * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
@@ -459,25 +460,27 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
                 f"what the motion conserves is off by as much as an error of {by:.1e} makes, although {known:.1e} is "
                 f"estimated: the run followed another motion; {way_out}"
             )
-    return _Comparison(loose, tight, len(pairs), errors, lost, refusal, float(apart[~between].max(initial=0.0)))
+    return _Comparison(loose, tight, len(pairs), errors, lost, refusal, parted)
 
 
 def _counts(
-    spent: tuple[int, int], off: tuple[Array, Array] | None, rounding: float, resolved: bool, alone: bool
+    spent: tuple[int, int], off: tuple[Array, Array] | None, rounding: float, resolved: bool, parted: float
 ) -> float:
     """How many times SAFETY the difference of two runs counts.
 
     Errors e and share e differ by (1 − share) e: the better one's is odds = share/(1 − share) times the difference. off: how far
     both are off conserving, a second measure of their errors: odds are those of the better one's to the difference of the two,
-    where rounding is not all that it is. SAFETY takes ODDS where nothing is known. alone: whether the local errors alone make the
-    two differ, so that odds may be as small as CONFIRMED times that; of other starts nothing is seen in what is conserved.
+    where rounding is not all that it is. SAFETY takes ODDS where nothing is known. parted: how far both are apart by their local
+    errors alone, else 0; odds may be as small as CONFIRMED times that where what is conserved differs by no more: of other starts
+    nothing is seen in it, and what differs by more is not the states that are compared.
     spent: their evaluations. resolved: whether SAFETY is not squared; where it is, and the better run took twice as many,
     rounding is all that differs, and is in it already.
     """
     counts = CHEAPER.value if spent[1] < spent[0] else 0.0
     if off and (better := _largest(off[1])) > TELLING.value * rounding and (resolved or spent[1] < 2 * spent[0]):
-        counts = max(counts, better / max(_largest(off[1] - off[0]), rounding) / ODDS.value)
-        return max(counts, CONFIRMED.value if alone else 1.0)
+        difference = max(_largest(off[1] - off[0]), rounding)
+        counts = max(counts, better / difference / ODDS.value)
+        return max(counts, CONFIRMED.value if difference <= parted else 1.0)
     return max(counts, 1.0)
 
 
