@@ -58,7 +58,7 @@ def test_a_tools_own_run_converges_to_the_reference(name: str) -> None:
 
 
 def test_a_tool_is_measured_and_one_with_another_motion_is_not_timed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(comparison, "clear_cache", lambda: None)  # what sympy remembers is other tests', too
+    monkeypatch.setattr(comparison, "forget_all", lambda: None)  # what sympy remembers is other tests', too
     monkeypatch.setattr(comparison, "_SAMPLE", 1e-5)
     found = comparison.measure(OWN["lagrotor"], Measured("rods", 2, "lagrotor"))
     assert found.difference == 0 and found.ready and found.rhs and found.run and found.by and not found.reason

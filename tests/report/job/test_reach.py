@@ -53,7 +53,9 @@ def test_a_derivation_reaches_its_modules_and_their_data() -> None:
     } <= found
     assert "paper/rotor_pair/equations.toml" in found
     assert "paper/rotor_pair/recorded.toml" not in found, "the record is compared with, nothing is made from it"
-    assert not any(place.startswith(("models/", "report/", "commands/")) for place in found)
+    # The check of a theorem makes a scene's program again: of the models it reaches the programs alone.
+    assert not any(place.startswith(("report/", "commands/")) for place in found)
+    assert {p.split("/")[1] for p in found if p.startswith("models/")} == {"programs"}
 
 
 def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
