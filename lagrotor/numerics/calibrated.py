@@ -76,13 +76,6 @@ ODDS = Calibrated(
     "by 0.77 and 0.73); of 0.5 as many errors come near their estimates as without the measure",
     "test_estimated_run.py::test_a_better_run_that_conserves_no_better_is_no_better",
 )
-CONFIRMED = Calibrated(
-    2 / 3,
-    "least times SAFETY that the difference of two runs counts, where what they conserve says that the better one is much better",
-    "490 runs of 382 wide scenes of seeds 424242 and 777123: of 0.5 two exceed their estimate, by up to a fifth, of 2/3 none; "
-    "of 128 such runs of seeds 909090 and 31337, unused in choosing, one does, twofold and within tol, as of 1 it would, too",
-    "test_estimated_run.py::test_a_better_run_that_conserves_no_better_is_no_better",
-)
 CHEAPER = Calibrated(
     2.0,
     "least times SAFETY for a better run that took fewer evaluations than the looser one: it is by another method",

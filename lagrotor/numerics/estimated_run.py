@@ -22,7 +22,6 @@ from lagrotor.numerics.calibrated import (
     APART,
     BEYOND,
     CHEAPER,
-    CONFIRMED,
     FIRST,
     GIVEN_UP,
     KEPT,
@@ -440,9 +439,8 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     slack = np.concatenate(slacks[1:])
     resolved = not course.refused and bool(tight.local >= RESOLVED.value * slack[-1])
     rounding = ROUNDING.value * (START.value + float(course.turns(t[-1])))
-    from_start = RESOLVED.value * evolution.unsure
     parted = float(apart[~between].max(initial=0.0))
-    counts = _counts(spent, off, rounding, resolved, parted if resolved and tight.local >= from_start else 0.0)
+    counts = _counts(spent, off, rounding, resolved)
     errors = estimated_errors(
         counts * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
@@ -463,16 +461,13 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     return _Comparison(loose, tight, len(pairs), errors, lost, refusal, parted)
 
 
-def _counts(
-    spent: tuple[int, int], off: tuple[Array, Array] | None, rounding: float, resolved: bool, parted: float
-) -> float:
+def _counts(spent: tuple[int, int], off: tuple[Array, Array] | None, rounding: float, resolved: bool) -> float:
     """How many times SAFETY the difference of two runs counts.
 
     Errors e and share e differ by (1 − share) e: the better one's is odds = share/(1 − share) times the difference. off: how far
     both are off conserving, a second measure of their errors: odds are those of the better one's to the difference of the two,
-    where rounding is not all that it is. SAFETY takes ODDS where nothing is known. parted: how far both are apart by their local
-    errors alone, else 0; odds may be as small as CONFIRMED times that where what is conserved differs by no more: of other starts
-    nothing is seen in it, and what differs by more is not the states that are compared.
+    where rounding is not all that it is. SAFETY takes ODDS where nothing is known, and never less: smaller odds, where the better
+    one conserves much better, gave one run in a hundred too small an error.
     spent: their evaluations. resolved: whether SAFETY is not squared; where it is, and the better run took twice as many,
     rounding is all that differs, and is in it already.
     """
@@ -480,7 +475,6 @@ def _counts(
     if off and (better := _largest(off[1])) > TELLING.value * rounding and (resolved or spent[1] < 2 * spent[0]):
         difference = max(_largest(off[1] - off[0]), rounding)
         counts = max(counts, better / difference / ODDS.value)
-        return max(counts, CONFIRMED.value if difference <= parted else 1.0)
     return max(counts, 1.0)
 
 
