@@ -1,6 +1,7 @@
 """The parts of an expression, each once: a Lagrangian of 24 rods has 2,000 different parts, and 6×10⁸ where it is written out."""
 
 from operator import is_
+from threading import RLock
 from typing import Any
 
 import sympy as sp
@@ -9,10 +10,10 @@ from sympy.core.cache import clear_cache
 _WRITTEN = 100_000  # parts of an expression up to which it is written out
 _MOST = 200_000  # parts that are known at a time
 
-_KNOWN = dict[
-    Any, sp.Basic
-]()  # by class and either the numbers of the arguments or, where there are none, the part itself
-_OWN = set[int]()  # the numbers of those
+# The parts known, by class and the identities of the arguments, or the part itself where it has none; the identities of those.
+_KNOWN = dict[Any, sp.Basic]()
+_OWN = set[int]()
+_LOCK = RLock()
 
 
 def subexpressions(*given: sp.Basic) -> list[sp.Basic]:
@@ -61,33 +62,35 @@ def with_shared_parts(e: sp.Expr) -> sp.Expr:
     sympy compares objects that are equal part by part, as often as each is written out; its own memory of the last 1,000 results
     does so when an expression of shared parts is made a second time. Objects that are the same are not compared.
     """
-    if len(_KNOWN) > _MOST:
-        forget()
-    own = dict[int, sp.Basic]()
-    left: list[tuple[sp.Basic, bool]] = [(e, False)]
-    while left:
-        part, whole = left.pop()
-        if id(part) in _OWN or id(part) in own:
-            continue
-        if not whole:
-            left += [(part, True), *((a, False) for a in part.args)]
-            continue
-        args = [own.get(id(a), a) for a in part.args]
-        key = (part.func, *map(id, args)) if args else (part.func, part)
-        if (same := _KNOWN.get(key)) is None:
-            same = part
-            if any(a is not b for a, b in zip(args, part.args, strict=True)):
-                made = part.func(*args)
-                alike = made.func == part.func and len(made.args) == len(args) and all(map(is_, made.args, args))
-                same = made if alike else part
-            _KNOWN[key] = same
-            _OWN.add(id(same))
-        own[id(part)] = same
-    return own.get(id(e), e)
+    with _LOCK:
+        if len(_KNOWN) > _MOST:
+            forget()
+        own = dict[int, sp.Basic]()
+        left: list[tuple[sp.Basic, bool]] = [(e, False)]
+        while left:
+            part, whole = left.pop()
+            if id(part) in _OWN or id(part) in own:
+                continue
+            if not whole:
+                left += [(part, True), *((a, False) for a in part.args)]
+                continue
+            args = [own.get(id(a), a) for a in part.args]
+            key = (part.func, *map(id, args)) if args else (part.func, part)
+            if (same := _KNOWN.get(key)) is None:
+                same = part
+                if any(a is not b for a, b in zip(args, part.args, strict=True)):
+                    made = part.func(*args)
+                    alike = made.func == part.func and len(made.args) == len(args) and all(map(is_, made.args, args))
+                    same = made if alike else part
+                _KNOWN[key] = same
+                _OWN.add(id(same))
+            own[id(part)] = same
+        return own.get(id(e), e)
 
 
 def forget() -> None:
     """Let go of the parts that are known, and of what sympy remembers of them."""
-    _KNOWN.clear()
-    _OWN.clear()
-    clear_cache()
+    with _LOCK:
+        _KNOWN.clear()
+        _OWN.clear()
+        clear_cache()
