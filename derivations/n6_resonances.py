@@ -61,8 +61,14 @@ def bracket(left: sp.Expr, right: sp.Expr) -> sp.Expr:
 
 P, P_bar = c * sp.Mul(*z), c * sp.Mul(*w)
 actions = [p * q for p, q in zip(z, w, strict=True)]
-for action in actions:
-    prove(bracket(action, P + P_bar), sp.I * (P - P_bar), "each action gains as much", names=r"\{|z_j|^2,P+\bar P\}")
+prove(
+    [bracket(action, P + P_bar) for action in actions],
+    [sp.I * (P - P_bar)] * 3,
+    "each action gains as much",
+    names=[rf"\{{|z_{j}|^2,P+\bar P\}}" for j in (1, 2, 3)],
+)
+
+# %%
 prove(
     bracket(sum(actions), P + P_bar),
     3 * sp.I * (P - P_bar),
@@ -97,9 +103,13 @@ falling = {
     q_2: sp.sin(2 * (t + gamma)) / left,
     p_2: -sp.cos(2 * (t + gamma)) / left,
 }
-for q, p in ((q_1, p_1), (q_2, p_2)):
-    prove(falling[q].diff(t), cherry.diff(p).subs(falling), "Cherry's solution", names=rf"\dot{{{q}}}")
-    prove(falling[p].diff(t), -cherry.diff(q).subs(falling), "Cherry's solution", names=rf"\dot{{{p}}}")
+pairs = ((q_1, p_1), (q_2, p_2))
+prove(
+    [falling[letter].diff(t) for pair in pairs for letter in pair],
+    [side for q, p in pairs for side in (cherry.diff(p).subs(falling), -cherry.diff(q).subs(falling))],
+    "Cherry's solution",
+    names=[rf"\dot{{{letter}}}" for pair in pairs for letter in pair],
+)
 
 # %% [markdown]
 # ## Beside the resonance

@@ -67,7 +67,7 @@ Remark(
     "How far the limit is off",
     f"Four hanging gyroscopes joined by five springs, spins as 1 : 1.2 : −0.9 : 1.1 times {', '.join(f'{f:g}' for f in factors)} "
     f"rad/s: slow rates in the limit are off by {', '.join(f'{e:.1e}' for e in off)}, the power −{-powers[0]:.2f} of "
-    f"the spins, and with `left_out` taken off by {', '.join(f'{e:.1e}' for e in rest)}, the power −{-powers[1]:.2f}.",
+    f"the spins, and with the second part taken off by {', '.join(f'{e:.1e}' for e in rest)}, the power −{-powers[1]:.2f}.",
 )
 
 # %% [markdown]

@@ -358,3 +358,19 @@ def test_a_docstring_without_its_sections_is_seen() -> None:
     assert explained("What it is. Args: a: one.", "Args") == set()
     function = ast.parse("def f(self, a, *b, c=1, **d): ...").body[0]
     assert isinstance(function, ast.FunctionDef) and arguments(function) == ["a", "b", "c"]
+
+
+def unseen(source: str) -> list[int]:
+    """Lines of a script whose proof or remark stands in a loop or a branch: a page shows the values of bare expressions alone."""
+    inside = [s for s in ast.parse(source).body if isinstance(s, ast.For | ast.While | ast.If | ast.With | ast.Try)]
+    calls = [c for s in inside for c in ast.walk(s) if isinstance(c, ast.Call) and isinstance(c.func, ast.Name)]
+    return [call.lineno for call in calls if call.func.id in ("prove", "Remark")]
+
+
+def test_every_proof_of_a_derivation_is_seen_on_its_page() -> None:
+    scripts = [*(ROOT / "derivations").glob("*.py"), *(ROOT / "papers").glob("*/derivations/*.py")]
+    assert {f.name: lines for f in scripts if (lines := unseen(f.read_text(encoding="utf-8")))} == {}
+
+
+def test_a_proof_in_a_loop_would_be_found() -> None:
+    assert unseen("for k in (1, 2):\n    prove(k, k)\n") == [2] and unseen("prove(1, 1)\n") == []

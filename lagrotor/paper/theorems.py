@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError, NotProved, ProofError
 
-NOT_AGAIN = "on record, not proved again here; `lagrotor claims` does, with python-flint: pip install lagrotor[proof]"
+NOT_AGAIN = "on record, not proved again here; lagrotor claims does, with python-flint: pip install lagrotor[proof]"
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ MUTANTS = [
     ("n6_resonances", "p_2: -sp.cos(2", "p_2: sp.cos(2"),
     ("n6_resonances", "edge = delta / (18 * c)", "edge = delta / (17 * c)"),
     ("n7_nonlinear_waves", "(c + f * b + B * b**2 / 2)", "(c + f * b + B * b**2)"),
-    ("n7_nonlinear_waves", "law = sign * A * rest**2 / (2", "law = sign * A * rest**2 / (1"),
+    ("n7_nonlinear_waves", "laws = [sign * A * rate**2 / (2", "laws = [sign * A * rate**2 / (1"),
     pytest.param("n7_nonlinear_waves", "z[2] * w[1] / g[0], i", "z[2] * z[1] / g[0], i", marks=AFTER_RUNS),
     ("n8_fast_spins", "in_limit * (1 - epsilon)", "in_limit * (1 + epsilon)"),
     ("n8_fast_spins", "turn = sp.cos(2 * theta) + i", "turn = sp.cos(2 * theta) - i"),
