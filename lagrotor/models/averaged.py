@@ -296,11 +296,10 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
         last, before = distance(motions[0], motions[1]), distance(motions[1], motions[2])
         rounded = _ROUNDED * (1 + PACE * grid)
         # Two orders fall as the square of the motion. The first difference may be of another kind, as the turning about the joint
-        # line, which H₂ has not, or a term nearly vanish: no smaller ratio is believed.
+        # line, which H₂ has not, or the last one nearly vanish, as beside the paired precession: no smaller fall is believed.
         square = float(np.abs(normal_start(one, forms_about(one, lean, order), order, starts[0])).max()) ** 2
         ratio = np.maximum(last / (before + 10 * rounded), square)
-        if order > _ORDERS[0]:
-            last = np.maximum(last, square * before)
+        last = np.maximum(last, square * before)
         errors = np.where(ratio < _SLOWEST, FALLING.value * ratio * last, UNKNOWN) + rounded
         if errors.max() <= tol:
             break

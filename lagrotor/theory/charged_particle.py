@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.generated import generated
+from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.calibrated_factors import LARGEST_SWING
 
@@ -75,8 +76,13 @@ class GuidingCentre:
         return self.action * _at(self.scene, *self.place[:2]).rate + self.speed**2 / 2
 
     def energy_at(self, beta: float, h: float) -> float:
-        """J Omega + (P − g_alpha)²/(2 b_alpha²) (J) at another lean and half-angle (rad): `energy` along the path."""
-        at = _at(self.scene, beta, h)
+        """J Omega + (P − g_alpha)²/(2 b_alpha²) (J) at another lean and half-angle (rad): `energy` along the path.
+
+        Raises:
+            InputError: what is no number.
+            DomainError: where the bar is in line with an axis or does not reach.
+        """
+        at = _at(self.scene, finite_number(beta, "energy_at: beta", "rad"), finite_number(h, "energy_at: h", "rad"))
         return float(self.action * at.rate + ((self.momentum - at.flux) / at.along[2]) ** 2 / 2)
 
     def path(self, t: ArrayLike) -> Array:
@@ -93,7 +99,10 @@ class GuidingCentre:
             raise InputError(f"guiding_centre: t[0] = {times[0]:g} s is before the start; take times from 0 on")
 
         def rhs(_: float, y: Array) -> Array:
-            at = _at(self.scene, y[0], y[1])
+            try:
+                at = _at(self.scene, y[0], y[1])
+            except DomainError:  # of a trial: the step is made smaller
+                return np.full(4, np.nan)
             B, pull = at.field + y[3] * at.curl, self.action * at.gradient
             return np.append(y[3] * B + np.cross(at.along, pull), -(B @ pull)) / (at.along @ B)
 
@@ -106,9 +115,10 @@ class GuidingCentre:
             rhs, (0.0, times[-1] or 1e-9), begin, "DOP853", t_eval=times, events=in_line, rtol=_LOCAL[0], atol=_LOCAL[1]
         )
         if run.status != 0:
+            end = next(iter(run.t_events[0]), run.t[-1] if len(run.t) else 0.0)
             raise DomainError(
-                f"guiding_centre: the bar comes into line with an axis {run.t[-1] if len(run.t) else 0.0:.3g} s after the start; "
-                "take a shorter time, or lagrotor.simulate"
+                f"guiding_centre: the bar comes into line with an axis {end:.3g} s after the start; take a shorter time, or "
+                "lagrotor.simulate"
             )
         return np.asarray(run.y[:3].T)
 
@@ -121,7 +131,7 @@ def guiding_centre(scene: Scene) -> GuidingCentre:
     Raises:
         InputError: without a bar or spin, with a shock, and for opposite spins: near upright the rate of their swing is the
             same everywhere, so that the next order counts (`slow_motion`).
-        DomainError: unless the swing is below 0.4 rad.
+        DomainError: where the swing exceeds 0.4 rad, or the bar is in line with an axis.
     """
     if not isinstance(scene, Scene) or scene.link is None or scene.shock is not None or sum(scene.spins) == 0:
         raise InputError(f"guiding_centre: {scene!r} needs a bar, spins that are not opposite, and no shock")
@@ -184,6 +194,12 @@ def _field_functions() -> str:
 
 
 def _at(scene: Scene, beta: float, h: float) -> _Place:
+    if not abs(np.sin(h)) < scene.k * np.cos(beta) * (1 - 1e-12):
+        raise DomainError(
+            f"guiding_centre: at the lean {beta:.4g} and the half-angle {h:.4g} rad the bar is in line with an axis or does not "
+            f"reach: |sin h| = {abs(np.sin(h)):.4g}, k cos beta = {scene.k * np.cos(beta):.4g}; take a smaller lean or twist, or "
+            "lagrotor.simulate"
+        )
     *numbers, flux = _field_functions()(beta, h, *scene.inertias, scene.k, *scene.momenta)
     parts = np.array(numbers).reshape(3, 12)
     (M, *M_slopes), (f, *f_slopes) = parts[:, :9].reshape(3, 3, 3), parts[:, 9:]

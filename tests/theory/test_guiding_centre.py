@@ -94,6 +94,18 @@ def test_what_it_does_not_hold_is_refused():
         guiding_centre(leaning(Scene((11, 5)), rates=(6, 4, 6, -3)))
     with pytest.raises(DomainError, match=r"comes into line with an axis \d+.* s after the start"):
         guiding_centre(leaning(Scene((11, 5), link=Link(0.5)))).path([0, 10.0, 20.0, 30.0, 40.0, 500.0])
+    fast = leaning(Scene((10, -9.5), link=Link(0.4, 1, 0.05)), 0.6, 0.1, (-0.3, -0.3, -0.3, -0.3))
+    with pytest.raises(DomainError, match=r"an axis 8\.83 s after"):  # a step tries places where the bar does not reach
+        guiding_centre(fast).path([0, 500.0])
+    assert len(guiding_centre(fast).path([0, 8.8])) == 2
+    centre = guiding_centre(scene)
+    assert centre.energy_at(*centre.place[:2]) == pytest.approx(centre.energy, rel=1e-9)
+    for place in ((1.57, 0.3), (0.1, 1.5), (2.0, 0.0)):
+        with pytest.raises(DomainError, match=r"in line with an axis or does not reach: \|sin h\|"):
+            centre.energy_at(*place)
+    for beta in ("a", np.nan, np.zeros(3)):
+        with pytest.raises(InputError, match="energy_at: beta"):
+            centre.energy_at(beta, 0.1)
     for times in ([0, 2, 1], [-1.0, 1], [np.nan], "soon"):
         with pytest.raises(InputError, match="guiding_centre: t"):
             guiding_centre(scene).path(times)
