@@ -54,7 +54,8 @@ def equilibria(
     inclination. Angles in sines and cosines are found between −π and π.
 
     With values of the parameters and a box, {coordinate: (least, largest)}: all equilibria there, each alone in its
-    `enclosure`, and none elsewhere in the box, by interval Newton. A pole of a force is no equilibrium.
+    `enclosure`, and none elsewhere in the box, by interval Newton. A pole of a force is no equilibrium. An edge that is no
+    rational, as π or 0.3, stands for all numbers that round to it: an equilibrium there is in the box.
 
     Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
     stays undecided, as about equilibria that are not isolated.
@@ -64,6 +65,8 @@ def equilibria(
             "equilibria: unknowns must be names of letters: values are given as values={symbol: number, …}"
         )
     if values is not None or box is not None:
+        if unknowns:
+            raise InputError(f"equilibria: in a box all coordinates are unknown: leave out unknowns = {unknowns!r}")
         return _in_box(system, values or {}, box or {})
     if unknowns:
         return _equilibria(system, unknowns)
@@ -109,6 +112,9 @@ def _in_box(
     }
     if empty := [str(q) for q, (low, high) in edges.items() if low >= high]:
         raise InputError(f"equilibria: the box of {', '.join(empty)} is empty: give (least, largest)")
+    for q, (low, high) in edges.items():
+        less, more = (0 if isinstance(x, int | sp.Rational) else 2**-53 for x in sides[q])
+        edges[q] = low - abs(low) * sp.Rational(less), high + abs(high) * sp.Rational(more)
     if left := sorted({str(s) for e in forces for s in e.free_symbols - {*c.q}}):
         raise InputError(f"equilibria: {', '.join(left)} without a value: in a box every letter has one, and time none")
     roots, undecided = roots_in_box(forces, edges)

@@ -90,30 +90,63 @@ class LinearSystem:
         It is sufficient and, but for equality, necessary.
         Without friction (det(s² M + s C + K) even in s): all roots s² real, negative and distinct: the coefficients and
         the Hankel minors of the roots' power sums are positive; without gyroscopic forces these are real, and may be equal.
-        Otherwise: the Routh–Hurwitz determinants are positive.
-        Factors that are positive by the symbols' assumptions are divided out. Zero roots, of cyclic coordinates, are left
-        aside. Rates that several independent modes have at any parameters, as those of a spherical pendulum, count once.
+        Otherwise so for the product of its even factors, and for that of the others the Routh–Hurwitz determinants are positive.
+        Factors that are positive by the symbols' assumptions are divided out. Zero roots are left aside where they are those
+        of rest elsewhere and of drifts at constant velocity; where a motion grows as t², it is false.
+        Rates that several independent modes have at any parameters, as those of a spherical pendulum, count once.
         """
         natural = all(map(_is_zero, (*self.gyroscopic, *(self.stiffness - self.stiffness.T))))
-        return stability_condition(self._pencil(_S), _S, natural)
+        return sp.false if self._zeros > max(2, self._drifts) else stability_condition(self._pencil(_S), _S, natural)
+
+    @property
+    def _zeros(self) -> int:
+        """How often s = 0 is a root of det(s² M + s C + K)."""
+        coefficients = sp.Poly(sp.numer(sp.together(self._pencil(_S).det(method="berkowitz"))), _S).all_coeffs()
+        return next(i for i, e in enumerate(reversed(coefficients)) if not _is_zero(e))
+
+    @property
+    def _drifts(self) -> int:
+        """The dimension of K q = 0, of rest elsewhere, and that of K q + C v = 0 with K v = 0, of constant velocities v."""
+        K = self.stiffness
+        right, left = (m.nullspace(iszerofunc=_is_zero) for m in (K, K.T))
+        coupled = sp.Matrix(len(left), len(right), lambda i, j: left[i].dot(self.gyroscopic * right[j]))
+        return 2 * len(right) - int(coupled.rank(iszerofunc=_is_zero))
 
 
 def stability_condition(pencil: sp.Matrix, s: sp.Symbol, natural: bool = False) -> sp.Basic:
     """When the roots s of det(pencil) = 0 are as `LinearSystem.stable_if` says; natural: of s² M + K, both symmetric."""
-    coefficients = [_reduce(c) for c in _last_invariant(pencil, s).all_coeffs()]
-    while coefficients and _is_zero(coefficients[-1]):
+    pencil = pencil.applyfunc(lambda e: e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}))
+    factors = _last_invariant(pencil, s)
+    parts = [sp.Mul(*factors)]
+    if not _is_even(parts[0], s):
+        parts = [sp.Mul(*(f for f in factors if _is_even(f, s) is even)) for even in (True, False)]
+    conditions: list[sp.Expr] = []
+    for part in parts:
+        coefficients = _coefficients(part, s)
+        if natural:
+            conditions += [_reduce(x / coefficients[0]) for x in coefficients[2::2]]
+        else:
+            conditions += _all_negative(coefficients[::2]) if _is_even(part, s) else _hurwitz(coefficients)
+    return _conjunction(conditions)
+
+
+def _coefficients(e: sp.Expr, s: sp.Symbol) -> list[sp.Expr]:
+    """Those of a polynomial in s, the highest first, without its zero roots."""
+    coefficients = [_reduce(c) for c in sp.Poly(e, s).all_coeffs()]
+    while _is_zero(coefficients[-1]):
         coefficients.pop()
-    even = all(_is_zero(c) for c in coefficients[1::2])
-    if natural:
-        return _conjunction([_reduce(x / coefficients[0]) for x in coefficients[2::2]])
-    return _conjunction(_all_negative(coefficients[::2]) if even else _hurwitz(coefficients))
+    return coefficients
 
 
-def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> sp.Poly:
-    """The determinant without what the minors of order n − 1 have in common of its repeated factors: these stay repeated where
+def _is_even(e: sp.Expr, s: sp.Symbol) -> bool:
+    return all(_is_zero(c) for c in _coefficients(e, s)[1::2])
+
+
+def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> list[sp.Expr]:
+    """The determinant's factors without what the minors of order n − 1 have in common of repeated ones: these stay repeated where
     motions grow as t exp(s t). Gantmacher, vol. 1, ch. VI (invariant polynomials)."""
     _, factors = sp.factor_list(sp.numer(sp.together(pencil.det(method="berkowitz"))))
-    lasting = sp.Mul(*(f**k for f, k in factors if f.has(s)))
+    lasting = {f: k for f, k in factors if f.has(s)}
     repeated = [(f, k) for f, k in factors if k > 1 and f.has(s) and f != s]
     minors = [sp.Poly(e, s) for e in pencil.adjugate(method="berkowitz") if e != 0] if repeated else []
     for f, k in repeated:
@@ -122,8 +155,8 @@ def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> sp.Poly:
             all(map(_is_zero, m.rem(sp.Poly(f ** (shared + 1), s)).all_coeffs())) for m in minors
         ):
             shared += 1
-        lasting /= f**shared
-    return sp.Poly(lasting, s)
+        lasting[f] -= shared
+    return [f**k for f, k in lasting.items()]
 
 
 def point_of(where: str, system: Equations, at: Mapping[Any, Any], letters: Iterable[sp.Symbol]) -> dict[Any, Any]:

@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 from scipy.optimize import brentq, fsolve
 
-from lagrotor.errors import SingularError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import System, coordinates
 
 c, d = coordinates("x"), coordinates("a b")
@@ -105,3 +105,15 @@ def test_forces_that_are_linear_have_their_one_equilibrium() -> None:
     (place,) = System(c, L + x).equilibria(values={k: 1}, box={x: (-1, 2), y: (-1, 1)})
     assert [float(e) for e in place.at.values()] == pytest.approx([2 / 3, 1 / 3])
     assert System(c, L + 9 * x).equilibria(values={k: 1}, box={x: (-1, 2), y: (-1, 1)}) == ()
+
+
+@pytest.mark.parametrize("edge", [np.pi, sp.pi])
+def test_an_equilibrium_on_an_edge_that_is_rounded_is_in_the_box(edge: float | sp.Expr) -> None:
+    """The double next to π is less than π, and 0.3 less than 3/10."""
+    pendulum = System(c, v**2 / 2 + sp.cos(x))
+    assert [round(float(e.at[x]), 3) for e in pendulum.equilibria(box={x: (-edge, edge)})] == [-3.142, 0, 3.142]
+    assert len(pendulum.equilibria(box={x: (0, float(edge) - 1e-15)})) == 1
+    spring = System(c, v**2 / 2 - (x - sp.Rational(3, 10)) ** 2 / 2)
+    assert [len(spring.equilibria(box={x: (0, end)})) for end in (0.3, 0.3 - 1e-16, sp.Rational(0.3))] == [1, 0, 0]
+    with pytest.raises(InputError, match="all coordinates are unknown"):
+        spring.equilibria("x", box={x: (0, 1)})

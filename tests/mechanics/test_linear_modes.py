@@ -266,3 +266,32 @@ def test_rates_of_independent_modes_may_be_equal_and_those_of_dependent_ones_not
     )  # y grows as t sin t
     ring = System(c, free - (x**2 + (x - y) ** 2 + y**2) / 2 - k * (x + y) ** 2 / 2)
     assert ring.linearise(rest).stable_if == sp.And(k + 2 > 0, 2 * k + 1 > 0)
+
+
+def test_zero_rates_are_left_aside_only_where_motions_drift() -> None:
+    """Beside a steady velocity nothing may grow: x'' = w y', y'' = −w x' − k y has y = t², x ~ t³ at k = −w²."""
+    c = coordinates("x y")
+    (x, y), (u, v) = c.q, c.v
+    free, rest = (u**2 + v**2) / 2 + 2 * y * u, {x: 0, y: 0}
+    assert System(c, free + k * y**2 / 2).linearise(rest).stable_if == (4 - k > 0)
+    assert System(c, free + 2 * y**2).linearise(rest).stable_if == sp.false
+    assert System(c, (u**2 + v**2) / 2, forces=(y, 0)).linearise(rest).stable_if == sp.false
+    for L in (free, (u**2 + v**2) / 2, (u**2 + v**2 - (x - y) ** 2) / 2):
+        assert System(c, L).linearise(rest).stable_if == sp.true
+
+
+def test_a_damped_mode_is_judged_beside_an_undamped_one() -> None:
+    c, d = coordinates("x y"), sp.Symbol("d", real=True)
+    (x, y), (u, v) = c.q, c.v
+    L, rest = (u**2 + v**2 - x**2 - k * y**2) / 2, {x: 0, y: 0}
+    assert System(c, L, forces=(-d * u, 0)).linearise(rest).stable_if == (d > 0)
+    assert System(c, L, forces=(-d * u, 2 * k * y)).linearise(rest).stable_if == sp.false
+
+
+@pytest.mark.parametrize("stiffness", [0.7, sp.sqrt(2)])
+def test_equal_rates_of_gyroscopic_systems_are_seen_in_any_numbers(stiffness: float | sp.Expr) -> None:
+    turn = sp.diag(*[sp.Matrix([[0, -1], [1, 0]])] * 2) * stiffness / 2
+    assert LinearSystem(sp.eye(4), turn, sp.eye(4) * stiffness, sp.eye(4)).stable_if == sp.true
+    coupled = sp.eye(4) * stiffness
+    coupled[0, 2] = coupled[1, 3] = sp.Rational(1, 10)  # the second drives the first at its own rate
+    assert LinearSystem(sp.eye(4), turn, coupled, sp.eye(4)).stable_if == sp.false

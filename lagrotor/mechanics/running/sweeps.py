@@ -54,7 +54,7 @@ def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
 def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
     """An expression as a stage after those of all its parts. A sum that has all terms of another one is made of that."""
     sums = sorted((s for s in subexpressions(e) if s.is_Add), key=lambda s: len(s.args))
-    terms = {s: {*s.args} for s in sums}
+    terms = {s: {*s.args} for s in sums if len({*s.args}) == len(s.args)}  # left unevaluated, one may have a term twice
     known = dict[sp.Expr, sp.Expr]()
 
     def stage(part: sp.Expr) -> sp.Expr:
@@ -63,7 +63,11 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
         if part not in known and not all(isinstance(a, sp.Expr) for a in part.args):
             known[part] = keep(part)  # whose parts are no values: a case and its condition, an integral and its letter
         if part not in known:
-            shorter = next((s for s in reversed(sums) if terms[s] < terms[part]), None) if part in terms else None
+            shorter = (
+                next((s for s in reversed(sums) if s in terms and terms[s] < terms[part]), None)
+                if part in terms
+                else None
+            )
             if shorter is None:
                 known[part] = keep(part.func(*map(stage, part.args)))
             else:

@@ -45,6 +45,16 @@ def test_gradients_and_derivatives_along_a_direction_are_sympys() -> None:
     assert any(part == keep.names[a + b] + d for _, part in keep.made)  # a sum is made of a shorter one
 
 
+def test_a_term_that_is_left_twice_in_a_sum_counts_twice() -> None:
+    a, b, d = sp.symbols("a b d", real=True)
+    for twice, times in (((a, a), 2), ((a,), 1)):
+        keep = Stages()
+        short = expression_stages(keep, sp.Add(*twice, b, d, evaluate=False) * sp.cos(a + b))
+        for name, part in reversed(keep.made):
+            short = short.xreplace({name: part})
+        assert sp.expand(short - (times * a + b + d) * sp.cos(a + b)) == 0
+
+
 @pytest.mark.parametrize("n", [6, 9])
 def test_a_long_lagrangian_moves_as_its_bodies(n: int) -> None:
     system, bodies = rods(n), chain("rods", n)
