@@ -69,7 +69,7 @@ tables = [
         "sympy's own energies of the same bodies, for the bicycle of this one. sympy's right-hand sides are lambdify's "
         "with common subexpressions, then numpy's solve. rhs differs by: from lagrotor's of bodies, relative. A method that used "
         f"{beside['longest']:g} s was ended, larger mechanisms were not given to it. The bicycle is that of sympy's own test, "
-        f"in its letters, the arm one of six joints. {beside.get('note', '')}Processor time on {where_beside}, one method "
+        f"in its letters, the arm one of six joints. Processor time on {where_beside}, one method "
         "after the other, ready measured once, by `python -m benchmarks.bodies_and_lagrangians --record`.",
     ),
 ]
