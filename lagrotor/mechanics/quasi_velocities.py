@@ -25,6 +25,7 @@ import sympy as sp
 from lagrotor.algebra import along, decide_zero
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError
+from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.expressions import expression, shortest
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, t, total_derivative
 from lagrotor.numerics.codegen import Stage, solve_symmetric
@@ -166,14 +167,18 @@ def boltzmann_hamel(
     return jacobian(list(pi[:m, :]), speeds), h.applyfunc(shortest)
 
 
-def inverse_of(K: sp.Matrix, held: Sequence[sp.Expr], c: Coordinates) -> tuple[list[Stage], sp.Matrix, list[sp.Expr]]:
-    """Stages, K⁻¹ made of them, and the factors of det K that depend on q or t. held: polynomials in q that are zero.
+def inverse_of(
+    K: sp.Matrix, held: Sequence[sp.Expr], c: Coordinates, keep: Stages | None = None
+) -> tuple[list[Stage], sp.Matrix, list[sp.Expr]]:
+    """Stages, K⁻¹ made of them, and the factors of det K that depend on q or t. held: polynomials in q that are zero. keep:
+    stages by which K is made, and each entry that is found is.
 
     Block by block, each solved after those that it depends on. A block with orthogonal rows is inverted by its transpose, a
     small one by its adjugate, another by K⁻¹ = Kᵀ (K Kᵀ)⁻¹, which needs no pivots.
     """
     n = K.rows
-    stages, inverse, factors, solved = list[Stage](), sp.zeros(n, n), list[sp.Expr](), list[int]()
+    stages, short, prefix = (keep.made, keep, "_j") if keep else ([], _reduced, "_k")
+    inverse, factors, solved = sp.zeros(n, n), list[sp.Expr](), list[int]()
     for number, (rows, columns) in enumerate(_blocks(K)):
         block = K.extract(rows, columns)
         gram = block * block.T
@@ -184,17 +189,18 @@ def inverse_of(K: sp.Matrix, held: Sequence[sp.Expr], c: Coordinates) -> tuple[l
             own = block.T * sp.diag(*(1 / e for e in lengths))
             factors += lengths
         elif len(rows) <= _SMALL:
-            determinant = _reduced(block.det(method="berkowitz"))
-            own = (block.adjugate(method="berkowitz") / determinant).applyfunc(_reduced)
+            determinant = short(block.det(method="berkowitz"))
+            own = (block.adjugate(method="berkowitz") / determinant).applyfunc(short)
             factors.append(determinant)
         else:
-            made, normal = solve_symmetric(gram, sp.eye(len(rows)), f"_k{number}")
-            stages, own = [*stages, *made], block.T * normal
+            made, normal = solve_symmetric(gram, sp.eye(len(rows)), f"{prefix}{number}")
+            stages += made
+            own = block.T * normal
         right = sp.eye(n).extract(rows, list(range(n))) - K.extract(rows, solved) * inverse.extract(
             solved, list(range(n))
         )
         for i, line in enumerate((own * right).tolist()):
-            inverse[columns[i], :] = sp.Matrix([[_reduced(e) for e in line]])
+            inverse[columns[i], :] = sp.Matrix([[short(e) for e in line]])
         solved += columns
     moving = {*c.q, t}
     factors = [f for e in factors if _written(e) for f in sp.Mul.make_args(sp.factor(e))]

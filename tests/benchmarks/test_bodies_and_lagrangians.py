@@ -30,4 +30,4 @@ def test_the_bicycle_takes_few_operations() -> None:
     """In the letters of sympy's test, all of them parameters."""
     _, values = sympys_bicycle()
     counts = [operations(motion_program(bicycle(bodies, values)).program) for bodies in (True, False)]
-    assert counts[0] <= 2800 and counts[1] <= 3200
+    assert counts[0] <= 2800 and counts[1] <= 2400

@@ -307,10 +307,9 @@ def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.M
     Of a long Lagrangian by sweeps; of a short one for velocities of one's own as they are projected, or by the equations of
     Boltzmann and Hamel: whichever takes fewer operations.
     """
-    given, first = system.kinematics, velocity_stages(system)
     if _is_long(system):
-        stages, M, rest = swept_equations(system)
-        return [*first, *stages], M, rest + (given.B.T * system.push if given else system.push)
+        return swept_equations(system)
+    given, first = system.kinematics, velocity_stages(system)
     M, push = system.mass, system.push - system.bias
     if given is None:
         return first, M, push

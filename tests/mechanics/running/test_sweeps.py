@@ -12,7 +12,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics import Coordinates, System, SystemRun, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.running.programs import equations_of_speeds
-from lagrotor.mechanics.running.sweeps import backward_sweep, expression_stages, forward_sweep
+from lagrotor.mechanics.running.sweeps import backward_sweep, expression_stages, forward_sweep, without_turns
 from lagrotor.numerics import operations
 
 
@@ -53,6 +53,17 @@ def test_a_term_that_is_left_twice_in_a_sum_counts_twice() -> None:
         for name, part in reversed(keep.made):
             short = short.xreplace({name: part})
         assert sp.expand(short - (times * a + b + d) * sp.cos(a + b)) == 0
+
+
+def test_squares_of_turned_components_lose_the_turn() -> None:
+    """Two turns one after another; not where the weights differ, or a sign makes it no turn."""
+    a, b, d, x, y, m, n = sp.symbols("a b d x y m n", real=True)
+    p, q, s = a * sp.cos(x) + b * sp.sin(x), b * sp.cos(x) - a * sp.sin(x), d + a
+    turned = (p * sp.cos(y) - s * sp.sin(y)) ** 2 + (p * sp.sin(y) + s * sp.cos(y)) ** 2 + q**2
+    assert sp.expand(without_turns(1 + m * turned / 2) - 1 - m * (a**2 + b**2 + s**2) / 2) == 0
+    assert not without_turns(m * turned).has(sp.sin, sp.cos)
+    for kept in (m * p**2 + n * q**2, m * p**2 + m * (b * sp.cos(x) + a * sp.sin(x)) ** 2, m * p**2 + m * (q + d) ** 2):
+        assert without_turns(kept) == kept
 
 
 @pytest.mark.parametrize("n", [6, 9])
