@@ -49,10 +49,12 @@ def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
 def read_text(path: str | Path, otherwise: str = "") -> str:
     """The UTF-8 text of a file; otherwise: the encoding of one that is not. Raises InputError where there is none."""
     try:
-        return Path(path).read_text(encoding="utf-8")
+        with Path(path).open("rb") as file:
+            wide = file.read(2) in (b"\xff\xfe", b"\xfe\xff")
+        return Path(path).read_text(encoding="utf-16" if wide else "utf-8-sig")
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}: give a file that can be read") from None
-    except UnicodeDecodeError:
+    except UnicodeError:
         if otherwise:
             return Path(path).read_text(encoding=otherwise)
         raise InputError(f"{path} is no text in UTF-8: give a file that is") from None

@@ -67,7 +67,8 @@ def _add_reading_commands(command: Command) -> None:
 
     added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
     added.description = (
-        "Check a source without any derivation: each step of a chain, equations against those before, units, letters.\n"
+        "Check a source without any derivation: each step of a chain, equations against those before, units, letters; what is not\n"
+        "ended is named.\n"
         "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
     )
     added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex, .md or .ipynb file")
@@ -210,7 +211,7 @@ def derive_command(given: argparse.Namespace) -> int:
 
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.readable import readable
-    from lagrotor.paper.source.check import FOUND, WRONG, check_source
+    from lagrotor.paper.source.check import FAULT, FOUND, WRONG, check_source
     from lagrotor.paper.source.markup import read_source
     from lagrotor.paper.source.usage import declared_notation
     from lagrotor.paper.title_page import toml
@@ -232,12 +233,8 @@ def check_command(given: argparse.Namespace) -> int:
         for source, each in found:
             if given.all or each.verdict in FOUND:
                 step = f", step {each.step}" if each.step else ""
-                print(
-                    wrap(
-                        f"{each.file or source}:{each.line}: ({each.equation}){step}: {each.verdict}: {readable(each.why)}",
-                        4,
-                    )
-                )
+                of = "" if each.verdict == FAULT else f"({each.equation}){step}: {each.verdict}: "
+                print(wrap(f"{each.file or source}:{each.line}: {of}{readable(each.why) if of else each.why}", 4))
         counts = Counter(each.verdict for _, each in found)
         nothing = (
             f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: lagrotor init FOLDER --from FILE makes "

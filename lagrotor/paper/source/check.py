@@ -38,11 +38,11 @@ from lagrotor.paper.source.tree import (
 )
 from lagrotor.paper.source.usage import Notation, letters_printed, notation_of
 
-HOLDS, REFUTED, UNITS, MEANINGS, BEFORE = (
-    "would hold", "would be refuted", "dimensions differ", "two meanings", "used before it is given",
+HOLDS, REFUTED, UNITS, MEANINGS, BEFORE, FAULT = (
+    "would hold", "would be refuted", "dimensions differ", "two meanings", "used before it is given", "no LaTeX",
 )  # fmt: skip
-FOUND = (REFUTED, UNITS, MEANINGS, BEFORE)
-WRONG = (REFUTED, UNITS)
+FOUND = (REFUTED, UNITS, MEANINGS, BEFORE, FAULT)
+WRONG = (REFUTED, UNITS, FAULT)
 # Terms of which each is tried with the other sign, to say what is wrong; operations of what is brought over one denominator;
 # work, in parts looked at, beyond which a step is not decided.
 _MOST_TERMS, _MOST_OPERATIONS, _MOST_WORK = 12, 2000, 200_000
@@ -61,7 +61,10 @@ _ANY_BASE = "log is"
 
 @dataclass(frozen=True)
 class StepFinding:
-    """What was found of one equation: `step` counts the relations of its chain from 1; 0: of the whole."""
+    """What was found of one equation: `step` counts the relations of its chain from 1; 0: of the whole.
+
+    equation: empty where LaTeX itself would stop at the line.
+    """
 
     equation: str
     step: int
@@ -90,7 +93,11 @@ def check_source(source: Source, said: Notation | None = None) -> list[StepFindi
     readings = [(each, read_formula(each.latex, notation, each.lead)) for each in source.equations]
     checker = _Checker(source, readings, notation)
     order = {each.id: place for place, each in enumerate(source.equations)}
-    return sorted(checker.findings(), key=lambda found: (order[found.equation], found.step))
+    main = source.equations[0].place[0] if source.equations else ""
+    faults = [
+        StepFinding("", 0, n, FAULT, said, file if main not in ("", file) else "") for file, n, said in source.faults
+    ]
+    return faults + sorted(checker.findings(), key=lambda found: (order[found.equation], found.step))
 
 
 class _Checker:

@@ -1,13 +1,15 @@
 r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.paper.source import packages
 from lagrotor.paper.source.counters import Counters
-from lagrotor.paper.source.expansion import Expander, Macro
+from lagrotor.paper.source.expansion import Expander
+from lagrotor.paper.source.groups import Macro
 from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
 
 # Each row of these is an equation with a number of its own; the others have one number.
@@ -28,6 +30,13 @@ _PAIRS = ("align", "alignat", "flalign", "xalignat", "xxalignat")  # in which ev
 _WITH_ARGUMENT = ("alignat", "xalignat", "xxalignat", "IEEEeqnarray", "numcases", "subnumcases")
 _NEVER = ("displaymath", "xxalignat")
 _LEVELS = ("part", "chapter", "section", "subsection", "subsubsection")
+UNCLOSED = "unclosed@"  # what Markdown leaves of $$ without a partner
+_FAULTS = {
+    UNCLOSED: "$$ is not closed",
+    "verb": r"\verb is not closed in its line",
+    "]": r"\] ends nothing that has begun",
+    ")": r"\) ends nothing that has begun",
+}
 _BETWEEN = (r"\intertext", r"\shortintertext")
 _ROW_ENDS = (r"\\", r"\cr", *_BETWEEN)
 _NO_NUMBER = (r"\nonumber", r"\notag", r"\IEEEnonumber")
@@ -36,6 +45,9 @@ _RELATIONS = re.compile(
     r"[=<>]|\\(?:approx|sim|simeq|equiv|neq|ne|leq?|geq?|ll|gg|propto|to|cong|doteq|in|Rightarrow|implies|iff|Leftrightarrow"
     r"|overset|stackrel|longrightarrow|rightarrow|lesssim|gtrsim)(?![A-Za-z])"
 )
+_EMPTY_LINE = re.compile(r"\n\s*\n\s*")
+_PROSE = re.compile(r"[A-Za-z]{3,}[\s,.:]|[A-Za-z]{2,}\s+[A-Za-z]{2,}")
+_NO_FORMULA = (r"\[", r"\]", *(rf"\{level}" for level in _LEVELS))  # in none of these does TeX go on
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
 
 
@@ -62,7 +74,8 @@ class Displayed:
 class Source:
     """What a source says of a paper: title, authors, section number → heading, displayed equations; inline formula → section.
 
-    notes: what could not be known of it; preamble: packages that its formulas need.
+    notes: what could not be known of it; faults: file, line, and what TeX would stop at there; preamble: packages that its
+    formulas need.
     """
 
     title: str
@@ -71,6 +84,7 @@ class Source:
     equations: list[Displayed] = field(default_factory=list)
     inline: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    faults: list[tuple[str, int, str]] = field(default_factory=list)
     preamble: str = ""
     labels: dict[str, str] = field(default_factory=dict)
 
@@ -94,9 +108,13 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
     try:
         walker = _Walker(text, file, found)
         walker.read()
+        if bare := not walker.body and r"\begin{document}" in text:  # lost in what a package beside the source does
+            found = Source(title)
+            walker = _Walker(text, file, found, bare=bare)
+            walker.read()
         if walker.only_cited:  # what has a number is known at the end
             found = Source(title)
-            _Walker(text, file, found, numbered=walker.referred).read()
+            _Walker(text, file, found, walker.referred, bare).read()
     except RecursionError:
         raise InputError(f"{file or 'the source'}: environments are nested too deeply: write them in parts") from None
     return found
@@ -105,9 +123,11 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
 class _Walker:
     """Walks through the expanded tokens and keeps the counters that LaTeX keeps."""
 
-    def __init__(self, text: str, file: Path | None, found: Source, numbered: set[str] | None = None) -> None:
+    def __init__(
+        self, text: str, file: Path | None, found: Source, numbered: set[str] | None = None, bare: bool = False
+    ) -> None:
         whole = r"\documentclass" in text
-        self.expander = Expander(text, file, packages.commands((), everything=not whole))
+        self.expander = Expander(text, file, packages.commands((), everything=not whole), bare)
         self.found, self.whole = found, whole
         self.section, self.bare, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0
@@ -131,6 +151,13 @@ class _Walker:
                 self._command(token)
             elif token.kind == "math" and self.body:
                 self._math(token)
+        else:
+            if self.whole and self.body:
+                self.expander.macros.fault(len(self.expander.starts[0][3]) - 1, "", r"\end{document} is missing")
+        self.expander.macros.close_to(0)
+        if self.whole and not self.body:
+            self.expander.macros.fault(0, "", r"\begin{document} is missing")
+        self.found.faults = self.expander.faults()
         self.found.notes = list(dict.fromkeys(self.expander.notes))
         self.found.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED if name in self.expander.loaded)
 
@@ -149,17 +176,14 @@ class _Walker:
             self._section(name, latex_of(self.expander.argument()), star)
         elif name == "label" and self.expander.stepped:
             self.found.labels.setdefault(self._name(), self.expander.stepped)
-        elif name == "title":
-            self.expander.optional()
-            self.found.title = _plain(latex_of(self.expander.argument())) or self.found.title
-        elif name == "author":
-            self.expander.optional()
-            names = re.split(r"\\and\b|\\\\|,", latex_of(self.expander.argument()))
-            self.found.authors += tuple(filter(None, map(_plain, names)))
+        elif name in ("title", "author"):
+            self._title_page(name)
         elif name == "[":
             self._display("displaymath", token, r"\]", starred=True)
         elif name == "(":
-            self._inline(r"\)")
+            self._inline(r"\)", token)
+        elif name in _FAULTS and self.body:
+            self.expander.macros.fault(token.at, "", _FAULTS[name])
         elif name == "appendix":
             self.counters.begin_appendix()
         elif name in ("frontmatter", "mainmatter", "backmatter"):
@@ -170,6 +194,14 @@ class _Walker:
             labels = [label.strip() for label in self._name().split(",")]
             self.cited += labels
             self.referred.update(labels if name in ("eqref", "refeq") else ())
+
+    def _title_page(self, name: str) -> None:
+        self.expander.optional()
+        said = latex_of(self.expander.argument())
+        if name == "title":
+            self.found.title = _plain(said) or self.found.title
+        else:
+            self.found.authors += tuple(filter(None, map(_plain, re.split(r"\\and\b|\\\\|,", said))))
 
     def _begin(self, name: str, token: Token) -> None:
         if name == "document":
@@ -231,8 +263,11 @@ class _Walker:
         before = len(self.found.equations)
         for token in self.expander.tokens():
             if token.text == r"\end":
-                if self._name() == end:
+                name = self._name()
+                if name == end:
                     return
+                if name == "document":
+                    return self.expander.push(tokenize(r"\end{document}", token.at))
             elif token.text == r"\label" and len(self.found.equations) == before:
                 self.found.labels.setdefault(self._name(), self.parent)
             elif token.kind == "command":
@@ -263,19 +298,28 @@ class _Walker:
         if token.text == "$$":
             self._display("displaymath", token, "$$", starred=True)
         else:
-            self._inline("$")
+            self._inline("$", token)
 
-    def _inline(self, end: str) -> None:
+    def _inline(self, end: str, begin: Token) -> None:
         found: list[Token] = []
+        macros = self.expander.macros
+        level = len(macros.groups)
         for token in self.expander.tokens():
-            if token.text == end or (token.text == "$$" and end == "$"):
+            if token.text == end and (end != "$" or len(macros.groups) <= level):  # \text{if $x$} is within
+                macros.close_to(level)
                 break
-            stray = token.kind == "text" and re.search(r"\n\s*\n", token.text)
-            if stray or token.text == r"\begin" or len(found) > 4000:
-                self.expander.push([token])  # a dollar sign that was not closed
+            stray = token.kind == "text" and _EMPTY_LINE.search(token.text)
+            if stray or token.text in _NO_FORMULA or self._is_display(token) or len(found) > 4000:
+                macros.fault(begin.at, begin.text, f"{begin.text} is not closed in its paragraph")
+                macros.close_to(level, say=False)
+                self.expander.push([token])
                 return
             found.append(token)
         self.found.inline.setdefault(latex_of(found).strip(), self.section)
+
+    def _is_display(self, token: Token) -> bool:
+        r"""Whether a token is the \begin of a display."""
+        return token.text == r"\begin" and self.expander.following().rstrip("*") in _ENVIRONMENTS
 
     def _inline_environment(self) -> None:
         for token in self.expander.tokens():
@@ -295,11 +339,7 @@ class _Walker:
             self.counters.step("equation")
             row.stepped = True
         depth = braces = 0
-        for part in self.expander.tokens():
-            if (part.text == end and part.kind in ("command", "math")) or (part.text == r"\end" and depth == 0):
-                if part.text == r"\end":
-                    self._name()
-                break
+        for part in self._inside(token, end):
             depth += {r"\begin": 1, r"\end": -1}.get(part.text, 0)
             braces += {"open": 1, "close": -1}.get(part.kind, 0)
             if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or part.text in _BETWEEN):
@@ -316,6 +356,45 @@ class _Walker:
         if end == "$$" and not row.tag:
             self._number_behind(row)
         self._keep(rows, kind, token, lead or [])
+
+    def _inside(self, begin: Token, end: str) -> Iterator[Token]:
+        """The tokens of a display until it ends. Where TeX would stop since it is not ended, it is ended, and that is said."""
+        macros = self.expander.macros
+        level = len(macros.groups)
+        paragraph = False  # whether an empty line came
+        for part in self.expander.tokens():
+            if part.text == end and part.kind in ("command", "math") and (end != "$$" or macros.innermost() < level):
+                return macros.close_to(level)
+            if part.text == r"\end":
+                if self.expander.level is not None and self.expander.level < level:
+                    if begin.text == r"\begin":
+                        self._name()
+                        return None
+                    self.expander.level = None
+                    self.expander.push([part])
+                    break
+                if self.expander.following() == "document":
+                    self.expander.push([part])
+                    break
+            if part.kind == "text" and (line := _EMPTY_LINE.search(part.text)):
+                paragraph = True
+                if len(macros.groups) == level and _PROSE.match(part.text, line.end()):
+                    yield Token("text", part.text[: line.start()], part.at)
+                    self.expander.push([Token("text", part.text[line.start() :], part.at + line.start())])
+                    break
+            if part.text in (*_NO_FORMULA, "$$") and part.text != end and (paragraph or len(macros.groups) == level):
+                self.expander.push([part])
+                break
+            if paragraph and self._is_display(part):
+                macros.close_to(len(macros.groups) - 1, say=False)
+                self.expander.push([part])
+                break
+            yield part
+        if begin.text == r"\begin":
+            macros.close_to(level - 1)
+        else:
+            macros.fault(begin.at, begin.text, f"{begin.text} is not closed")
+            macros.close_to(level)
 
     def _ended(self, part: Token) -> bool:
         r"""Take the star and the space behind \\, the text of \intertext."""
@@ -464,7 +543,8 @@ class _Walker:
             identifier += "'"
         self.ids.add(identifier)
         self.found.sections.setdefault(self.section, "Before the first section")
-        places = [next((t.at for t in row.tokens if t.text.strip(" \n\t&")), token.at) for row in group]
+        firsts = [next((t for t in row.tokens if t.text.strip(" \n\t&")), token) for row in group]
+        places = [first.at + len(first.text) - len(first.text.lstrip()) for first in firsts]
         lines = [self.expander.line(at) for at in places]
         label = labels[0] if labels else ""
         self.found.equations.append(

@@ -4,14 +4,15 @@ Nothing is executed: definitions are lists of tokens, and their expansion is bou
 """
 
 import re
+from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.files import read_text
 from lagrotor.paper.source.counters import Counters
+from lagrotor.paper.source.groups import Macro, Macros
 from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
 
 # Expansions of what stands at one place, and tokens that wait; beyond, a macro calls itself without end.
@@ -27,46 +28,8 @@ _ENVIRONMENTS = (r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnviron
 _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
 _DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "displaymath", "subequations")
 _HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection", r"\appendix")
+_OPENING, _CLOSING = ("{", r"\left", r"\begingroup", r"\bgroup"), ("}", r"\right", r"\endgroup", r"\egroup")
 _SHOWN = (r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph")
-
-
-@dataclass(frozen=True)
-class Macro:
-    """A definition: `head`, what must follow its name, arguments as #1; `default` of an optional first argument."""
-
-    body: tuple[Token, ...]
-    head: tuple[Token, ...] = ()
-    default: tuple[Token, ...] | None = None
-    spec: str = ""
-
-
-class ScopedMacros(dict[str, Macro | None]):
-    """Definitions by name, which end with the group that they are made in."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._before: list[dict[str, Macro | None]] = []  # of each open group, what its definitions hide; None: nothing
-
-    def open(self) -> None:
-        self._before.append({})
-
-    def close(self) -> None:
-        for name, macro in (self._before.pop() if self._before else {}).items():
-            if macro is None:
-                super().pop(name, None)
-            else:
-                super().__setitem__(name, macro)
-
-    def __setitem__(self, name: str, macro: Macro | None) -> None:
-        if self._before:
-            self._before[-1].setdefault(name, self.get(name))
-        super().__setitem__(name, macro)
-
-    def define_globally(self, name: str, macro: Macro) -> None:
-        """As \\gdef does: for all groups that are open."""
-        for hidden in self._before:
-            hidden.pop(name, None)
-        super().__setitem__(name, macro)
 
 
 # A command of a package: takes its arguments from the source and gives the tokens that stand for it.
@@ -76,11 +39,13 @@ Package = Callable[["Expander"], Iterable[Token] | None]
 class Expander:
     """The expanded tokens of a source, one after the other, by `tokens()`."""
 
-    def __init__(self, text: str, file: Path | None = None, packages: dict[str, Package] | None = None) -> None:
-        self.file, self.packages = file, packages or {}
+    def __init__(
+        self, text: str, file: Path | None = None, packages: dict[str, Package] | None = None, bare: bool = False
+    ) -> None:
+        self.file, self.packages, self.bare = file, packages or {}, bare  # bare: without the packages beside the source
         self.own: dict[str, Package] = {}  # commands that the source defines and no list of tokens can hold
-        self.macros = ScopedMacros()
-        self.ended = False
+        self.macros = Macros()
+        self.level: int | None = None  # to which groups are closed, once what read an environment has its number
         self.original = False  # whether the environment that comes next is the one that the source has defined anew
         self.theorems: dict[str, str] = {}  # environments that count: their counter
         self.environments: dict[str, tuple[Macro, tuple[Token, ...]]] = {}
@@ -93,28 +58,44 @@ class Expander:
         self.depth = self.files = 0
         self.expansions: Counter[int] = Counter()  # by place: what a macro stands for has the place of the macro
         self.most = _MOST_TOKENS  # tokens that may wait: those of the files, and what expansions add
-        self.starts: list[tuple[int, str, list[int]]] = []  # where each file begins, its name, its ends of lines
+        self.starts: list[
+            tuple[int, str, list[int], str]
+        ] = []  # where each file begins, its name, its ends of lines, its text
         self.end = 0
+        self.reading: list[tuple[Path, list[Token]]] = []  # files, and what is left of each
         self.waiting: list[list[Token]] = []  # tokens in reverse order, the innermost file or expansion last
-        self.ended_environments: list[tuple[Token, ...]] = []
-        self._take_in(text, file.name if file else "")
+        self._take_in(text, file or Path())
 
-    def _take_in(self, text: str, name: str) -> None:
+    def _take_in(self, text: str, file: Path) -> None:
         text = text.translate(_CONTROL)
         self.files += 1
+        self.reading = [each for each in self.reading if any(each[1] is tokens for tokens in self.waiting)]
+        if file in (known for known, _ in self.reading):
+            raise InputError(f"{file} takes in itself, by itself or through another file: leave out one \\input")
         if self.files > _MOST_FILES:
-            raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: one may take in itself")
-        self.starts.append((self.end, name, [m.start() for m in re.finditer("\n", text)]))
+            raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: give its parts")
+        self.starts.append((self.end, file.name, [m.start() for m in re.finditer("\n", text)], text))
         self.waiting.append(tokenize(text, self.end)[::-1])
+        self.reading.append((file, self.waiting[-1]))
         self.most += len(self.waiting[-1])
         self.end += len(text) + 1
 
     def line(self, at: int) -> tuple[str, int]:
         """The file and the line of a place."""
-        from bisect import bisect_left
-
-        start, name, ends = max((each for each in self.starts if each[0] <= at), key=lambda each: each[0])
+        start, name, ends, _ = self._file(at)
         return name, bisect_left(ends, at - start) + 1
+
+    def _file(self, at: int) -> tuple[int, str, list[int], str]:
+        return self.starts[bisect_right(self.starts, at, key=lambda each: each[0]) - 1]
+
+    def faults(self) -> list[tuple[str, int, str]]:
+        """File and line of what TeX would stop at, where the source itself has it: of a macro's parts too little is known."""
+        made = []
+        for at, mark, said in sorted(self.macros.faults):
+            start, name, _, text = self._file(at)
+            if at >= 0 and text.startswith(mark, at - start) and not self._is_style(name):
+                made.append((*self.line(at), said))
+        return list(dict.fromkeys(made))
 
     # ---- tokens without expansion
 
@@ -158,14 +139,20 @@ class Expander:
             self.push([token] if token else [])
             return []
         if token.kind == "open":
-            return self.group()
+            return self.group(token.at)
         if token.kind == "text" and len(token.text) > 1:
             self.push([Token("text", token.text[1:], token.at + 1)])
             return [Token("text", token.text[0], token.at)]
         return [token]
 
-    def group(self) -> list[Token]:
-        """What is before the brace that closes the open one."""
+    def following(self) -> str:
+        """The argument in braces that comes next, which stays, as plain text."""
+        found = self.argument()
+        self.push([Token("open", "{", 0), *found, Token("close", "}", 0)])
+        return latex_of(found).strip()
+
+    def group(self, at: int) -> list[Token]:
+        """What is before the brace that closes the one at a place."""
         found: list[Token] = []
         depth = 1
         while (token := self.next()) is not None:
@@ -173,6 +160,7 @@ class Expander:
             if depth == 0:
                 return found
             found.append(token)
+        self.macros.fault(at, "{", "{ is not closed: what follows is taken as its argument")
         return found
 
     def delimited(self, opening: str, closing: str) -> list[Token] | None:
@@ -184,7 +172,7 @@ class Expander:
             return None
         self.push([Token("text", token.text[1:], token.at + 1)] if token.text[1:] else [])
         found: list[Token] = []
-        braces, depth = 0, 1
+        at, braces, depth = token.at, 0, 1
         while (token := self.next()) is not None:
             if token.kind == "text" and not braces:
                 for place, character in enumerate(token.text):
@@ -199,7 +187,8 @@ class Expander:
                 self.push([token])
                 return found
             found.append(token)
-        return found
+        self.push([Token("text", opening, at), *found])
+        return None
 
     def optional(self) -> list[Token] | None:
         """An optional argument, [..]; None where there is none."""
@@ -223,16 +212,19 @@ class Expander:
     def tokens(self) -> Iterator[Token]:
         """Every token that is left after expansion, definitions and conditions taken out."""
         while (token := self.next()) is not None:
-            if self.ended:  # the group of an environment, once what read it has its number
-                self.macros.close()
-                self.ended = False
+            if self.level is not None:
+                self.macros.close_to(self.level, say=False)
+                self.level = None
             if token.kind == "scope":
-                self.macros.close()
+                self.macros.close_to(self.macros.end_environment(token.text, token.at), say=False)
                 continue
-            if token.kind == "open" or token.text in (r"\begingroup", r"\bgroup"):
-                self.macros.open()
-            elif token.kind == "close" or token.text in (r"\endgroup", r"\egroup"):
-                self.macros.close()
+            if token.kind != "text" and token.text not in self.macros:
+                if token.text in _OPENING:
+                    self.macros.open(token.text, token.at)
+                elif token.text in _CLOSING:
+                    self.macros.close(token)
+                elif token.kind == "align" or token.text == r"\\":
+                    self.macros.end_cell()
             if token.kind == "command":
                 if not self._expanded(token):
                     yield token
@@ -245,12 +237,13 @@ class Expander:
 
     def expand(self, tokens: Iterable[Token]) -> list[Token]:
         """These tokens, expanded by themselves."""
-        kept = self.waiting, self.ended
-        self.waiting, self.ended = [list(tokens)[::-1]], False
+        kept, level, depth = self.waiting, self.level, len(self.macros.groups)
+        self.waiting, self.level = [list(tokens)[::-1]], None
         try:
             return list(self.tokens())
         finally:
-            self.waiting, self.ended = kept
+            self.waiting, self.level = kept, level
+            self.macros.close_to(depth, say=False)
 
     def _expanded(self, token: Token) -> bool:
         """Whether the token stood for others, which now come next, or defined something."""
@@ -271,10 +264,10 @@ class Expander:
         if name in _HANDLERS:
             return _HANDLERS[name](self, token)
         if name.startswith(r"\if") and is_word(token) and name != r"\iff":
-            return self._condition(name[1:])
+            return self._condition(token)
         if name in (r"\else", r"\fi"):
             if name == r"\else":
-                self._skip_to(("fi",))
+                self._skip_to(("fi",), token)
             return True
         if name.startswith(r"\the") and name[4:] in self.counters.values:
             self.push(self._plain(self.printed(name[4:]), token.at))
@@ -433,8 +426,9 @@ class Expander:
 
     # ---- conditions
 
-    def _condition(self, name: str) -> bool:
+    def _condition(self, token: Token) -> bool:
         r"""Take the branch of \if…: what cannot be known is taken as false."""
+        name = token.text[1:]
         if name == "ifnum":
             holds = self._compared()
         elif name in ("iftrue", "ifmmode", "ifpdf", "ifPDFTeX"):
@@ -463,7 +457,7 @@ class Expander:
         else:
             return False
         if not holds:
-            self._skip_to(("else", "fi"))
+            self._skip_to(("else", "fi"), token)
         return True
 
     def _same(self, first: Token, second: Token) -> bool:
@@ -490,13 +484,15 @@ class Expander:
                 right_text = right[0] if right else ""
                 rest = token.text[sign.end() + len(right_text) :]
                 right_tokens = [Token("text", right_text, token.at)] if right else found[place + 1 :]
-                self.push([Token("text", rest, token.at)] if rest and right else [])
+                if right:
+                    self.push([*self._plain(rest, token.at), *found[place + 1 :]])
                 a, b = self._number(left_tokens), self._number(right_tokens)
                 return {"<": a < b, ">": a > b, "=": a == b}[relation]
+        self.push(found)
         self.notes.append(r"\ifnum is taken as false")
         return False
 
-    def _skip_to(self, ends: tuple[str, ...]) -> None:
+    def _skip_to(self, ends: tuple[str, ...], condition: Token) -> None:
         """Leave out tokens to the \\else or \\fi of this condition."""
         depth = 0
         while (token := self.next()) is not None:
@@ -509,6 +505,7 @@ class Expander:
                 depth -= 1
             elif word.startswith("if") and word not in _NO_CONDITIONS:
                 depth += 1
+        self.macros.fault(condition.at, condition.text, rf"{condition.text} has no \fi: what follows is left out")
 
     # ---- definitions
 
@@ -534,7 +531,8 @@ class Expander:
         """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here, or reads ahead."""
         known = name in _HEADINGS or name in _HANDLERS
         return any(
-            t.text in (r"\@setfontsize", r"\futurelet") or (known and "@" in t.text and t.kind == "command")
+            t.text in (r"\@setfontsize", r"\futurelet", r"\not@math@alphabet")
+            or (known and "@" in t.text and t.kind == "command")
             for t in body
         )
 
@@ -573,10 +571,10 @@ class Expander:
         head: list[Token] = []
         while (part := self.next()) is not None and part.kind != "open":
             head.append(part)
-        body = self.group()
+        body = self.group(token.at)
         if target is not None and target.kind == "command" and not self._is_kept(target.text, body):
-            if token.text in (r"\edef", r"\xdef"):
-                body = self.expand(body)
+            if token.text in (r"\edef", r"\xdef"):  # a command that is not known yet cannot stand for itself
+                body = [part for part in self.expand(body) if part.text != target.text]
             macro = Macro(tuple(body), tuple(head))
             if token.text in (r"\gdef", r"\xdef"):
                 self.macros.define_globally(target.text, macro)
@@ -658,11 +656,11 @@ class Expander:
         name = self.argument()
         known = self._environment_of(name)
         if known is None and (command := self._command_of(latex_of(name).strip(), "", token.at)):
-            self.macros.open()
+            self.macros.open(latex_of(name).strip(), token.at)
             self.push([command])
             return True
         if latex_of(name).strip() != "document":
-            self.macros.open()
+            self.macros.open(latex_of(name).strip(), self._own_place(known, token))
         if known is None:
             if (counter := self.theorems.get(latex_of(name).strip())) is not None:
                 self.counters.step(counter)
@@ -676,15 +674,30 @@ class Expander:
         name = self.argument()
         known = self._environment_of(name)
         if known is None and (command := self._command_of(latex_of(name).strip(), "end", token.at)):
-            self.push([command, Token("scope", "", token.at)])
+            self.push([command, Token("scope", latex_of(name).strip(), token.at)])
             return True
         if known is None:
-            self.ended = latex_of(name).strip() != "document"
+            if latex_of(name).strip() != "document":
+                self.level = self.macros.end_environment(latex_of(name).strip(), token.at)
             self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
             return False
         self._count(rf"\end{{{latex_of(name)}}}", token.at)
-        self.push([*(Token(t.kind, t.text, token.at) for t in known[1]), Token("scope", "", token.at)])
+        self.push(
+            [
+                *(Token(t.kind, t.text, token.at) for t in known[1]),
+                Token("scope", latex_of(name).strip(), self._own_place(known, token)),
+            ]
+        )
         return True
+
+    def _own_place(self, known: tuple[Macro, tuple[Token, ...]] | None, token: Token) -> int:
+        """The place of a token; none where a package beside the source defines the environment and may end its parts."""
+        parts = (*known[0].body, *known[1]) if known else ()
+        return -1 if parts and self._is_style(self._file(parts[0].at)[1]) else token.at
+
+    @staticmethod
+    def _is_style(name: str) -> bool:
+        return name.endswith((".sty", ".cls", ".def"))
 
     def _command_of(self, name: str, verb: str, at: int) -> Token | None:
         r"""\begin{x} is \x where the source defines \x and \endx."""
@@ -710,18 +723,22 @@ class Expander:
             self.push([Token("text", following.text[len(name) :], following.at)])
         else:
             name = self.name()
-        self.read_file(name)
+        return self._part(name, token)
+
+    def _part(self, name: str, token: Token) -> bool:
+        """Take in a part of the source, a note where it is missing."""
+        if not self.read_file(name) and self.file is not None:
+            self.notes.append(f"{name} is missing, which line {self.line(token.at)[1]} takes in")
         return True
 
     def _import(self, token: Token) -> bool:
         self.star()
         folder, name = self.name(), self.name()
-        self.read_file(f"{folder.rstrip('/')}/{name}")
-        return True
+        return self._part(f"{folder.rstrip('/')}/{name}", token)
 
     def read_file(self, name: str, suffixes: tuple[str, ...] = (".tex", "")) -> bool:
-        """Take in a file beside the source; a note where it is missing."""
-        if self.file is None:
+        """Take in a file beside the source; whether it is there."""
+        if self.file is None or (self.bare and suffixes[0] != ".tex"):
             return False
         for suffix in suffixes:
             for folder in (self.file.parent, self.file.parent.parent):
@@ -731,10 +748,8 @@ class Expander:
                         (each for each in path.parent.iterdir() if each.name.lower() == path.name.lower()), path
                     )
                 if path.is_file() and path.suffix in (".tex", ".sty", ".cls", ".ltx", ".def", ".inp"):
-                    self._take_in(read_text(path, "latin-1"), path.name)
+                    self._take_in(read_text(path, "latin-1"), path)
                     return True
-        if suffixes[0] == ".tex":
-            self.notes.append(f"{name} is missing")
         return False
 
     def _use(self, token: Token) -> bool:
@@ -772,7 +787,7 @@ class Expander:
             if path.is_file():
                 preamble = read_text(path, "latin-1").partition(r"\begin{document}")[0]
                 self.document_class = ""
-                self._take_in(preamble, path.name)
+                self._take_in(preamble, path)
 
     def _counted(self, token: Token) -> bool:
         c, name = self.counters, token.text

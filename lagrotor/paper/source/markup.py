@@ -6,26 +6,37 @@ from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.files import read_text
-from lagrotor.paper.source.displays import Source, read_latex
+from lagrotor.paper.source.displays import UNCLOSED, Source, read_latex
 
 _FENCE = re.compile(
     r"^(?P<fence>`{3,}|~{3,})[ \t]*(?P<info>[^\n`]*)\n(?P<body>.*?)^(?P=fence)`*[ \t]*$", re.MULTILINE | re.DOTALL
 )
 _INLINE = re.compile(r"(?<![\\$\w])\$(?![\s$])((?:[^$\n\\]|\\.|\n(?!\s*\n))*?)(?<!\s)\$(?![\d$])")
-_DISPLAY = re.compile(r"(?<!\\)\$\$(.*?)(?<!\\)\$\$[ \t]*(\n?[ \t]*\((?P<label>[\w:.\-]+)\))?", re.DOTALL)
+_DISPLAY = re.compile(
+    r"(?<!\\)\$\$((?:(?!\n\s*\n\s*(?:[A-Za-z]{3,}[\s,.:]|#)).)*?)(?<!\\)\$\$[ \t]*(\n?[ \t]*\((?P<label>[\w:.\-]+)\))?",
+    re.DOTALL,
+)
 _HEADING = re.compile(r"^(#{1,6})[ \t]+(.*?)[ \t#]*$", re.MULTILINE)
 _LEVELS = ("section", "subsection", "subsubsection")
+_LARGEST = 20  # MB, of which the tokens take some GB
+_CONTROLS = [chr(code) for code in range(32) if chr(code) not in "\t\n\r\f"]
 SUFFIXES = (".tex", ".md", ".myst", ".markdown", ".ipynb", ".ltx", ".latex")
 
 
 def read_source(file: Path) -> Source:
     """The displayed equations of a .tex, .md or .ipynb file. Raises InputError for another one."""
-    if file.suffix not in SUFFIXES:
-        raise InputError(f"--from {file}: give a .tex, .md or .ipynb file")
+    suffix = file.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError(f"{file}: give a .tex, .md or .ipynb file")
+    if file.is_file() and (size := file.stat().st_size / 1e6) > _LARGEST:
+        raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts")
     text = read_text(file, "latin-1")
-    if file.suffix == ".ipynb":
+    controls = sum(map(text.count, _CONTROLS))
+    if text.startswith("%PDF") or 20 * controls > len(text):
+        raise InputError(f"{file} is no text: give the source that it was made from")
+    if suffix == ".ipynb":
         text = _cells(text, file)
-    if file.suffix in (".tex", ".ltx", ".latex"):
+    if suffix in (".tex", ".ltx", ".latex"):
         found = read_latex(text, file, file.stem)
     else:
         title = re.search(r"^# +(.*)$", text, re.MULTILINE) or re.search(r"^title:\s*(.*)$", text, re.MULTILINE)
@@ -38,10 +49,10 @@ def _cells(text: str, file: Path) -> str:
     try:
         notebook = json.loads(text)
         cells = notebook["cells"] if "cells" in notebook else notebook["worksheets"][0]["cells"]
-        sources = [cell["source"] for cell in cells if cell["cell_type"] == "markdown"]
+        sources = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown"]
     except (ValueError, KeyError, TypeError, IndexError):
-        raise InputError(f"--from {file}: it is no notebook: give one that Jupyter can open") from None
-    return "\n\n".join(source if isinstance(source, str) else "".join(source) for source in sources)
+        raise InputError(f"{file}: it is no notebook: give one that Jupyter can open") from None
+    return "\n\n".join(sources).encode("utf-8", "replace").decode()  # half a letter is ?
 
 
 def markdown_as_latex(text: str) -> str:
@@ -58,6 +69,7 @@ def markdown_as_latex(text: str) -> str:
     text = _FENCE.sub(lambda m: keep(_fenced(m["info"].strip(), m["body"]), m[0]), text)
     text = re.sub(r"(?<!`)(`+)(?!`)[^\n]*?(?<!`)\1(?!`)", lambda m: keep("", m[0]), text)
     text = _DISPLAY.sub(lambda m: keep(_displayed(m[1], m["label"] or ""), m[0]), text)
+    text = re.sub(r"(?<!\\)\$\$", lambda m: keep(rf"\{UNCLOSED} ", m[0]), text)
     text = re.sub(r"\\\\\[(.*?)\\\\\]", lambda m: keep(rf"\[{m[1]}\]", m[0]), text, flags=re.DOTALL)
     environments = r"\\begin\{(equation|align|gather|multline|eqnarray)(\*?)\}.*?\\end\{\1\2\}"
     text = re.sub(environments, lambda m: keep(m[0], m[0]), text, flags=re.DOTALL)

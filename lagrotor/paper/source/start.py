@@ -64,10 +64,10 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
         write_text(folder / "paper.toml", re.sub(r"^title = .*$", lambda _: title, about, count=1, flags=re.MULTILINE))
         return Begun(folder, 1, 1)
     given = read_source(source)
+    faults = [f"{file or source.name}:{line}: {said}" for file, line, said in given.faults]
     if not given.equations:
-        raise InputError(
-            f"--from {source}: it has no displayed equation: lagrotor init alone makes a folder to begin with"
-        )
+        why = "; ".join([f"--from {source}: it has no displayed equation", *faults[:3]])
+        raise InputError(f"{why}: lagrotor init alone makes a folder to begin with")
     found, differences = _numbered(given, aux_numbers(source), source)
     old = toml(folder / "equations.toml") if again else {}
     said = toml(folder / "paper.toml").get("notation", {}) if again else {}
@@ -84,7 +84,7 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     _write_symbols(folder, prints, again)
     if not again:
         shutil.copyfile(beside(_EXAMPLE) / "README.md", folder / "README.md")
-    notes = (*found.notes, *differences)
+    notes = (*faults, *found.notes, *differences)
     return Begun(folder, len(prints), sum(each.read for each in prints), notes, tuple(changed), tuple(gone))
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 _VERBATIM = r"verbatim\*?|Verbatim\*?|BVerbatim|lstlisting|minted|comment|filecontents\*?"
 _TOKEN = re.compile(
     rf"(?P<raw>\\begin\{{(?P<name>{_VERBATIM})\}}.*?\\end\{{(?P=name)\}}"
-    r"|\\(?:verb|lstinline)\*?(?P<mark>[^A-Za-z\s*{]).*?(?P=mark))"
+    r"|\\(?:verb|lstinline)\*?(?P<mark>[^A-Za-z\s*{])[^\n]*?(?P=mark)|\\(?:url|href|path|nolinkurl)\s*\{[^{}\n]*\})"
     r"|(?P<comment>%[^\n]*(?:\n[ \t]*)?)"
     r"|(?P<command>\\(?:[A-Za-z@]+|.|\n))"
     r"|(?P<open>\{)|(?P<close>\})|(?P<math>\$\$?)|(?P<align>&)|(?P<script>[\^_])|(?P<param>\#\#?\d?)"
@@ -30,7 +30,7 @@ def tokenize(text: str, base: int = 0) -> list[Token]:
     found = []
     if (short := _SHORT.search(text)) is not None:  # \DefineShortVerb{\|}: what is between two bars is no LaTeX
         mark = re.escape(short[1])
-        text = re.sub(rf"(?<!\\){mark}[^{mark}\n]*{mark}", lambda span: " " * len(span[0]), text)
+        text = re.sub(rf"(?<!\\)(?<!\\verb){mark}[^{mark}\n]*{mark}", lambda span: " " * len(span[0]), text)
     for match in _TOKEN.finditer(text):
         kind = match.lastgroup or "text"
         if kind in ("name", "mark"):
