@@ -67,8 +67,7 @@ def _add_reading_commands(command: Command) -> None:
 
     added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
     added.description = (
-        "Check a source without any derivation: each step of a chain, equations against those before, units, letters; what is not\n"
-        "ended is named.\n"
+        "Check a source without any derivation: what is not ended, each step of a chain, equations against those before, units.\n"
         "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
     )
     added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex, .md or .ipynb file")
