@@ -14,7 +14,7 @@ from itertools import pairwise
 
 from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.read_letter import is_called
+from lagrotor.paper.source.read_letter import is_called, is_entry
 from lagrotor.paper.source.read_statements import PrintedStatement
 from lagrotor.paper.source.rows import (
     TENSOR,
@@ -36,6 +36,7 @@ from lagrotor.paper.source.usage import (
     simple_argument,
     stem_of,
     touch,
+    upper_index,
 )
 
 # Names that are mostly functions: before a bracket they are no factors.
@@ -155,7 +156,7 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
             yield "matrix", f"{box.name} of its argument is a number, and no matrix", ""
         amplitude = after.kind == "function" and after.name in FUNCTIONS and box.name in _AMPLITUDES and not box.marks
         bracketed = after.kind == "bracket" and after.name in ("(", "[", r"\{")
-        held = [] if amplitude or bracketed else [box]
+        held = [] if amplitude or bracketed or (box.upright and box.name in UNITS) else [box]
     elif box.kind == "bracket" and box.name in ("(", "[", r"\{"):
         held = without_thin(box.parts[0])
         applied = [stem_of(b) for b in held if b.kind == "letter"]
@@ -178,6 +179,13 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
 def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     box, after, known = row[place], _behind(row, place), reader.notation
     bracketed = after is not None and after.kind == "bracket" and after.name in ("(", "[", r"\{")
+    if (
+        box.upright
+        and place
+        and (row[place - 1].kind in ("number", "unit") or row[place - 1].upright)
+        and box.name in UNITS
+    ):
+        return  # a unit behind its number
     if after is not None and bracketed:
         yield from _before_bracket(reader, row, place)
     open_ = (
@@ -189,8 +197,8 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         ("differential", box.name == "d" and box.style and not box.sub and after is not None, "is a factor, and no differential"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
         ("sign", not (box.name.isalnum() and (len(box.name) == 1 or f"\\{box.name}" in GREEK or box.upright)), "is a letter"),
-        ("unit", box.upright and (len(box.name) == 1 or box.name in UNITS) and box.name not in ("d", "e", "i", "O")
-         and not (place and (row[place - 1].kind in ("number", "unit") or row[place - 1].upright)), "is no unit or operator"),
+        ("unit", box.upright and (len(box.name) == 1 or box.name in UNITS) and box.name not in ("d", "e", "i", "O"),
+         "is no unit or operator"),
         ("laplacian", _is_laplacian(box, after), "is a letter, and no Laplacian"),
     )  # fmt: skip
     for key, is_open, what in open_:
@@ -263,7 +271,7 @@ def _raised(reader: FormulaReader, box: Box) -> Marks:
     known, row, stem = reader.notation, without_thin(box.sup or []), stem_of(box)
     if (box.name == "e" and "e" not in known.letters) or not row:
         return
-    if not power_in(box):
+    if not power_in(box) or upper_index(known, box):
         word = len(row) == 1 and (row[0].upright or row[0].kind == "text") and len(row[0].name) > 1
         transposed = row[0].name in ("top", "intercal") or (row[0].name == "T" and is_printed_as_vector(box))
         if not (word and row[0].name.islower()) and not transposed:
@@ -294,6 +302,8 @@ def _before_bracket(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     settles = f'functions = "{box.name}" or letters = "{box.name}"'
     if {box.name, name_of(replace(box, primes=0, sup=None)), stem_of(box)} & (known.functions | known.letters):
         return
+    if bracket.name == "[" and is_entry(reader, box, bracket):
+        return  # marked where it is read
     called = bracket.name == "(" and is_called(reader, box, bracket) is True
     if not box.sup and bracket.name == "(":
         evident = _evidence(known, box, content, bracket)
@@ -538,6 +548,8 @@ def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 
 def _nabla(reader: FormulaReader, row: list[Box], place: int) -> Marks:
+    if row[place].sub:
+        yield "index", "the index of \\nabla is what it differentiates by", ""
     if row[place].sup and "hessian" in reader.notation.seen:
         yield "laplacian", "\\nabla^2 is the Laplacian, and no matrix of second derivatives", ""
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.read_derivative import read_advection
+from lagrotor.paper.source.read_derivative import read_advection, read_operators
 from lagrotor.paper.source.read_scripts import index_parts, power_of
 from lagrotor.paper.source.read_statements import read_statement
 from lagrotor.paper.source.rows import all_boxes, derivative_mark, strip, without_thin
@@ -18,6 +18,8 @@ def read_bracket(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
     box = row[place]
     pair = _PLAIN.get(box.name, box.name), _PLAIN.get(box.closing, box.closing)
     content = without_thin(box.parts[0])
+    if pair in (("(", ")"), ("[", "]")) and content and (made := read_operators(reader, row, place)) is not None:
+        return made
     if pair == ("(", ")") and len(content) > 2 and content[-1].kind == "nabla" and content[-2].name == "cdot":
         return read_advection(reader, row, place)
     if (

@@ -2,6 +2,7 @@ r"""Fractions and derivatives: \frac{dx}{dt}, \partial_x u, \nabla f."""
 
 import re
 from dataclasses import replace
+from itertools import pairwise
 
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
@@ -197,20 +198,57 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
 def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     r"""\nabla f, \nabla^2 f; with \cdot and \times it is not read here."""
     box = row[place]
-    if box.sub is not None:
-        raise FormulaError(box.at, "∇ has an index", "write the derivative")
+    if box.sub is not None and (len(box.sub) != 1 or box.sub[0].kind != "letter"):
+        raise FormulaError(box.at, "what ∇ differentiates by is not clear", "write one letter below")
+    by = (letter_of(reader, box.sub[0])[0],) if box.sub else ()
     after = row[place + 1] if place + 1 < len(row) else box
     if after.kind == "operator" and after.name in ("cdot", "times", "wedge") and box.sup is None:
         node, behind = _operand(reader, row, place + 2, box)
-        return Call("divergence" if after.name == "cdot" else "curl", (node,)), behind
+        return Call("divergence" if after.name == "cdot" else "curl", (node, *by)), behind
     node, behind = _operand(reader, row, place + 1, box)
     if box.sup is not None:
         if _order(reader, box) != 2:
             raise FormulaError(box.at, "a power of ∇ is not read", "write the derivatives")
-        return Call("laplacian", (node,)), behind
+        return Call("laplacian", (node, *by)), behind
     if is_vector(node):
         raise FormulaError(box.at, "∇ of a vector is not read", "write \\cdot or \\times")
-    return Call("gradient", (node,)), behind
+    return Call("gradient", (node, *by)), behind
+
+
+def read_square(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    r"""\Box f."""
+    if row[place].sub or row[place].sup:
+        raise FormulaError(row[place].at, "a power of \\Box is not read", "write the derivatives")
+    node, behind = _operand(reader, row, place + 1, row[place])
+    return Call("dalembertian", (node,)), behind
+
+
+def read_operators(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
+    r"""(\nabla^2 + k^2) f as \nabla^2 f + k^2 f: a sum with a derivative of what follows; None where the bracket is none."""
+    box, rest = row[place], strip(row[place + 1 :])
+    content = without_thin(box.parts[0])
+    signs = [k for k, b in enumerate(content) if k and b.kind == "operator" and b.name in ("+", "-")]
+    terms = [content[a:b] for a, b in pairwise([0, *signs, len(content)])]
+    if box.sub or box.sup or not rest or rest[0].kind in ("operator", "comma") or not any(map(_acts, terms)):
+        return None
+    if len(terms) == 1 and len(content) > 2 and content[-2].name == "cdot":
+        return None  # an advection
+    if len(without_thin(rest)) > 1:
+        reader.guess("reach", "the operator in brackets acts on all that follows it")
+    made: list[Box] = []
+    for term in terms:
+        if term[-1].kind == "nabla" and term[-1].sup is None and len(term) > 2 and term[-2].name == "cdot":
+            term = [*term[:-3], Box("bracket", "(", term[-3].at, term[-1].end, [term[-3:]], closing=")")]
+        made += [*term, Box("group", "", rest[0].at, rest[-1].end, [rest])]
+    return reader.expression(made), len(row)
+
+
+def _acts(term: list[Box]) -> bool:
+    """Whether a term ends in a derivative of what follows the bracket."""
+    last = term[-1]
+    return (last.kind in ("nabla", "square") or (last.kind == "partial" and bool(last.sub))) or (
+        last.kind == "fraction" and is_derivative_operator(last)
+    )
 
 
 def read_advection(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:

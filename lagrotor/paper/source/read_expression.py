@@ -22,6 +22,7 @@ from lagrotor.paper.source.read_derivative import (
     read_fraction,
     read_nabla,
     read_partial,
+    read_square,
 )
 from lagrotor.paper.source.read_function import read_function
 from lagrotor.paper.source.read_letter import is_called, read_letter
@@ -52,7 +53,7 @@ _FACTORS: dict[str, Factor] = {
     "number": read_number, "unit": read_unit, "letter": read_letter, "bracket": read_bracket, "group": read_group,
     "root": read_root, "binomial": read_binomial, "infinity": read_infinity, "accent": read_accent, "matrix": read_matrix,
     "cases": read_cases, "fraction": read_fraction, "partial": read_partial, "nabla": read_nabla, "function": read_function,
-    "big": read_sum, "dots": _read_dots,
+    "big": read_sum, "dots": _read_dots, "square": read_square,
 }  # fmt: skip
 
 
@@ -138,7 +139,7 @@ class Grammar(FormulaReader):
             return Call("matmul", tuple(factors))  # in this order
         if sum(map(is_vector, factors)) > 1:
             return _matrices(factors, row)
-        if _is_contracted(row):
+        if _is_contracted(row, self.notation.upper):
             return Call("contraction", tuple(factors))
         return product_of(factors)
 
@@ -273,11 +274,11 @@ def _count(reader: FormulaReader, part: list[Box]) -> int:
     return count
 
 
-def _is_contracted(row: list[Box]) -> bool:
-    """Whether a Greek index stands up and down in a product, and is summed over."""
+def _is_contracted(row: list[Box], upper: set[str]) -> bool:
+    """Whether an index stands up and down in a product, and is summed over."""
     held = [box for box in row if box.kind in ("letter", "partial", "nabla")]
     up, down = ({each.name for box in held for each in (box.sup if high else box.sub) or ()} for high in (True, False))
-    return bool(up & down & set(TENSOR))
+    return bool(up & down & {*TENSOR, *upper})
 
 
 def _matrices(factors: list[Node], row: list[Box]) -> Node:

@@ -43,7 +43,7 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     if not reader.integrating and not before:
         further, behind = _further(reader, row, behind)
     if further:
-        if len(bounds) > 1 or (box.name == "int" and not bounds and variable_of is not differential):
+        if len(bounds) > 1:
             why = "two differentials follow one integral"
             raise FormulaError(box.at, why, "write as many integrals as differentials")
         variable_of = Call("volume", (variable_of, *further))

@@ -57,15 +57,10 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         if called:
             return _call(reader, box, row[place + 1]), place + 2
     if place + 1 < len(row) and row[place + 1].kind == "bracket" and row[place + 1].name == "[":
-        inside = row[place + 1].parts[0]
-        listed = any(b.kind == "comma" for b in inside)
-        operators = any(b.kind == "letter" and (b.name[0].isupper() or "hat" in b.marks) for b in inside)  # A[B, C]
-        if box.sup is None and not (operators if listed else any(b.kind == "operator" for b in inside[1:])):
-            raise FormulaError(
-                box.at,
-                f"whether {box.name}[…] is a functional or a product is open",
-                "write \\cdot, or round brackets",
-            )
+        if is_entry(reader, box, row[place + 1]):
+            reader.guess("entry", f"{box.name}[…] is a function of what the brackets hold, and no product")
+            return _call(reader, box, row[place + 1]), place + 2
+        _check_square(box, row[place + 1].parts[0])
     if box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK:
         after = next((b for b in row[place + 1 :] if b.kind != "thin"), None)
         if after is not None and after.kind not in _ENDING:
@@ -76,6 +71,15 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
             )
     node, raised = letter_of(reader, box)
     return (node if raised else power_of(reader, node, box)), place + 1
+
+
+def _check_square(box: Box, inside: list[Box]) -> None:
+    """Raise FormulaError for square brackets behind a letter that are no sum or commutator."""
+    listed = any(b.kind == "comma" for b in inside)
+    operators = any(b.kind == "letter" and (b.name[0].isupper() or "hat" in b.marks) for b in inside)  # A[B, C]
+    if box.sup is None and not (operators if listed else any(b.kind == "operator" for b in inside[1:])):
+        why = f"whether {box.name}[…] is a functional or a product is open"
+        raise FormulaError(box.at, why, "write \\cdot, or round brackets")
 
 
 def _is_group(row: list[Box]) -> bool:
@@ -123,6 +127,8 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return False
     if any(b.kind == "comma" and b.name != "." for b in content) or box.name == "O":
         return True
+    if given_at(bracket):
+        return True
     evidence = known.called.get(key, known.called.get(plain))
     top = without_thin(content)
     several = any(b.kind == "operator" and b.name in ("+", "-", "pm") for b in top[1:])
@@ -145,9 +151,32 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
     return True if own & evidence or (not own and any(b.kind == "number" for b in top)) else None
 
 
+def given_at(bracket: Box) -> int:
+    """The place of the bar of p(a | b), which parts what is given; 0 where there is none, or more."""
+    content = bracket.parts[0]
+    bars = [
+        k for k, b in enumerate(content) if (b.kind, b.name) == ("bar", "|") or (b.kind, b.name) == ("relation", "mid")
+    ]
+    alone = len(bars) == 1 and not (content[bars[0]].sub or content[bars[0]].sup or bracket.sup)
+    return bars[0] if alone and strip(content[: bars[0]]) and strip(content[bars[0] + 1 :]) else 0
+
+
+def is_entry(reader: FormulaReader, box: Box, bracket: Box) -> bool:
+    """Whether x[n] is x at n: one sign in brackets, or what the paper has so with one sign."""
+    inside = bracket.parts[0]
+    if box.sup is not None or any(b.kind == "comma" for b in inside) or {box.name} & reader.notation.letters:
+        return False
+    single = len(without_thin(inside)) == 1 and simple_argument(inside)
+    return single or (stem_of(box) in reader.notation.applied and stem_of(box) not in reader.notation.factors)
+
+
 def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
     """A function of its arguments; x(t) is the letter x where no x, whatever its index, has another argument in the paper."""
-    given = [reader.expression(part) for part in arguments(bracket.parts[0]) if strip(part)]
+    bar = given_at(bracket)
+    given = [reader.expression(part) for part in arguments(bracket.parts[0][: bar or None]) if strip(part)]
+    if bar:
+        reader.guess("given", f"the bar in the bracket of {box.name} parts what is given")
+        given.append(Call("given", tuple(map(reader.expression, arguments(bracket.parts[0][bar + 1 :])))))
     if box.name == "O" or (box.name == "o" and not box.sub):
         return Call("order" if box.name == "O" else "smaller_than", tuple(given))
     if not given:

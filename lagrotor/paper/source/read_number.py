@@ -40,11 +40,14 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         return Call("quotient", (node, number(100))), unit + 1
     if unit < len(row) and row[unit].kind in ("unit", "text"):
         return product_of([node, _units(reader, row[unit])]), unit + 1
-    if unit < len(row) and row[unit].upright and row[unit].name in UNITS and row[unit].sub is None:
-        if unit == behind and len(row[unit].name) == 1:
+    factors = [node]
+    while unit < len(row) and row[unit].upright and row[unit].name in UNITS and row[unit].sub is None:
+        if unit == behind and len(row[unit].name) == 1 and len(factors) == 1:
             reader.guess("unit", f"upright {row[unit].name} behind a number is a unit")
-        return product_of([node, power_of(reader, Letter(f"unit_{row[unit].name}"), row[unit])]), unit + 1
-    return node, behind
+        factors.append(power_of(reader, Letter(f"unit_{row[unit].name}"), row[unit]))
+        behind = unit + 1
+        unit = next((k for k in range(behind, len(row)) if row[k].kind != "thin"), len(row))
+    return product_of(factors), behind
 
 
 def _value(reader: FormulaReader, text: str, box: Box) -> Fraction:

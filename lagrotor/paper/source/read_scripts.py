@@ -6,7 +6,7 @@ from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.rows import TENSOR, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
-from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of
+from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of, power_in, upper_index
 
 _SIGNS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _INDICES = ("i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
@@ -38,11 +38,20 @@ def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
             return [_SIGNS[inner.name]]
     if len(row) == 1 and row[0].kind == "text":
         return [row[0].name] if row[0].name.isalnum() else None
-    if len(row) == 1 and row[0].kind == "letter" and row[0].upright and len(row[0].name) > 1:
-        return [row[0].name]
+    if (
+        len(row) == 1
+        and _is_plain(row[0])
+        and row[0].name not in ("T", "top", "intercal", "prime")
+        and not power_in(box)
+    ):
+        return [row[0].name + row[0].style]
     if len(row) > 1 and all(_is_plain(b) and b.name in TENSOR for b in row):
         return [b.name for b in row]
-    return None
+    if any(b.kind == "comma" for b in row) and all(_is_plain(b) or b.kind in ("number", "comma", "text") for b in row):
+        names = [b.name + b.style for b in row if b.kind != "comma"]
+        return names if all(name.isalnum() for name in names) else None
+    upper = upper_index(reader.notation, box)
+    return upper if upper and not {*upper} & {*reader.bound} - {*TENSOR} else None
 
 
 def _is_plain(box: Box) -> bool:

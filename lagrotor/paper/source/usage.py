@@ -22,6 +22,8 @@ _OF_NUMBERS = ("sin", "cos", "tan", "ln", "log", "exp")
 # Letters that custom has as numbers, and those of a sign of its own.
 _NUMBERS = frozenset(["e", "i", "pi", "hbar", "ell", "d", "delta", "Delta", "imath", "prime"])
 _KEYS = ("functions", "letters", "numbers", "usual", "decimal_comma")
+_UPRIGHT = ("T", "H", "t", "d", "e", "i", "j")  # transposed, or a number, though upright
+_ABOVE = frozenset([*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "a", "b", "c"])
 _TIMES = ("tau", "lambda", "s", "sigma", "T", "eta")
 
 
@@ -37,7 +39,8 @@ class Notation:
     primes. varied: letter → letters that it is differentiated by. seen: ket, operators, order, hessian, P(D), complex,
     modular, exponent, dot, other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed
     as vectors somewhere. equal: letters and what they are equal to. numeric: letters shown to be numbers, below a fraction
-    bar, under a root, in a sine or a logarithm, equal to numbers.
+    bar, under a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above where no power can, as in
+    \\partial x^i and T^{ij}, or below \\partial; exponents: letters in powers.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -64,6 +67,8 @@ class Notation:
     crossed: set[str] = field(default_factory=set)
     arrows: set[str] = field(default_factory=set)
     numeric: set[str] = field(default_factory=set)
+    upper: set[str] = field(default_factory=set)
+    exponents: set[str] = field(default_factory=set)
     equal: list[tuple[Box, list[Box]]] = field(default_factory=list)
     varied: dict[str, set[str]] = field(default_factory=dict)
     seen: set[str] = field(default_factory=set)
@@ -150,10 +155,24 @@ def power_in(box: Box) -> bool:
         only = row[0]
         if only.kind in ("operator", "text") or only.name in ("dagger", "top", "intercal", "prime", "T"):
             return False
-        return not (only.upright and len(only.name) > 1) and not (only.kind == "bracket" and len(only.parts[0]) == 1)
+        if only.kind == "letter" and (only.upright or (is_printed_as_vector(box) and box.name.islower())):
+            return (
+                len(only.name) == 1 and only.name in _UPRIGHT
+            )  # an upright letter is a label, and so is one over a vector
+        return not (only.kind == "bracket" and len(only.parts[0]) == 1)
+    listed = any(b.kind == "comma" for b in row)
     return not (
-        box.kind == "letter" and all(is_plain_letter(b) or (b.kind == "letter" and b.name in TENSOR) for b in row)
+        box.kind == "letter"
+        and (listed or all(is_plain_letter(b) or (b.kind == "letter" and b.name in TENSOR) for b in row))
     )
+
+
+def upper_index(known: Notation, box: Box) -> list[str]:
+    """The letters above, where the paper has each as an index above and none in a power; empty where they are none."""
+    row = without_thin(box.sup or []) if box.name != "e" else []
+    plain = all(b.kind == "letter" and not (b.sub or b.sup or b.marks or b.primes or b.upright) for b in row)
+    names = [b.name for b in row]
+    return names if plain and {*names} <= known.upper - known.exponents - known.letters else []
 
 
 def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
@@ -288,6 +307,7 @@ def _look_about(row: list[Box], found: Notation) -> None:
     """What the neighbours of letters say of them."""
     for place, box in enumerate(row):
         before, after = (row[place - 1] if place else None), (row[place + 1] if place + 1 < len(row) else None)
+        _look_above(box, found)
         held = {
             stem_of(b) for part in box.parts for b in all_boxes(part) if b.kind == "letter" and "vec" not in b.marks
         }
@@ -318,6 +338,24 @@ def _look_about(row: list[Box], found: Notation) -> None:
             _look_at_derivative(box, after, found)
         elif box.kind == "letter":
             _look_beside(box, before, after, found)
+
+
+def _look_above(box: Box, found: Notation) -> None:
+    """Letters above and below of which the place says whether they are indices or powers."""
+    above = without_thin(box.sup or [])
+    names = {b.name for b in above if b.kind == "letter" and not b.upright}
+    if box.kind in ("partial", "nabla") and box.sub and len(box.sub) == 1:
+        found.upper |= {b.name for b in box.sub} & _ABOVE
+    power = box.kind != "letter" or len(above) > 1 or box.name in ("d", "e")
+    if power and not (len(names) == len(above) > 1 and (names <= set("ijkl") or names <= set(TENSOR))):
+        found.exponents |= {b.name for b in all_boxes(above) if b.kind == "letter"}
+    elif power:
+        found.upper |= names
+    if box.kind == "fraction":
+        over, under = (without_thin(part) for part in box.parts)
+        if over and under and over[0].kind == under[0].kind == "partial" and over[0].sup is None:
+            found.upper |= {b.name for each in under[1:2] for b in each.sup or () if is_plain_letter(b)} & _ABOVE
+            found.upper |= {b.name for each in under[1:2] for b in each.sup or () if b.name in TENSOR}
 
 
 def _look_at_number(box: Box, after: Box | None, found: Notation) -> None:

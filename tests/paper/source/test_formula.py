@@ -97,6 +97,26 @@ READ = {
     r"t = \text{tr}(A) + \sum_{ij} a_{ij}": "t = tr(A) + Sum(a_ij, i, all, all, j)",
     r"\mathrm{d}x\mathrm{d}y\mathrm{d}z = \mathrm{d}V\mathrm{d}s\mathrm{d}t":
         "differential(x)*differential(y)*differential(z) = differential(V)*differential(s)*differential(t)",
+    r"(\nabla^2 + k^2) p = 0": "laplacian(p) + k**2*p = 0",
+    r"\left(i\hbar\frac{\partial}{\partial t} - V\right)\psi = 0": "imaginary_unit*hbar*Derivative(psi, t) - V*psi = 0",
+    r"\left(\frac{\partial}{\partial t} + \vec u\cdot\nabla\right) \vec u = \vec g":
+        "Derivative(uvec, t) + advection(uvec, uvec) = gvec",
+    r"(\partial_t - c\partial_x)(\partial_t + c\partial_x) u = 0":
+        "Derivative(Derivative(u, t) + c*Derivative(u, x), t) - c*Derivative(Derivative(u, t) + c*Derivative(u, x), x) = 0",
+    r"(1 - \nabla^2) u v = f": "1*u*v - laplacian(u*v) = f",
+    r"(\Box + m^2)\phi = 0": "dalembertian(phi) + m**2*phi = 0",
+    r"\nabla_{\mathbf k}\cdot\mathbf A = 0": "divergence(Abold, kbold) = 0",
+    r"\partial_\mu J^\mu = 0": "contraction(Derivative(J__mu, x__mu)) = 0",
+    r"\partial_\mu F^{\mu\nu} = J^\nu": "contraction(Derivative(F__mu__nu, x__mu)) = J__nu",
+    r"\dot f + v^i\frac{\partial f}{\partial x^i} = 0": "f_dot + v__i*Derivative(f, x__i) = 0",
+    r"T^{ij} = S^{ij}": "T__i__j = S__i__j",
+    r"S[f] = a": "S(f) = a",
+    r"y[n] = x[n] - x[n-1]": "y(n) = x(n) - x(n - 1)",
+    r"p(a|b) = \frac{p(b|a)p(a)}{p(b)}": "p(a, given(b)) = p(b, given(a))*p(a)/p(b)",
+    r"E^{\omega,\mathrm i} = r^{\mathrm a}": "E__omega__i = r__a",
+    r"\mathbf v^\Sigma = \mathbf u": "vbold__Sigma = ubold",
+    r"Z = \int f\,dx\,dy": "Z = Integral(f, volume(x, y))",
+    r"k = 0.4\,\mathrm{cm}^2\,\,\mathrm{g}^{-1}": "k = 2/5*unit_cm**2*unit_g**(-1)",
 }  # fmt: skip
 
 
@@ -107,6 +127,9 @@ def test_what_is_read_is_what_is_printed(latex: str) -> None:
 
 # What may mean two things, and where the reading stops.
 OPEN = {
+    r"a = b\left(\frac{\partial}{\partial x} + c\right)": "the derivative has nothing to act on",
+    r"\partial_i f = x^i y^{i + 1}": "whether i is an upper index or a power",
+    r"\partial_k f = \sum_k a_k x^k": "whether k is an upper index or a power",
     r"y = (a + b)'": "a prime stands behind what is no letter",
     r"y = \frac{a}{b}'": "a prime stands behind what is no letter",
     r"y = \sin^\prime x": "a prime stands behind what is no letter",
@@ -161,20 +184,15 @@ OPEN = {
     r"u^m(q, p) = v": "whether m is an upper index or a power",
     r"c = {f_j}^{k'} g": "whether k is an upper index or a power",
     r"x^\mu = y": "whether mu is an upper index or a power",
-    r"\partial_\mu J^\mu = 0": "whether mu is an upper index or a power",
-    r"\partial_\mu F^{\mu\nu} = J^\nu": "whether nu is an upper index or a power",
-    r"T^{ij} = S^{ij}": "whether i j is an upper index or a power",
     r"y = x_{n^2} + x_{n2}": "are one letter is open",
     r"\nabla\cdot\mathbf E\times\mathbf B = 0": "how far",
     r"P(x) = \int d^n\theta\,f(x)": "the differential of the integral",
-    r"S[f] = a": "whether S[…] is a functional",
     "x = 10⁶ y": "⁶ is not known",
     r"\frac{\tilde{\mathrm{d}}v}{\mathrm{d}t} = a": "a derivative is open",
     r"\ddot r = \mathrm{d}r\,f": "a differential stands on one side only",
     r"P\,\mathrm{d}' A = b": "a differential has a prime",
     r"\chi^{xxz} = 0": "whether x x z are upper indices or a power",
     r"S[q(t), t] = a": "whether S[…] is a functional",
-    r"Z = \int f\,dx\,dy": "two differentials follow one integral",
     r"ACC = \frac{TP}{N}": "ACC is a word",
     r"T = V\zeta(3/2)": "whether zeta(…) is a function or a product",
     r"SO(3, 1) = G": "whether SO(…) is one name",
