@@ -19,6 +19,7 @@ _MOST_BOXES, _LEAST, _CUT = (
     sp.Rational(1, 10**6),
     sp.Rational(49, 100),
 )  # beside the middle, where roots often are
+_PIECEWISE = (sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min)
 Box = dict[sp.Symbol, Bounds]
 
 
@@ -96,9 +97,10 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
 
     A box is left out where an equation excludes zero or Krawczyk's K(X) does not meet it, holds one root where K(X) is inside,
     and is cut in two otherwise. A root on the rim of the box is among them. Where a denominator may vanish the numerators are
-    taken in the equations' place; where it does there is no root.
+    taken in the equations' place; where it does there is no root. A root where a piece of a function begins is left undecided.
     """
     unknowns = list(box)
+    equations = [e.rewrite(_PIECEWISE, sp.Piecewise) for e in equations]
     quotients = [
         e.replace(sp.tan, lambda a: sp.sin(a) / sp.cos(a)).replace(sp.cot, lambda a: sp.cos(a) / sp.sin(a))
         for e in equations
@@ -140,11 +142,13 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
 
 
 class _Equations:
-    """Equations, and their derivatives by the unknowns row by row."""
+    """Equations, their derivatives by the unknowns row by row, and what vanishes where another piece of a function begins."""
 
     def __init__(self, equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> None:
         self.equations, self.unknowns = equations, unknowns
         self.slopes = [derivative(f, s) for f in equations for s in unknowns]
+        relations = set().union(*(f.atoms(sp.core.relational.Relational) for f in equations))
+        self.switches = [r.lhs - r.rhs for r in sorted(relations, key=sp.default_sort_key)]
 
 
 def _may_vanish(e: sp.Expr, X: Box) -> bool:
@@ -153,8 +157,10 @@ def _may_vanish(e: sp.Expr, X: Box) -> bool:
 
 
 def _krawczyk(system: _Equations, X: Box) -> Box | None:
-    """K(X); None where something has no enclosure there, or the middle of F'(X) is singular."""
+    """K(X); None where something has no enclosure there, another piece may begin, or the middle of F'(X) is singular."""
     equations, unknowns = system.equations, system.unknowns
+    if any(_may_vanish(e, X) for e in system.switches):
+        return None  # the slopes of the pieces say nothing across a jump
     middle = {s: _short((low + high) / 2) for s, (low, high) in X.items()}
     values, n = enclosures(equations, middle), len(unknowns)
     flat = enclosures(system.slopes, X)

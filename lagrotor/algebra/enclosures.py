@@ -111,6 +111,8 @@ class PointEnclosure:
             return self._repeated(e)
         if isinstance(e, sp.Integral):
             return self._integral(e)
+        if isinstance(e, sp.Piecewise):
+            return self._piecewise(e)
         if (jet := jet_of(e)) is not None:
             value = self.jets[e] = self._jet(*jet)
             return _leaf(value)
@@ -125,6 +127,39 @@ class PointEnclosure:
         if e.func not in _FUNCTIONS or len(e.args) != 1:
             raise NotExactError(f"{e.func} is not enclosed.")
         return _FUNCTIONS[e.func](self.of(e.args[0]))
+
+    def _piecewise(self, e: sp.Piecewise) -> Any:
+        """From the least to the largest value of the pieces that may hold."""
+        ends = []
+        for piece, condition in e.args:
+            holds = self._holds(condition)
+            if holds is not False:
+                value = _real(self.of(piece))
+                ends += [value.a, value.b]
+            if holds:
+                return iv.mpf([min(end.a for end in ends), max(end.b for end in ends)])
+        raise NotExactError(f"{e} is not enclosed: no piece is shown to hold.")
+
+    def _holds(self, condition: sp.Basic) -> bool | None:
+        """Whether an equation or an inequality holds; None where that is open."""
+        if condition in (sp.true, sp.false):
+            return bool(condition)
+        if isinstance(condition, sp.And | sp.Or):
+            whole = isinstance(condition, sp.And)
+            answers = [self._holds(part) for part in condition.args]
+            return None if None in answers and (not whole) not in answers else (all if whole else any)(answers)
+        if not isinstance(condition, sp.core.relational.Relational):
+            return None
+        more = _real(self.of(condition.lhs - condition.rhs))
+        if isinstance(condition, sp.Eq | sp.Ne):
+            same = True if more.a == more.b == 0 else None if 0 in more else False
+            return same if same is None or isinstance(condition, sp.Eq) else not same
+        if isinstance(condition, sp.Lt | sp.Le):
+            more = -more
+        strict = isinstance(condition, sp.Gt | sp.Lt)
+        if more.a > 0 or (more.a == 0 and not strict):
+            return True
+        return False if more.b < 0 or (more.b == 0 and strict) else None
 
     def _order(self, e: sp.Expr) -> sp.Expr:
         """An exponent or an order, put in where it is a sum of products of letters."""

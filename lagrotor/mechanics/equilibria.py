@@ -122,10 +122,11 @@ def _in_box(
     if undecided:
         shown = ", ".join(f"{q} = {float(sum(x) / 2):.6g}" for q, x in undecided[0].items())
         proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
+        free = [f" (no force depends on {q})" for q in c.q if not any(q in e.free_symbols for e in forces)]
         raise SingularError(
             f"equilibria: {len(undecided)} small parts of the box are undecided, the first about {shown}: an equilibrium that is "
-            "not isolated, or degenerate, or forces that have no value; choose another box, or coordinates on which they "
-            f"depend. Proved elsewhere in it: {proved or 'none'}"
+            f"not isolated{''.join(free)}, or degenerate, or forces that jump or have no value; choose another box, or "
+            f"coordinates on which they depend. Proved elsewhere in it: {proved or 'none'}"
         )
     return tuple(
         Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)

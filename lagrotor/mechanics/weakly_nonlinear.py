@@ -36,6 +36,7 @@ from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.perturbation import lindstedt_poincare
 
 _MOST_ORDER = 2  # of averaging
+_MET = 1e-9  # relative: a start that the amplitudes give
 _PHASE = sp.Symbol("Phi", real=True)  # of a periodic motion, Φ = ω t
 
 
@@ -217,9 +218,10 @@ class AveragedMotion:
 
         Raises:
             InputError: for a letter without a value.
+            SingularError: where no amplitudes give the start.
         """
         import numpy as np
-        from scipy.optimize import fsolve
+        from scipy.optimize import root
 
         from lagrotor.numerics.integrate import Problem, integrate
 
@@ -229,8 +231,13 @@ class AveragedMotion:
         no_letter("averaged", own - known.keys())
         slow = sp.lambdify(self.letters, [e.subs(known) for e in self.rates], "numpy")
         there = sp.lambdify((*self.letters, t), [e.subs(known) for e in self.state], "numpy")
-        start = fsolve(lambda Y: np.array(there(*Y, grid[0])) - [q0, v0], [q0, 0.0], xtol=1e-13)
-        problem = Problem(lambda s, Y: [float(x) for x in slow(*Y)], np.asarray(start, float), np.inf)
+        start = root(lambda Y: np.array(there(*Y, grid[0])) - [q0, v0], [q0, 0.0], tol=1e-13).x
+        if not np.abs(np.array(there(*start, grid[0])) - [q0, v0]).max() <= _MET * max(1.0, abs(q0), abs(v0)):
+            raise SingularError(
+                f"averaged: no amplitudes are found that begin at q = {q0:g}, q' = {v0:g}: {self.small} is too large there "
+                "for its second order; take a smaller one, or simulate"
+            )
+        problem = Problem(lambda s, Y: [float(x) for x in slow(*Y)], start, np.inf)
         Y = np.vstack([start, integrate(problem, grid[1:] - grid[0], 1e-11).states])
         return np.array([np.broadcast_to(e, grid.shape) for e in there(*Y.T, grid)])
 
@@ -336,9 +343,14 @@ def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
         ratio = sp.cancel(e.args[0] / (nu * t))
         ratio = sp.Rational(str(ratio)) if ratio.is_Float else ratio
         if not ratio.is_Rational or ratio <= 0:
-            raise DomainError(
-                f"averaged: {e} has no rate that is a rational part of ν = {nu}: write it with rates like 2 ν"
+            phase = e.args[0].as_independent(t, as_Add=True)[0]
+            way = (
+                "write it with rates like 2 ν"
+                if phase == 0
+                else f"count time from another start, or write it by cos({e.args[0] - phase}), sin({e.args[0] - phase}), with "
+                f"letters for cos({phase}) and sin({phase})"
             )
+            raise DomainError(f"averaged: {e} has no rate that is a rational part of ν = {nu}, without a phase: {way}")
         ratios.append(ratio)
     base = lcm(*(int(ratio.q) for ratio in ratios)) if ratios else 1
     numbers = tuple(

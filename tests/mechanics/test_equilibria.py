@@ -117,3 +117,37 @@ def test_an_equilibrium_on_an_edge_that_is_rounded_is_in_the_box(edge: float | s
     assert [len(spring.equilibria(box={x: (0, end)})) for end in (0.3, 0.3 - 1e-16, sp.Rational(0.3))] == [1, 0, 0]
     with pytest.raises(InputError, match="all coordinates are unknown"):
         spring.equilibria("x", box={x: (0, 1)})
+
+
+@pytest.mark.parametrize(
+    ("force", "roots"),
+    [
+        (1 - x * sp.Abs(x), (1.0,)),
+        (sp.Rational(1, 2) - x - 50 * sp.Max(x - 1, 0) ** 2 + sp.Max(-x, 0), (0.5,)),  # stops on both sides
+        (sp.Min(sp.sin(x), sp.cos(x)), (0.0, np.pi / 2)),
+        (sp.Piecewise((1, x < 0), (2, True)), ()),  # a jump that does not pass zero
+        (1 - x - sp.Heaviside(x) * x, (0.5,)),
+        (sp.Piecewise((-1, x <= 1), (x - 2, (x > 1) & (x < 2.5)), (1, True)), (2.0,)),
+    ],
+)
+def test_equilibria_of_forces_in_pieces(force: sp.Expr, roots: tuple[float, ...]) -> None:
+    """Stops, contacts, friction cones: on each piece, and none on another."""
+    rests = System(c, v**2 / 2, forces=(force,)).equilibria(box={x: (-2, 3)})
+    assert [float(e.at[x]) for e in rests] == pytest.approx(roots, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    "force",
+    [sp.sign(1 - x), sp.Piecewise((x + 1, x < 0), (x - 1, True)), sp.Abs(x)],
+)
+def test_a_jump_through_zero_proves_nothing(force: sp.Expr) -> None:
+    """Where the force jumps from one sign to the other no piece is zero: the slopes of the pieces would say otherwise."""
+    with pytest.raises(SingularError, match="jump or have no value"):
+        System(c, v**2 / 2, forces=(force,)).equilibria(box={x: (-0.5, 1.4)})
+
+
+def test_a_coordinate_on_which_no_force_depends_is_named() -> None:
+    two = coordinates("x y")
+    sliding = System(two, (two.v[0] ** 2 + two.v[1] ** 2) / 2 - two.q[0] ** 2)
+    with pytest.raises(SingularError, match="no force depends on y"):
+        sliding.equilibria(box={two.q[0]: (-1, 1), two.q[1]: (-1, 1)})

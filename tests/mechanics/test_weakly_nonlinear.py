@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 from sympy import Rational as Q
 
-from lagrotor.errors import DomainError, InputError
+from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics import System, coordinates, t
 
 C = coordinates("x")
@@ -114,7 +114,22 @@ def test_what_has_no_such_series_says_why() -> None:
             "rational",
         ),
         (lambda: System(C, v**2 / 2 - x**2 / 2 - eps * sp.exp(x)).averaged(1, eps), DomainError, "no polynomial"),
+        (
+            lambda: System(C, v**2 / 2 - x**2 / 2 + eps * sp.cos(t + 1) * x).averaged(1, eps),
+            DomainError,
+            "without a phase",
+        ),
         (lambda: VAN_DER_POL.averaged(1, eps).run({}, 1, 0, [0, 1]), InputError, "without a value"),
     ):
         with pytest.raises(error, match=words):
             make()
+
+
+def test_amplitudes_that_do_not_give_the_start_are_refused() -> None:
+    """Past the validity of the second order a b + ε u₁ need not take the start's values: what is nearest was taken, with a
+    warning of the solver or none."""
+    skew = System(C, v**2 / 2 - x**2 / 2 - eps * x**3 / 3).averaged(2, eps)
+    for small in (0.04, 0.5):
+        assert skew.run({eps: small}, 1, 0.3, [0, 1])[:, 0] == pytest.approx([1, 0.3], abs=1e-9)
+    with pytest.raises(SingularError, match="epsilon is too large"):
+        skew.run({eps: 1}, 1, 0.3, [0, 1])
