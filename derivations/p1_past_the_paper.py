@@ -4,7 +4,7 @@
 # **Objective.** One row for each of the subjects of the theory past the paper: what the paper has, what holds and to
 # which order, a comparison with the exact model, and the figure.
 #
-# **Assumptions.** Those of the scripts t1 to t14, n6 and n7, from which every formula and every number is taken.
+# **Assumptions.** Those of the scripts t1 to t14 and n6 to n8, from which every formula and every number is taken.
 
 # %%
 import sympy as sp
@@ -31,6 +31,7 @@ t13 = PAPER.scripts.run("derivations", "t13_integrals")
 t14 = PAPER.scripts.run("derivations", "t14_guiding_centre")
 n6 = PAPER.scripts.run("derivations", "n6_resonances")
 n7 = PAPER.scripts.run("derivations", "n7_nonlinear_waves")
+n8 = PAPER.scripts.run("derivations", "n8_fast_spins")
 Omega_0, energy, wander, growth, power, reached, shift = (
     sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda", "rho", r"\omega-\omega_0")
 )
@@ -231,6 +232,20 @@ rows = (
         + f"; a wave of amplitude {n7['pumped'][0]:g} feeds two others {100 * n7['short'][0]:.1f} % slower than by its coupling; "
         "new for rotors and bars, the method is Whitham's (1965)",
         FigureLink("n7"),
+    ),
+    (
+        "fast spins",
+        "none",
+        (
+            "slow precessions alone are left, by equations of first order: with springs those of Nash et al. (2015); of one axis "
+            "held by κ, with ε = aκ/G²,",
+            equal(n8["omega"], n8["in_limit"]),
+            "too large by the share ε",
+        ),
+        f"error of the slow rates of four gyroscopes as the power −{-n8['powers'][0]:.2f} of the spins, with the next part "
+        f"−{-n8['powers'][1]:.2f}; the gap of hanging gyroscopes on a honeycomb from {n8['low']:.4f} to {n8['high']:.4f} rad/s, "
+        f"with inertia from {n8['with_inertia'][0]:.4f} to {n8['with_inertia'][1]:.4f}",
+        FigureLink("n8"),
     ),
 )
 

@@ -106,30 +106,39 @@ def test_the_drift_is_within_its_errors(seed, bars, shocks):
     assert (off > told / 2).mean() > 0.2  # twin: half the errors would not hold
 
 
-@pytest.mark.parametrize(("seed", "bars", "shocks"), [(6, 2, 2), *PARTS[1:]])
+FORCES = [(6, 2, 2), *(pytest.param(seed, 25, 40, marks=pytest.mark.slow) for seed in range(10, 20))]
+
+
+@pytest.mark.parametrize(("seed", "bars", "shocks"), FORCES)
 def test_the_exact_cancelling_force_is_within_its_error(seed, bars, shocks):
-    """So far on either side the exact mean turning has opposite signs; at a tenth of it mostly the same."""
-    rng, refused, scenes, turns = np.random.default_rng(seed), 0, [], []
+    """So far on either side the exact mean turning has opposite signs; at a tenth of it, for the first pairs, mostly the same.
+
+    Refused ones are drawn again."""
+    rng, pairs, turns = np.random.default_rng(seed), [], []
     for _ in range(bars):
-        one = opposite_pair(rng)
-        for _ in range(shocks):
-            # Below 0.05 the accuracy of the runs is what one sees.
-            scene, turn = shocked(rng, one, 0.05), int(rng.choice([8, 20]))
+        one, wanted = opposite_pair(rng), len(pairs) + shocks
+        for _ in range(10 * shocks):
+            # Below 0.05 the accuracy of the runs is what one sees, and in fewer turns what is left of the swing.
+            scene, turn = shocked(rng, one, 0.05), int(rng.choice([16, 24]))
             x = float(np.hypot(*scene.shock.force[:2]))
             scene = replace(scene, shock=replace(scene.shock, force=(x, 0.0, 0.0)))
             try:
-                error = cancelling_force_error(scene, window(scene, turn))
+                pairs.append((scene, cancelling_force(scene), cancelling_force_error(scene, window(scene, turn))))
             except DomainError:
-                refused += 1
                 continue
-            forces = cancelling_force(scene) + error * np.array([-1, -0.1, 0.1, 1])
-            scenes += [replace(scene, shock=replace(scene.shock, force=(x, float(y), 0.0))) for y in forces]
-            turns += [turn] * 4
-    seen, left = exact_drifts(scenes, turns)[:, :, 0].T.reshape(2, -1, 4)
-    signs = np.where(np.abs(seen) > left, np.sign(seen), 0)
-    product = signs[:, :2] * signs[:, :1:-1]
-    assert (product[:, 0] <= 0).all() and (product[:, 0] < 0).mean() > 0.9
-    assert refused < 0.8 * bars * shocks and (product[:, 1] > 0).mean() > 0.3, (refused, (product > 0).mean(0))
+            turns.append(turn)
+            if len(pairs) == wanted:
+                break
+
+    def products(share, most):
+        sides = [(one, law + share * side * error) for one, law, error in pairs[:most] for side in (-1, 1)]
+        scenes = [replace(one, shock=replace(one.shock, force=(one.shock.force[0], float(y), 0.0))) for one, y in sides]
+        seen, left = exact_drifts(scenes, np.repeat(turns[:most], 2).tolist())[:, :, 0].T
+        return np.where(np.abs(seen) > left, np.sign(seen), 0).reshape(-1, 2).prod(1)
+
+    at_error, at_tenth = products(1, len(pairs)), products(0.1, 100)
+    assert (at_error <= 0).all() and (at_error < 0).mean() > 0.9, ((at_error <= 0).mean(), (at_error < 0).mean())
+    assert len(pairs) > 0.9 * bars * shocks and (at_tenth > 0).mean() > 0.3, (len(pairs), (at_tenth > 0).mean())
 
 
 def test_cancelling_force_of_the_paper():

@@ -63,10 +63,11 @@ class Floquet(Shown):
 
     @property
     def exponent_error(self) -> float:
-        """Bound of the error of growth and turning, rad a turn: d log mu = d(mu + 1/mu) / |mu − 1/mu|, or its root."""
+        """Bound of the error of growth and turning, rad a turn: d log mu = d(mu + 1/mu) / |mu − 1/mu|, or the root of twice the
+        sum's where the kind is unresolved and both are given as zero."""
         apart = abs(self.multipliers[4] - self.multipliers[5])
         root = sqrt(2 * self.error)
-        return min(2 * self.error / apart, root) if apart > root else root
+        return root if self.kind == "unresolved" or apart <= root else min(2 * self.error / apart, root)
 
 
 def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:

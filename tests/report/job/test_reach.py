@@ -70,7 +70,11 @@ def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
 
 def test_the_table_of_the_theory_needs_every_script_it_takes_a_value_from() -> None:
     path = derivation("p1_past_the_paper")
-    assert {stem[:2] for stem in reach.scripts_named(path, PAPER)} == {f"t{i}" for i in range(1, 10)} | {"n6", "n7"}
+    assert {stem[:2] for stem in reach.scripts_named(path, PAPER)} == {f"t{i}" for i in range(1, 10)} | {
+        "n6",
+        "n7",
+        "n8",
+    }
     assert {"measured", "edges"} <= reach.values_taken("t5_floquet", PAPER)
     assert "values" not in reach.values_taken("t5_floquet", PAPER)  # twin: a name that nobody takes
 
