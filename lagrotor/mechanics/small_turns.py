@@ -5,6 +5,7 @@
 about a motion (q, u)' = f, P⁻ the left inverse. In the turned axes nothing changes with time where a body only spins.
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
@@ -41,3 +42,8 @@ def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[li
             rows.append({i: 1})
     d = len(c.q) + len(system.speeds)
     return [[e.get(j, 0) for e in columns] for j in range(d)], [[e.get(j, 0) for j in range(d)] for e in rows]
+
+
+def no_turn(quaternion: Sequence[sp.Symbol], norm: float) -> str:
+    """Why a quaternion cannot be a start."""
+    return f"the quaternion ({', '.join(map(str, quaternion))}) has norm {norm:.3g} and gives no direction: give one of norm 1"

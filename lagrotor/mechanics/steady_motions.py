@@ -19,14 +19,15 @@ import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
 
-from lagrotor.algebra import along, decide_zero, derivative
-from lagrotor.errors import InputError, SingularError
+from lagrotor.algebra import along, decide_zero, derivative, normal_form
+from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations, rows_left
-from lagrotor.mechanics.expressions import expression, put_in, shortest
-from lagrotor.mechanics.lagrangian import jacobian, t
-from lagrotor.mechanics.linear_modes import point_of, stability_condition
+from lagrotor.mechanics.equilibria import Equilibrium
+from lagrotor.mechanics.expressions import by_symbol, expression, put_in, shortest
+from lagrotor.mechanics.lagrangian import euler_lagrange, jacobian, t
+from lagrotor.mechanics.linear_modes import LinearSystem, is_zero, reduced, stability_condition
 from lagrotor.mechanics.quasi_velocities import independent_rows
-from lagrotor.mechanics.small_turns import small_states, small_turns
+from lagrotor.mechanics.small_turns import no_turn, small_states, small_turns
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,19 +69,15 @@ def state_equations(
     units = [joint.unit_length for joint in system.ball_joints]
     held = [g for g in system.constraints if g not in units]
     residual = [system.residual[i].xreplace(put) for i in system.left]
-    here = _place(system, at, inputs, F.free_symbols | V.free_symbols | system.residual.free_symbols)
+    here = _place(system, at, inputs, [*F, *V], residual)
     there = partial(_values, at, here)
-    off = there(sp.Matrix([*system.constraints, *residual]))
-    if wrong := [e for e in off if decide_zero(e).answer == "nonzero"]:
-        raise InputError(
-            f"linearise: the point is off the constraints: {wrong[0]} is left of one: give coordinates and velocities on them"
-        )
     state, rates, lam = (*system.c.q, *system.speeds), system.speed_rates, [system.multipliers[i] for i in system.left]
     n, m, k = len(system.c.q), len(rates), len(lam)
+    singular = f"linearise: the mass matrix is singular, or the constraints are dependent, at {dict(at)}: use other coordinates"
     saddle = jacobian(list(F), (*rates, *lam)).col_join(G.row_join(sp.zeros(k, k)))
     whole = sp.Matrix([put_in(e, dict.fromkeys(rates, sp.S.Zero)) for e in F]).col_join(gamma)
     free = whole.applyfunc(lambda e: put_in(e, dict.fromkeys(lam, sp.S.Zero)))
-    rest = _solved(there(saddle), -there(free), at)
+    rest = _solved(there(saddle), -there(free), singular)
     if left := [f"{a} = {e}" for a, e in zip(rates, rest[:m], strict=True) if decide_zero(e).answer != "zero"]:
         raise SingularError(
             f"linearise: {dict(at)} is no steady motion: {', '.join(left)} is left over; start from one"
@@ -88,15 +85,8 @@ def state_equations(
     here |= dict(zip(lam, rest[m:], strict=True))
     P, back = map(sp.Matrix, small_turns(system, state))
     slope = (jacobian(list(whole), state) * P).row_join(jacobian(list(whole), inputs))
-    later, clock = _course(system, here, there(V))
-    for parts, name in ((whole, "forces"), ((*slope, *saddle), "coefficients")):
-        entries = [put_in(e, later) for e in parts if e.free_symbols & later.keys()]
-        if any(decide_zero(derivative(put_in(e, here), clock)).answer != "zero" for e in entries):
-            raise InputError(
-                f"linearise: what moves there enters the equations, whose {name} change with time: use coordinates that "
-                "turn along with the motion"
-            )
-    moved, size = _solved(there(saddle), -there(slope), at), P.cols
+    _check_steady(system, here, there(V), whole, (*slope, *saddle))
+    moved, size = _solved(there(saddle), -there(slope), singular), P.cols
     turning = P[:n, :].applyfunc(lambda e: along(e, system.c.q, V))
     carried = there(jacobian(list(V), state) * P - turning).row_join(sp.zeros(n, len(inputs)))
     both = there(back) * carried.col_join(moved[:m, :])
@@ -108,30 +98,99 @@ def state_equations(
     return StateEquations(tuple(names[i] for i in own), *(e.applyfunc(sp.factor) for e in parts))
 
 
+def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearSystem:
+    """The linear system about an equilibrium, in a basis of the null space of the constraints.
+
+    at: values of the coordinates on which the motion depends; velocities are zero unless given (a steady motion in a
+    coordinate on which nothing depends), and a parameter may be given too. Where the equations are 0/0 there, they are
+    first reduced.
+
+    Raises SingularError when the point is no equilibrium, or a singular one of these coordinates, or the constraints are
+    dependent there; InputError when something depends on time.
+    """
+    c, point = system.c, at.at if isinstance(at, Equilibrium) else at
+    if system.push.free_symbols & {*system.multipliers}:
+        raise InputError(
+            "linearise: a force has the reaction of a constraint: give outputs or a velocity, for A, B, C, D"
+        )
+    motion = euler_lagrange(system.L, c) - system.push
+    here = _place(system, point, (), motion, list(system.residual))
+    there = partial(_values, point, here)
+    force, G = there(motion), there(system.rows)
+    dependent = f"linearise: the constraints are dependent at {at}: leave out what follows from the others"
+    lam = G * force if not G.rows else _solved(G * G.T, G * force, dependent)
+    left = [decide_zero(e).answer for e in force - G.T * lam]
+    # What `equilibria` solved is an equilibrium, also where its roots are outside the class that is decided.
+    if "nonzero" in left or ("undecided" in left and not isinstance(at, Equilibrium)):
+        raise SingularError(f"linearise: {at} is no equilibrium: a force is left over; start from one")
+    held = motion - system.rows.T * lam
+    slopes = [jacobian(held, names) for names in (c.a, c.v, c.q)]
+    _check_steady(system, here, [here[v] for v in c.v], held, [e for m in slopes for e in m])
+    basis = sp.Matrix.hstack(*G.nullspace(iszerofunc=is_zero)) if G.rows else sp.eye(len(c.q))
+    mass, gyroscopic, stiffness = ((basis.T * there(m) * basis).applyfunc(reduced) for m in slopes)
+    if is_zero(mass.det(method="berkowitz")):
+        raise SingularError(f"linearise: the mass matrix is singular at {point}: use coordinates regular there")
+    return LinearSystem(mass, gyroscopic, stiffness, basis)
+
+
 def _place(
-    system: Equations, at: Mapping[Any, Any], inputs: Sequence[sp.Symbol], used: set[sp.Symbol]
+    system: Equations,
+    at: Mapping[Any, Any],
+    inputs: Sequence[sp.Symbol],
+    motion: Sequence[sp.Expr],
+    residual: Sequence[sp.Expr],
 ) -> dict[sp.Symbol, sp.Expr]:
-    """The point, what it does not name being zero. Raises InputError where an input or a coordinate is amiss, or time enters."""
-    c, speeds = system.c, system.speeds
+    """The point, what it does not name being zero. Raises InputError where an input or a coordinate is amiss, time enters the
+    equations of motion, or it is off the constraints."""
+    c, speeds, parts = system.c, system.speeds, [*motion, *system.residual]
+    used = set[sp.Basic]().union(*(e.free_symbols for e in parts))
     letters = {*c.q, *speeds} | system.L.free_symbols | system.push.free_symbols | used
     if strangers := [str(u) for u in inputs if u not in letters or u in (*c.q, *c.v, *speeds, t)]:
         raise InputError(
             f"linearise: inputs {', '.join(strangers)} are no letters of the system's forces or constraints"
         )
-    point = point_of("linearise", system, at, letters)
-    if t in used:
+    letters = letters - {*c.v} | {*speeds}
+    point = by_symbol(at, letters)
+    if strangers := [str(s) for s in point if s not in letters]:
+        raise InputError(
+            f"linearise: {', '.join(strangers)} in the point: it gives coordinates, velocities "
+            f"({', '.join(map(str, speeds))}) and letters of the system"
+        )
+    for joint in system.ball_joints:
+        if all(q in point and sp.sympify(point[q], strict=True).is_zero for q in joint.quaternion):
+            raise InputError(f"linearise: {no_turn(joint.quaternion, 0)}")
+    if any(decide_zero(derivative(e, t)).answer != "zero" for e in parts):
         raise InputError(
             "linearise: the motion depends on time explicitly: give functions F(t) as inputs, or simulate it"
         )
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
-    zeros = dict.fromkeys((*c.q, *speeds, *system.speed_rates, *inputs), sp.S.Zero)
-    return zeros | {s: expression(f"linearise: {s}", x) for s, x in point.items()}
+    here = dict.fromkeys((*c.q, *c.v, *c.a, *speeds, *system.speed_rates, *inputs), sp.S.Zero)
+    here |= {s: expression(f"linearise: {s}", x) for s, x in point.items()}
+    off = _values(at, here, sp.Matrix([*system.constraints, *residual]))
+    if wrong := [e for e in off if decide_zero(e).answer == "nonzero"]:
+        raise InputError(
+            f"linearise: the point is off the constraints: {wrong[0]} is left of one: give coordinates and velocities on them"
+        )
+    return here
 
 
 def _values(at: Mapping[Any, Any], here: Mapping[Any, sp.Expr], matrix: sp.Matrix) -> sp.Matrix:
-    """The matrix at the point. Raises SingularError or InputError where it has no values."""
-    values = matrix.applyfunc(lambda e: shortest(put_in(e, here)))
+    """The matrix at the point; an entry that is 0/0 there is reduced before. Raises SingularError or InputError where it has no
+    values."""
+    numbers = {s: x for s, x in here.items() if not x.free_symbols}
+
+    def value(e: sp.Expr) -> sp.Expr:
+        e = put_in(e, {s: x for s, x in here.items() if x.free_symbols})
+        number = put_in(e, numbers)
+        if number.has(sp.nan, sp.zoo, sp.oo):
+            try:
+                number = put_in(normal_form(e), numbers)
+            except NotExactError:
+                number = sp.nan
+        return shortest(number)
+
+    values = matrix.applyfunc(value) if len(matrix) else matrix
     if values.has(sp.nan, sp.zoo, sp.oo):
         raise SingularError(
             f"linearise: the equations are singular at {dict(at)}: use coordinates that are regular there"
@@ -141,10 +200,14 @@ def _values(at: Mapping[Any, Any], here: Mapping[Any, sp.Expr], matrix: sp.Matri
     return values
 
 
-def _course(
-    system: Equations, here: Mapping[Any, sp.Expr], flow: Sequence[sp.Expr]
-) -> tuple[dict[sp.Symbol, sp.Expr], sp.Symbol]:
-    """Where what moves is at another time, and the letter of that time; a ball joint turns about an axis that stays."""
+def _check_steady(
+    system: Equations,
+    here: Mapping[Any, sp.Expr],
+    flow: Sequence[sp.Expr],
+    forces: Sequence[sp.Expr],
+    coefficients: Any,
+) -> None:
+    """Raise InputError where they change as what moves goes on; a ball joint turns about an axis that stays."""
     time = sp.Dummy("tau", real=True)
     rates = dict(zip(system.c.q, flow, strict=True))
     course = {q: here[q] + v * time for q, v in rates.items() if v != 0}
@@ -154,7 +217,15 @@ def _course(
                 q: here[q] * sp.cos(rate * time) + rates[q] / rate * sp.sin(rate * time) for q in joint.quaternion
             }
             course |= turned
-    return course, time
+    for parts, name in ((forces, "forces"), (coefficients, "coefficients")):
+        for e in parts:
+            if (moving := e.free_symbols & course.keys()) and decide_zero(
+                derivative(put_in(put_in(e, course), here), time)
+            ).answer != "zero":
+                raise InputError(
+                    f"linearise: {', '.join(sorted(map(str, moving)))} moves there and enters the equations, whose {name} "
+                    "change with time: use coordinates that turn along with the motion"
+                )
 
 
 def _in_speeds(system: Equations, e: sp.Expr, put: Mapping[Any, Any]) -> sp.Expr:
@@ -170,8 +241,8 @@ def _in_speeds(system: Equations, e: sp.Expr, put: Mapping[Any, Any]) -> sp.Expr
     return e.xreplace(dict(zip(system.c.a, accelerations, strict=True))).xreplace(dict(put))
 
 
-def _solved(matrix: sp.Matrix, right: sp.Matrix, at: Any) -> sp.Matrix:
-    """matrix⁻¹ right, in the field of its letters."""
+def _solved(matrix: sp.Matrix, right: sp.Matrix, refusal: str) -> sp.Matrix:
+    """matrix⁻¹ right, in the field of its letters. Raises SingularError(refusal) where there is none."""
     if not right.cols:
         return right
     both = DomainMatrix.from_Matrix(matrix.row_join(right), extension=True).to_field()
@@ -179,9 +250,7 @@ def _solved(matrix: sp.Matrix, right: sp.Matrix, at: Any) -> sp.Matrix:
     try:
         return A.to_sparse().lu_solve(b.to_sparse()).to_Matrix().applyfunc(shortest)
     except DMNonInvertibleMatrixError:
-        raise SingularError(
-            f"linearise: the mass matrix is singular, or the constraints are dependent, at {dict(at)}: use other coordinates"
-        ) from None
+        raise SingularError(refusal) from None
 
 
 def _tangent(slope: sp.Matrix, size: int, held: int, n: int) -> tuple[list[int], sp.Matrix]:
@@ -194,7 +263,11 @@ def _tangent(slope: sp.Matrix, size: int, held: int, n: int) -> tuple[list[int],
         chosen += [columns[i] for i in kept]
     own = [i for i in range(size) if i not in chosen]
     T = sp.zeros(size, len(own))
-    given = -_solved(slope[:, chosen], slope[:, own], {})
+    given = -_solved(
+        slope[:, chosen],
+        slope[:, own],
+        "linearise: the constraints are dependent at the point: leave out what follows from the others",
+    )
     for i, j in enumerate(own):
         T[j, i] = 1
     for i, j in enumerate(chosen):

@@ -100,7 +100,7 @@ class System(Equations):
     ) -> "linear_modes.LinearSystem | steady_motions.StateEquations | StateSpace":
         """Small motion about an equilibrium or a steady motion, also where bodies roll.
 
-        Without values: M a + C v + K q = 0 in symbols, see `linear_modes.linearise`; for inputs and outputs, and about a motion
+        Without values: M a + C v + K q = 0 in symbols, see `steady_motions.linearise`; for inputs and outputs, and about a motion
         that rolls, A, B, C, D in symbols. With values: the numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u.
 
         Args:
@@ -129,7 +129,7 @@ class System(Equations):
             carried = self.kinematics and any(self.kinematics.velocity.xreplace(dict.fromkeys(self.speeds, sp.S.Zero)))
             if inputs or outputs or carried or (moves and (self.rolling or self.kinematics)):
                 return steady_motions.state_equations(self, point, inputs, outputs)
-            return linear_modes.linearise(self, at)
+            return steady_motions.linearise(self, at)
         from lagrotor.mechanics.running import function_values, state_space
 
         self, values = function_values.put_functions("linearise", self, values)

@@ -38,6 +38,8 @@ def test_linear_modes_in_redundant_coordinates() -> None:
     twice = replace(system, constraints=(*system.constraints, 3 * system.constraints[0]))
     with pytest.raises(SingularError, match="the constraints are dependent at"):
         twice.linearise({x: 1, y: 0})
+    with pytest.raises(InputError, match="off the constraints: 3 is left of one"):
+        system.linearise({x: 2, y: 0})
 
 
 def test_a_place_that_is_no_equilibrium_is_refused() -> None:

@@ -6,9 +6,9 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics.constraints import project_position, project_velocity
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.linear_modes import no_turn
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import parameter_values, start_program
+from lagrotor.mechanics.small_turns import no_turn
 from lagrotor.numerics.arrays import real_array
 
 _LEAST_NORM = 1e-3  # of a quaternion, from which the nearest of norm 1 is reached

@@ -69,7 +69,7 @@ def state_space(
     outputs: Sequence[sp.Expr] = (),
     where: str = "linearise",
 ) -> StateSpace:
-    """The linear system about a point at which all accelerations vanish: see `linear_modes.linearise`."""
+    """The linear system about a point at which all accelerations vanish: see `steady_motions.linearise`."""
     wanted = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
     if not isinstance(values, Mapping) or len({*map(str, inputs)}) < len(inputs):
         raise InputError(f"{where}: values = {values!r} must be a dictionary, and inputs = {inputs} different letters")
