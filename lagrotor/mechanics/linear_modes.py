@@ -64,8 +64,8 @@ class LinearSystem:
         """Null vectors at a root of the characteristic polynomial: a column of the adjugate, where one is not zero."""
         pencil = self._pencil(rate).applyfunc(reduced)
         columns = [pencil.adjugate()[:, j] for j in range(pencil.cols)]
-        column = next((column for column in columns if not all(map(is_zero, column))), None)
-        return [column] if column is not None else list(pencil.nullspace(iszerofunc=is_zero))
+        column = next((column for column in columns if not all(map(is_identically_zero, column))), None)
+        return [column] if column is not None else list(pencil.nullspace(iszerofunc=is_identically_zero))
 
     def _numeric_modes(self, values: Mapping[sp.Symbol, Any]) -> tuple[Mode, ...]:
         import numpy as np
@@ -92,22 +92,22 @@ class LinearSystem:
         of rest elsewhere and of drifts at constant velocity; where a motion grows as t², it is false.
         Rates that several independent modes have at any parameters, as those of a spherical pendulum, count once.
         """
-        natural = all(map(is_zero, (*self.gyroscopic, *(self.stiffness - self.stiffness.T))))
+        natural = all(map(is_identically_zero, (*self.gyroscopic, *(self.stiffness - self.stiffness.T))))
         return sp.false if self._zeros > max(2, self._drifts) else stability_condition(self._pencil(_S), _S, natural)
 
     @property
     def _zeros(self) -> int:
         """How often s = 0 is a root of det(s² M + s C + K)."""
         coefficients = sp.Poly(sp.numer(sp.together(self._pencil(_S).det(method="berkowitz"))), _S).all_coeffs()
-        return next(i for i, e in enumerate(reversed(coefficients)) if not is_zero(e))
+        return next(i for i, e in enumerate(reversed(coefficients)) if not is_identically_zero(e))
 
     @property
     def _drifts(self) -> int:
         """The dimension of K q = 0, of rest elsewhere, and that of K q + C v = 0 with K v = 0, of constant velocities v."""
         K = self.stiffness
-        right, left = (m.nullspace(iszerofunc=is_zero) for m in (K, K.T))
+        right, left = (m.nullspace(iszerofunc=is_identically_zero) for m in (K, K.T))
         coupled = sp.Matrix(len(left), len(right), lambda i, j: left[i].dot(self.gyroscopic * right[j]))
-        return 2 * len(right) - int(coupled.rank(iszerofunc=is_zero))
+        return 2 * len(right) - int(coupled.rank(iszerofunc=is_identically_zero))
 
 
 def stability_condition(pencil: sp.Matrix, s: sp.Symbol, natural: bool = False) -> sp.Basic:
@@ -130,13 +130,13 @@ def stability_condition(pencil: sp.Matrix, s: sp.Symbol, natural: bool = False) 
 def _coefficients(e: sp.Expr, s: sp.Symbol) -> list[sp.Expr]:
     """Those of a polynomial in s, the highest first, without its zero roots."""
     coefficients = [reduced(c) for c in sp.Poly(e, s).all_coeffs()]
-    while is_zero(coefficients[-1]):
+    while is_identically_zero(coefficients[-1]):
         coefficients.pop()
     return coefficients
 
 
 def _is_even(e: sp.Expr, s: sp.Symbol) -> bool:
-    return all(is_zero(c) for c in _coefficients(e, s)[1::2])
+    return all(is_identically_zero(c) for c in _coefficients(e, s)[1::2])
 
 
 def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> list[sp.Expr]:
@@ -149,7 +149,7 @@ def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> list[sp.Expr]:
     for f, k in repeated:
         shared = 0
         while shared < k - 1 and all(
-            all(map(is_zero, m.rem(sp.Poly(f ** (shared + 1), s)).all_coeffs())) for m in minors
+            all(map(is_identically_zero, m.rem(sp.Poly(f ** (shared + 1), s)).all_coeffs())) for m in minors
         ):
             shared += 1
         lasting[f] -= shared
@@ -164,7 +164,7 @@ def reduced(e: sp.Expr) -> sp.Expr:
         return sp.factor(e)
 
 
-def is_zero(e: sp.Expr) -> bool:
+def is_identically_zero(e: sp.Expr) -> bool:
     return e == 0 or decide_zero(e).answer == "zero"
 
 

@@ -25,7 +25,7 @@ from lagrotor.mechanics.equations import Equations, rows_left
 from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.expressions import by_symbol, expression, put_in, shortest
 from lagrotor.mechanics.lagrangian import euler_lagrange, jacobian, t
-from lagrotor.mechanics.linear_modes import LinearSystem, is_zero, reduced, stability_condition
+from lagrotor.mechanics.linear_modes import LinearSystem, is_identically_zero, reduced, stability_condition
 from lagrotor.mechanics.quasi_velocities import independent_rows
 from lagrotor.mechanics.small_turns import no_turn, small_states, small_turns
 
@@ -126,9 +126,9 @@ def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearS
     held = motion - system.rows.T * lam
     slopes = [jacobian(held, names) for names in (c.a, c.v, c.q)]
     _check_steady(system, here, [here[v] for v in c.v], held, [e for m in slopes for e in m])
-    basis = sp.Matrix.hstack(*G.nullspace(iszerofunc=is_zero)) if G.rows else sp.eye(len(c.q))
+    basis = sp.Matrix.hstack(*G.nullspace(iszerofunc=is_identically_zero)) if G.rows else sp.eye(len(c.q))
     mass, gyroscopic, stiffness = ((basis.T * there(m) * basis).applyfunc(reduced) for m in slopes)
-    if is_zero(mass.det(method="berkowitz")):
+    if is_identically_zero(mass.det(method="berkowitz")):
         raise SingularError(f"linearise: the mass matrix is singular at {point}: use coordinates regular there")
     return LinearSystem(mass, gyroscopic, stiffness, basis)
 

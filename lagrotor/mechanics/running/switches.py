@@ -17,7 +17,7 @@ from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression, vector_of
-from lagrotor.mechanics.lagrangian import force_column, gradient, t
+from lagrotor.mechanics.lagrangian import force_column, gradient, jacobian, t
 
 
 @dataclass(frozen=True)
@@ -134,11 +134,11 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
             put[atom] = _smooth(atom, w, s)
     for root in system.push.atoms(sp.Pow):
-        speeds = root.base.free_symbols & {*system.c.v}
-        if root.exp == sp.Rational(-1, 2) and len(speeds) > 1 and root.base.subs(dict.fromkeys(speeds, 0)) == 0:
+        if root.exp == sp.Rational(-1, 2) and _reaches_zero(root.base, system.c.v):
             raise InputError(
-                f"simulate: {root} is not defined at rest, and dry friction in several directions at once is not run: "
-                f"add the square of a small speed under the root, {root.base} + v_0**2"
+                f"simulate: {root} is not defined where {root.base} = 0, and dry friction in several directions at once, "
+                f"which sticks there, is not run: add the square of a small speed under the root, {root.base} + v_0**2; what "
+                "would stick under a load f below the bound F then creeps at v_0 f/sqrt(F**2 - f**2)"
             )
     if not put:
         return system, ()
@@ -152,6 +152,19 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
 
 
 _JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
+
+
+def _reaches_zero(e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
+    """Whether a square of several velocities is zero at rest, or at the velocities where it is least."""
+    speeds = [s for s in v if s in e.free_symbols]
+    still = dict.fromkeys(speeds, sp.S.Zero)
+    rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
+    curvature = jacobian(list(gradient(e, speeds)), speeds)
+    if len(speeds) < 2 or rest == 0:
+        return len(speeds) > 1
+    if curvature.free_symbols & {*speeds} or decide_zero(curvature.det()).answer == "zero":
+        return False
+    return decide_zero(rest - slope.dot(curvature.LUsolve(slope)) / 2).answer == "zero"
 
 
 def _smooth(atom: sp.Expr, w: sp.Expr, s: sp.Symbol) -> sp.Expr:

@@ -54,7 +54,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: System(
             plane, (plane.v[0] ** 2 + plane.v[1] ** 2) / 2, forces=(-plane.v[0] / speed, -plane.v[1] / speed)
         ).simulate({}, (0, 0), (1, 1), T),
-        "not defined at rest",
+        "add the square of a small speed under the root",
     ),
 }
 

@@ -55,6 +55,24 @@ def test_a_block_on_an_incline_stays_if_its_tangent_is_below_the_coefficient(til
     assert resting.q[-1, 0] == pytest.approx(max(down - hold, 0) / 2, abs=1e-9)
 
 
+def test_sticking_in_two_directions_is_refused_and_the_way_out_creeps_as_said() -> None:
+    """On the floor and on a belt; with v_0 under the root the load f = 0.6 F creeps at 0.6/0.8 v_0."""
+    plane, small = coordinates("x y"), sp.Symbol("v_0", positive=True)
+    a, b = plane.v
+    for moving in (sp.S.Zero, belt):
+        base = (a - moving) ** 2 + b**2
+        made = [
+            System(plane, (a**2 + b**2) / 2, dissipation=F * sp.sqrt(e), forces=(0.6 * F, 0))
+            for e in (base, base + small**2)
+        ]
+        values = {F: 1} | ({belt: 0.1} if moving else {})
+        with pytest.raises(InputError, match=r"several directions.*v_0\*\*2.*creeps at v_0 f/sqrt"):
+            made[0].simulate(values, (0, 0), (0.1, 0.1), (0, 1))
+        run = made[1].simulate(values | {small: 1e-2}, (0, 0), (0.1, 0.1), (0, 1), 1e-8)
+        creep = np.subtract(run.v[-1], (values.get(belt, 0), 0))
+        np.testing.assert_allclose(creep, (0.0075, 0), atol=1e-7)
+
+
 def test_a_mass_on_a_belt_sticks_and_slips_in_a_limit_cycle() -> None:
     """Friction that falls as soon as it slides, from 1 to 1/2; the mass sticks until the spring pulls as much."""
     w = v - belt
