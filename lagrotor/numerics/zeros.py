@@ -36,11 +36,13 @@ class Zeros:
     hidden: tuple[float, float] | None
 
 
-def zeros_between(functions: Functions, left: float, right: float, touch: Array | float = 0.0) -> Zeros:
+def zeros_between(
+    functions: Functions, left: float, right: float, touch: Array | float = 0.0, noise: Array | float = 0.0
+) -> Zeros:
     """The zeros of k functions in [left, right]. touch, (k,) or one: a least |value| that counts as a zero, where the
-    function turns round without crossing."""
+    function turns round without crossing; noise: rounding of the values, which no halving resolves."""
     parts: list[tuple[float, int, int]] = []
-    hidden = _search(functions, left, right, touch, parts, _HALVINGS)
+    hidden = _search(functions, left, right, touch, noise, parts, _HALVINGS)
     parts = _each_once(sorted(parts), _SLACK * (right - left))
     t, index, direction = (np.array(column) for column in zip(*parts, strict=True)) if parts else (np.zeros(0),) * 3
     return Zeros(t, index.astype(int), direction.astype(int), hidden)
@@ -51,6 +53,7 @@ def _search(
     left: float,
     right: float,
     touch: Array | float,
+    noise: Array | float,
     parts: list[tuple[float, int, int]],
     halvings: int,
 ) -> tuple[float, float] | None:
@@ -60,14 +63,14 @@ def _search(
     size = np.abs(series)
     rest = size[:, 1:].sum(1)
     near = size[:, 0] <= rest + touch  # elsewhere no value of the series is zero
-    falling = size[:, -3:].sum(1) <= _FALLEN * size.max(1) + touch / 10
-    near &= np.abs(values).max(1) > touch  # what lies on the section crosses nothing
+    falling = size[:, -3:].sum(1) <= _FALLEN * size.max(1) + touch / 10 + noise
+    near &= np.abs(values).max(1) > touch + noise  # what lies on the section crosses nothing
     if not (falling | ~near).all() or not np.isfinite(values).all():
         if halvings == 0:
             _between_nodes(values, middle + half * _NODES, parts)
             return left, right
         ends = [(left, middle), (middle, right)]
-        hidden = [_search(functions, a, b, touch, parts, halvings - 1) for a, b in ends]
+        hidden = [_search(functions, a, b, touch, noise, parts, halvings - 1) for a, b in ends]
         return next((each for each in hidden if each), None)
     for i in np.flatnonzero(near):
         least = float(touch if np.ndim(touch) == 0 else np.asarray(touch)[i])

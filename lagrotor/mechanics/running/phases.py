@@ -30,11 +30,13 @@ from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.calibrated import COMPANION_FIRST, MOST_EVENTS
 from lagrotor.numerics.dop853 import dop853_steps
+from lagrotor.numerics.estimated_run import start_beside
 from lagrotor.numerics.segment import Segment, StopError, Stretch
 from lagrotor.numerics.zeros import zeros_between
 
 _BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start
 _FRESH = 0.01  # of the first step of a phase, in which that is looked at
+_ROUNDINGS = 64.0  # of a state, of which a condition is unsure
 _NOISE = 1e-12  # of a velocity or a reaction, below which it is zero
 _AT_ONCE = 20  # events without time between them, after which the motion is outside what is followed
 _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink alike; what is left to their end, of the run
@@ -365,7 +367,12 @@ def _smooth(
             def conditions(s: Array, curve: Any = curve) -> Array:
                 return watch(curve(s), now + s)
 
-            hit = _first(h, phase, conditions, left, right, habit) if phase.conditions else None
+            hit = None
+            if phase.conditions:
+                ends, at = curve(np.array([left, right])), np.array([now + left, now + right])
+                off = np.abs(watch(start_beside(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
+                hit, hidden = _first(h, phase, conditions, left, right, habit, off)
+                h.hidden.extend((now + a, now + b) for a, b in hidden)
             until = right if hit is None else hit.since
             if observe is not None:
                 observe(now, left, until, curve)
@@ -383,14 +390,17 @@ def _smooth(
     return Stretch(np.concatenate(parts), solver.y * scale, solver.nfev), None
 
 
-def _first(h: Switched, phase: Phase, conditions: Any, left: float, right: float, habit: float) -> Hit | None:
-    """The first condition of a phase that ends in a step, whose times count from the start of the phase."""
+def _first(
+    h: Switched, phase: Phase, conditions: Any, left: float, right: float, habit: float, noise: Array
+) -> tuple[Hit | None, list[tuple[float, float]]]:
+    """The first condition of a phase that ends in a step, and where one may be hidden; times count from the start of the phase.
+    noise: of each condition, by rounding."""
     begun = left > 0
     # The next of impacts that accumulate is near to the start of a step that is made for the motion between them.
     soon = 4 * habit if not begun and 0 < 4 * habit < right else left
     start = left if begun else _BESIDE * (soon or right)
-    parts = [zeros_between(conditions, a, b) for a, b in ((left, soon), (soon, right)) if b > a]
-    h.hidden.extend(part.hidden for part in parts if part.hidden)
+    parts = [zeros_between(conditions, a, b, noise=noise) for a, b in ((left, soon), (soon, right)) if b > a]
+    hidden = [part.hidden for part in parts if part.hidden]
     hits = []
     for part in parts:
         for s, k, way in zip(part.t, part.index, part.direction, strict=True):
@@ -406,8 +416,8 @@ def _first(h: Switched, phase: Phase, conditions: Any, left: float, right: float
         scale = np.abs(ends).max(1)
         for k, (kind, i, _) in enumerate(phase.conditions):
             if kind != "event" and (ends[k] < -_NOISE * scale[k]).all():
-                return Hit(0.0, kind, i)
-    return min(hits) if hits else None
+                return Hit(0.0, kind, i), hidden
+    return min(hits, default=None), hidden
 
 
 def polish(functions: Any, k: int, t: float, left: float, right: float) -> float:

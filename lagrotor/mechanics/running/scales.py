@@ -1,5 +1,6 @@
 """How large and how fast a motion is: what its errors are relative to, in whatever units it is given."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ from lagrotor.mechanics.running.flow import (
 )
 from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values, velocities_along
 from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.segment import Segment, StopError, Stretch
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
@@ -57,28 +59,39 @@ def motion_scales(
     span = float(times[-1] - times[0])
     if span == 0:
         return Scales(1.0, _sizes(system, values, start[None], 1.0), 0)
-    smooth = motion is None
+    smooth, grid = motion is None, np.linspace(times[0], times[-1], 400)
     if motion is None:
         motion = _coarsely(system, values, start, span)
     try:
-        stretch, reached = motion(start, np.linspace(times[0], times[-1], 400), _COARSE, False, _EVALUATIONS), span
+        stretch, reached = motion(start, grid, _COARSE, False, _EVALUATIONS), span
     except StopError as stop:
         stretch = stop.reached or Stretch(start[None], start, 1)
         # Of a motion that stops at once little is known; one whose budget is spent was followed for as long as that.
         reached = max(stop.at - float(times[0]), 0.0 if stop.cause == "budget" else 1e-3 * span)
-    states = np.vstack([start, stretch.states, stretch.end])
-    turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    states = states[np.isfinite(states).all(1)]
-    stiff = False
+    states, evaluations, stiff = _finite(start, stretch), stretch.evaluations, False
     if smooth and (system.forces or system.dissipation != 0):
         program = motion_program(system)
         bare = program.rhs(*parameter_values(program, values))
         n, some = len(system.c.q), states[:: max(1, len(states) // 8)]
         stiff = min(_rates(bare, state, n, n + len(system.speeds)).real.min() for state in some) * span < -_STIFF
-    return Scales(turn, _sizes(system, values, states, turn), stretch.evaluations, bool(stiff))
+    if stiff and reached < span:  # DOP853's steps are set by what dies out, not by the motion
+        try:
+            stretch = _coarsely(system, values, start, span, lsoda)(start, grid, _COARSE, False, _EVALUATIONS)
+            states, evaluations, reached = _finite(states, stretch), evaluations + stretch.evaluations, span
+        except StopError as stop:
+            evaluations += stop.evaluations
+    turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
+    return Scales(turn, _sizes(system, values, states, turn), evaluations, bool(stiff))
 
 
-def _coarsely(system: Equations, values: Values, start: Array, span: float) -> Integrate:
+def _finite(start: Array, stretch: Stretch) -> Array:
+    states = np.vstack([start, stretch.states, stretch.end])
+    return np.asarray(states[np.isfinite(states).all(1)])
+
+
+def _coarsely(
+    system: Equations, values: Values, start: Array, span: float, solver: Callable[[Segment, float], Stretch] = dop853
+) -> Integrate:
     n, m, program = len(system.c.q), len(system.speeds), motion_program(system)
     bare = program.rhs(*parameter_values(program, values))
     scale = np.append(first_sizes(bare, start, span, n, m), np.ones(len(start) - n - m))
@@ -96,7 +109,7 @@ def _coarsely(system: Equations, values: Values, start: Array, span: float) -> I
             project=scaled_projection(project, scale),
         )
         try:
-            return to_units(dop853(segment, local), scale)
+            return to_units(solver(segment, local), scale)
         except StopError as stop:
             reached = None if stop.reached is None else to_units(stop.reached, scale)
             raise StopError(float(times[0]) + stop.at, stop.reason, reached, cause=stop.cause) from None

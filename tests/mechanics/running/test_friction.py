@@ -1,5 +1,7 @@
 """Dry friction: stick and slip of textbook systems, against their closed solutions."""
 
+import warnings
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -249,3 +251,13 @@ def test_the_sign_of_the_friction_is_not_arbitrary() -> None:
     gaining = System(C, v**2 / 2 - x**2 / 2, forces=(F * sp.sign(v - 10),))
     run = gaining.simulate({F: 0.1}, (1,), (0,), (0, np.pi), 1e-9)
     assert run.q[-1, 0] == pytest.approx(-1.2, abs=1e-8)  # a constant force −F moves the centre to −F
+
+
+def test_rounding_where_a_mass_is_let_go_hides_no_event() -> None:
+    """A slow belt, in seconds: its speed is 10⁻¹² of a unit, and that of sliding begins at zero, below its rounding."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", LagrotorWarning)
+        run = System(C, v**2 / 2 - k * x**2 / 2, forces=(-F * sp.sign(v - belt),)).simulate(
+            {k: 1e-12, F: 3e-13, belt: 5e-7}, (1.2,), (0,), np.linspace(0, 5e7, 5), 3e-11
+        )
+    assert run.error < 3e-11
