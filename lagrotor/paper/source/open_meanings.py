@@ -21,6 +21,7 @@ from lagrotor.paper.source.rows import (
     UNITS,
     all_boxes,
     derivative_mark,
+    has_differential_above,
     is_unit_like,
     strip,
     without_thin,
@@ -261,7 +262,7 @@ def _lowered(known: Notation, box: Box) -> Marks:
         and len(names) == 1
         and not is_printed_as_vector(box)
         and f"{box.name}_t" not in known.spelled
-    )
+    ) or (box.name == "e" and is_printed_as_vector(box))
     if names and (({*names} <= set("xyzt") and not component) or (alone and {*names} <= _VARIABLES | differentiated)):
         yield "index", f"the index of {box.name} is part of the name, and no derivative", ""
 
@@ -467,7 +468,11 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
             b.kind == "letter" and is_printed_as_vector(b) and (b.name[0].islower() or stem_of(b) in known.crossed)
             for b in beside
         )
-        if not (numbers or vectors):
+        letters = [c for b in beside for c in all_boxes([b]) if c.kind == "letter"]
+        plain = known.arrows and not known.raised | known.upper  # vectors are marked, and these are none
+        if not (
+            numbers or vectors or (plain and all(is_number(known, c) and c.name not in known.arrows for c in letters))
+        ):
             yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""
     elif box.name in ("pm", "mp") and any(
         b.kind in ("unit", "text") or (b.upright and len(b.name) > 1) for b in row[place:]
@@ -528,12 +533,19 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         if not (counted or (len(below) == 1 and is_plain_letter(below[0]) and not box.sup)):
             yield "sum", f"what {box.name} runs over is as it is written", ""
     elif box.name == "int":
-        rest = strip(row[place + 1 :])
-        ends = [k for k, b in enumerate(rest) if b.kind == "letter" and b.name == "d" and k + 1 < len(rest)]
-        if bool(box.sub) != bool(box.sup):
+        last = next((k for k, b in enumerate(rest) if b.kind == "big" or has_differential_above(b)), len(rest))
+        last = next(
+            (k + 1 for k, b in enumerate(rest[:last]) if (b.kind, b.name, b.sup) == ("letter", "d", None)), last
+        )
+        behind = rest[last + 1] if last + 1 < len(rest) else None
+        domain = len(below) == 1 and below[0].kind == "letter" and below[0].name[0].isupper()  # a body, its surface
+        if bool(box.sub) != bool(box.sup) and not domain:
             yield "integral", "the integral is over what is written below it", ""
-        behind = rest[ends[0] + 2] if ends and ends[0] + 2 < len(rest) else None
-        if len(ends) != 1 or rest[ends[0]].sup or (behind is not None and behind.kind in (*_FACTORS, "number")):
+        if (
+            last >= len(rest)
+            or rest[last].kind == "big"
+            or (behind is not None and behind.kind in (*_FACTORS, "number"))
+        ):
             yield "integral", "what follows the differential is integrated, and no factor of the whole", ""
     elif box.name != "lim":
         yield "integral", f"\\{box.name} is an integral over what is written below it", ""

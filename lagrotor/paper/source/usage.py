@@ -367,6 +367,8 @@ def _look_at_number(box: Box, after: Box | None, found: Notation) -> None:
             held = []  # a resolvent, a number of elements
     elif box.name == "/" and after is not None:
         held = [after]
+    elif box.kind == "big" and box.sub and box.sup:
+        held = [*box.sub, *box.sup]
     elif box.kind == "function" and box.name in _OF_NUMBERS[:-1] and after is not None:
         held = without_thin(after.parts[0]) if after.kind in ("bracket", "fraction") else [after]
     for each in held:
