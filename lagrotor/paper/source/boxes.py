@@ -297,18 +297,16 @@ class _Reader:
     def primed(target: Box, item: Token, count: int) -> None:
         """Give primes to a letter; behind anything else they mean what only the author knows."""
         if target.kind != "letter":
-            raise FormulaError(
-                item.at, "a prime stands behind what is no letter", "write the derivative, or give it a letter"
-            )
+            why = "a prime stands behind what is no letter"
+            raise FormulaError(item.at, why, "write the derivative, or give it a letter")
         target.primes += count
 
     def script(self, found: list[Box]) -> None:
         item = self.take()
         target = found[-1] if found else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
-            raise FormulaError(
-                item.at, f"{item.text} has nothing before it", "write the letter that the script belongs to"
-            )
+            why = f"{item.text} has nothing before it"
+            raise FormulaError(item.at, why, "write the letter that the script belongs to")
         content = [
             replace(box, kind="letter", name=self.latex[box.at + 1 : box.end])
             if box.kind == "relation" and self.latex[box.at : box.end] in (r"\perp", r"\parallel")
@@ -600,9 +598,8 @@ class _Reader:
         for box in base:
             box.marks = (label,) if label not in ("!", r"\mathrm{def}", r"\text{def}", "def") else ()
         if any(box.kind not in ("relation", "arrow") for box in base):
-            raise FormulaError(
-                item.at, f"{item.text} sets a mark on what is no relation", "give it a letter of its own"
-            )
+            why = f"{item.text} sets a mark on what is no relation"
+            raise FormulaError(item.at, why, "give it a letter of its own")
         return base
 
     def _underbrace(self, item: Token, style: str) -> list[Box]:

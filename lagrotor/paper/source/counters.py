@@ -4,18 +4,8 @@ from collections.abc import Callable
 from itertools import pairwise
 
 # The classes that have chapters, in which equations are numbered by chapter.
-_WITH_CHAPTERS = (
-    "book",
-    "report",
-    "memoir",
-    "scrbook",
-    "scrreprt",
-    "ctexbook",
-    "ctexrep",
-    "extbook",
-    "extreport",
-    "tufte-book",
-)
+_CHAPTERED = "book report memoir scrbook scrreprt ctexbook ctexrep extbook extreport tufte-book"
+_WITH_CHAPTERS = frozenset(_CHAPTERED.split())
 _SECTIONS = ("part", "chapter", "section", "subsection", "subsubsection", "paragraph", "subparagraph")
 
 

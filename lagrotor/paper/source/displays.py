@@ -13,18 +13,8 @@ from lagrotor.paper.source.groups import Macro
 from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
 
 # Each row of these is an equation with a number of its own; the others have one number.
-_ROWS = (
-    "align",
-    "gather",
-    "eqnarray",
-    "alignat",
-    "flalign",
-    "xalignat",
-    "xxalignat",
-    "IEEEeqnarray",
-    "numcases",
-    "subnumcases",
-)
+_ROWS_WORDS = "align gather eqnarray alignat flalign xalignat xxalignat IEEEeqnarray numcases subnumcases"
+_ROWS = frozenset(_ROWS_WORDS.split())
 _ENVIRONMENTS = (*_ROWS, "equation", "multline", "displaymath", "dmath", "math@")
 _PAIRS = ("align", "alignat", "flalign", "xalignat", "xxalignat")  # in which every second & begins another equation
 _WITH_ARGUMENT = ("alignat", "xalignat", "xxalignat", "IEEEeqnarray", "numcases", "subnumcases")
@@ -159,7 +149,9 @@ class _Walker:
             self.expander.macros.fault(0, "", r"\begin{document} is missing")
         self.found.faults = self.expander.faults()
         self.found.notes = list(dict.fromkeys(self.expander.notes))
-        self.found.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED if name in self.expander.loaded)
+        self.found.preamble = "\n".join(
+            rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in self.expander.loaded
+        )
 
     def _name(self) -> str:
         return latex_of(self.expander.argument()).strip()
@@ -562,19 +554,7 @@ class _Walker:
         )
 
 
-_NEEDED = (
-    "mathrsfs",
-    "dsfont",
-    "bbm",
-    "bbold",
-    "esint",
-    "stmaryrd",
-    "cancel",
-    "euscript",
-    "wasysym",
-    "textcomp",
-    "upgreek",
-)
+_NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
 
 
 def _has_text(tokens: list[Token]) -> bool:

@@ -51,24 +51,8 @@ _RELATIONS = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
 _BOUNDS = frozenset(("<", ">", "<=", ">="))
 _JOINING = "where with and for if when so then thus hence since but while also let in mit wobei und für wenn pour si avec où et"
 _WORDS = frozenset(_JOINING.split())
-_NOT_OF_NUMBERS = (
-    "det",
-    "tr",
-    "Tr",
-    "diag",
-    "rank",
-    "dim",
-    "arg",
-    "Re",
-    "Im",
-    "max",
-    "min",
-    "sup",
-    "inf",
-    "ker",
-    "deg",
-    "gcd",
-)
+_NOT_OF_NUMBERS_WORDS = "det tr Tr diag rank dim arg Re Im max min sup inf ker deg gcd"
+_NOT_OF_NUMBERS = frozenset(_NOT_OF_NUMBERS_WORDS.split())
 _INDICES = frozenset("abcdefghijklmnopqrsuvwIJKMN") | {name[1:] for name in GREEK if name[1].islower()}
 _VARIABLES = frozenset(["x", "y", "z", "t", "r", "s", "xi", "eta", "theta", "phi", "varphi", "rho", "u", "v"])
 # Capitals that are amplitudes before a sine.
@@ -331,7 +315,8 @@ def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bo
 def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
     """Whether the paper has a letter as a number among factors, and never before an argument or differentiated."""
     stem = stem_of(box)
-    variable = {b.name for b in content if b.kind == "letter"} & {"t", "tau", *set().union(*known.called.values(), ())}
+    held = _letters(*content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}  # E(\\phi(E))
+    variable = held & {"t", "tau", *set().union(*known.called.values(), ())}
     free = stem not in known.applied | known.differentiated and not variable and box.name not in _FUNCTIONS
     return free and stem in known.factors and is_number(known, box)
 

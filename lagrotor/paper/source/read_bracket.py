@@ -107,9 +107,8 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
         return reader.expression(content)
     if len(parts) == 1:
         if any(b.kind == "relation" for b in content):
-            raise FormulaError(
-                content[0].at if content else box.at, "a relation stands in brackets", "write it by itself"
-            )
+            why = "a relation stands in brackets"
+            raise FormulaError(content[0].at if content else box.at, why, "write it by itself")
         return reader.expression(content)
     if not all(parts):
         raise FormulaError(box.at, "a component is missing", "write it")
@@ -120,9 +119,8 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
     ):
         return Call("interval", tuple(map(reader.expression, parts)))
     if box.name == "[" and any(b.kind == "function" for b in all_boxes(content)):
-        raise FormulaError(
-            box.at, "whether the brackets hold components or an interval is open", "write round brackets"
-        )
+        why = "whether the brackets hold components or an interval is open"
+        raise FormulaError(box.at, why, "write round brackets")
     name = {"[": "commutator", r"\{": "poisson"}.get(box.name, "column") if len(parts) == 2 else "column"
     if name != "column":
         reader.guess("commutator", f"{name} brackets are meant, no {'interval' if box.name == '[' else 'set'}")
@@ -222,17 +220,7 @@ def read_matrix(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
 
 
 # Words for all that the other cases are not.
-_ELSE = (
-    "otherwise",
-    "else",
-    "elsewhere",
-    "in other cases",
-    "in all other cases",
-    "sonst",
-    "sinon",
-    "altrimenti",
-    "иначе",
-)
+_ELSE = "otherwise, else, elsewhere, in other cases, in all other cases, sonst, sinon, altrimenti, иначе"
 
 
 def read_cases(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
@@ -245,7 +233,7 @@ def read_cases(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
         words = " ".join(b.name for b in where if b.kind == "text").strip(" ,.;").lower()
         where = strip([b for b in where if b.kind not in ("text", "wide", "thin")])
         condition: Node = Letter("otherwise")
-        if not where and words not in ("", *_ELSE):
+        if not where and words not in ("", *_ELSE.split(", ")):
             raise FormulaError(box.at, "the condition of a case is not read", "write one relation")
         if where:
             stated = read_statement(reader, where)

@@ -49,9 +49,8 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
     if "d" in reader.notation.letters or (box.sup is not None and not all(b.kind == "number" for b in box.sup)):
         return None
     if not box.upright and "d" in reader.notation.bare and not reader.integrating:
-        raise FormulaError(
-            box.at, "whether d is a letter or a differential is open", "write \\mathrm{d} for the differential"
-        )
+        why = "whether d is a letter or a differential is open"
+        raise FormulaError(box.at, why, "write \\mathrm{d} for the differential")
     if row[behind].kind == "group":
         inner, behind = reader.expression(row[behind].parts[0]), behind + 1
         return Call("differential", (inner,)), behind
@@ -148,9 +147,8 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
         reader.guess("reach", "a derivative acts on the bracket that follows it, not on what is behind")
         return node, len(row) - len(rest) + behind
     if any(b.kind == "fraction" and derivative_mark(b) for b in rest) or any(b.kind == "partial" for b in rest[1:]):
-        raise FormulaError(
-            box.at, "how far the derivative reaches is open", "write brackets around what is differentiated"
-        )
+        why = "how far the derivative reaches is open"
+        raise FormulaError(box.at, why, "write brackets around what is differentiated")
     reader.guess("reach", "a derivative acts on the whole product that follows it")
     return reader.product(rest), len(row)
 
@@ -178,9 +176,8 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
     r"""\partial_x f, \partial_t^2 u."""
     box = row[place]
     if box.sub is None:
-        raise FormulaError(
-            box.at, "what ∂ differentiates by is missing", "write \\partial_x or \\frac{\\partial f}{\\partial x}"
-        )
+        why = "what ∂ differentiates by is missing"
+        raise FormulaError(box.at, why, "write \\partial_x or \\frac{\\partial f}{\\partial x}")
     if len(box.sub) != 1 or box.sub[0].kind != "letter":
         raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
     order = _order(reader, box)
@@ -270,9 +267,8 @@ def at_its_variable(reader: FormulaReader, row: list[Box], place: int, behind: i
         return node, behind + 1
     if len(given) > 1 and bracket.sup is None:
         return Call("called", (node, *given)), behind + 1
-    raise FormulaError(
-        bracket.at, "whether a derivative is taken there or multiplied is open", "write |_{t = 0} or \\cdot"
-    )
+    why = "whether a derivative is taken there or multiplied is open"
+    raise FormulaError(bracket.at, why, "write |_{t = 0} or \\cdot")
 
 
 def is_open_integral(part: list[Box]) -> bool:
@@ -297,9 +293,3 @@ def in_integral(part: list[Box]) -> bool:
 
 def is_differential(node: Node) -> bool:
     return isinstance(node, Call) and node.name == "differential"
-
-
-def differential_of(node: Node) -> Node | None:
-    if isinstance(node, Call) and node.name == "differential" and len(node.args) == 1:
-        return node.args[0]
-    return None

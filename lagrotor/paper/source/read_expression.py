@@ -148,9 +148,8 @@ class Grammar(FormulaReader):
         box = row[place]
         reader = _FACTORS.get(box.kind)
         if reader is None:
-            raise FormulaError(
-                box.at, f"{self.source[box.at : box.end] or box.name} is not read here", "write what it stands for"
-            )
+            why = f"{self.source[box.at : box.end] or box.name} is not read here"
+            raise FormulaError(box.at, why, "write what it stands for")
         if box.kind in ("infinity", "root", "binomial") and (
             box.sub is not None or (box.sup and box.kind == "infinity")
         ):

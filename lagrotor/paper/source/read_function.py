@@ -22,9 +22,8 @@ def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     inner, behind = _argument(reader, row, place)
     if behind < len(row) and row[behind].name == "!":
         if name not in ("log", "log10"):
-            raise FormulaError(
-                row[behind].at, "whether ! is of the argument or of the function is open", "write brackets"
-            )
+            why = "whether ! is of the argument or of the function is open"
+            raise FormulaError(row[behind].at, why, "write brackets")
         inner, behind = (Call("factorial", inner[:1]),), behind + 1  # ln n!
     node = _applied(reader, name, box, inner)
     if box.sup is None:
@@ -65,9 +64,8 @@ def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[
     first = row[behind]
     if first.kind == "bracket" and first.name in ("(", "[", r"\{"):
         if first.sup is not None:
-            raise FormulaError(
-                first.at, "whether the power is of the argument or of the function is open", "write brackets"
-            )
+            why = "whether the power is of the argument or of the function is open"
+            raise FormulaError(first.at, why, "write brackets")
         parts = [reader.expression(p) for p in arguments(first.parts[0])]
         return tuple(parts), behind + 1
     if first.kind == "bracket" and first.name in ("|", r"\|", r"\lvert", r"\vert") and first.sup is None:
@@ -75,9 +73,8 @@ def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[
     end = _reach(reader, row, behind, row[place])
     for box in row[behind:end]:
         if box.sup is not None and mark_of(reader, box) is None:
-            raise FormulaError(
-                box.at, "whether the power is of the argument or of the function is open", "write brackets"
-            )
+            why = "whether the power is of the argument or of the function is open"
+            raise FormulaError(box.at, why, "write brackets")
     if row[behind].kind == "function":
         node, end = reader.factor(row, behind)
         return (node,), end
@@ -114,17 +111,11 @@ def _after_one(reader: FormulaReader, only: Box, row: list[Box], end: int, funct
         return
     if after.kind == "bracket" and only.kind == "letter":
         if is_called(reader, only, after):
-            raise FormulaError(
-                after.at,
-                f"whether the bracket belongs to the argument of {function.name} is open",
-                "write brackets",
-            )
+            why = f"whether the bracket belongs to the argument of {function.name} is open"
+            raise FormulaError(after.at, why, "write brackets")
         if after.name == "(" and only.name not in _ANGLES and only.name not in reader.notation.angles:
-            raise FormulaError(
-                after.at,
-                f"whether the bracket belongs to the argument of {function.name} is open",
-                "write brackets",
-            )
+            why = f"whether the bracket belongs to the argument of {function.name} is open"
+            raise FormulaError(after.at, why, "write brackets")
         reader.guess("argument", f"the argument of {function.name} ends before the bracket")
         return
     if only.kind == "letter" and (only.name in _ANGLES or only.name in reader.notation.angles or is_moving(after)):
@@ -151,15 +142,7 @@ def _within(reader: FormulaReader, run: list[Box], function: Box) -> int:
     if len(letters) == len(kept) or (kept[0].kind in ("number", "fraction") and len(letters) == len(kept) - 1):
         first = letters[0].name if letters else ""
         ends = letters and letters[-1].name in ("t", "tau", "x", "y", "z", "s", "theta", "phi", "varphi")
-        begins = first not in reader.notation.angles and first not in (
-            *_ANGLES[:4],
-            "vartheta",
-            "x",
-            "y",
-            "z",
-            "r",
-            "t",
-        )
+        begins = first not in (*reader.notation.angles, *_ANGLES[:4], "vartheta", "x", "y", "z", "r", "t")
         if ends and begins and (len(letters) <= 2 or kept[0].kind == "number"):
             reader.guess("argument", f"the argument of {function.name} is the product that follows it")
             return len(run)

@@ -64,11 +64,8 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK:
         after = next((b for b in row[place + 1 :] if b.kind != "thin"), None)
         if after is not None and after.kind not in _ENDING:
-            raise FormulaError(
-                box.at,
-                f"whether {box.name} acts on what follows is open",
-                f"write \\operatorname{{{box.name}}}(…) or \\cdot",
-            )
+            why = f"whether {box.name} acts on what follows is open"
+            raise FormulaError(box.at, why, f"write \\operatorname{{{box.name}}}(…) or \\cdot")
     node, raised = letter_of(reader, box)
     return (node if raised else power_of(reader, node, box)), place + 1
 
@@ -202,11 +199,8 @@ def _pi(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] |
         return None
     counted = place and row[place - 1].kind == "number"  # 2 pi
     if known.pi_is_letter and "pi" not in known.numbers and not counted:
-        raise FormulaError(
-            box.at,
-            "whether pi is the number or a quantity is open",
-            'write in paper.toml [notation] numbers = "pi" or letters = "pi"',
-        )
+        why = "whether pi is the number or a quantity is open"
+        raise FormulaError(box.at, why, 'write in paper.toml [notation] numbers = "pi" or letters = "pi"')
     return power_of(reader, Letter("pi"), box), place + 1
 
 
@@ -222,9 +216,8 @@ def _euler(reader: FormulaReader, box: Box) -> bool:
     symbolic = any(b.kind in ("letter", "infinity") or b.parts for b in box.sup)
     if not symbolic:
         if known.exponential and "e" not in known.bare:
-            raise FormulaError(
-                box.at, "whether e is Euler's number is open", 'write in paper.toml [notation] numbers = "e"'
-            )
+            why = "whether e is Euler's number is open"
+            raise FormulaError(box.at, why, 'write in paper.toml [notation] numbers = "e"')
         reader.guess("e", "e is a letter, and not Euler's number", 'letters = "e" or numbers = "e"')
         return False
     if "e" in known.bare or (len(box.sup) == 1 and box.sup[0].kind == "letter" and "exponent" not in known.seen):  # e^n
@@ -253,11 +246,8 @@ def _is_imaginary(reader: FormulaReader, row: list[Box], place: int) -> bool:
         if "i" in known.lowered and not beside:
             reader.guess("i", "i is the imaginary unit", 'numbers = "i" or letters = "i"')
         return True
-    raise FormulaError(
-        box.at,
-        f"whether {box.name} is the imaginary unit is open",
-        f'write in paper.toml [notation] numbers = "{box.name}" or letters = "{box.name}"',
-    )
+    why = f"whether {box.name} is the imaginary unit is open"
+    raise FormulaError(box.at, why, f'write in paper.toml [notation] numbers = "{box.name}" or letters = "{box.name}"')
 
 
 def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
@@ -269,11 +259,8 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if row[behind].kind not in ACTED_ON:
         return None
     if box.name in reader.notation.bare:
-        raise FormulaError(
-            box.at,
-            f"whether \\{box.name} is a factor or a difference is open",
-            f'write in paper.toml [notation] letters = "{box.name}"',
-        )
+        why = f"whether \\{box.name} is a factor or a difference is open"
+        raise FormulaError(box.at, why, f'write in paper.toml [notation] letters = "{box.name}"')
     if row[behind].kind != "letter":
         reader.guess("difference", f"{box.name} acts on what follows it, and is no factor", f'letters = "{box.name}"')
         operand, behind = reader.factor(row, behind)

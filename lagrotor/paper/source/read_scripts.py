@@ -92,9 +92,8 @@ def _check_power(reader: FormulaReader, box: Box) -> None:
         why = f"whether {' '.join(names)} are upper indices or a power is open"
         raise FormulaError(row[0].at, why, "write the power with \\cdot, or the indices below")
     if len(row) == 1 and box.sub is not None and row[0].kind == "letter" and row[0].name.isupper() and not row[0].marks:
-        raise FormulaError(
-            row[0].at, f"whether {row[0].name} is a mark or a power is open", "write brackets around the power"
-        )
+        why = f"whether {row[0].name} is a mark or a power is open"
+        raise FormulaError(row[0].at, why, "write brackets around the power")
     if len(row) == 1 and row[0].kind == "number" and row[0].name == "0":
         raise FormulaError(row[0].at, "whether 0 is an upper index or a power is open", "write the index below")
 
@@ -116,9 +115,8 @@ def power_of(reader: FormulaReader, node: Node, box: Box) -> Node:
     ):
         return Call("transpose", (node,))
     if len(row) == 1 and row[0].kind == "letter" and row[0].name == "T" and "T" not in reader.notation.letters:
-        raise FormulaError(
-            row[0].at, "whether T is a power or transposes is open", "write \\top, or the letter in bold"
-        )
+        why = "whether T is a power or transposes is open"
+        raise FormulaError(row[0].at, why, "write \\top, or the letter in bold")
     if is_vector(node):
         power = reader.expression(box.sup)
         if power == number(2) and not is_matrix(node):

@@ -198,11 +198,8 @@ def _further(reader: FormulaReader, found: list[PrintedStatement], part: list[Bo
         and part[0].at
         and reader.source[part[0].at - 2 : part[0].at - 1].isdigit()
     ):
-        raise FormulaError(
-            part[0].at - 1,
-            "whether the comma is in a number is open",
-            "write {,} in the number, or a space behind the comma",
-        )
+        why = "whether the comma is in a number is open"
+        raise FormulaError(part[0].at - 1, why, "write {,} in the number, or a space behind the comma")
     simple = all(b.kind in ("number", "dots", "letter", "operator", "infinity") for b in part)
     if simple and last.kind in ("equation", "range", "condition") and len(last.sides) == 2:
         first, end = last.sides
@@ -248,9 +245,8 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
         read.append(Side(letter_of(reader, side[0])[0] if index else _side(reader, side), latex, side[0].at))
     degrees = {differential_degree(side.node, side.at) for side in read if not is_printed_zero(side.node)}
     if len(degrees) > 1 and not any(relation in _SETS for relation in relations):
-        raise FormulaError(
-            row[0].at, "a differential stands on one side only", "write the derivative, or both differentials"
-        )
+        why = "a differential stands on one side only"
+        raise FormulaError(row[0].at, why, "write the derivative, or both differentials")
     vectors = any(isinstance(n, Letter) and n.vector for s in read if is_vector(s.node) for n in walk(s.node))
     scalar = next((side for side in read if is_scalar(side.node)), None)
     if vectors and scalar is not None and set(relations) <= {"=", ":=", "~"}:
@@ -274,9 +270,8 @@ def _check_side(side: list[Box]) -> None:
     if len(side) == 1 and side[0].kind == "bracket" and side[0].name == "[" and not (side[0].sub or side[0].sup):
         inside = side[0].parts[0]
         if not any(b.kind == "comma" for b in inside) and len(inside) > 1:
-            raise FormulaError(
-                side[0].at, "what the square brackets mean is open", "leave them out, or write what it is"
-            )
+            why = "what the square brackets mean is open"
+            raise FormulaError(side[0].at, why, "leave them out, or write what it is")
 
 
 def _side(reader: FormulaReader, row: list[Box]) -> Node:

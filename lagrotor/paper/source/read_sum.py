@@ -41,9 +41,8 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
     if not relations:
         if all(b.kind in ("letter", "comma") for b in below) and box.sup is None:
             if not any(b.kind == "comma" for b in below) and len({b.name for b in below}) < len(below):
-                raise FormulaError(
-                    box.at, "whether words or indices stand below is open", "write commas between indices"
-                )
+                why = "whether words or indices stand below is open"
+                raise FormulaError(box.at, why, "write commas between indices")
             letters = [
                 letter_of(reader, b)[0] if b.primes or b.name not in ("i", "j") else Letter(b.name)
                 for b in below

@@ -178,7 +178,6 @@ def refuse_words(row: list[Box]) -> None:
             run += box.name
         if not plain or box.sub is not None or box.sup is not None or box.primes:
             if len(run) > 4 or run in _WORDS or re.fullmatch("[A-Z][aeiou][a-z]+", run):
-                raise FormulaError(
-                    box.at or row[0].at, f"{run} is a word", "write \\text{…} for words, and \\sin for functions"
-                )
+                why = f"{run} is a word"
+                raise FormulaError(box.at or row[0].at, why, "write \\text{…} for words, and \\sin for functions")
             run = ""
