@@ -30,23 +30,14 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
     behind = place + 1
     while behind < len(row) and row[behind].kind == "thin":
         behind += 1
-    if (
-        behind < len(row)
-        and row[behind].kind == "bracket"
-        and row[behind].sup is None
-        and box.upright
-        and box.sup is None
-    ):
-        return Call("differential", (reader.expression(row[behind].parts[0]),)), behind + 1
-    if (
-        box.upright
-        and "d" not in reader.notation.letters
-        and (behind >= len(row) or row[behind].kind not in ("letter", "group"))
-    ):
-        raise FormulaError(box.at, "an upright d has no letter", "write the letter behind it")
-    if behind >= len(row) or row[behind].kind not in ("letter", "group") or box.primes:
+    after = row[behind] if behind < len(row) else None
+    if box.upright and box.sup is None and after is not None and after.kind == "bracket" and after.sup is None:
+        return Call("differential", (reader.expression(after.parts[0]),)), behind + 1
+    if after is None or after.kind not in ("letter", "group"):
+        if box.upright and "d" not in reader.notation.letters:
+            raise FormulaError(box.at, "an upright d has no letter", "write the letter behind it")
         return None
-    if "d" in reader.notation.letters or (box.sup is not None and not all(b.kind == "number" for b in box.sup)):
+    if box.primes or "d" in reader.notation.letters or not all(b.kind == "number" for b in box.sup or ()):
         return None
     if not box.upright and "d" in reader.notation.bare and not reader.integrating:
         why = "whether d is a letter or a differential is open"
@@ -182,11 +173,7 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
     order = _order(reader, box)
     variable = letter_of(reader, box.sub[0])[0]
-    if (
-        isinstance(variable, Letter)
-        and variable.name in _INDICES
-        and (variable.name in reader.lowered or variable.name not in reader.notation.bare)
-    ):
+    if isinstance(variable, Letter) and variable.name in {*_INDICES} - (reader.notation.bare - reader.lowered):
         variable = Letter(f"x__{variable.name}")  # \partial_\mu is \partial/\partial x^\mu
     node, behind = _operand(reader, row, place + 1, box)
     return Call("Derivative", (node, variable, *([number(order)] if order > 1 else []))), behind

@@ -5,7 +5,7 @@ import re
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import is_differential, read_differential
-from lagrotor.paper.source.rows import derivative_mark, without_thin
+from lagrotor.paper.source.rows import has_differential_above, is_d, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, product_of, walk
 from lagrotor.paper.source.usage import simple_argument
 
@@ -67,31 +67,16 @@ def _differential_at(reader: FormulaReader, rest: list[Box], box: Box) -> tuple[
     inner = 0
     first = next((k for k, b in enumerate(rest) if b.kind != "thin"), None)
     for place, each in enumerate(rest):
-        if each.kind == "big" and BIG.get(each.name) == "Integral":
-            inner += 1
-        is_d = (
-            each.kind == "letter" and each.name == "d" and place + 1 < len(rest) and not each.marks and each.sub is None
-        )
-        if is_d:
-            target = place + 1
-            while target < len(rest) and rest[target].kind == "thin":
-                target += 1
-            if target >= len(rest) or rest[target].kind not in ("letter", "group"):
-                continue
-            if inner:
-                inner -= 1
-                continue
-            if place == first and any(b.kind not in ("thin",) for b in rest[target + 1 :]):
-                return target + 1, True
-            return target + 1, False
-        if (
-            each.kind == "fraction"
-            and not derivative_mark(each)
-            and any(b.kind == "letter" and b.name == "d" for b in each.parts[0])
-        ):
-            if inner:
-                inner -= 1
-                continue
+        inner += each.kind == "big" and BIG.get(each.name) == "Integral"
+        target = next((k for k in range(place + 1, len(rest)) if rest[k].kind != "thin"), place)
+        plain = is_d(each, "d") and target > place and rest[target].kind in ("letter", "group")
+        if not plain and not has_differential_above(each):
+            continue
+        if inner:
+            inner -= 1
+        elif plain:
+            return target + 1, place == first and any(b.kind != "thin" for b in rest[target + 1 :])
+        else:
             return (len(rest) if place == first else place + 1), False
     raise FormulaError(box.at, "the differential of the integral is missing", "write d and its letter")
 

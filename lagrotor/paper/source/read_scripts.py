@@ -28,8 +28,6 @@ def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
         return None
     if len(row) == 1 and row[0].kind == "operator" and row[0].name in _SIGNS:
         return [_SIGNS[row[0].name]]
-    if len(row) == 1 and row[0].kind == "letter" and row[0].name == "dagger":
-        return ["dagger"]
     if len(row) == 1 and row[0].kind == "bracket" and row[0].name == "(" and len(row[0].parts[0]) == 1:
         inner = row[0].parts[0][0]
         if inner.kind in ("number", "letter") and inner.sup is None and inner.sub is None:
@@ -107,14 +105,10 @@ def power_of(reader: FormulaReader, node: Node, box: Box) -> Node:
         _check_power(reader, box)
     if not row:
         raise FormulaError(box.at, "a power is empty", "write it")
-    if (
-        len(row) == 1
-        and row[0].kind == "letter"
-        and row[0].name in ("T", "top", "intercal")
-        and (is_vector(node) or row[0].name != "T")
-    ):
+    letter = row[0].name if [b.kind for b in row] == ["letter"] else ""
+    if letter in ("top", "intercal") or (letter == "T" and is_vector(node)):
         return Call("transpose", (node,))
-    if len(row) == 1 and row[0].kind == "letter" and row[0].name == "T" and "T" not in reader.notation.letters:
+    if letter == "T" and "T" not in reader.notation.letters:
         why = "whether T is a power or transposes is open"
         raise FormulaError(row[0].at, why, "write \\top, or the letter in bold")
     if is_vector(node):

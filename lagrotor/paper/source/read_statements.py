@@ -148,10 +148,7 @@ def _is_condition(row: list[Box], place: int) -> bool:
     """Whether a bracket holds a relation and stands by itself: (c > 0), (n = 1, 2)."""
     box, apart = row[place], place and row[place - 1].kind in ("thin", "wide", "cases", "rows")
     held = (
-        box.kind == "bracket"
-        and box.name in "(["
-        and box.sup is None
-        and any(b.kind == "relation" for b in box.parts[0])
+        box.kind == "bracket" and box.name in "([" and not box.sup and any(b.kind == "relation" for b in box.parts[0])
     )
     return bool(held and (apart or not place))
 
@@ -192,12 +189,8 @@ def _is_side(row: list[Box], place: int) -> bool:
 def _further(reader: FormulaReader, found: list[PrintedStatement], part: list[Box], listed: bool) -> None:
     """What follows a comma without a relation: n = 1, 2, …; listed: whether more than one comma does."""
     last = found[-1]
-    if (
-        not listed
-        and part[0].kind == "number"
-        and part[0].at
-        and reader.source[part[0].at - 2 : part[0].at - 1].isdigit()
-    ):
+    before = reader.source[max(part[0].at - 2, 0) : max(part[0].at - 1, 0)]
+    if not listed and part[0].kind == "number" and before.isdigit():
         why = "whether the comma is in a number is open"
         raise FormulaError(part[0].at - 1, why, "write {,} in the number, or a space behind the comma")
     simple = all(b.kind in ("number", "dots", "letter", "operator", "infinity") for b in part)
@@ -235,13 +228,8 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             continue
         _check_side(side)
         latex = reader.source[side[0].at : side[-1].end].strip()
-        index = (
-            not place
-            and len(sides) == 2
-            and len(side) == 1
-            and (side[0].kind, side[0].sup) == ("letter", None)
-            and side[0].name in ("i", "j")
-        )
+        letter = not place and len(sides) == 2 and [(b.kind, b.sup) for b in side] == [("letter", None)]
+        index = letter and side[0].name in ("i", "j")
         read.append(Side(letter_of(reader, side[0])[0] if index else _side(reader, side), latex, side[0].at))
     degrees = {differential_degree(side.node, side.at) for side in read if not is_printed_zero(side.node)}
     if len(degrees) > 1 and not any(relation in _SETS for relation in relations):

@@ -43,6 +43,11 @@ SETTLED = [
     (r"a = \text{MSD}(b)", [], "MSD acts on what follows"),
     (r"a = \oint b\,dx", [], r"\oint is an integral"),
     (r"a = \int dx\, b", [], "what follows the differential"),
+    (r"a = \nabla_k f", [], "the index of"),
+    (r"p(a|b) = c", [], "parts what is given"),
+    (r"y[n] = x", [], "no product"),
+    (r"a = \int_0^1 x\,dx\,b", [], "what follows the differential"),
+    (r"a = \int_0^1\frac{dx}{x} b", [], "what follows the differential"),
     (r"a = \Delta b", [], "Delta b is one quantity"),
     (r"|01\rangle = a|0\rangle", [], "list of labels"),
     (r"a = \frac{\delta S}{\delta q}", [], "the fraction with delta"),
@@ -246,11 +251,26 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         r"\frac{d}{dt}\frac{\partial L}{\partial\dot q} = \frac{\partial L}{\partial q}", r"E = e^{-\beta a}",
         r"\sum_{i=1}^n m_i v_i = p", r"\int_0^1 x^2\,dx = \frac13", r"\langle\phi|\psi\rangle = 0", r"|a - b| \le c",
         r"R = \begin{pmatrix} \cos\theta & -\sin\theta\\ \sin\theta & \cos\theta\end{pmatrix}", r"a = 5\ \text{km}",
-        r"(a + b)(a - b) = a^2 - b^2", r"f(x, y) = x + y", r"p_i = m_i v_i",
+        r"(a + b)(a - b) = a^2 - b^2", r"f(x, y) = x + y", r"p_i = m_i v_i", r"(\nabla^2 + k^2) p = 0",
+        r"\int_0^1 f(x)\,dx + \int_0^1 g(x)\,dx = \int_0^1\frac{dx}{x}", r"a = \int_V \rho\,dV", r"\vec r = x\vec e_x",
+        r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}",
     ],
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
     assert not guesses(latex)
+
+
+def test_a_dot_is_of_numbers_where_the_paper_prints_its_vectors() -> None:
+    chain = r"a = \frac{dy}{du}\cdot\frac{du}{dx}"
+    assert guesses(chain) and not guesses(chain, r"\vec F = \vec G")
+    assert guesses(chain, r"\vec y = \vec G") and guesses(chain, r"\vec F = \vec G", r"p^\mu = 0"), (
+        "vectors, four-vectors"
+    )
+
+
+def test_a_bound_is_a_number_and_a_composition_is_no_factor() -> None:
+    assert guesses("a = N b") and not guesses("a = N b", r"c = \sum_{i=1}^N x_i")
+    assert guesses(r"E(\phi(E)) = E", r"\phi(E) = a", r"b = \frac{a}{E}", "b = E a")
 
 
 def test_the_line_that_a_mark_names_settles_it() -> None:
