@@ -18,6 +18,7 @@ _SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))  # values at the 
 _FALLEN = 1e-9  # the last coefficients over the largest, of a function that is resolved
 _HALVINGS = 8
 _SLACK = 1e-7  # of a half interval: a zero at an end is in both of its neighbours, never in neither
+_BESIDE_ENDS = np.array([-1 - 2 * _SLACK, 1 + 2 * _SLACK])
 _REAL = 1e-6  # the imaginary part of a real zero: of a double one the square root of rounding
 
 Functions = Callable[[Array], Array]  # times (m,) → values (k, m)
@@ -82,6 +83,10 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
     """(place in [−1, 1], direction) of the zeros of a Chebyshev series."""
     series = np.where(np.abs(series) > 1e-15 * np.abs(series).max(), series, 0.0)
     slope: Array = np.asarray(chebyshev.chebder(series), float)
+    if _keeps_its_sign(slope):
+        ends = chebyshev.chebval(_BESIDE_ENDS, series)
+        if ends[0] * ends[1] > 0:
+            return []
     turns = [x for x in _real_roots(slope) if abs(chebyshev.chebval(x, series)) <= touch]
     crossed = []
     for x in _real_roots(series):
@@ -96,9 +101,15 @@ def _same_side(series: Array, x: float, turn: float, touch: float) -> bool:
     return bool(np.abs(chebyshev.chebval(np.linspace(x, turn, 9), series)).max() <= 1.01 * touch)
 
 
+def _keeps_its_sign(series: Array) -> bool:
+    """Whether the constant outweighs all other terms, on [−1, 1] and so little beyond as a zero may lie: |T_k| is at most
+    cosh(k √(2 · 10⁻⁶)) there."""
+    return bool(abs(series[0]) > 1.001 * np.abs(series[1:]).sum())
+
+
 def _real_roots(series: Array) -> list[float]:
     trimmed = chebyshev.chebtrim(series, 0.0)
-    if len(trimmed) < 2:
+    if len(trimmed) < 2 or _keeps_its_sign(trimmed):
         return []
     roots = chebyshev.chebroots(trimmed)
     real = roots[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1 + _SLACK)].real

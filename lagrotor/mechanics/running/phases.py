@@ -121,6 +121,14 @@ class Switched:
     hidden: list[tuple[float, float]] = field(default_factory=list)
     accumulations: dict[int, float] = field(default_factory=dict)
 
+    @cached_property
+    def named_values(self) -> dict[str, Any]:
+        return {str(k): v for k, v in self.values.items()}
+
+    @cached_property
+    def sign_names(self) -> tuple[str, ...]:
+        return tuple(str(s.sign) for s in self.surfaces)
+
     @property
     def n(self) -> int:
         return len(self.system.c.q)
@@ -162,8 +170,7 @@ class Switched:
         """The values of the parameters, of the signs in this mode, and of the polynomials of its pieces."""
         if not isinstance(self.values, Mapping):
             return self.values  # and are refused where a parameter is sought
-        signs = {str(s.sign): float(k) for s, k in zip(self.surfaces, mode.signs, strict=True)}
-        known = {str(k): v for k, v in self.values.items()} | signs
+        known = self.named_values | dict(zip(self.sign_names, map(float, mode.signs), strict=True))
         for spline, i in zip(self.splines, mode.pieces, strict=True):
             known |= spline.numbers(i)
         return known

@@ -68,6 +68,15 @@ class Generated:
     parameters: tuple["sp.Symbol | Jet", ...]
 
     @cached_property
+    def state_names(self) -> tuple[str, ...]:
+        return tuple(map(str, self.states))
+
+    @cached_property
+    def letters(self) -> tuple[str, ...]:
+        """The names of the parameters that are numbers."""
+        return tuple(str(p) for p in self.parameters if not isinstance(p, Jet))
+
+    @cached_property
     def rhs(self) -> Callable[..., Any]:
         """parameters → rhs(t, y)."""
         return function_of(rhs_source(self.program, len(self.states)))
@@ -84,9 +93,10 @@ class Generated:
         def outputs(states: Array, times: Array) -> Array:
             with np.errstate(all="ignore"):
                 rows = function(*states[:, :d].T, times, *parameters)
-            return np.array([np.broadcast_to(np.asarray(e, float), np.shape(times)) for e in rows]).reshape(
-                len(rows), -1
-            )
+            values = np.empty((len(rows), np.size(times)))
+            for i, e in enumerate(rows):
+                values[i] = e
+            return values
 
         return outputs
 
@@ -469,27 +479,26 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
         names = [str(key) for key in values]
         twice = sorted({name for name in names if names.count(name) > 1})
         raise InputError(f"{where}: {', '.join(twice)} with two values, of the symbol and of its name: give one")
-    if moving := [str(s) for s in given.states if str(s) in by_name]:
+    if moving := [name for name in given.state_names if name in by_name]:
         raise InputError(
             f"{where}: values give {', '.join(moving)} a value, which moves: a start is given by q0 and v0, a time by t"
         )
-    letters = [p for p in given.parameters if not isinstance(p, Jet)]
-    if missing := [str(p) for p in letters if str(p) not in by_name]:
+    if missing := [name for name in given.letters if name not in by_name]:
         misspelt = near(missing[0], by_name.keys() - {str(p) for p in given.parameters})
         raise InputError(
             f"{where}: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each{misspelt}"
         )
     numbers: list[Any] = []
-    for p in letters:
+    for name in given.letters:
         try:
-            if isinstance(by_name[str(p)], str | bool):
+            if isinstance(by_name[name], str | bool):
                 raise TypeError
-            numbers.append(float(by_name[str(p)]))
+            numbers.append(float(by_name[name]))
         except (TypeError, ValueError, OverflowError):
-            raise InputError(f"{where}: {p} = {by_name[str(p)]!r} must be a number") from None
+            raise InputError(f"{where}: {name} = {by_name[name]!r} must be a number") from None
         if not abs(numbers[-1]) < float("inf"):
-            raise InputError(f"{where}: {p} = {numbers[-1]} must be finite")
-    for jet in given.parameters[len(letters) :]:
+            raise InputError(f"{where}: {name} = {numbers[-1]} must be finite")
+    for jet in given.parameters[len(numbers) :]:
         assert isinstance(jet, Jet)
         value = by_name.get(jet.name)
         if not isinstance(value, FunctionValue):
