@@ -108,7 +108,7 @@ def _keeps_its_sign(series: Array) -> bool:
 
 
 def _real_roots(series: Array) -> list[float]:
-    trimmed = chebyshev.chebtrim(series, 0.0)
+    trimmed: Array = np.asarray(chebyshev.chebtrim(series, 0.0), float)
     if len(trimmed) < 2 or _keeps_its_sign(trimmed):
         return []
     roots = chebyshev.chebroots(trimmed)
