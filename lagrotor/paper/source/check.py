@@ -54,6 +54,12 @@ _MOST_SLIPS, _MEMORY = 120, 60
 _VALUED = re.compile(r"\\(?:mathrm|rm|text|hbar)\b|k_")
 # What the text may say of letters; relations that make nothing of one letter out of another.
 _RELATION = re.compile(r"=|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
+# What the text says where two sides agree only under a condition.
+_CONDITIONS = re.compile(
+    r"\b(?:modulo|up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*|by parts|boundary|relabel\w*"
+    r"|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|vanish\w*|limit|small|assum\w*|on.shell|constraint)\b",
+    re.IGNORECASE,
+)
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 # The one guess that verdicts rest on: that log is the natural logarithm.
 _ANY_BASE = "log is"
@@ -105,6 +111,7 @@ class _Checker:
         self.source, self.readings, self.notation = source, readings, notation
         self.opaque = Opaque()
         self.before: list[_Read] = []
+        self.labelled: defaultdict[str, list[_Read]] = defaultdict(list)  # those before, by label
         self.place = 0
         self.statements = [
             _Read(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
@@ -122,7 +129,9 @@ class _Checker:
                 yield from self._steps(each, statement if number else self._continued(each, statement), reading)
             yield from self._against_cited(each, reading)
             if not _guess(reading):
-                self.before += [_Read(each, s) for s in reading.statements if s.kind == "equation"]
+                made = [_Read(each, s) for s in reading.statements if s.kind == "equation"]
+                self.before += made
+                self.labelled[each.label] += made
         yield from self._dimensions()
         yield from self._letters()
 
@@ -155,8 +164,7 @@ class _Checker:
 
     def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """A row that continues the one before, with the last side of that row in its place."""
-        place = self.source.equations.index(each)
-        before = self.readings[place - 1][1] if each.lead and place else None
+        before = self.readings[self.place - 1][1] if each.lead and self.place else None
         if (
             before is None
             or not before.whole
@@ -197,7 +205,30 @@ class _Checker:
             return "undecided", f"the difference {why}"
         if answer == "shape":
             return "undecided", "one side is printed as a vector, the other as a number"
-        return self._refuted(left, right, a, b)
+        verdict, why = self._refuted(left, right, a, b)
+        if verdict != REFUTED and used and self._are_near(used) and (slip := self._slip_from(given[0], b, right)):
+            return REFUTED, f"with {', '.join(used)} the two sides differ; {slip}"
+        return verdict, why
+
+    def _are_near(self, used: list[str]) -> bool:
+        """Whether equations are cited, or among the last three of the section."""
+        each = self.readings[self.place][0]
+        last = [e for e, _ in self.readings[max(self.place - 3, 0) : self.place] if e.section == each.section]
+        near = [*last, *(read.equation for label in each.cites for read in self.labelled[label])]
+        return {*used} <= {f"({e.id})" for e in near} and not self._says_condition()
+
+    def _says_condition(self) -> str:
+        words = _CONDITIONS.search(self.source.words.get(self.readings[self.place][0].id, ""))
+        return words[0] if words else ""
+
+    def _slip_from(self, put: Any, b: Any, right: Node) -> str | None:
+        """The one change of the right side with which it is the left one, `put`, whose letters no other equation relates."""
+        if any(isinstance(side, sp.MatrixBase) for side in (put, b)) or has_opaque(put, b):
+            return None
+        letters = {symbol.name for symbol in put.free_symbols}
+        if {symbol.name for symbol in b.free_symbols} != letters or next(self._related(letters), None):
+            return None
+        return self._change(put, right, letters)
 
     def _refuted(self, left: Node, right: Node, a: Any, b: Any) -> tuple[str, str]:
         """Whether a difference that is not zero refutes the step."""
@@ -206,9 +237,13 @@ class _Checker:
             return "undecided", "derivatives, integrals or functions may be related"
         if more := sorted(others - own):
             return "undecided", f"{', '.join(more)} may be related to the letters before"
+        if words := self._says_condition():
+            return "undecided", f"the text beside it says: {words}"
         if not others and own:
             if (value := _constant(a)) is not None and decided(a, value) == "zero":
                 return REFUTED, f"the left side is {value} for all values of its letters"
+            if a.has(sp.Function) and (slip := self._change(b, left, own)) and "sign" in slip:
+                return REFUTED, f"the left side is not {b}; {slip}"
             return "undecided", "it is a condition, not an identity"
         difference = "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(sp.factor_terms(a - b))
         slip = self._slip(left, right, a, b)
@@ -220,17 +255,20 @@ class _Checker:
 
     def _slip(self, left: Node, right: Node, a: Any, b: Any) -> str | None:
         """The one change with which the two sides agree."""
-        symbols = sorted({*a.free_symbols, *b.free_symbols}, key=str)
+        names = {*letters_of(left), *letters_of(right)}
+        return self._change(a, right, names) or self._change(b, left, names)
+
+    def _change(self, fixed: Any, changing: Node, names: set[str]) -> str | None:
+        """The one change of a side with which it is the other, `fixed`."""
+        symbols = sorted({*fixed.free_symbols, *(sp.Symbol(name, real=True) for name in names)}, key=str)
         point = {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}
-        for fixed, changing in ((a, right), (b, left)):
-            value = _number(fixed, point)
-            names = {*letters_of(left), *letters_of(right)}
-            if (ratio := _ratio(fixed, _expression_of(changing, self.opaque), point)) is not None:
-                return f"with the factor {ratio} of the whole they agree"
-            for mutant, said in islice(chain(_whole(changing), slips(changing, names)), _MOST_SLIPS):
-                other = _expression_of(mutant, self.opaque)
-                if other is not None and _near(value, _number(other, point)) and decided(fixed, other) == "zero":
-                    return f"with {said} they agree"
+        value = _number(fixed, point)
+        if (ratio := _ratio(fixed, _expression_of(changing, self.opaque), point)) is not None:
+            return f"with the factor {ratio} of the whole they agree"
+        for mutant, said in islice(chain(_whole(changing), slips(changing, names)), _MOST_SLIPS):
+            other = _expression_of(mutant, self.opaque)
+            if other is not None and _near(value, _number(other, point)) and decided(fixed, other) == "zero":
+                return f"with {said} they agree"
         return None
 
     def _related(self, letters: set[str]) -> Iterator[str]:
@@ -321,7 +359,7 @@ class _Checker:
         """An equation against two that the text before it names, where the one is a definition in the other."""
         if len(each.cites) < 2 or len(reading.statements) != 1:
             return
-        named = [read for label in each.cites for read in self.before if read.equation.label == label]
+        named = [read for label in each.cites for read in self.labelled[label]]
         new = self._difference(reading.statements[0])
         if new is None:
             return
@@ -348,9 +386,8 @@ class _Checker:
                     yield self._finding(each, 0, None, "undecided", f"it cites {names}; but it is a guess that {guess}")
                 elif _proportional(put, new):
                     yield self._finding(each, 0, None, HOLDS, f"it is {names}")
-                elif (term := _flipped(put, new)) is not None:
-                    why = f"{names} gives it with the other sign of {sp.sstr(term)}"
-                    yield self._finding(each, 0, None, REFUTED, why)
+                elif (terms := _changed(put, new)) is not None:
+                    yield self._finding(each, 0, None, REFUTED, f"{names} gives it with {terms[1]} for {terms[0]}")
                 else:
                     yield self._finding(each, 0, None, "undecided", f"it is not {names} alone")
                 return
@@ -423,15 +460,16 @@ class _Checker:
                     )
                 continue
             definitions[first.name] = place, read
+        used: dict[
+            tuple[str, str], tuple[int, _Read]
+        ] = {}  # by letter and chapter, the first use: in another it may differ
+        for place, read in enumerate(self.statements):
+            for name in _letters_of(read.statement):
+                used.setdefault((name, read.equation.section.split(".")[0]), (place, read))
         for name, (place, read) in definitions.items():
-            chapter = read.equation.section.split(".")[0]  # in another a letter may have another meaning
-            users = [
-                r
-                for r in self.statements[:place]
-                if name in _letters_of(r.statement) and r.equation.section.split(".")[0] == chapter
-            ]
-            if users and users[0].equation.id != read.equation.id:
-                yield self._finding(users[0].equation, 0, None, BEFORE, f"{name} is given in ({read.equation.id})")
+            first_use, user = used[name, read.equation.section.split(".")[0]]
+            if first_use < place and user.equation.id != read.equation.id:
+                yield self._finding(user.equation, 0, None, BEFORE, f"{name} is given in ({read.equation.id})")
         if self.notation.exponential and "e" in self.notation.bare:
             own = [(each, notation_of([each.latex])) for each, _ in self.readings]
             letter = [each for each, seen in own if "e" in seen.bare]  # none: e is a letter in the text alone
@@ -488,6 +526,8 @@ def _whole(node: Node) -> Iterator[tuple[Node, str]]:
     if not (isinstance(node, Call) and node.name == "sum"):
         yield Call("negative", (node,)), "the sign of the whole changed"
     yield Call("quotient", (Number(Fraction(1)), node)), "the whole turned over"
+    yield Call("sqrt", (node,)), "the root of the whole"
+    yield Call("power", (node, Number(Fraction(2)))), "the whole squared"
 
 
 def _ratio(a: Any, b: Any, point: dict[sp.Symbol, sp.Rational]) -> Fraction | None:
@@ -569,9 +609,10 @@ def _proportional(a: sp.Expr, b: sp.Expr) -> bool:
     )
 
 
-def _flipped(a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
-    """The term of b with whose sign changed the two say the same."""
+def _changed(a: sp.Expr, b: sp.Expr) -> tuple[str, str] | None:
+    """The term of b with whose sign or factor 2 changed the two say the same, and what it ought to be."""
     terms = sp.Add.make_args(sp.expand(b))
     if len(terms) > _MOST_TERMS:
         return None
-    return next((term for term in terms if _proportional(a, sp.expand(b) - 2 * term)), None)
+    changes = ((term, factor * term) for factor in (-1, 2, sp.Rational(1, 2)) for term in terms)
+    return next(((sp.sstr(t), sp.sstr(new)) for t, new in changes if _proportional(a, sp.expand(b) - t + new)), None)

@@ -64,8 +64,8 @@ class Displayed:
 class Source:
     """What a source says of a paper: title, authors, section number → heading, displayed equations; inline formula → section.
 
-    notes: what could not be known of it; faults: file, line, and what TeX would stop at there; preamble: packages that its
-    formulas need.
+    notes: what could not be known of it; faults: file, line, and what TeX would stop at there; words: id → the text of the
+    paragraph before and behind; preamble: packages that its formulas need.
     """
 
     title: str
@@ -75,6 +75,7 @@ class Source:
     inline: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     faults: list[tuple[str, int, str]] = field(default_factory=list)
+    words: dict[str, str] = field(default_factory=dict)
     preamble: str = ""
     labels: dict[str, str] = field(default_factory=dict)
 
@@ -123,6 +124,8 @@ class _Walker:
         self.last, self.since = "0", 0
         self.parent = ""
         self.cited: list[str] = []  # labels named since the last display
+        self.words = ""  # of the paragraph, since the last display
+        self.beside: list[str] = []  # displays by which the next words stand
         self.ids: set[str] = set()
         self.only_cited = False  # \mathtoolsset{showonlyrefs}
         self.referred: set[str] = set()  # by \eqref
@@ -137,14 +140,17 @@ class _Walker:
         for token in self.expander.tokens():
             if token.kind == "command":
                 if token.text == r"\end" and self._name() == "document":
+                    if self.expander.leave_file(token.at):
+                        continue
                     break
                 self._command(token)
             elif token.kind == "math" and self.body:
                 self._math(token)
+            elif token.kind == "text":
+                self._text(token.text)
         else:
             if self.whole and self.body:
                 self.expander.macros.fault(len(self.expander.starts[0][3]) - 1, "", r"\end{document} is missing")
-        self.expander.macros.close_to(0)
         if self.whole and not self.body:
             self.expander.macros.fault(0, "", r"\begin{document} is missing")
         self.found.faults = self.expander.faults()
@@ -266,6 +272,17 @@ class _Walker:
                 self._command(token)
             elif token.kind == "math":
                 self._math(token)
+            elif token.kind == "text":
+                self._text(token.text)
+
+    def _text(self, text: str) -> None:
+        """The words of a paragraph stand by the display before them and by the one behind."""
+        first, *others = _EMPTY_LINE.split(text)
+        for display in self.beside:
+            self.found.words[display] += first
+        self.words = others[-1] if others else self.words + first
+        if others:
+            self.beside = []
 
     # ---- sections
 
@@ -468,6 +485,7 @@ class _Walker:
 
     def _keep(self, rows: list[Row], kind: str, token: Token, lead: list[Token]) -> None:
         """The equations of a display: rows that continue the one before are joined with it."""
+        known = len(self.found.equations)
         group: list[Row] = []
         previous = ""
         for place, row in enumerate(rows if kind in ("align", "gather", "alignat", "flalign") else ()):
@@ -488,7 +506,8 @@ class _Walker:
             group = [row]
         if group:
             self._one(group, kind, token, previous, lead)
-        self.cited = []
+        self.cited, self.words = [], ""
+        self.beside = [each.id for each in self.found.equations[known:]]
 
     def _continues(self, group: list[Row], row: Row, source: str) -> bool:
         body = source[_LEADING.match(source).end() :]  # type: ignore[union-attr]
@@ -534,6 +553,7 @@ class _Walker:
         while identifier in self.ids or not identifier:
             identifier += "'"
         self.ids.add(identifier)
+        self.found.words[identifier] = self.words
         self.found.sections.setdefault(self.section, "Before the first section")
         firsts = [next((t for t in row.tokens if t.text.strip(" \n\t&")), token) for row in group]
         places = [first.at + len(first.text) - len(first.text.lstrip()) for first in firsts]

@@ -29,6 +29,7 @@ _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifbl
 _DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "displaymath", "subequations")
 _HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection", r"\appendix")
 _OPENING, _CLOSING = ("{", r"\left", r"\begingroup", r"\bgroup"), ("}", r"\right", r"\endgroup", r"\egroup")
+_NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
 _SHOWN = (r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph")
 
 
@@ -88,8 +89,19 @@ class Expander:
     def _file(self, at: int) -> tuple[int, str, list[int], str]:
         return self.starts[bisect_right(self.starts, at, key=lambda each: each[0]) - 1]
 
+    def leave_file(self, at: int) -> bool:
+        r"""Whether a place is in a part that could stand by itself, which \end{document} ends."""
+        within = [tokens for _, tokens in self.reading if any(tokens is each for each in self.waiting)]
+        if not self._file(at)[0] or not within:
+            return False
+        while self.waiting.pop() is not within[-1]:
+            pass
+        return True
+
     def faults(self) -> list[tuple[str, int, str]]:
         """File and line of what TeX would stop at, where the source itself has it: of a macro's parts too little is known."""
+        self.macros.close_to(len(self.macros.groups) if self.level is None else self.level, say=False)
+        self.macros.close_to(0)
         made = []
         for at, mark, said in sorted(self.macros.faults):
             start, name, _, text = self._file(at)
@@ -135,7 +147,7 @@ class Expander:
         """The next argument: what is in braces, or one character or command."""
         self.skip_spaces()
         token = self.next()
-        if token is None or token.kind == "close":
+        if token is None or token.kind in ("close", "math") or token.text in _NO_ARGUMENT:
             self.push([token] if token else [])
             return []
         if token.kind == "open":

@@ -6,7 +6,9 @@ import pytest
 
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
+from lagrotor.paper.readable import readable
 from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, REFUTED, UNITS, StepFinding, check_source
+from lagrotor.paper.source.displays import read_latex
 from lagrotor.paper.source.markup import read_source
 
 
@@ -268,3 +270,36 @@ def test_a_letter_of_another_chapter_is_not_used_before_it_is_given(tmp_path: Pa
 def test_e_with_two_meanings_is_named_where_it_is_a_letter(tmp_path: Path) -> None:
     (found,) = findings(tmp_path, "\\[ a = b \\]\n\\[ y = e^{ax} \\]\n\\[ F = e E \\]")
     assert (found.verdict, found.line) == (MEANINGS, 5)
+
+
+@pytest.mark.parametrize(
+    "words", ["By symmetry,", "Modulo total derivatives", "Integrating by parts", "We drop boundaries:"]
+)
+def test_a_condition_in_words_refutes_nothing(words: str) -> None:
+    step = r"\[ S = a_1 + a_2 = 2 a_1 \]"
+    assert [each.verdict for each in check_source(read_latex(f"{words} {step}"))] == ["undecided"]
+    assert [each.verdict for each in check_source(read_latex(f"Then {step} as we may {words.lower()}"))] == [
+        "undecided"
+    ]
+    assert [each.verdict for each in check_source(read_latex(f"{words} much is won.\n\nThen {step}"))] == [
+        "would be refuted"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "slip"),
+    [
+        (r"\[ a = b + c \]\[ d = a^2 = b^2 + b c + c^2 \]", "with b·c doubled"),
+        (r"\[ r = \sqrt{x^2 + y^2} = x^2 + y^2 \]", "the root of the whole"),
+        (r"\[ f = \cosh^2 x + \sinh^2 x = 1 \]", "the sign of"),
+        (
+            r"\begin{equation}\label{a} x = 2y\end{equation}\begin{equation}\label{b} z = x^2 + x\end{equation}"
+            r"From \eqref{a} and \eqref{b} \begin{equation} z = 2y^2 + 2y \end{equation}",
+            "for ",
+        ),
+    ],
+)
+def test_a_slip_is_found_where_definitions_are_put_in(text: str, slip: str) -> None:
+    wrong = [each for each in check_source(read_latex(text)) if each.verdict == "would be refuted"]
+    assert len(wrong) == 1
+    assert slip in readable(wrong[0].why)

@@ -55,6 +55,7 @@ def test_what_is_not_ended_is_said_and_what_follows_is_read(body: str, tmp_path:
         r"\newenvironment{eq}{\begin{equation}\left(}{\right)\end{equation}} \begin{eq} a \end{eq}",
         r"\begin{align} a &= \begin{cases} b & c \\ d & e \end{cases} \\ f &= \{ g \} \end{align} \url{http://a.b/%20c}",
         r"\DefineShortVerb{\|} \verb|{a| and |}| $\begin{pmatrix} a \\ b \end{pmatrix}$ \newif\ifx \ifnum 1=1 {a} \fi",
+        r"$\vu$ $\vu\left(a\right)$",
     ],
 )
 def test_nothing_is_said_of_what_is_ended(body: str, tmp_path: Path) -> None:
@@ -113,3 +114,12 @@ def test_half_a_letter_in_a_notebook_is_written(tmp_path: Path) -> None:
         json.dumps({"cells": [{"cell_type": "markdown", "source": ["$$a = \ud800$$"]}]})
     )
     assert main(["init", str(tmp_path / "new"), "--from", str(file)]) == 0
+
+
+def test_a_part_that_could_stand_by_itself_does_not_end_the_source(tmp_path: Path) -> None:
+    part = "\\documentclass{standalone}\\begin{document}\\[ c = d \\]\\end{document}\n"
+    (tmp_path / "part.tex").write_text(part)
+    (file := tmp_path / "paper.tex").write_text(whole("\\begin{figure}\\input{part}\\end{figure}"))
+    source = read_source(file)
+    assert [each.latex for each in source.equations] == ["c = d", "x = y"]
+    assert source.faults == []
