@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.canonical.hamiltonians import rotational_bracket as rotational_bracket
     from lagrotor.mechanics.canonical.normal_forms import NormalForm as NormalForm
     from lagrotor.mechanics.canonical.normal_forms import birkhoff as birkhoff
+    from lagrotor.mechanics.canonical.return_maps import ReturnMapForm as ReturnMapForm
+    from lagrotor.mechanics.canonical.return_maps import map_normal_form as map_normal_form
     from lagrotor.mechanics.constraints import project_position as project_position
     from lagrotor.mechanics.constraints import project_velocity as project_velocity
     from lagrotor.mechanics.constraints import solve_constrained as solve_constrained

@@ -22,13 +22,14 @@ import sympy as sp
 from lagrotor.algebra import Decision, decide_equal, decide_zero, derivative
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import by_symbol, expression, shortest, vector_of
+from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest, vector_of
 from lagrotor.mechanics.lagrangian import gradient, jacobian, linear_solve, t
 from lagrotor.mechanics.symmetry import legendre
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.canonical.generating_functions import GeneratedTransformation
     from lagrotor.mechanics.canonical.normal_forms import NormalForm
+    from lagrotor.mechanics.canonical.return_maps import ReturnMapForm
 
 
 @dataclass(frozen=True)
@@ -135,31 +136,44 @@ class Hamiltonian:
         return generated_transformation(self.H, self.q, self.p, self._function("generated: F", F), P)
 
     def normal_form(
-        self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any] | None = None, detuning: float = 0.0
+        self,
+        order: int,
+        at: Mapping[Any, Any],
+        values: Mapping[Any, Any] | None = None,
+        detuning: float = 0.0,
+        period: float | None = None,
     ) -> "NormalForm":
         """Birkhoff's normal form through an order about the equilibrium or steady motion `at`: see `normal_forms.NormalForm`.
+
+        With a period about the periodic orbit that begins near `at`, of the same energy, or driven: a `ReturnMapForm`.
 
         A steady motion is named by the momenta of the angles that turn, which H does not have: it is an equilibrium of what is
         left, whose form is given. With letters for these momenta the derivatives of the actions' coefficients by them are
         the mean rates of the angles.
 
         Args:
-            at: {coordinate or momentum: value}; where no momentum is named they are those of rest.
+            at: {coordinate or momentum: value}; where no momentum is named they are those of rest, of an orbit those of the
+                velocities in it; t: of a drive.
             values: of the parameters; without them the coefficients are exact where the frequencies are rational, algebraic or
                 rational in the parameters.
             detuning: what is combined of the frequencies, in rad/s, up to which a resonance is kept.
+            period: of the orbit, s; near enough is enough, but that of a drive.
 
         Raises:
-            InputError: where `at` is neither, a coordinate is not named or a letter needs a value.
-            DomainError: where there are constraints, or H depends on time or is not analytic there.
+            InputError: where `at` is none of these, a coordinate is not named or a letter needs a value.
+            DomainError: where there are constraints, H is not analytic there, or depends on time without a period.
+            SingularError: where a multiplier of an orbit is 1 or −1.
         """
         from lagrotor.mechanics.canonical.normal_forms import normal_form_at
 
         x = (*self.q, *self.p)
-        if self.constraints or self.H.has(t) or not self.field.is_zero_matrix:
+        if self.constraints or not self.field.is_zero_matrix or (self.H.has(t) and period is None):
             raise DomainError(
-                "normal_form: H must have canonical momenta, no constraints and no time: use independent coordinates"
+                "normal_form: H must have canonical momenta and no constraints: use independent coordinates; where it depends on "
+                "time, name the period of an orbit"
             )
+        if period is not None:
+            return self._about_orbit(order, at, values or {}, detuning, period)
         point = {s: expression(f"normal_form: {s}", v) for s, v in by_symbol(at, x).items()}
         letters = by_symbol(values or {}, self.H.free_symbols.union(*(v.free_symbols for v in point.values())))
         known = {s: expression(f"normal_form: {s}", v) for s, v in letters.items()}
@@ -189,6 +203,44 @@ class Hamiltonian:
             refusal = "normal_form: det ∂²H/∂p∂p = 0 there: name the momenta"
             at_rest |= dict(zip(p, linear_solve(jacobian(slopes, p), still, refusal), strict=True))
         return normal_form_at(H, x, at_rest, order, detuning)
+
+    def _about_orbit(
+        self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any], detuning: float, period: float
+    ) -> "ReturnMapForm":
+        """The start in numbers, without the angles that H does not have: their momenta are parameters."""
+        from lagrotor.mechanics.canonical.normal_forms import check_order
+        from lagrotor.mechanics.canonical.periodic_orbits import return_map_form
+
+        check_order(order, detuning)
+        try:
+            duration = float("nan" if isinstance(period, str | bool) else period)
+        except (TypeError, ValueError):
+            duration = float("nan")
+        if not 0 < duration < float("inf"):
+            raise InputError(f"normal_form: period = {period!r} must be a positive time in s")
+        x = (*self.q, *self.p)
+        point = {s: expression(f"normal_form: {s}", e) for s, e in by_symbol(at, (*x, *self.v, t)).items()}
+        if strange := [str(s) for s in point if s not in {*x, *self.v, t}]:
+            raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}, {self.v} and t")
+        if missing := [str(s) for s in self.q if s not in point and self.H.has(s)]:
+            raise InputError(f"normal_form: {', '.join(missing)} without a value: the start needs each coordinate's")
+        letters = by_symbol(values, self.H.free_symbols.union(*(e.free_symbols for e in point.values())))
+        known = {s: expression(f"normal_form: {s}", e) for s, e in letters.items()}
+        H, point = self.H.xreplace(known), {s: e.xreplace(known) for s, e in point.items()}
+        no_letter("normal_form", (H.free_symbols - {*x, t}).union(*(e.free_symbols for e in point.values())))
+        place = dict.fromkeys(self.q, sp.S.Zero) | {t: sp.S.Zero} | point
+        if not point.keys() & {*self.p}:
+            slopes = gradient(H, self.p).xreplace({s: place[s] for s in (*self.q, t)})
+            rates = sp.Matrix([point.get(v, 0) for v in self.v]) - slopes.xreplace(dict.fromkeys(self.p, sp.S.Zero))
+            refusal = "normal_form: det ∂²H/∂p∂p = 0 at the start: name the momenta"
+            place |= dict(zip(self.p, linear_solve(jacobian(slopes, self.p), rates, refusal), strict=True))
+        elif both := [str(s) for s in point if s in self.v]:
+            raise InputError(f"normal_form: at names momenta and velocities ({', '.join(both)}): give one kind")
+        start = {s: float(place.get(s, 0)) for s in (*x, t)}
+        kept = [H.has(q) for q in self.q]
+        H = H.xreplace({p: sp.Float(start[p], 17) for p, own in zip(self.p, kept, strict=True) if not own})
+        x = tuple(s for s, own in zip(x, kept * 2, strict=True) if own)
+        return return_map_form(H, x, start, duration, int(order), float(detuning))
 
 
 def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None, kinetic: bool = False) -> Hamiltonian:

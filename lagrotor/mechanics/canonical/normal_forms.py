@@ -1,4 +1,4 @@
-"""Birkhoff's normal form of a Hamiltonian about an equilibrium, to any order, by Lie series.
+"""Birkhoff's normal form of a Hamiltonian about an equilibrium, to any order, by Lie series. Of orbits: `return_maps`.
 
 In normal coordinates (see `symplectic`) the quadratic part is H₂ = sum_j ω_j z_j w_j + N and
 
@@ -39,7 +39,7 @@ from lagrotor.mechanics.canonical.symplectic import NormalCoordinates, normal_co
 from lagrotor.shown import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
-_STEADY = "of a steady motion name the momenta of its angles; about other periodic orbits no normal form is expanded"
+_STEADY = "of a steady motion name the momenta of its angles, of another periodic orbit its period"
 _SMALL = 1e-16  # of the largest coefficient: what is left of a nilpotent part's series
 
 
@@ -217,6 +217,14 @@ def _error(H: Polynomial, K: Polynomial, generators: Sequence[Polynomial], weigh
     return max((size / max(sizes[d], sizes[2]) for d, size in left.items()), default=0.0)
 
 
+def check_order(order: int, detuning: float) -> None:
+    """Raises InputError for an order or a detuning that is none."""
+    if not isinstance(order, int | np.integer) or isinstance(order, bool) or order < 2:
+        raise InputError(f"normal_form: order = {order!r} must be a whole number from 2 on")
+    if not isinstance(detuning, int | float | np.number) or not 0 <= detuning < np.inf:
+        raise InputError(f"normal_form: detuning = {detuning!r} must be a rate from 0 on, in rad/s")
+
+
 def normal_form_at(
     H: sp.Expr, x: Sequence[sp.Symbol], at: Mapping[sp.Symbol, sp.Expr], order: int, detuning: float = 0.0
 ) -> NormalForm:
@@ -226,10 +234,7 @@ def normal_form_at(
     numbers otherwise. Raises InputError where `at` is no equilibrium or letters are left that need values, DomainError
     where H is not analytic there, SingularError where a rate other than zero is double and not diagonal.
     """
-    if not isinstance(order, int | np.integer) or isinstance(order, bool) or order < 2:
-        raise InputError(f"normal_form: order = {order!r} must be a whole number from 2 on")
-    if not isinstance(detuning, int | float | np.number) or not 0 <= detuning < np.inf:
-        raise InputError(f"normal_form: detuning = {detuning!r} must be a rate from 0 on, in rad/s")
+    check_order(order, detuning)
     letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v, strict=True).free_symbols for v in at.values()))
     try:
         return _exact(H, x, at, order, detuning)

@@ -1,0 +1,156 @@
+"""Truncated power series in several variables as numbers that a compiled program can be run on: jet transport.
+
+A `Jet` holds all coefficients through a degree, lowest degrees first. Sums and products are those of polynomials; a function is
+expanded about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!, of which v, without a constant, leaves finitely
+many terms. The motion of a jet is the motion with all its derivatives by the start: the variational equations to any order.
+Berz, Modern Map Methods in Particle Beam Physics, ch. 2; Jorba & Zou, Experimental Mathematics 14 (2005) 99.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations_with_replacement
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.lib.mixins import NDArrayOperatorsMixin
+from numpy.typing import NDArray
+
+from lagrotor.errors import DomainError
+from lagrotor.mechanics.canonical.polynomials import Polynomial
+from lagrotor.numerics.codegen import Program
+from lagrotor.numerics.printers import compile_program
+
+Array = NDArray[np.float64]
+_Z = sp.Symbol("z", real=True)
+_NAMES = {
+    "arcsin": "asin",
+    "arccos": "acos",
+    "arctan": "atan",
+    "arcsinh": "asinh",
+    "arccosh": "acosh",
+    "arctanh": "atanh",
+}
+_SMOOTH = ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", *_NAMES)
+
+
+@dataclass(frozen=True, eq=False)
+class JetSpace:
+    """All exponents (N, n) through a degree; of a product's term `begins[k]` on are left × right of term k."""
+
+    exponents: NDArray[np.int64]
+    left: NDArray[np.int64]
+    right: NDArray[np.int64]
+    begins: NDArray[np.int64]
+
+    @property
+    def degree(self) -> int:
+        """The highest degree."""
+        return int(self.exponents[-1].sum())
+
+    def product(self, a: Array, b: Array) -> Array:
+        """The coefficients of a product through the degree."""
+        return np.add.reduceat(a[self.left] * b[self.right], self.begins)
+
+    def constant(self, value: float) -> "Jet":
+        """A number."""
+        return Jet(np.append(value, np.zeros(len(self.exponents) - 1)), self)
+
+    def variable(self, k: int) -> "Jet":
+        """x_k."""
+        unit = np.arange(self.exponents.shape[1]) == k
+        return Jet((self.exponents == unit).all(axis=1).astype(float), self)
+
+
+@lru_cache(maxsize=16)
+def jet_space(variables: int, degree: int) -> JetSpace:
+    """The space of the series in so many variables through a degree."""
+    rows = [
+        np.bincount(np.array(chosen, dtype=int), minlength=variables)
+        for d in range(degree + 1)
+        for chosen in combinations_with_replacement(range(variables), d)
+    ]
+    exponents = np.array(rows, dtype=np.int64).reshape(-1, variables)
+    place = {tuple(e): k for k, e in enumerate(exponents.tolist())}
+    triples = sorted(
+        (place[tuple((a + b).tolist())], i, j)
+        for i, a in enumerate(exponents)
+        for j, b in enumerate(exponents)
+        if a.sum() + b.sum() <= degree
+    )
+    out, left, right = np.array(triples).T
+    return JetSpace(exponents, left, right, np.searchsorted(out, np.arange(len(exponents))))
+
+
+@dataclass(frozen=True, eq=False)
+class Jet(NDArrayOperatorsMixin):
+    """sum_k coefficients[k] × prod_j x_j^exponents[k, j]. numpy's functions of one argument take it where they are analytic.
+
+    Raises DomainError for another function.
+    """
+
+    coefficients: Array
+    space: JetSpace
+
+    @property
+    def polynomial(self) -> Polynomial:
+        """The terms that are not zero."""
+        return Polynomial(self.space.exponents, self.coefficients + 0j).where(self.coefficients != 0)
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> "Jet":
+        name = ufunc.__name__
+        if len(inputs) == 1:
+            return Jet(-self.coefficients, self.space) if name == "negative" else self._composed(name)
+        a, b = inputs
+        if name == "power" and not isinstance(b, Jet):
+            return a._power(b)
+        if name == "power":
+            return np.exp(b * np.log(a))
+        rows = [x.coefficients if isinstance(x, Jet) else self.space.constant(x).coefficients for x in inputs]
+        if name in ("add", "subtract"):
+            return Jet(ufunc(*rows), self.space)
+        if name == "multiply":
+            plain = not (isinstance(a, Jet) and isinstance(b, Jet))
+            one = rows[0][0] * rows[1] if not isinstance(a, Jet) else rows[0] * rows[1][0]
+            return Jet(one if plain else self.space.product(*rows), self.space)
+        if name == "divide":
+            return Jet(rows[0] / b, self.space) if not isinstance(b, Jet) else a * b._composed("power", -1.0)
+        raise _not_analytic(name)
+
+    def _power(self, n: float) -> "Jet":
+        if n != int(n) or n < 0:
+            return self._composed("power", float(n))
+        half = self._power(n // 2) if n > 1 else self.space.constant(1.0)
+        return half * half * self if n % 2 else half * half
+
+    def _composed(self, name: str, *more: float) -> "Jet":
+        """f of this jet by Horner's rule in what of it is not constant."""
+        f = _taylor(name, self.space.degree, *more)
+        try:
+            *lower, last = f(float(self.coefficients[0]))
+        except (ArithmeticError, TypeError, ValueError):  # out of the function's range: a solver makes its step shorter
+            return Jet(np.full(len(self.coefficients), np.nan), self.space)
+        v = self.coefficients.copy()
+        v[0] = 0.0
+        result = last * (np.arange(len(v)) == 0)
+        for c in reversed(lower):
+            result = self.space.product(result, v)
+            result[0] += c
+        return Jet(result, self.space)
+
+
+def _not_analytic(name: str) -> DomainError:
+    return DomainError(f"normal_form: {name} is not expanded: write H by analytic functions of one argument")
+
+
+@lru_cache(maxsize=64)
+def _taylor(name: str, degree: int, *more: float) -> Callable[[float], list[float]]:
+    """u → f^(m)(u)/m!, m = 0 … degree."""
+    if name == "power":
+        factors = np.cumprod([1.0, *((more[0] - m + 1) / m for m in range(1, degree + 1))])
+        return lambda u: [float(c * u ** (more[0] - m)) for m, c in enumerate(factors.tolist())]
+    if name not in _SMOOTH:
+        raise _not_analytic(name)
+    f = getattr(sp, _NAMES.get(name, name))(_Z)
+    return compile_program(Program((_Z,), (), tuple(sp.diff(f, _Z, m) / sp.factorial(m) for m in range(degree + 1))))

@@ -1,0 +1,267 @@
+"""Normal forms about periodic orbits: published twists, steady motions, and what exact motions do."""
+
+from math import acos, cos, pi, sin, tan
+
+import mpmath as mp
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from lagrotor.errors import DomainError, InputError, SingularError
+from lagrotor.mechanics import System, coordinates, t
+from lagrotor.mechanics.canonical.jets import jet_space
+from lagrotor.mechanics.canonical.polynomials import linear_form, poisson_bracket, polynomial, variable
+from lagrotor.mechanics.canonical.return_maps import map_normal_form
+from lagrotor.numerics import measured_order
+
+R = sp.Rational
+c = coordinates("x y")
+(x, y), (u, w) = c.q, c.v
+line = coordinates("x")
+
+
+def plane(V):
+    return System(c, (u**2 + w**2) / 2 - V).hamiltonian()
+
+
+def henon_heiles():
+    return plane((x**2 + y**2) / 2 + x**2 * y - y**3 / 3)
+
+
+def henon(a):
+    """x' = x cos a − (y − x²) sin a, y' = x sin a + (y − x²) cos a."""
+    kicked = variable(1, 2) - variable(0, 2).power(2, 9)
+    one = variable(0, 2)
+    return [one.times(cos(a)) - kicked.times(sin(a)), one.times(sin(a)) + kicked.times(cos(a))]
+
+
+def twist_of(a):
+    """Of Hénon's map; Dullin, Meiss & Sterling, Nonlinearity 13 (2000) 203: zero at cos a = −1/4."""
+    return (3 / tan(a / 2) + 1 / tan(3 * a / 2)) / 8
+
+
+@pytest.mark.parametrize("a", [0.3, 1.0, 1.9, 2.4])
+def test_the_twist_of_henons_map(a):
+    n = map_normal_form(henon(a), 6)
+    assert n.frequencies == pytest.approx((-a,))
+    assert 2 * n.actions[2,] == pytest.approx(twist_of(a), rel=1e-11)
+    assert n.error < 1e-11 and not n.resonances
+
+
+def test_the_twist_of_henons_map_vanishes_where_it_was_published():
+    assert abs(map_normal_form(henon(acos(-1 / 4)), 4).actions.get((2,), 0.0)) < 1e-14
+
+
+def test_resonances_of_third_and_fourth_order_are_kept():
+    assert set(map_normal_form(henon(2 * pi / 3), 4).resonances) == {(3, 0), (0, 3)}
+    assert {(4, 0), (0, 4)} <= set(map_normal_form(henon(pi / 2), 4).resonances)
+    near = map_normal_form(henon(2 * pi / 3 + 0.01), 3, detuning=0.1)
+    assert set(near.resonances) == {(3, 0), (0, 3)}
+
+
+def test_a_map_without_one_of_its_terms_is_not_canonical_and_says_so():
+    f, g = henon(1.0)
+    broken = [f, g.where(g.exponents.sum(1) < 2)]
+    assert map_normal_form(broken, 4).error > 1e-2
+
+
+def test_a_multiplier_of_one_is_refused():
+    with pytest.raises(SingularError, match="multiplier is 1"):
+        map_normal_form([variable(0, 2) + variable(1, 2), variable(1, 2)], 4)
+
+
+def test_jets_are_taylor_series():
+    space = jet_space(2, 6)
+    a, b = (space.variable(k) for k in range(2))
+    values = np.array([0.7 + 0.3, 1.1])
+    p, q = a + float(values[0]), b + float(values[1])
+    f = np.sqrt(p) * np.sin(q) / (2 - np.exp(-p * q)) + p**-2 * np.arctan(q) + np.log(p + q**3) ** 2 + 2**p + p**q
+
+    def along(h):
+        P, Q = values[0] + mp.mpf("0.6") * h, values[1] - mp.mpf("0.8") * h
+        return mp.sqrt(P) * mp.sin(Q) / (2 - mp.exp(-P * Q)) + mp.atan(Q) / P**2 + mp.log(P + Q**3) ** 2 + 2**P + P**Q
+
+    for d, wanted in enumerate(mp.taylor(along, 0, 6)):
+        assert f.polynomial.part(d).at(np.array([0.6, -0.8])).real == pytest.approx(float(wanted), rel=1e-9)
+    with pytest.raises(DomainError, match="floor"):
+        np.floor(p)
+
+
+def exact_angle(h, n, size, returns=120):
+    """Angle of a return (rad) of the exact motion from z = size, by scipy; weighted, which converges faster than any power."""
+    states = (*h.q, *h.p)
+    rates = sp.lambdify((*states, t), [*(sp.diff(h.H, p) for p in h.p), *(-sp.diff(h.H, q) for q in h.q)])
+    start, base = (np.array(list(place.values())) for place in (n.place([size]), n.orbit))
+    drive, v = h.H.has(t), np.array(rates(*base, 0.0))
+
+    def apart(states):
+        angles = (np.arange(len(base)) < len(base) // 2) * 2 * pi
+        return states - base - angles * np.round((states - base) / (2 * pi))
+
+    def section(_, state):
+        return 1.0 if drive else apart(state) @ v
+
+    section.direction = 1
+    times = n.period * np.arange(returns + 1)
+    run = solve_ivp(
+        lambda s, z: rates(*z, s), (0, times[-1]), start, "DOP853", times, events=section, rtol=1e-12, atol=1e-14
+    )
+    points = apart(run.y.T if drive else run.y_events[0])
+    points = points[np.abs(points).max(axis=1) < 0.5]  # the plane is crossed elsewhere, too
+    slope = np.array([[f.terms.get(e, 0.0) for e in ((1, 0), (0, 1))] for f in n.frame]) @ n.vectors
+    z = np.linalg.lstsq(slope, points.T + 0j, rcond=None)[0][0]
+    turned = np.angle(z[:-1] / z[1:] * np.exp(-1j * n.frequencies[0])) + n.frequencies[0]
+    share = (np.arange(len(turned)) + 0.5) / len(turned)
+    weights = np.exp(-1 / (share * (1 - share)))
+    return (weights * turned).sum() / weights.sum()
+
+
+ORBITS = {
+    "Hénon–Heiles, along its axis": (henon_heiles, {x: 0, y: 0, w: 0.45}, 7.1, 0.024),
+    "a turning pendulum and an oscillator": (
+        lambda: plane(-sp.cos(x) + y**2 / 2 - y**2 * sp.cos(x) / 5 + y**4 / 9 - y**3 / 5),
+        {x: 0, y: 0, u: 3.6},
+        1.9,
+        0.15,
+    ),
+}
+
+
+def driven(V):
+    return System(line, line.v[0] ** 2 / 2 - V(line.q[0])).hamiltonian()
+
+
+DRIVEN = {
+    "a pendulum whose support moves": (
+        lambda: driven(lambda x: -sp.cos(x) * (1 + sp.cos(R(27, 10) * t) / 5)),
+        {line.q[0]: 0},
+        2 * pi / 2.7,
+        0.2,
+    ),
+    "a driven Duffing oscillator": (
+        lambda: driven(lambda x: x**2 / 2 + x**4 / 8 - x * sp.cos(R(17, 10) * t) / 5),
+        {line.q[0]: -0.1},
+        2 * pi / 1.7,
+        0.1,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ORBITS | DRIVEN)
+def test_the_angle_of_a_return_is_that_of_the_exact_motion(name):
+    system, at, period, size = (ORBITS | DRIVEN)[name]
+    h = system()
+    n = h.normal_form(order=4, at=at, period=period)
+    assert n.error < 1e-11 and n.stable and abs(n.multipliers) == pytest.approx(1)
+    sizes = np.array([1, 0.7, 0.5]) * size
+    exact = np.array([exact_angle(h, n, s) for s in sizes])
+    law = np.array([n.frequencies_at([s**2])[0] for s in sizes])
+    assert abs(measured_order(sizes, np.abs(exact - law)) - 4) < 0.1
+    assert abs(measured_order(sizes, np.abs(exact - n.frequencies[0])) - 2) < 0.2  # without the twist
+    assert n.rotation_numbers([size**2])[0] == pytest.approx(law[0] / (2 * pi))
+
+
+def test_normal_coordinates_are_canonical_and_the_section_has_the_orbits_energy():
+    h = henon_heiles()
+    n = h.normal_form(order=6, at={x: 0, y: 0, w: 0.45}, period=7.1)
+    new = [n.original(linear_form(row)) for row in n.vectors]
+    bracket = poisson_bracket(new[0], new[1], n.weights, 4) - polynomial({(0, 0): 1.0}, 2)
+    scale = max(np.abs(f.coefficients).max() for f in new) ** 2
+    assert np.abs(bracket.coefficients).max() < 1e-11 * scale
+    value = sp.lambdify((*h.q, *h.p), h.H)
+    gaps = [abs(value(*n.place([s]).values()) - value(*n.orbit.values())) for s in (0.04, 0.02)]
+    assert gaps[0] < 1e-6 and np.log2(gaps[0] / gaps[1]) > 5.5
+
+
+def test_a_circular_orbit_is_the_steady_motion():
+    """Turns of the radius in one of the angle, ∂H/∂I over ∂H/∂p of the form about the steady motion at the same energy."""
+    p = coordinates("r a")
+    (r, _), (r_v, a_v) = p.q, p.v
+    polar = System(p, (r_v**2 + r**2 * a_v**2) / 2 - r**4 / 4).hamiltonian()
+    n = plane((x**2 + y**2) ** 2 / 4).normal_form(order=6, at={x: 1, y: 0, w: 1}, period=6.3)
+    momenta = 1 + np.linspace(-0.03, 0.03, 9)
+    forms = [polar.normal_form(order=6, at={r: m ** (1 / 3), polar.p[1]: m}).actions for m in momenta]
+    rows = [np.polynomial.Polynomial.fit(momenta, [f.get((k,), 0.0) for f in forms], 8) for k in range(4)]
+    for action, near in ((0.0, 1e-11), (1e-3, 1e-8)):
+        energy = sum(f * action**k for k, f in enumerate(rows))
+        momentum = brentq(lambda m, e=energy: e(m) - 0.75, 0.97, 1.03, xtol=1e-15)
+        rate = sum(k * f(momentum) * action ** (k - 1) for k, f in enumerate(rows) if k)
+        turns = rate / energy.deriv()(momentum)
+        assert n.rotation_numbers([action])[0] + 2 == pytest.approx(turns, abs=near)
+
+
+def test_the_twist_of_a_weak_oscillator_is_its_averaged_one():
+    """x'' + x + ε x³ = ε cos ωt off resonance: in a period T = 2π/ω the angle is T, ∂α/∂I = 3εT/4 + O(ε²) of the average."""
+    eps = np.array([0.02, 0.01])
+    gaps = []
+    for e in eps:
+        h = driven(lambda x, e=e: x**2 / 2 + e * x**4 / 4 - e * x * sp.cos(R(9, 5) * t))
+        n = h.normal_form(order=4, at={line.q[0]: 0}, period=2 * pi / 1.8)
+        gaps.append(abs(abs(n.twist[0, 0]) / (0.75 * e * 2 * pi / 1.8) - 1))
+    assert gaps[0] < 0.1 and gaps[0] / gaps[1] > 1.6
+
+
+def test_hyperbolic_orbits():
+    q = line.q[0]
+    inverted = driven(lambda x: sp.cos(x) - x * sp.cos(R(3, 2) * t) / 5)
+    n = inverted.normal_form(order=4, at={q: 0}, period=2 * pi / 1.5)
+    assert n.stable is False and n.energy_signs == (0,) and np.prod(n.multipliers) == pytest.approx(1)
+    whole = System(line, line.v[0] ** 2 / 2 - sp.cos(q) + q * sp.cos(R(3, 2) * t) / 5)
+    place = {q: n.orbit[q], line.v[0]: n.orbit[inverted.p[0]]}
+    assert sorted(n.multipliers.real) == pytest.approx(
+        sorted(whole.floquet(place, {}, n.period).multipliers.real), rel=1e-6
+    )
+    parametric = driven(lambda x: x**2 / 2 * (1 + sp.cos(2 * t) / 5) + x**4 / 4)
+    n = parametric.normal_form(order=4, at={q: 0}, period=pi)
+    assert n.stable is False and (n.multipliers.real < 0).all() and np.isnan(n.rotation_numbers()).all()
+
+
+def test_three_degrees_of_freedom_and_the_twist_as_a_matrix():
+    b = coordinates("x y z")
+    (x, y, z), v = b.q, b.v
+    V = (x**2 + 2 * y**2 + 3 * z**2) / 2 + x * y**2 / 5 + x**2 * z**2 / 7 + x**4 / 10
+    h = System(b, sum(s**2 for s in v) / 2 - V).hamiltonian()
+    n = h.normal_form(order=4, at={x: 0, y: 0, z: 0, v[0]: 0.5}, period=6.1)
+    assert n.twist.shape == (2, 2) and n.twist[0, 1] == pytest.approx(n.twist[1, 0])
+    assert n.stable is None and n.error < 1e-10 and abs(n.multipliers) == pytest.approx(1)
+
+
+def test_the_start_may_be_off_and_letters_have_values():
+    g = sp.Symbol("g", positive=True)
+    h = plane((x**2 + y**2) / 2 + g * (x**2 * y - y**3 / 3))
+    near = h.normal_form(order=4, at={x: 0.02, y: 0.01, w: 0.45}, period=6.9, values={g: 1})
+    exact = henon_heiles().normal_form(order=4, at={x: 0, y: 0, w: np.sqrt(0.2025 + 5e-4 + 2 * 2e-4**2)}, period=7.1)
+    assert near.orbit[x] == pytest.approx(0, abs=1e-10)
+    assert near.frequencies[0] == pytest.approx(exact.frequencies[0], rel=1e-2)
+    with pytest.raises(InputError, match="g without a value"):
+        h.normal_form(order=4, at={x: 0, y: 0, w: 0.45}, period=7.1)
+
+
+REFUSED = [
+    ({"period": -1.0}, {}, InputError, "period"),
+    ({"period": "7"}, {}, InputError, "period"),
+    ({"period": 7.1, "order": 1}, {}, InputError, "order"),
+    ({"period": 7.1}, {"y": None}, InputError, "y"),
+    ({"period": 7.1}, {"w": 0.0, "y": 0.0}, InputError, "nothing moves"),
+    ({"period": 3.0}, {}, InputError, "normal_form"),
+]
+
+
+@pytest.mark.parametrize(("options", "changed", "error", "match"), REFUSED)
+def test_what_is_no_orbit_is_refused(options, changed, error, match):
+    at = {"x": 0, "y": 0, "y_dot": 0.45} | {{"w": "y_dot"}.get(k, k): e for k, e in changed.items()}
+    with pytest.raises(error, match=match):
+        henon_heiles().normal_form(**({"order": 4} | options), at={k: e for k, e in at.items() if e is not None})
+
+
+def test_symmetries_and_single_degrees_of_freedom_are_refused():
+    h = plane((x**2 + y**2) / 2)  # every orbit is closed
+    with pytest.raises(SingularError, match="multiplier is 1"):
+        h.normal_form(order=4, at={x: 1, y: 0, w: 0.5}, period=2 * pi)
+    q = line.q[0]
+    with pytest.raises(DomainError, match="libration"):
+        driven(lambda x: x**4).normal_form(order=4, at={q: 1}, period=3.0)
+    with pytest.raises(DomainError, match="period"):
+        driven(lambda x: x**2 * sp.cos(t)).normal_form(order=4, at={q: 0})
