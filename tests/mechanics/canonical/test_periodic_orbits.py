@@ -10,10 +10,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
-from lagrotor.mechanics import System, coordinates, t
+from lagrotor.mechanics import System, coordinates, map_normal_form, t
 from lagrotor.mechanics.canonical.jets import jet_space
 from lagrotor.mechanics.canonical.polynomials import linear_form, poisson_bracket, polynomial, variable
-from lagrotor.mechanics.canonical.return_maps import map_normal_form
 from lagrotor.numerics import measured_order
 
 R = sp.Rational
