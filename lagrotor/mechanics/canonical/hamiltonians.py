@@ -208,10 +208,10 @@ class Hamiltonian:
         self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any], detuning: float, period: float
     ) -> "ReturnMapForm":
         """The start in numbers, without the angles that H does not have: their momenta are parameters."""
-        from lagrotor.mechanics.canonical.normal_forms import check_order
+        from lagrotor.mechanics.canonical.normal_forms import check_form_order
         from lagrotor.mechanics.canonical.periodic_orbits import return_map_form
 
-        check_order(order, detuning)
+        check_form_order(order, detuning)
         try:
             duration = float("nan" if isinstance(period, str | bool) else period)
         except (TypeError, ValueError):

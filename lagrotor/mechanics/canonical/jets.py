@@ -1,6 +1,6 @@
 """Truncated power series in several variables as numbers that a compiled program can be run on: jet transport.
 
-A `Jet` holds all coefficients through a degree, lowest degrees first. Sums and products are those of polynomials; a function is
+A `TruncatedSeries` holds all coefficients through a degree, lowest degrees first. Sums and products are those of polynomials; a function is
 expanded about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!, of which v, without a constant, leaves finitely
 many terms. The motion of a jet is the motion with all its derivatives by the start: the variational equations to any order.
 Berz, Modern Map Methods in Particle Beam Physics, ch. 2; Jorba & Zou, Experimental Mathematics 14 (2005) 99.
@@ -53,14 +53,14 @@ class JetSpace:
         """The coefficients of a product through the degree."""
         return np.add.reduceat(a[self.left] * b[self.right], self.begins)
 
-    def constant(self, value: float) -> "Jet":
+    def constant(self, value: float) -> "TruncatedSeries":
         """A number."""
-        return Jet(np.append(value, np.zeros(len(self.exponents) - 1)), self)
+        return TruncatedSeries(np.append(value, np.zeros(len(self.exponents) - 1)), self)
 
-    def variable(self, k: int) -> "Jet":
+    def variable(self, k: int) -> "TruncatedSeries":
         """x_k."""
         unit = np.arange(self.exponents.shape[1]) == k
-        return Jet((self.exponents == unit).all(axis=1).astype(float), self)
+        return TruncatedSeries((self.exponents == unit).all(axis=1).astype(float), self)
 
 
 @lru_cache(maxsize=16)
@@ -84,7 +84,7 @@ def jet_space(variables: int, degree: int) -> JetSpace:
 
 
 @dataclass(frozen=True, eq=False)
-class Jet(NDArrayOperatorsMixin):
+class TruncatedSeries(NDArrayOperatorsMixin):
     """sum_k coefficients[k] × prod_j x_j^exponents[k, j]. numpy's functions of one argument take it where they are analytic.
 
     Raises DomainError for another function.
@@ -98,46 +98,52 @@ class Jet(NDArrayOperatorsMixin):
         """The terms that are not zero."""
         return Polynomial(self.space.exponents, self.coefficients + 0j).where(self.coefficients != 0)
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> "Jet":
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> "TruncatedSeries":
         name = ufunc.__name__
         if len(inputs) == 1:
-            return Jet(-self.coefficients, self.space) if name == "negative" else self._composed(name)
+            return TruncatedSeries(-self.coefficients, self.space) if name == "negative" else self._composed(name)
         a, b = inputs
-        if name == "power" and not isinstance(b, Jet):
+        if name == "power" and not isinstance(b, TruncatedSeries):
             return a._power(b)
         if name == "power":
             return np.exp(b * np.log(a))
-        rows = [x.coefficients if isinstance(x, Jet) else self.space.constant(x).coefficients for x in inputs]
+        rows = [
+            x.coefficients if isinstance(x, TruncatedSeries) else self.space.constant(x).coefficients for x in inputs
+        ]
         if name in ("add", "subtract"):
-            return Jet(ufunc(*rows), self.space)
+            return TruncatedSeries(ufunc(*rows), self.space)
         if name == "multiply":
-            plain = not (isinstance(a, Jet) and isinstance(b, Jet))
-            one = rows[0][0] * rows[1] if not isinstance(a, Jet) else rows[0] * rows[1][0]
-            return Jet(one if plain else self.space.product(*rows), self.space)
+            plain = not (isinstance(a, TruncatedSeries) and isinstance(b, TruncatedSeries))
+            one = rows[0][0] * rows[1] if not isinstance(a, TruncatedSeries) else rows[0] * rows[1][0]
+            return TruncatedSeries(one if plain else self.space.product(*rows), self.space)
         if name == "divide":
-            return Jet(rows[0] / b, self.space) if not isinstance(b, Jet) else a * b._composed("power", -1.0)
+            return (
+                TruncatedSeries(rows[0] / b, self.space)
+                if not isinstance(b, TruncatedSeries)
+                else a * b._composed("power", -1.0)
+            )
         raise _not_analytic(name)
 
-    def _power(self, n: float) -> "Jet":
+    def _power(self, n: float) -> "TruncatedSeries":
         if n != int(n) or n < 0:
             return self._composed("power", float(n))
         half = self._power(n // 2) if n > 1 else self.space.constant(1.0)
         return half * half * self if n % 2 else half * half
 
-    def _composed(self, name: str, *more: float) -> "Jet":
+    def _composed(self, name: str, *more: float) -> "TruncatedSeries":
         """f of this jet by Horner's rule in what of it is not constant."""
         f = _taylor(name, self.space.degree, *more)
         try:
             *lower, last = f(float(self.coefficients[0]))
         except (ArithmeticError, TypeError, ValueError):  # out of the function's range: a solver makes its step shorter
-            return Jet(np.full(len(self.coefficients), np.nan), self.space)
+            return TruncatedSeries(np.full(len(self.coefficients), np.nan), self.space)
         v = self.coefficients.copy()
         v[0] = 0.0
         result = last * (np.arange(len(v)) == 0)
         for c in reversed(lower):
             result = self.space.product(result, v)
             result[0] += c
-        return Jet(result, self.space)
+        return TruncatedSeries(result, self.space)
 
 
 def _not_analytic(name: str) -> DomainError:

@@ -217,7 +217,7 @@ def _error(H: Polynomial, K: Polynomial, generators: Sequence[Polynomial], weigh
     return max((size / max(sizes[d], sizes[2]) for d, size in left.items()), default=0.0)
 
 
-def check_order(order: int, detuning: float) -> None:
+def check_form_order(order: int, detuning: float) -> None:
     """Raises InputError for an order or a detuning that is none."""
     if not isinstance(order, int | np.integer) or isinstance(order, bool) or order < 2:
         raise InputError(f"normal_form: order = {order!r} must be a whole number from 2 on")
@@ -234,7 +234,7 @@ def normal_form_at(
     numbers otherwise. Raises InputError where `at` is no equilibrium or letters are left that need values, DomainError
     where H is not analytic there, SingularError where a rate other than zero is double and not diagonal.
     """
-    check_order(order, detuning)
+    check_form_order(order, detuning)
     letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v, strict=True).free_symbols for v in at.values()))
     try:
         return _exact(H, x, at, order, detuning)

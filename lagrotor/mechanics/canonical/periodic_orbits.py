@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, InputError, IntegrationError
-from lagrotor.mechanics.canonical.jets import Jet, JetSpace, jet_space
+from lagrotor.mechanics.canonical.jets import TruncatedSeries, JetSpace, jet_space
 from lagrotor.mechanics.canonical.polynomials import Polynomial
 from lagrotor.mechanics.canonical.return_maps import ReturnMapForm, largest_difference, map_normal_form
 from lagrotor.mechanics.lagrangian import gradient, t
@@ -41,45 +41,45 @@ class _Motion:
         self._rates, self._H = (compile_program(Program((*x, t), (), e), "numpy") for e in (rates, (H,)))
         self.begin = begin
 
-    def rate(self, X: list[Jet], time: float) -> list[Jet]:
+    def rate(self, X: list[TruncatedSeries], time: float) -> list[TruncatedSeries]:
         return [_jet(f, X[0].space) for f in self._rates(*X, time)]
 
-    def energy(self, X: list[Jet]) -> Jet:
+    def energy(self, X: list[TruncatedSeries]) -> TruncatedSeries:
         return _jet(self._H(*X, self.begin)[0], X[0].space)
 
-    def path(self, X: list[Jet], duration: Jet, local: float, shares: Array) -> Array:
+    def path(self, X: list[TruncatedSeries], duration: TruncatedSeries, local: float, shares: Array) -> Array:
         """(k, 2n, N) at shares of a duration that is a series, too: dx/dσ = duration f(x), 0 ≤ σ ≤ 1."""
         space = X[0].space
 
         def rate(s: float, state: Array) -> list[float]:
-            at = [Jet(row, space) for row in state.reshape(len(X), -1)]
+            at = [TruncatedSeries(row, space) for row in state.reshape(len(X), -1)]
             moving = self.rate(at, self.begin + s * duration.coefficients[0])
             return np.concatenate([(duration * f).coefficients for f in moving]).tolist()
 
         start = np.concatenate([f.coefficients for f in X])
         return integrate(Problem(rate, start, _MOST), shares, local).states.reshape(len(shares), len(X), -1)
 
-    def moved(self, X: list[Jet], duration: Jet, local: float) -> list[Jet]:
-        return [Jet(row, duration.space) for row in self.path(X, duration, local, np.ones(1))[0]]
+    def moved(self, X: list[TruncatedSeries], duration: TruncatedSeries, local: float) -> list[TruncatedSeries]:
+        return [TruncatedSeries(row, duration.space) for row in self.path(X, duration, local, np.ones(1))[0]]
 
 
 @dataclass(frozen=True, eq=False)
 class _Return:
     """y → F(y) of displacements in the orbit's units, the start x of y, both as jets, and the period."""
 
-    F: list[Jet]
-    start: list[Jet]
+    F: list[TruncatedSeries]
+    start: list[TruncatedSeries]
     period: float
 
 
-def _jet(value: Any, space: JetSpace) -> Jet:
-    return value if isinstance(value, Jet) else space.constant(float(value))
+def _jet(value: Any, space: JetSpace) -> TruncatedSeries:
+    return value if isinstance(value, TruncatedSeries) else space.constant(float(value))
 
 
-def _combined(columns: Array, parts: Sequence[Jet]) -> list[Jet]:
+def _combined(columns: Array, parts: Sequence[TruncatedSeries]) -> list[TruncatedSeries]:
     """Sᵀ times a vector of jets."""
     rows = np.array([f.coefficients for f in parts])
-    return [Jet(row, parts[0].space) for row in columns.T @ rows]
+    return [TruncatedSeries(row, parts[0].space) for row in columns.T @ rows]
 
 
 def _along(rate: Array) -> Array:
@@ -132,12 +132,12 @@ class _Orbit:
         there = _combined(S, self._back(X, x))
         return _Return([*there[1:n], *there[n + 1 :]], start, period)
 
-    def _back(self, X: list[Jet], x: Array) -> list[Jet]:
+    def _back(self, X: list[TruncatedSeries], x: Array) -> list[TruncatedSeries]:
         """(X − x)/units, without whole turns."""
         return [(f - s) / u for f, s, u in zip(X, x + self.turns, self.units, strict=True)]
 
 
-def _numbers(x: Array) -> list[Jet]:
+def _numbers(x: Array) -> list[TruncatedSeries]:
     return [jet_space(1, 0).constant(value) for value in x]
 
 
