@@ -1,8 +1,9 @@
 """Truncated power series in several variables as numbers that a compiled program can be run on: jet transport.
 
-A `TruncatedSeries` holds all coefficients through a degree, lowest degrees first. Sums and products are those of polynomials; a function is
-expanded about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!, of which v, without a constant, leaves finitely
-many terms. The motion of a jet is the motion with all its derivatives by the start: the variational equations to any order.
+A `TruncatedSeries` holds all coefficients through a degree, lowest degrees first. Sums and products are those of polynomials; a
+function is expanded about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!, of which v, without a constant,
+leaves finitely many terms. The motion of a series is the motion with all its derivatives by the start: the variational
+equations to any order.
 Berz, Modern Map Methods in Particle Beam Physics, ch. 2; Jorba & Zou, Experimental Mathematics 14 (2005) 99.
 """
 

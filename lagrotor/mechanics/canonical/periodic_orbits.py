@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, InputError, IntegrationError
-from lagrotor.mechanics.canonical.jets import TruncatedSeries, JetSpace, jet_space
+from lagrotor.mechanics.canonical.jets import JetSpace, TruncatedSeries, jet_space
 from lagrotor.mechanics.canonical.polynomials import Polynomial
 from lagrotor.mechanics.canonical.return_maps import ReturnMapForm, largest_difference, map_normal_form
 from lagrotor.mechanics.lagrangian import gradient, t
