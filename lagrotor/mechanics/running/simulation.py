@@ -35,9 +35,11 @@ from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import DEPENDENT
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
+from lagrotor.numerics.segment import StopError
 
 _OFF = 1e-7  # of a start from its constraints, in units of the state's size, beyond which it is refused
 _PATIENCE = Patience(20_000, 1_600)
+_A_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
 _BETWEEN = 8  # intervals of the interpolation between two samples, in which dependent constraints are sought
 
 
@@ -237,19 +239,34 @@ def _warn_of_dependence(run: SystemRun) -> None:
     from scipy.interpolate import CubicHermiteSpline
 
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
-    q = CubicHermiteSpline(run.t, run.q, run.v)(fine)
-    still = np.zeros((len(fine), len(run.system.speeds)))
-    G = rows_program(run.system).along(run.values)(np.hstack([q, still]), fine)
-    G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
-    turned = np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0
-    if turned.any():
-        at = fine[int(np.argmax(turned))]
+    suspected = _reversals(run, CubicHermiteSpline(run.t, run.q, run.v)(fine), fine)
+    for k in np.unique(np.searchsorted(run.t, suspected, side="right") - 1):
+        at, (a, b) = suspected[suspected >= run.t[k]][0], run.t[k : k + 2]
+        count = int(np.ceil(_A_TURN * (b - a) / run.scales.turn))
+        if count > _BETWEEN:  # too long an interval to be interpolated
+            fine = np.linspace(a, b, count + 1)
+            try:
+                there = _reversals(run, run.at(fine).q, fine)
+            except StopError as stop:  # the run had passed there by other steps
+                there = np.array([stop.at])
+            if not len(there):
+                continue
+            at = there[0]
         warnings.warn(
             f"simulate: near t = {at:.6g} s the constraints become dependent: their reactions may have no limit there, "
             "and the motion beyond may be one of several; end the run before",
             LagrotorWarning,
             stacklevel=3,
         )
+        return
+
+
+def _reversals(run: SystemRun, q: Array, times: Array) -> Array:
+    """Those of the times (n,), with the coordinates q (n, N), after which the rows of the constraints are reversed at the next."""
+    still = np.zeros((len(times), len(run.system.speeds)))
+    G = rows_program(run.system).along(run.values)(np.hstack([q, still]), times)
+    G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
+    return np.asarray(times[:-1][np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0])
 
 
 def _as_text(values: Sequence[float] | Array) -> str:
