@@ -262,7 +262,7 @@ def _warn_of_dependence(run: SystemRun) -> None:
 
 
 def _reversals(run: SystemRun, q: Array, times: Array) -> Array:
-    """Those of the times (n,), with the coordinates q (n, N), after which the rows of the constraints are reversed at the next."""
+    """Those of the times (n,), with coordinates q (n, N), after which the rows of the constraints are reversed at the next."""
     still = np.zeros((len(times), len(run.system.speeds)))
     G = rows_program(run.system).along(run.values)(np.hstack([q, still]), times)
     G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
