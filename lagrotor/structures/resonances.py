@@ -481,7 +481,8 @@ def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[fl
     """The factors on all spins at which no push of that size falls, by `largest_push` there, as intervals.
 
     The last one ends at inf. They begin beyond the critical spins, where the two modes that become one there are far
-    enough apart for the expansion to be trusted. Empty where no spins are known to hold it. Raises InputError as
+    enough apart for the expansion to be trusted. Resonances that no spins bring to detuning zero are left to `largest_push`:
+    near an interval's ends it may be less. Empty where no spins are known to hold it. Raises InputError as
     `resonances` does.
     """
     check_kind_of_push(of)
