@@ -247,6 +247,14 @@ def _vector_product(made: Node, operator: str, right: Node, at: int, before: lis
         if operator == "times" and isinstance(made, Call) and made.name == "cross" and not ends_with_bracket(before):
             raise FormulaError(at, "which × comes first is open", "write brackets")
         return Call("dot" if operator == "cdot" else "cross", (made, right))
+    if (
+        operator == "cdot"
+        and right_vector
+        and isinstance(made, Call)
+        and made.name == "dot"
+        and not ends_with_bracket(before)
+    ):
+        raise FormulaError(at, "which · comes first is open", "write brackets")  # a tensor between vectors
     other = made if right_vector else right if left_vector else None  # F(r) \cdot d\vec r
     if operator == "cdot" and isinstance(other, Call) and len(other.name.split("_")[0]) == 1:
         raise FormulaError(at, f"whether {other.name} is a vector is open", "mark the vectors alike")

@@ -74,7 +74,8 @@ def _check_square(box: Box, inside: list[Box]) -> None:
     """Raise FormulaError for square brackets behind a letter that are no sum or commutator."""
     listed = any(b.kind == "comma" for b in inside)
     operators = any(b.kind == "letter" and (b.name[0].isupper() or "hat" in b.marks) for b in inside)  # A[B, C]
-    if box.sup is None and not (operators if listed else any(b.kind == "operator" for b in inside[1:])):
+    single = len(without_thin(inside)) == 1 and simple_argument(inside)
+    if single or (box.sup is None and not (operators if listed else any(b.kind == "operator" for b in inside[1:]))):
         why = f"whether {box.name}[…] is a functional or a product is open"
         raise FormulaError(box.at, why, "write \\cdot, or round brackets")
 
@@ -164,7 +165,7 @@ def is_entry(reader: FormulaReader, box: Box, bracket: Box) -> bool:
     if box.sup is not None or any(b.kind == "comma" for b in inside) or {box.name} & reader.notation.letters:
         return False
     single = len(without_thin(inside)) == 1 and simple_argument(inside)
-    return single or (stem_of(box) in reader.notation.applied and stem_of(box) not in reader.notation.factors)
+    return single or stem_of(box) in reader.notation.entries
 
 
 def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:

@@ -40,7 +40,7 @@ class Notation:
     modular, exponent, dot, other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed
     as vectors somewhere. equal: letters and what they are equal to. numeric: letters shown to be numbers, below a fraction
     bar, under a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above where no power can, as in
-    \\partial x^i and T^{ij}, or below \\partial; exponents: letters in powers.
+    \\partial x^i and T^{ij}, or below \\partial; exponents: letters in powers; entries: x of x[n].
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -69,6 +69,7 @@ class Notation:
     numeric: set[str] = field(default_factory=set)
     upper: set[str] = field(default_factory=set)
     exponents: set[str] = field(default_factory=set)
+    entries: set[str] = field(default_factory=set)
     equal: list[tuple[Box, list[Box]]] = field(default_factory=list)
     varied: dict[str, set[str]] = field(default_factory=dict)
     seen: set[str] = field(default_factory=set)
@@ -491,6 +492,7 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
         content = after.parts[0]
         simple, names = simple_argument(content), {b.name for b in content if b.kind == "letter"}
         marked = box.primes or (sup and [b.kind for b in sup] != ["number"])
+        found.entries |= {stem} if after.name == "[" and simple and len(content) == 1 and not sup else set()
         if marked or (simple and names):
             found.applied.add(stem)
         if simple and names - {"t"} and not box.sup:

@@ -111,7 +111,7 @@ READ = {
     r"\dot f + v^i\frac{\partial f}{\partial x^i} = 0": "f_dot + v__i*Derivative(f, x__i) = 0",
     r"T^{ij} = S^{ij}": "T__i__j = S__i__j",
     r"S[f] = a": "S(f) = a",
-    r"y[n] = x[n] - x[n-1]": "y(n) = x(n) - x(n - 1)",
+    r"y[n] = x[n] - a x[n-1]": "y(n) = x(n) - a*x(n - 1)",
     r"p(a|b) = \frac{p(b|a)p(a)}{p(b)}": "p(a, given(b)) = p(b, given(a))*p(a)/p(b)",
     r"E^{\omega,\mathrm i} = r^{\mathrm a}": "E__omega__i = r__a",
     r"\mathbf v^\Sigma = \mathbf u": "vbold__Sigma = ubold",
@@ -128,6 +128,8 @@ def test_what_is_read_is_what_is_printed(latex: str) -> None:
 # What may mean two things, and where the reading stops.
 OPEN = {
     r"a = b\left(\frac{\partial}{\partial x} + c\right)": "the derivative has nothing to act on",
+    r"a = \mathbf e\cdot\mathbf H\cdot\mathbf p": "which · comes first",
+    r"a = s^2[R]": "whether s[…] is a functional",
     r"\partial_i f = x^i y^{i + 1}": "whether i is an upper index or a power",
     r"\partial_k f = \sum_k a_k x^k": "whether k is an upper index or a power",
     r"y = (a + b)'": "a prime stands behind what is no letter",
