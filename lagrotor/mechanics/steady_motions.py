@@ -157,7 +157,7 @@ def _place(
             f"({', '.join(map(str, speeds))}) and letters of the system"
         )
     for joint in system.ball_joints:
-        if all(q in point and sp.sympify(point[q], strict=True).is_zero for q in joint.quaternion):
+        if all(q in point and point[q] == 0 for q in joint.quaternion):
             raise InputError(f"linearise: {no_turn(joint.quaternion, 0)}")
     if any(decide_zero(derivative(e, t)).answer != "zero" for e in parts):
         raise InputError(

@@ -69,7 +69,8 @@ class Oscillation:
         from lagrotor.mechanics.running import simulation
 
         letters = self.frequency.free_symbols | self.motion.free_symbols | self.system.motion.free_symbols
-        known = {s: sp.sympify(x, strict=True) for s, x in by_symbol({**self.values, **values}, letters).items()}
+        whole = {**self.values, **by_symbol(values, letters)}
+        known = {s: sp.sympify(x, strict=True) for s, x in by_symbol(whole, letters).items()}
         omega = self.frequency.removeO().subs(known)
         start = self.motion.removeO().subs(_PHASE, 0).subs(known)
         no_letter("error", omega.free_symbols | start.free_symbols)
@@ -105,6 +106,8 @@ def oscillation(
     the motion is damped or grows; DomainError where it is no polynomial.
     """
     _check_one("lindstedt_poincare", system, order, small)
+    if not isinstance(amplitude, sp.Symbol | None):
+        raise InputError(f"lindstedt_poincare: amplitude = {amplitude!r} must be a symbol")
     A = amplitude or sp.Symbol("A", positive=True)
     rest = expression("lindstedt_poincare: at", at)
     inside = small in system.motion.free_symbols
@@ -223,16 +226,20 @@ class AveragedMotion:
         import numpy as np
         from scipy.optimize import root
 
+        from lagrotor.numerics.arrays import check_times, real_array
         from lagrotor.numerics.integrate import Problem, integrate
 
-        grid = np.asarray(times, float)
+        grid = check_times("averaged", times)
+        given = real_array((q0, v0))
+        if given is None or given.shape != (2,) or not np.isfinite(given).all():
+            raise InputError(f"averaged: q0 = {q0!r} and v0 = {v0!r} must be finite numbers")
         own = set().union(*(e.free_symbols for e in (*self.rates, *self.state))) - {*self.letters, t}
-        known = {s: float(x) for s, x in by_symbol({**self.values, **values}, own).items() if s in own}
+        known = {s: float(x) for s, x in by_symbol({**self.values, **by_symbol(values, own)}, own).items() if s in own}
         no_letter("averaged", own - known.keys())
         slow = sp.lambdify(self.letters, [e.subs(known) for e in self.rates], "numpy")
         there = sp.lambdify((*self.letters, t), [e.subs(known) for e in self.state], "numpy")
-        start = root(lambda Y: np.array(there(*Y, grid[0])) - [q0, v0], [q0, 0.0], tol=1e-13).x
-        if not np.abs(np.array(there(*start, grid[0])) - [q0, v0]).max() <= _MET * max(1.0, abs(q0), abs(v0)):
+        start = root(lambda Y: np.array(there(*Y, grid[0])) - given, [q0, 0.0], tol=1e-13).x
+        if not np.abs(np.array(there(*start, grid[0])) - given).max() <= _MET * max(1.0, abs(q0), abs(v0)):
             raise SingularError(
                 f"averaged: no amplitudes are found that begin at q = {q0:g}, q' = {v0:g}: {self.small} is too large there "
                 "for its second order; take a smaller one, or simulate"

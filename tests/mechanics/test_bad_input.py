@@ -33,6 +33,7 @@ SWING = m * l**2 * v**2 / 2 + m * g * l * sp.cos(q)
 FLAT = m * (u**2 + w**2) / 2
 VALUES = {m: 1, l: 1, g: 10}
 pendulum, point = System(A, SWING), System(P, FLAT)
+weak = System(A, v**2 / 2 - q**2 / 2 - k * q**4)
 circle = System(P, FLAT - m * g * y, (x**2 + y**2 - l**2,))
 knife = System(S, (S.v[0] ** 2 + S.v[1] ** 2 + S.v[2] ** 2) / 2, rolling=(S.v[0] * sp.sin(S.q[2]) - S.v[1],))
 ground = Frame(A)
@@ -261,6 +262,17 @@ BAD: dict[str, Callable[[], Any]] = {
     "a section that does not change": lambda: run().crossings(m),
     "a picture of no crossing": lambda: run().crossings(q - 7).plot(),
     "an input that moves": lambda: pendulum.linearise({q: 0}, VALUES, inputs=(q,)),
+    "small motion at nothing": lambda: pendulum.linearise({q: None}),
+    "numbers of a row": lambda: pendulum.linearise({q: 0}, VALUES | {m: [1]}),
+    "a complex value of a rate": lambda: pendulum.rhs(VALUES | {m: 1j}),
+    "an orbit from no time": lambda: pendulum.floquet({q: 0, t: np.nan}, VALUES, 1),
+    "a number for the amplitude": lambda: pendulum.lindstedt_poincare(2, k, amplitude=3),  # type: ignore[arg-type]
+    "values of a series in a number": lambda: pendulum.lindstedt_poincare(2, k).error(3),  # type: ignore[arg-type]
+    "an averaged motion from nan": lambda: weak.averaged(1, k).run({k: 0.1}, np.nan, 0, [0, 1]),
+    "an averaged motion at no time": lambda: weak.averaged(1, k).run({k: 0.1}, 1, 0, []),
+    "an averaged motion backward": lambda: weak.averaged(1, k).run({k: 0.1}, 1, 0, [1, 0]),
+    "a loop closed on a number": lambda: Frame(A).pin(q).coincides(3),  # type: ignore[arg-type]
+    "an axis kept along nothing": lambda: Frame(A).pin(q).keeps_axis(None),  # type: ignore[arg-type]
     "a radius without a sign": lambda: Pathway.around(P, (2, 0, 0), (x, y, 0), M),
 }
 

@@ -115,6 +115,7 @@ def coincides(
 
     Components that vanish identically are left out. Raises InputError where nothing is bound.
     """
+    _check_frame("coincides", other)
     apart = frame.place(vector_of("coincides: at", at, 3)) - other.place(vector_of("coincides: point", point, 3))
     return _bound("coincides", list(apart), frame)
 
@@ -124,11 +125,17 @@ def keeps_axis(frame: MovingFrame, other: MovingFrame, axis: Any = "z", of_other
 
     The axis has no component along two directions across that of the other; it may be opposite to it.
     """
+    _check_frame("keeps_axis", other)
     mine = _direction("keeps_axis", axis)
     theirs = _direction("keeps_axis", axis if of_other is None else of_other)
     e = frame.place(list(mine)) - frame.place()
     seen = [other.place(list(v)) - other.place() for v in _axes_to(theirs)[:2]]
     return _bound("keeps_axis", [e.dot(v) for v in seen], frame)
+
+
+def _check_frame(where: str, other: Any) -> None:
+    if not isinstance(other, MovingFrame):
+        raise InputError(f"{where}: {other!r} must be a Frame, in which the other part of the loop is fixed")
 
 
 def _bound(where: str, given: Sequence[sp.Expr], frame: MovingFrame) -> tuple[sp.Expr, ...]:

@@ -39,7 +39,11 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
     )
     every = system.letters.union(*(getattr(e, "free_symbols", ()) for e in acting))
     letters = {str(s): s for s in every if s not in moving}
-    values = {name: value for name, value in values.items() if not isinstance(value, FunctionValue | sp.Lambda)}
+    values = {
+        name: _number(where, name, value)
+        for name, value in values.items()
+        if not isinstance(value, FunctionValue | sp.Lambda)
+    }
     for name, value in values.items():
         letter = letters.get(str(name))
         if letter is None and not isinstance(name, str):
@@ -54,14 +58,22 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
                 f"{where}: values name {name}, which the system does not have{near(name, letters) or known}: leave it out"
             )
         _check_sign(where, letter, value)
-    put = {s: sp.sympify(float(value), strict=True) for s, value in by_symbol(values, letters.values()).items()}
+    put = {s: sp.sympify(value, strict=True) for s, value in by_symbol(values, letters.values()).items()}
     for body in system.bodies:
         check_body(where, body, put)
     check_friction(where, put_in(system.dissipation, put), system.c)
 
 
-def _check_sign(where: str, letter: sp.Symbol, value: Any) -> None:
-    number = float(value)
+def _number(where: str, name: Any, value: Any) -> float:
+    try:
+        if isinstance(value, str):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{where}: {name} = {value!r} must be a real number") from None
+
+
+def _check_sign(where: str, letter: sp.Symbol, number: float) -> None:
     wrong = (letter.is_extended_nonnegative and number < 0) or (letter.is_extended_nonpositive and number > 0)
     if wrong or (letter.is_integer and number != round(number)):
         kind = "a whole number" if letter.is_integer and not wrong else "positive" if number < 0 else "negative"

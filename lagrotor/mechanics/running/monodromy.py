@@ -52,7 +52,13 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     if not 0 < duration < np.inf:
         raise InputError(f"floquet: period = {period!r} must be a positive time in s")
     check_values("floquet", system, values)
-    begin = float({str(s): x for s, x in at.items()}.get(str(t), 0)) if isinstance(at, Mapping) else 0.0
+    given_time = {str(s): x for s, x in at.items()}.get(str(t), 0) if isinstance(at, Mapping) else 0
+    try:
+        begin = np.nan if isinstance(given_time, str | bool) else float(given_time)
+    except (TypeError, ValueError):
+        begin = np.nan
+    if not np.isfinite(begin):
+        raise InputError(f"floquet: t = {given_time!r} must be a time in s")
     given = motion_program(system)
     n, d = len(system.c.q), len(given.states)
     size = n + len(system.speeds)

@@ -7,10 +7,10 @@ B = ∂f/∂u, in the rows of x. Derivatives are by a complex step, which rounds
 Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003) for what rolls.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import sympy as sp
@@ -33,10 +33,17 @@ from lagrotor.mechanics.running.starts import consistent
 from lagrotor.mechanics.small_turns import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
+_OTHER = -4  # of the step: another one, which gives the same derivative where there is one
 _STEADY, _SAME, _OFF = 1e-8, 1e-7, 1e-7  # relative: accelerations left, a matrix that stays, a point on the constraints
 _ROUNDING = 1e-12  # of accelerations of free motion
 _DEPENDENT = 1e-10  # constraints whose normals are in a plane but for rounding
 _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.floor, sp.ceiling, sp.Mod, sp.Piecewise)
+
+
+class Slope(Protocol):
+    """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p), by a complex step."""
+
+    def __call__(self, state: Array, step: float = _STEP) -> tuple[Array, Array, Array]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,10 +93,9 @@ def state_space(
     start = point_state(where, system, at, known)
     motion = motion_slope(where, motion_program(system), known, inputs)
     rate, J, B = motion(start)
+    _check_smooth(where, motion, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
     n, d = len(system.c.q), len(start)
     size = max(1.0, float(np.abs(start).max()))
-    if not np.isfinite(J).all():
-        raise SingularError(f"{where}: the equations are singular at {dict(at)}: use coordinates regular there")
     least = _STEADY * size * float(np.abs(J[n:d]).max()) + _ROUNDING
     if np.abs(rate[n:]).max() > least:
         rates = system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds]
@@ -108,7 +114,9 @@ def state_space(
             "turn along with the motion"
         )
     free, T = tangent_space(where, system, known, start)
-    _, C, D = motion_slope(where, function_program(system, *wanted), known, inputs)(np.append(start, 0.0))
+    shown, there = motion_slope(where, function_program(system, *wanted), known, inputs), np.append(start, 0.0)
+    _check_smooth(where, shown, there, wanted, at)
+    _, C, D = shown(there)
     states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
     return StateSpace(states, A[free] @ T, (back @ B)[free], C[:, :d] @ P @ T, D)
 
@@ -163,9 +171,7 @@ def _parts(given: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
     return symbols, set().union(*(e.atoms(*_NOT_ANALYTIC) for e in expressions))
 
 
-def motion_slope(
-    where: str, given: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()
-) -> Callable[[Array], tuple[Array, Array, Array]]:
+def motion_slope(where: str, given: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
     """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p)."""
     _, jumping = _parts(given)
     if jumping:
@@ -177,18 +183,30 @@ def motion_slope(
     numbers = numbers[: len(numbers) - len(calls)]
     names = [str(s) for s in (*given.states, *given.parameters)]
 
-    def slope(state: Array) -> tuple[Array, Array, Array]:
+    def slope(state: Array, step: float = _STEP) -> tuple[Array, Array, Array]:
         at = np.concatenate([state, numbers]).astype(complex)
-        moved = at[:, None] + 1j * _STEP * np.eye(len(at))
+        moved = at[:, None] + 1j * step * np.eye(len(at))
         with np.errstate(all="ignore"):
             rows = [np.broadcast_to(e, len(at)) for e in given.function(*moved, *calls)]
         table = np.array(rows, complex).reshape(len(rows), len(at))
-        by = table.imag / _STEP
+        by = table.imag / step
         own = [names.index(str(s)) if str(s) in names else None for s in inputs]
         pushed = [np.zeros(len(by)) if i is None else by[:, i] for i in own]
         return table[:, 0].real, by[:, :d], np.array(pushed).reshape(len(inputs), len(by)).T
 
     return slope
+
+
+def _check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
+    """Raise SingularError where an output has no value or no derivative, as √x at zero, whose steps give others each time."""
+    first, other = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
+    with np.errstate(invalid="ignore"):
+        smooth = np.abs(first - other) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
+    if not smooth.all():
+        name = names[int(np.argmin(smooth.all(1)))]
+        raise SingularError(
+            f"{where}: {name} has no value or no derivative at {dict(at)}: use coordinates that are regular there"
+        )
 
 
 def tangent_space(

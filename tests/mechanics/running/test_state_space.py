@@ -147,3 +147,21 @@ def test_what_is_not_linearised_in_numbers_is_refused() -> None:
         System(c, free - sp.sin(x) * y**2).linearise({x: 0, y: 0, u: 1}, {})
     with pytest.raises(InputError, match="y without a value"):
         System(c, free - y**2).linearise({x: 0}, {})
+
+
+@pytest.mark.parametrize("output", ["sqrt(x)", "log(x)", "asin(1 + x)", "sqrt(x² + y²)", "x/sqrt(x² + y²)"])
+def test_what_has_no_derivative_at_the_point_is_refused(output: str) -> None:
+    """One complex step gave 7×10¹⁴, 10³⁰, 10¹⁵, the slope 1 of a cone and nan; two steps differ. x √(x² + y²) has one."""
+    c, k = coordinates("x y"), sp.Symbol("k", positive=True)
+    x, y = c.q
+    r = sp.sqrt(x**2 + y**2)
+    made = {"sqrt(x)": sp.sqrt(x), "log(x)": sp.log(x), "asin(1 + x)": sp.asin(1 + x), "sqrt(x² + y²)": r}
+    e, still = made.get(output, x / r), {x: 0, y: 0}
+    kinetic = (c.v[0] ** 2 + c.v[1] ** 2) / 2
+    with pytest.raises(SingularError, match="no value or no derivative"):
+        System(c, kinetic - k * r**2 / 2).linearise(still, {k: 1}, outputs=(e,))
+    with pytest.raises((SingularError, InputError), match="no value or no derivative"):
+        System(c, kinetic, forces=(-e, -k * y)).linearise(still, {k: 1})
+    assert np.array_equal(
+        System(c, kinetic - k * r**2 / 2).linearise(still, {k: 1}, outputs=(x * r,)).C, np.zeros((1, 4))
+    )
