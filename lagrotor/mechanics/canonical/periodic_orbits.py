@@ -156,6 +156,8 @@ def return_map_form(
     motion = _Motion(H, x, begin)
     try:
         path = motion.path(_numbers(start), jet_space(1, 0).constant(period), _LOCAL[1], np.linspace(0, 1, 65))[..., 0]
+        if driven and not _of_drive(motion, path, period):
+            raise InputError(f"normal_form: H has not the period {period:.9g} s: give that of what drives")
         turned = np.round((path[-1] - start) / (2 * pi)) * (np.arange(2 * n) < n)
         same = {s: s + 2 * sp.pi * int(k) for s, k in zip(x, turned, strict=True) if k}
         turns = 2 * pi * turned * (decide_zero(H.xreplace(same) - H).answer == "zero")
@@ -199,6 +201,17 @@ def return_map_form(
         period=returns[1].period, orbit=beginning,
         frame=tuple(scaled((f - f.coefficients[0]).polynomial, 0) for f in returns[1].start), unit=float(unit),
     )  # fmt: skip
+
+
+def _of_drive(motion: _Motion, path: Array, period: float) -> bool:
+    """Whether the rates are the same a period later, beside the orbit and to rounding of its number."""
+    for share, place in zip(np.linspace(0, 1, len(path)), path, strict=True):
+        beside = _numbers(place + 0.1 * np.cos(np.arange(len(place)) + 7 * share))
+        time = motion.begin + share * period
+        now, later = (np.array([f.coefficients[0] for f in motion.rate(beside, s)]) for s in (time, time + period))
+        if not np.abs(later - now).max() < 1e-9 * (1 + np.abs(now).max()):
+            return False
+    return True
 
 
 def _units(path: Array) -> Array:
