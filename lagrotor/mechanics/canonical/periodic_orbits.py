@@ -29,6 +29,7 @@ _LOCAL = (1e-11, 1e-13)  # errors of a step: of the map that is compared, and of
 _MOST = 200_000  # evaluations
 _NEWTON = 15  # steps to the orbit
 _CLOSED = 1e-11  # of the orbit's size: the last of them
+_OTHER = 1e-6  # of the orbit's momentum: another one at the same place
 _FAR = 0.5  # of the orbit's size or period, without a drive: a step to another orbit than the one that was named
 
 
@@ -70,6 +71,7 @@ class _Return:
     F: list[TruncatedSeries]
     start: list[TruncatedSeries]
     period: float
+    apart: float = 0.0  # of p_1, that the energy leaves: it may leave two
 
 
 def _jet(value: Any, space: JetSpace) -> TruncatedSeries:
@@ -130,7 +132,7 @@ class _Orbit:
             period += wait.coefficients[0]
             X = self.motion.moved(X, wait, local)
         there = _combined(S, self._back(X, x))
-        return _Return([*there[1:n], *there[n + 1 :]], start, period)
+        return _Return([*there[1:n], *there[n + 1 :]], start, period, abs(float((there[n] - p).coefficients[0])))
 
     def _back(self, X: list[TruncatedSeries], x: Array) -> list[TruncatedSeries]:
         """(X − x)/units, without whole turns."""
@@ -179,6 +181,11 @@ def return_map_form(
                 break
         else:
             raise InputError("normal_form: the orbit is not found to rounding: give a start nearer to it")
+        if one.apart > _OTHER:
+            raise InputError(
+                f"normal_form: after {period:.6g} s the motion from {dict(at)} is at its start with another momentum: the orbit "
+                "is not closed; give its whole period"
+            )
         returns = [orbit.returned(start, period, order - 1, local) for local in _LOCAL]
     except IntegrationError as stop:
         raise InputError(f"normal_form: the motion from {dict(at)} cannot be followed: {stop}") from None

@@ -245,6 +245,7 @@ REFUSED = [
     ({"period": 7.1}, {"y": None}, InputError, "y"),
     ({"period": 7.1}, {"w": 0.0, "y": 0.0}, InputError, "nothing moves"),
     ({"period": 3.0}, {}, InputError, "normal_form"),
+    ({"period": 3.6}, {}, InputError, "another momentum"),  # the same place on the way back
 ]
 
 
