@@ -125,7 +125,7 @@ def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearS
         raise SingularError(f"linearise: {at} is no equilibrium: a force is left over; start from one")
     held = motion - system.rows.T * lam
     slopes = [jacobian(held, names) for names in (c.a, c.v, c.q)]
-    _check_steady(system, here, [here[v] for v in c.v], held, [e for m in slopes for e in m])
+    _check_steady(system, here, [here[v] for v in c.v], held, [e for m in (*slopes, system.rows) for e in m])
     basis = sp.Matrix.hstack(*G.nullspace(iszerofunc=is_identically_zero)) if G.rows else sp.eye(len(c.q))
     mass, gyroscopic, stiffness = ((basis.T * there(m) * basis).applyfunc(reduced) for m in slopes)
     if is_identically_zero(mass.det(method="berkowitz")):

@@ -19,6 +19,11 @@ POLE = System(
 SPRING, QUARTIC = (
     System(CART, v**2 / 2 + om**2 / 2 - x**n / n) for n in (2, 4)
 )  # whose slopes stay, at first or for good
+PLANE = coordinates("x theta y")
+y, vy = PLANE.q[2], PLANE.v[2]
+SLOT = System(  # on a line that turns, whose rows turn where no reaction does: x'' = (w² − 1) x
+    PLANE, (v**2 + vy**2 + om**2 - x**2 - y**2) / 2, (x * sp.sin(theta) - y * sp.cos(theta),)
+)
 C = coordinates("x y z phi theta psi")
 GROUND = Frame(C)
 WHEEL = GROUND.moved(*C.q[:3]).turned("zxy", C.q[3:]).body(m, (m * r**2 / 4, m * r**2 / 2, m * r**2 / 4))
@@ -144,6 +149,7 @@ def test_what_is_no_steady_motion_says_why() -> None:
         (lambda: QUARTIC.linearise({x: 0, v: 1}, outputs=(x,)), InputError, "change with time"),
         (lambda: QUARTIC.linearise({x: 0, v: 1}, {}, outputs=(x,)), InputError, "change with time"),
         (lambda: SPRING.linearise({x: 0, v: 1}, outputs=(x,)), InputError, "forces change with time"),
+        (lambda: SLOT.linearise(dict.fromkeys((x, y, theta), 0) | {om: w}), InputError, "theta moves there"),
         (lambda: SPRING.linearise({x: 0, v: 1}, {}, outputs=(x,)), InputError, "change with time"),
         (lambda: POLE.linearise({theta: 0}, inputs=(F,), outputs=("x",)), InputError, "no expression"),
         (lambda: DISC.linearise(rolled | {C.v[5]: w}), InputError, "off the constraints"),

@@ -75,7 +75,7 @@ def without_turns(e: sp.Expr) -> sp.Expr:
             args = [*map(straight, part.args)]
             new = part if all(a is b for a, b in zip(args, part.args, strict=True)) else part.func(*args)
             while new.is_Add and (pair := _turned_pair(new)):
-                new = sp.Add(*(a for a in new.args if a not in pair), *pair.values())
+                new = sp.Add(new, *(b - a for a, b in pair.items()))
             known[part] = new
         return known[part]
 
@@ -107,7 +107,7 @@ def _sides(e: sp.Expr) -> dict[sp.Expr, tuple[sp.Expr, sp.Expr]]:
             sp.Add(*(sp.Mul(*(f for f in term if f != turn)) for term in factors if turn in term))
             for turn in (sp.cos(angle), sp.sin(angle))
         ]
-        if 0 not in parts and all({sp.cos(angle), sp.sin(angle)} & {*term} for term in factors):
+        if 0 not in parts and all(sum(f in (sp.cos(angle), sp.sin(angle)) for f in term) == 1 for term in factors):
             sides[angle] = (parts[0], parts[1])
     return sides
 

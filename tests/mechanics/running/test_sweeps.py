@@ -64,6 +64,9 @@ def test_squares_of_turned_components_lose_the_turn() -> None:
     assert not without_turns(m * turned).has(sp.sin, sp.cos)
     for kept in (m * p**2 + n * q**2, m * p**2 + m * (b * sp.cos(x) + a * sp.sin(x)) ** 2, m * p**2 + m * (q + d) ** 2):
         assert without_turns(kept) == kept
+    again = sp.Mul(sp.cos(x), sp.cos(x), a, evaluate=False) + b * sp.sin(x)
+    for left in (sp.Add(m * p**2, m * p**2, m * q**2, evaluate=False), again**2 + q**2):  # unevaluated: nothing is lost
+        assert sp.expand(without_turns(left) - left).subs({sp.sin(x) ** 2: 1 - sp.cos(x) ** 2}).expand() == 0
 
 
 @pytest.mark.parametrize("n", [6, 9])
