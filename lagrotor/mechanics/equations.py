@@ -303,8 +303,9 @@ class Equations:
         """λ_1 … λ_k, or λ with the names of the constraints, or Λ where the system has such letters, or `reaction(name)` where
         forces have that: the multipliers in `motion` and `power`."""
         names = [name.replace(" ", "_") for name in self.multiplier_names]
+        names = names if len({*names}) == len(names) else list(self.multiplier_names)
         acting = (*self.constraints, *self.rolling, self.dissipation, *self.forces)
-        letters = self.letters.union(self.c.q, *(e.free_symbols for e in acting))
+        letters = self.letters.union(self.c.q, self.c.v, self.c.a, *(e.free_symbols for e in acting))
         stem = "Lambda" if {f"lambda_{name}" for name in names} & {str(s) for s in letters} else "lambda"
         plain = (sp.Symbol(f"{stem}_{name}", real=True) for name in names)
         return tuple(own if own in letters else s for own, s in zip(self.reactions, plain, strict=True))

@@ -7,6 +7,8 @@ from functools import cache
 from typing import Any
 
 import sympy as sp
+from sympy.printing.latex import tex_greek_dictionary
+from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 from lagrotor.mechanics.lagrangian import Coordinates
 
@@ -64,14 +66,34 @@ def light(source: str) -> str:
     return _OF_A_LETTER.sub(r"\1 \2", source)
 
 
+# Greek letters, and ℓ, as commands of LaTeX.
+GREEK = {letter: tex_greek_dictionary.get(name, rf"\{name}") for name, letter in greek_unicode.items()} | {
+    "ϑ": r"\vartheta",
+    "ℓ": r"\ell",
+}
+_GREEK = re.compile(f"[{''.join(GREEK)}](?=([A-Za-z{''.join(GREEK)}])?)")
+_MARKS = {"\\": r"\backslash ", "^": r"\wedge ", "~": r"\sim ", " ": r"\ "} | {c: rf"\{c}" for c in "&%#$_{}"}
+_MARKS |= {letter: f"{command} " for letter, command in GREEK.items()}
+_FOREIGN = re.compile(r"[^\x00-\x7f]+")  # letters that have no place in a formula: é
+
+
 @cache
 def letter_latex(symbol: sp.Symbol) -> str:
-    r"""LaTeX of one letter: theta_1_dot is \dot{\theta}_1, d_dotx is \dot{d}_x."""
+    r"""LaTeX of one letter: theta_1_dot is \dot{\theta}_1, d_dotx is \dot{d}_x, α is \alpha."""
     if reaction := re.fullmatch(r"reaction\((.+)\)", symbol.name):
-        return rf"\lambda_{{\mathrm{{{reaction[1]}}}}}"
+        return multiplier_latex("lambda", reaction[1])
     # A component of a vector of rates, d_dotx or r_1_dotx.
     name = re.sub(r"(_\d+)?_(d?dot)([xyz])$", lambda m: f"{m[1] or '_'}{m[3]}_{m[2]}", symbol.name)
-    dotted = re.fullmatch(r"(.+?)(?:_(\w+?))?_(d?dot)", name)
-    stem = sp.latex(sp.Symbol(dotted[1]) if dotted else symbol)
-    index = f"_{{{dotted[2]}}}" if dotted and dotted[2] else ""
-    return re.sub(r"_\{(\w)\}$", r"_\1", (rf"\{dotted[3]}{{{stem}}}" if dotted else stem) + index)
+    dotted = re.fullmatch(r"(.+?)_(d?dot)", name)
+    source = sp.latex(sp.Symbol(dotted[1]) if dotted else symbol)
+    if dotted:
+        source = re.sub(r"^(.+?)(_\{.*)?$", rf"\\{dotted[2]}{{\1}}\2", source)
+    source = re.sub(r"(?<!\\)[&%#$]", r"\\\g<0>", source)
+    source = _GREEK.sub(lambda m: GREEK[m[0]] + " " * (m[1] is not None), source)
+    return re.sub(r"_\{(\w)\}$", r"_\1", _FOREIGN.sub(r"\\text{\g<0>}", source))
+
+
+def multiplier_latex(letter: str, name: str) -> str:
+    """LaTeX of λ with the name, in upright letters, or the number of its constraint."""
+    upright = _FOREIGN.sub(r"\\text{\g<0>}", "".join(_MARKS.get(c, c) for c in name))
+    return rf"\{letter}_{{{name}}}" if name.isdigit() else rf"\{letter}_{{\mathrm{{{upright}}}}}"

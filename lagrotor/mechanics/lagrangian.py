@@ -12,6 +12,7 @@ Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., §§1.4, 2.7; Arnold, Ma
 Mechanics, §§12, 19.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -55,13 +56,18 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
         ((theta, phi), (theta_dot, phi_dot))
 
     Raises:
-        InputError: there is no name, or one is repeated.
+        InputError: there is no name, one is repeated, or does not begin with a letter.
     """
     if not isinstance(names, Sequence):
         raise InputError(f"coordinates: {names!r} must be names: coordinates('phi theta psi')")
     stems = names.replace(",", " ").split() if isinstance(names, str) else list(names)
     if strange := [stem for stem in stems if not isinstance(stem, str)]:
         raise InputError(f"coordinates: {strange[0]!r} must be a name: coordinates('phi theta psi')")
+    if odd := [e for e in stems if not re.fullmatch(r"\\?[^\W\d_]\S*", e) or e.count("{") != e.count("}")]:
+        raise InputError(
+            f"coordinates: {odd[0]!r} would be read otherwise in a formula: a name begins with a letter, has no blanks, and "
+            "closes its braces"
+        )
     q, v, a = (tuple(sp.Symbol(stem + order, real=True) for stem in stems) for order in ("", "_dot", "_ddot"))
     return Coordinates(q, v, a)
 

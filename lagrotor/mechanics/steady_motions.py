@@ -69,6 +69,8 @@ def state_equations(
     units = [joint.unit_length for joint in system.ball_joints]
     held = [g for g in system.constraints if g not in units]
     residual = [system.residual[i].xreplace(put) for i in system.left]
+    letters = system.L.free_symbols.union(system.push.free_symbols, *(e.free_symbols for e in system.residual))
+    inputs = tuple({str(s): s for s in letters}.get(str(u), u) for u in inputs)
     here = _place(system, at, inputs, [*F, *V], residual)
     there = partial(_values, at, here)
     state, rates, lam = (*system.c.q, *system.speeds), system.speed_rates, [system.multipliers[i] for i in system.left]

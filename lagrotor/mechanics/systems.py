@@ -117,6 +117,10 @@ class System(Equations):
         for name, listed in (("inputs", inputs), ("outputs", outputs)):
             if isinstance(listed, str) or not isinstance(listed, Sequence | sp.MatrixBase):
                 raise InputError(f"linearise: {name} = {listed!r} must be a tuple")
+        if len({*map(str, inputs)}) < len(inputs) or not all(
+            isinstance(u, sp.Symbol | AppliedUndef | str) for u in inputs
+        ):
+            raise InputError(f"linearise: inputs = {inputs} must be different letters, parameters or functions F(t)")
         if any(isinstance(u, AppliedUndef) for u in inputs):
             from lagrotor.mechanics.running import function_values
 

@@ -6,7 +6,7 @@ from lagrotor.algebra import derivative
 from lagrotor.algebra.enclosures import jet_of
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import jets_of, longer, shortest
-from lagrotor.mechanics.glossary import latex, letter_latex
+from lagrotor.mechanics.glossary import latex, letter_latex, multiplier_latex
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.symmetry import cyclic_coordinates
 
@@ -27,9 +27,13 @@ def formulas(system: Equations) -> dict[str, list[str]]:
     own = system.kinematics if short else None
     put = dict(zip(c.v, own.velocity, strict=True)) if own and not own.stages else {}
     rates = tuple(dict.fromkeys((*c.a, *system.speed_rates)))
+    multipliers = {
+        s: multiplier_latex("Lambda" if str(s).startswith("Lambda") else "lambda", name)
+        for s, name in zip(system.multipliers, system.multiplier_names, strict=True)
+    }
 
     def line(left: sp.Expr | str, right: sp.Expr = sp.S.Zero) -> str:
-        return " = ".join(e if isinstance(e, str) else _side(e, rates) for e in (left, right))
+        return " = ".join(e if isinstance(e, str) else _side(e, rates, multipliers) for e in (left, right))
 
     still = system.L.subs(dict.fromkeys(c.v, 0))
     kinetic = sp.expand(system.L - still) if short else system.L - still
@@ -77,7 +81,7 @@ def in_latex(system: Equations) -> str:
     return f"\\begin{{align}}\n{rows}\n\\end{{align}}"
 
 
-def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...]) -> str:
+def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...], multipliers: dict[sp.Symbol, str]) -> str:
     """A formula, the accelerations in front of what they are multiplied with."""
     count = sp.count_ops(e)
     if count > _MOST_OPERATIONS:
@@ -90,8 +94,7 @@ def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...]) -> str:
         e = sp.expand(e)
         inertial = [a * e.coeff(a) for a in accelerated]
         terms = [*inertial, sp.expand(e - sp.Add(*inertial))]
-    written = {dummy: _function(jet) for jet, dummy in names.items()}
-    written |= {s: _multiplier(s) for s in e.free_symbols if str(s).startswith(("lambda_", "Lambda_"))}
+    written = {dummy: _function(jet) for jet, dummy in names.items()} | multipliers
     parts = [latex(term, written) for term in terms if term != 0] or ["0"]
     return parts[0] + "".join(f" {part}" if part.startswith("-") else f" + {part}" for part in parts[1:])
 
@@ -110,8 +113,3 @@ def _function(jet: sp.Expr) -> str:
         stem, _, index = letter.partition("_")
         return rf"\{'d' * orders[0]}ot{{{stem}}}{'_' if index else ''}{index}\left({inside}\right)"
     return letter + "'" * orders[0] + rf"\left({inside}\right)"
-
-
-def _multiplier(s: sp.Symbol) -> str:
-    stem, _, name = str(s).partition("_")
-    return rf"\{stem}_{{{name}}}" if name.isdigit() else rf"\{stem}_\text{{{name.replace('_', ' ')}}}"

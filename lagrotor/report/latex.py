@@ -5,10 +5,8 @@ import unicodedata
 from collections.abc import Iterable
 
 import sympy as sp
-from sympy.printing.latex import tex_greek_dictionary
-from sympy.printing.pretty.pretty_symbology import greek_unicode
 
-from lagrotor.mechanics.glossary import latex
+from lagrotor.mechanics.glossary import GREEK, latex
 from lagrotor.paper.readable import readable
 from lagrotor.paper.source.tokens import tokenize
 
@@ -49,10 +47,6 @@ _LETTERS = {
     "§": r"$\mathsection$", "é": r"\'e", "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
     "~": r"\~{}", '"': "''",
 } | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip
-_GREEK = {letter: tex_greek_dictionary.get(name, rf"\{name}") for name, letter in greek_unicode.items()} | {
-    "ℓ": r"\ell",
-    "ϑ": r"\vartheta",
-}
 _DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
 _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 # A letter with its dot and its index: mathematics, unless it is a Latin letter alone.
@@ -87,7 +81,7 @@ def _character(character: str) -> str:
         return f"\\{character}"
     if character in _LETTERS:
         return _LETTERS[character]
-    if character.isascii() or character in _GREEK or character in _DOTS or character in _LOW:
+    if character.isascii() or character in GREEK or character in _DOTS or character in _LOW:
         return character
     return unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode() or "?"
 
@@ -96,7 +90,7 @@ def _letter(match: re.Match[str]) -> str:
     stem, dot, index = match.groups()
     if stem.isascii() and not dot and not index:
         return stem
-    drawn = _GREEK.get(stem, stem)
+    drawn = GREEK.get(stem, stem)
     drawn = f"{_DOTS[dot]}{{{drawn}}}" if dot else drawn
     return f"${drawn}_{{{''.join(_LOW[digit] for digit in index)}}}$" if index else f"${drawn}$"
 
@@ -110,7 +104,7 @@ def displayed_formula(source: str) -> str:
 def tidy(source: str) -> str:
     """A formula in ASCII, without its sentence's last comma or full stop."""
     clean = re.sub(r"[.,;]\s*$", "", source.strip()).replace(r"\mathbb{1}", r"\one ")
-    clean = "".join(c if c.isascii() else _GREEK.get(c) or _LETTERS.get(c, "?").strip("$") for c in clean)
+    clean = "".join(c if c.isascii() else GREEK.get(c) or _LETTERS.get(c, "?").strip("$") for c in clean)
     return _LONE.sub(r" \1 ", clean)
 
 

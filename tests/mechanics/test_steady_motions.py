@@ -34,6 +34,7 @@ STRAIGHT = dict.fromkeys(C.q, 0) | {C.q[2]: r, C.v[5]: w, C.v[0]: r * w}
 
 def test_the_cart_and_pole_of_textbooks() -> None:
     linear = POLE.linearise({x: 0, theta: 0}, inputs=(F,), outputs=(x, CART.a[0]))
+    assert linear.B == POLE.linearise({x: 0, theta: 0}, inputs=("F",)).B  # by its name
     assert linear.states == (x, theta, v, om)
     assert sp.Matrix([[0, 0, 1, 0], [0, 0, 0, 1], [0, -g * m / M, 0, 0], [0, g * (M + m) / (M * l), 0, 0]]) == linear.A
     assert list(linear.B) == [0, 0, 1 / M, -1 / (M * l)]
@@ -145,6 +146,8 @@ def test_what_is_no_steady_motion_says_why() -> None:
         (lambda: POLE.linearise({x: 0, theta: 1}, inputs=(F,)), SingularError, "is left over"),
         (lambda: POLE.linearise({x: 0}, inputs=(F,)), InputError, "theta without a value"),
         (lambda: POLE.linearise({theta: 0}, inputs=(sp.Symbol("u"),)), InputError, "inputs u"),
+        (lambda: POLE.linearise({theta: 0}, inputs=(F, F)), InputError, "different letters"),
+        (lambda: POLE.linearise({theta: 0}, {m: 1}, inputs=(F, "F")), InputError, "different letters"),
         (lambda: POLE.linearise({theta: 0, om: 1}, inputs=(F,)), InputError, "change with time"),
         (lambda: QUARTIC.linearise({x: 0, v: 1}, outputs=(x,)), InputError, "change with time"),
         (lambda: QUARTIC.linearise({x: 0, v: 1}, {}, outputs=(x,)), InputError, "change with time"),

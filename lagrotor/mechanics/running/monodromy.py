@@ -19,7 +19,7 @@ from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.admission import check_values
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import motion_program
-from lagrotor.mechanics.running.state_space import local_slope, motion_slope, point_state, tangent_space
+from lagrotor.mechanics.running.state_space import check_smooth, local_slope, motion_slope, point_state, tangent_space
 from lagrotor.mechanics.small_turns import small_states
 from lagrotor.numerics.integrate import Problem, integrate
 
@@ -67,6 +67,7 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     free, T = tangent_space("floquet", system, values, state, begin)
     start = np.append(state, [begin] * (d - size))
     slope, width = motion_slope("floquet", given, values), T.shape[1]
+    check_smooth("floquet", slope, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
     first, P, _ = local_slope(system, state, *_at(slope(start), size))
 
     def rate(_: float, y: Array) -> list[float]:

@@ -42,7 +42,8 @@ def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | Non
     if not what:
         labels = {f"${letter_latex(q)}${units.get(str(q), '')}": run.q[:, i] for i, q in enumerate(run.system.c.q)}
         return coordinates_figure(run.t, labels, run.energy, run.drift)
-    return curves_figure(run.t, dict(_curve(run, each, units) for each in what))
+    curves = (_curve(run, each, units) for each in what)
+    return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # as matplotlib has it
 
 
 def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str, Array]:
@@ -56,7 +57,7 @@ def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str
     if name in ("E", "energy"):
         return "$E$ [J]", run.energy
     if isinstance(what, str) and name in run.system.names:
-        return name, run.reactions[name]
+        return name.replace("$", r"\$"), run.reactions[name]
     if isinstance(what, str):
         known = [*moving, "E", *run.system.names]
         raise InputError(

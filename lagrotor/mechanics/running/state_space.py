@@ -78,8 +78,8 @@ def state_space(
 ) -> StateSpace:
     """The linear system about a point at which all accelerations vanish: see `steady_motions.linearise`."""
     wanted = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
-    if not isinstance(values, Mapping) or len({*map(str, inputs)}) < len(inputs):
-        raise InputError(f"{where}: values = {values!r} must be a dictionary, and inputs = {inputs} different letters")
+    if not isinstance(values, Mapping):
+        raise InputError(f"{where}: values = {values!r} must be a dictionary")
     if strangers := {*inputs} & {*system.c.q, *system.c.v, *system.speeds, t}:
         raise InputError(
             f"{where}: the input {min(strangers, key=str)} moves: inputs are letters of forces or constraints"
@@ -93,7 +93,7 @@ def state_space(
     start = point_state(where, system, at, known)
     motion = motion_slope(where, motion_program(system), known, inputs)
     rate, J, B = motion(start)
-    _check_smooth(where, motion, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
+    check_smooth(where, motion, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
     n, d = len(system.c.q), len(start)
     size = max(1.0, float(np.abs(start).max()))
     least = _STEADY * size * float(np.abs(J[n:d]).max()) + _ROUNDING
@@ -115,7 +115,7 @@ def state_space(
         )
     free, T = tangent_space(where, system, known, start)
     shown, there = motion_slope(where, function_program(system, *wanted), known, inputs), np.append(start, 0.0)
-    _check_smooth(where, shown, there, wanted, at)
+    check_smooth(where, shown, there, wanted, at)
     _, C, D = shown(there)
     states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
     return StateSpace(states, A[free] @ T, (back @ B)[free], C[:, :d] @ P @ T, D)
@@ -197,7 +197,7 @@ def motion_slope(where: str, given: Generated, values: Values, inputs: Sequence[
     return slope
 
 
-def _check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
+def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
     """Raise SingularError where an output has no value or no derivative, as √x at zero, whose steps give others each time."""
     first, other = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
     with np.errstate(invalid="ignore"):

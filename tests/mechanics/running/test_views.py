@@ -3,6 +3,8 @@
 import base64
 import json
 import re
+import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,7 @@ import sympy as sp
 from scipy.special import mathieu_a, mathieu_b
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics import Frame, System, coordinates, t
+from lagrotor.mechanics import Frame, System, coordinates, reaction, t
 from lagrotor.paper import Glossary
 
 I1, I3, m, g, l, mu = sp.symbols("I_1 I_3 m g l mu", positive=True)
@@ -48,9 +50,48 @@ def test_latex_has_functions_dots_and_names() -> None:
     assert (
         lines[1].startswith(r"m \ddot{x}")
         and r"U'\left(x - y\right)" in lines[1]
-        and r"\lambda_\text{slip}" in lines[1]
+        and r"\lambda_{\mathrm{slip}}" in lines[1]
     )
     assert lines[4] == r"- \dot{y}_s\left(t\right) + \dot{x} &= 0"
+
+
+def odd_names() -> System:
+    """A bob on a rod with every sign that LaTeX keeps for itself in a name, and coordinates that are no plain letters."""
+    c = coordinates(["lambda", "α_in", "γ%", "delta1"])
+    kinetic = sum((v**2 for v in c.v), sp.S.Zero) / 2
+    held = {"rod & bar_1 50% #2 $ { α": c.q[0] ** 2 + c.q[1] ** 2 - 1, "é": c.q[2] - c.q[3]}
+    return System(c, m * kinetic - m * g * c.q[1], held)
+
+
+def test_any_name_is_latex() -> None:
+    lines = odd_names().latex().splitlines()
+    rod = r"\lambda_{\mathrm{rod\ \&\ bar\_1\ 50\%\ \#2\ \$\ \{\ \alpha }}"
+    # The coordinate's acceleration is no multiplier.
+    assert lines[1] == rf"\ddot{{\lambda}} m - 2 \lambda {rod} &= 0 \\"
+    assert lines[2] == rf"m \ddot{{\alpha}}_{{in}} + g m - 2 {rod} \alpha_{{in}} &= 0 \\"
+    assert lines[3] == r"m \ddot{\gamma\%} - \lambda_{\mathrm{\text{é}}} &= 0 \\"
+    assert r"\ddot{\delta}_1" in lines[4]
+    c = coordinates("lambda y")  # whose velocity is lambda_dot
+    alike = System(c, sum(v**2 for v in c.v) / 2, {"dot": c.q[0], "dot ": c.q[1], "dot_": c.q[0] - 2 * c.q[1]})
+    assert len({*alike.multipliers} - {*c.v}) == 3
+    for name in ("my x", "1x", "", "{", "_x"):
+        with pytest.raises(InputError, match="a name begins with a letter"):
+            coordinates([name])
+
+
+@pytest.mark.skipif(not shutil.which("pdflatex"), reason="pdflatex sets it")
+def test_pdflatex_sets_any_name(tmp_path) -> None:
+    source = rf"\documentclass{{article}}\usepackage{{amsmath}}\begin{{document}}{odd_names().latex()}\end{{document}}"
+    (tmp_path / "names.tex").write_text(source, encoding="utf-8")
+    subprocess.run(["pdflatex", "-halt-on-error", "names.tex"], cwd=tmp_path, check=True, capture_output=True)
+
+
+def test_any_name_stands_beside_its_curve() -> None:
+    run = odd_names().simulate({m: 1, g: 9.81}, (0, -1, 0, 0), (1, 0, 0, 0), np.linspace(0, 0.1, 5))
+    force = reaction("rod & bar_1 50% #2 $ { α")
+    figure = run.plot("γ%", "rod & bar_1 50% #2 $ { α", 2 * run.system.c.v[1], sp.Eq(force, run.system.c.q[1]))
+    figure.canvas.draw()  # matplotlib reads the labels
+    assert figure.axes[0].get_ylabel() == r"$\gamma\%$" and figure.axes[1].get_ylabel().startswith("rod & bar_1")
 
 
 def test_equations_are_shown_in_velocities_of_ones_own() -> None:
