@@ -8,7 +8,7 @@ from pathlib import Path
 from lagrotor.errors import InputError
 from lagrotor.paper.source import packages
 from lagrotor.paper.source.counters import Counters
-from lagrotor.paper.source.expansion import Expander
+from lagrotor.paper.source.expansion import STYLES, Expander
 from lagrotor.paper.source.groups import Macro
 from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
 
@@ -106,6 +106,11 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
         if walker.only_cited:  # what has a number is known at the end
             found = Source(title)
             _Walker(text, file, found, walker.referred, bare).read()
+        if found.faults and not bare and any(name.endswith(STYLES) for _, name, *_ in walker.expander.starts):
+            _Walker(
+                text, file, other := Source(title), bare=True
+            ).read()  # what a package beside it has a part in is not said
+            found.faults = [each for each in found.faults if each in other.faults]
     except RecursionError:
         raise InputError(f"{file or 'the source'}: environments are nested too deeply: write them in parts") from None
     return found

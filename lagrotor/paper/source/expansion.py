@@ -17,6 +17,7 @@ from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
 
 # Expansions of what stands at one place, and tokens that wait; beyond, a macro calls itself without end.
 _MOST_EXPANSIONS, _MOST_TOKENS, _MOST_FILES = 20_000, 2_000_000, 500
+_MOST_OF_STYLES = 1_000  # as many, of a package whose conditions are not known
 # TeX passes over NUL; another control character is no part of a formula, nor of a file that keeps one.
 _CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
 _INPUTS = (r"\input", r"\include", r"\subfile", r"\subfileinclude", r"\@input")
@@ -25,11 +26,25 @@ _DOCUMENT_COMMANDS = (
     r"\NewDocumentCommand", r"\RenewDocumentCommand", r"\ProvideDocumentCommand", r"\DeclareDocumentCommand",
 )  # fmt: skip
 _ENVIRONMENTS = (r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment")
+_VERBATIM = "VerbatimEnvironment verbatim @verbatim Verbatim lstlisting minted comment tcblisting"
+_VERBATIM_COMMANDS = {rf"\{name}" for name in _VERBATIM.split()}
+# In another environment, of a class or package that is not beside the source, LaTeX may be shown and not set.
+_SET = (
+    "document equation align gather multline eqnarray flalign alignat displaymath math subequations split aligned gathered"
+    " alignedat cases array matrix pmatrix bmatrix vmatrix Vmatrix Bmatrix smallmatrix itemize enumerate description figure"
+    " table tabular tabularx longtable minipage center flushleft flushright quote quotation abstract proof frame"
+    " thebibliography"
+)
+_SHOWN_SOURCE = re.compile(
+    r"(?<!\\)%[^\n]*|\\begin\s*\{([^{}\n]+)\}|\\(?!left|right|middle|[bB]ig)[A-Za-z]+\*?(?:\[[^]\n]*\])?"
+    r"(?:\|[^|\n]*\||\{[^{}\n\\]*%[^{}\n]*\})"
+)
 _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
 _DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "displaymath", "subequations")
 _HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection", r"\appendix")
 _OPENING, _CLOSING = ("{", r"\left", r"\begingroup", r"\bgroup"), ("}", r"\right", r"\endgroup", r"\egroup")
 _NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
+STYLES = (".sty", ".cls", ".def")
 _SHOWN = (r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph")
 
 
@@ -50,13 +65,14 @@ class Expander:
         self.original = False  # whether the environment that comes next is the one that the source has defined anew
         self.theorems: dict[str, str] = {}  # environments that count: their counter
         self.environments: dict[str, tuple[Macro, tuple[Token, ...]]] = {}
+        self.verbatim: set[str] = set()  # environments of the source that show what stands in them
         self.flags: dict[str, bool] = {}
         self.counters = Counters()
         self.loaded: set[str] = set()
         self.document_class = ""
         self.notes: list[str] = []
         self.stepped = ""  # the number that \refstepcounter in the text gave
-        self.depth = self.files = 0
+        self.files = 0
         self.expansions: Counter[int] = Counter()  # by place: what a macro stands for has the place of the macro
         self.most = _MOST_TOKENS  # tokens that may wait: those of the files, and what expansions add
         self.starts: list[
@@ -100,14 +116,46 @@ class Expander:
 
     def faults(self) -> list[tuple[str, int, str]]:
         """File and line of what TeX would stop at, where the source itself has it: of a macro's parts too little is known."""
-        self.macros.close_to(len(self.macros.groups) if self.level is None else self.level, say=False)
-        self.macros.close_to(0)
-        made = []
-        for at, mark, said in sorted(self.macros.faults):
+        macros = self.macros
+        macros.close_to(len(macros.groups) if self.level is None else self.level, say=False)
+        open_braces = next((n for n, (mark, _) in enumerate(macros.groups) if mark != "{"), len(macros.groups))
+        macros.close_to(open_braces)
+        for _, at in macros.groups:  # TeX ends, and warns
+            self.notes.append("{}:{}: {{ is not closed".format(*self.line(at)))
+        macros.close_to(0, say=False)
+        made, shown = [], dict[int, list[tuple[int, int]]]()
+        for at, mark, said in sorted(macros.faults):
             start, name, _, text = self._file(at)
-            if at >= 0 and text.startswith(mark, at - start) and not self._is_style(name):
+            if at < 0 or name.endswith(STYLES) or not self._stands(mark, text, at - start):
+                continue
+            if start not in shown:
+                shown[start] = self._shown_source(text)
+            if not any(first <= at - start < last for first, last in shown[start]):
                 made.append((*self.line(at), said))
         return list(dict.fromkeys(made))
+
+    def _stands(self, mark: str, text: str, at: int) -> bool:
+        r"""Whether a mark stands at a place of the text, \begin{…} by a macro too that is nothing else."""
+        if not mark.startswith(r"\begin"):
+            return text.startswith(mark, at)
+        word = re.compile(r"\\begin\s*\{[^{}]*\}|\\[A-Za-z@]+").match(text, at)
+        macro = self.macros.get(word[0]) if word else None
+        return bool(word) and (latex_of(macro.body) if macro else "".join(word[0].split())).strip() == mark  # type: ignore[index]
+
+    def _shown_source(self, text: str) -> list[tuple[int, int]]:
+        r"""Where a file may show LaTeX that is not set: environments that nothing defines, \code|…|."""
+        spans, place = [], 0
+        while (span := _SHOWN_SOURCE.search(text, place)) is not None:
+            place = span.end()
+            if (name := span[1]) is not None:
+                known = name.rstrip("*") in _SET.split() or name in self.environments or name in self.theorems
+                end = -1 if known or rf"\{name}" in self.macros else text.find(rf"\end{{{name}}}", place)
+                place = max(place, end)
+                if end < 0:
+                    continue
+            if not span[0].startswith("%"):
+                spans.append((span.start(), place + 1))
+        return spans
 
     # ---- tokens without expansion
 
@@ -262,6 +310,13 @@ class Expander:
         name = token.text
         macro = self.macros.get(name)
         if macro is not None:
+            style = (
+                self._file(macro.body[0].at)[1] if self.expansions[token.at] > _MOST_OF_STYLES and macro.body else ""
+            )
+            if style.endswith(STYLES):
+                self.notes.append(f"{name} of {style} expands without end, and is left out")
+                self.macros.define_globally(name, Macro(()))
+                return True
             self._count(name, token.at)
             self.push(self._body(macro, token))
             return True
@@ -334,6 +389,8 @@ class Expander:
         if letter in "oOdD":
             given = self.optional() if letter in "oO" else self.delimited("(", ")")
             return given if given is not None else default if letter in "OD" else [_NO_VALUE]
+        if letter in "gG" and ((following := self.peek()) is None or following.kind != "open"):
+            return default if letter == "G" else [_NO_VALUE]
         return self.argument()
 
     def _if_value(self, token: Token) -> bool:
@@ -551,7 +608,8 @@ class Expander:
     def _target(self) -> Token | None:
         r"""The command that is defined next, \csname … \endcsname too."""
         self.skip_spaces()
-        token = self.next()
+        while (token := self.next()) is not None and token.text == r"\expandafter":
+            self.skip_spaces()
         if token is None or token.text != r"\csname":
             return token
         name: list[Token] = []
@@ -654,9 +712,43 @@ class Expander:
         count = self.optional()
         default = self.optional() if count is not None else None
         begin, end = self.argument(), self.argument()
+        if _VERBATIM_COMMANDS & {part.text for part in begin}:
+            self.verbatim.add(name)
         digits = latex_of(count or ()).strip()
         head = tuple(Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0))
         self.environments[name] = Macro(tuple(begin), head, None if default is None else tuple(default)), tuple(end)
+        return True
+
+    def _verbatim_environment(self, token: Token) -> bool:
+        r"""\lstnewenvironment, \DefineVerbatimEnvironment, \newminted, \newtcblisting, \excludecomment."""
+        first = self.optional()
+        name = self.name()
+        if token.text == r"\newminted":
+            name = latex_of(first).strip() if first else f"{name}code"
+        self.verbatim.add(name)
+        parts = {r"\excludecomment": 0, r"\lstnewenvironment": 2, r"\DefineVerbatimEnvironment": 2}.get(token.text, 1)
+        parts += token.text in (r"\DeclareTCBListing", r"\NewTCBListing")
+        while self.optional() is not None:
+            pass
+        for _ in range(parts):
+            self.argument()
+        return True
+
+    def _pass_over(self, name: str, at: int) -> bool:
+        """Pass over an environment that shows what stands in it, where the source itself has it."""
+        start, _, _, text = self._file(at)
+        ending = rf"\end{{{name}}}"
+        place = text.find(ending, at - start)
+        if place < 0 or not text.startswith(r"\begin", at - start):
+            return False
+        end = start + place + len(ending)
+        while self.waiting and not (self.waiting[-1] and not start <= self.waiting[-1][-1].at < end):
+            tokens = self.waiting.pop()
+            if tokens:
+                last = tokens.pop()
+                if last.at + len(last.text) > end:  # taken as a comment or \verb over the end
+                    tokens[:] = tokenize(text[end - start :], end)[::-1]
+                self.waiting.append(tokens)
         return True
 
     def _environment_of(self, name: list[Token]) -> tuple[Macro, tuple[Token, ...]] | None:
@@ -671,7 +763,9 @@ class Expander:
             self.macros.open(latex_of(name).strip(), token.at)
             self.push([command])
             return True
-        if latex_of(name).strip() != "document":
+        if latex_of(name).strip() in self.verbatim and self._pass_over(latex_of(name).strip(), token.at):
+            return True
+        if latex_of(name).strip() not in ("document", ""):
             self.macros.open(latex_of(name).strip(), self._own_place(known, token))
         if known is None:
             if (counter := self.theorems.get(latex_of(name).strip())) is not None:
@@ -689,7 +783,7 @@ class Expander:
             self.push([command, Token("scope", latex_of(name).strip(), token.at)])
             return True
         if known is None:
-            if latex_of(name).strip() != "document":
+            if latex_of(name).strip() not in ("document", ""):
                 self.level = self.macros.end_environment(latex_of(name).strip(), token.at)
             self.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
             return False
@@ -705,11 +799,7 @@ class Expander:
     def _own_place(self, known: tuple[Macro, tuple[Token, ...]] | None, token: Token) -> int:
         """The place of a token; none where a package beside the source defines the environment and may end its parts."""
         parts = (*known[0].body, *known[1]) if known else ()
-        return -1 if parts and self._is_style(self._file(parts[0].at)[1]) else token.at
-
-    @staticmethod
-    def _is_style(name: str) -> bool:
-        return name.endswith((".sty", ".cls", ".def"))
+        return -1 if parts and self._file(parts[0].at)[1].endswith(STYLES) else token.at
 
     def _command_of(self, name: str, verb: str, at: int) -> Token | None:
         r"""\begin{x} is \x where the source defines \x and \endx."""
@@ -895,6 +985,13 @@ _HANDLERS: dict[str, Handler] = {
     **dict.fromkeys((r"\def", r"\gdef", r"\edef", r"\xdef"), Expander._def),
     **dict.fromkeys(_DOCUMENT_COMMANDS, Expander._document_command),
     **dict.fromkeys(_ENVIRONMENTS, Expander._environment),
+    **dict.fromkeys(
+        (
+            r"\lstnewenvironment", r"\DefineVerbatimEnvironment", r"\newminted", r"\newtcblisting", r"\DeclareTCBListing",
+            r"\NewTCBListing", r"\excludecomment",
+        ),
+        Expander._verbatim_environment,
+    ),
     **dict.fromkeys(_INPUTS, Expander._input),
     **dict.fromkeys((r"\import", r"\subimport", r"\subincludefrom", r"\includefrom"), Expander._import),
     **dict.fromkeys((r"\usepackage", r"\RequirePackage"), Expander._use),

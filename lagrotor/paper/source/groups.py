@@ -62,8 +62,8 @@ class Macros(dict[str, Macro | None]):
                 else:
                     super().__setitem__(name, macro)
             if say and mark not in _SILENT:
-                bare = mark if mark in _NOT_CLOSED else r"\begin"
-                self.fault(at, bare, _NOT_CLOSED.get(mark, rf"\begin{{{mark}}} is not ended"))
+                begun = mark if mark in _NOT_CLOSED else rf"\begin{{{mark}}}"
+                self.fault(at, begun, _NOT_CLOSED.get(mark, f"{begun} is not ended"))
 
     def innermost(self, name: str = "") -> int:
         """The level of the innermost environment, or of the one with this name; −1 where none is open."""

@@ -5,8 +5,9 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 _VERBATIM = r"verbatim\*?|Verbatim\*?|BVerbatim|lstlisting|minted|comment|filecontents\*?"
+_DEFINED = r"(?:\[[^][\n]*\]|\{[^{}\n]*\})*[\s%]*\}[\s%]*\{"  # in the definition of another environment
 _TOKEN = re.compile(
-    rf"(?P<raw>\\begin\{{(?P<name>{_VERBATIM})\}}.*?\\end\{{(?P=name)\}}"
+    rf"(?P<raw>\\begin\{{(?P<name>{_VERBATIM})\}}(?!{_DEFINED}).*?\\end\{{(?P=name)\}}"
     r"|\\(?:verb|lstinline)\*?(?P<mark>[^A-Za-z\s*{])[^\n]*?(?P=mark)|\\(?:url|href|path|nolinkurl)\s*\{[^{}\n]*\})"
     r"|(?P<comment>%[^\n]*(?:\n[ \t]*)?)"
     r"|(?P<command>\\(?:[A-Za-z@]+|.|\n))"

@@ -19,7 +19,12 @@ FAULTS = {
     ),
     "\\begin{itemize}\n\\item $a$": (2, r"\begin{itemize} is not ended", ["x = y"]),
     "\\end{equation}": (2, r"\end{equation} ends nothing that has begun", ["x = y"]),
-    "{\\bf bold": (2, "{ is not closed", ["x = y"]),
+    "\\begin{itemize}\n\\item {\\bf bold\n\\end{itemize}": (3, "{ is not closed", ["x = y"]),
+    "\\def\\be{\\begin{equation}}\\def\\ee{\\end{equation}}\n\\be a = b \\ee\n\\be c = d\n\nText.": (
+        4,
+        r"\begin{equation} is not ended",
+        ["a = b", "c = d", "x = y"],
+    ),
     "bold}": (2, "} closes no {", ["x = y"]),
     "a\n\\[ \\left( a = b \\]": (3, r"\left is not closed by \right", [r"\left( a = b", "x = y"]),
     "\\[ a \\right) = b \\]": (2, r"\right closes no \left", [r"a \right) = b", "x = y"]),
@@ -56,6 +61,12 @@ def test_what_is_not_ended_is_said_and_what_follows_is_read(body: str, tmp_path:
         r"\begin{align} a &= \begin{cases} b & c \\ d & e \end{cases} \\ f &= \{ g \} \end{align} \url{http://a.b/%20c}",
         r"\DefineShortVerb{\|} \verb|{a| and |}| $\begin{pmatrix} a \\ b \end{pmatrix}$ \newif\ifx \ifnum 1=1 {a} \fi",
         r"$\vu$ $\vu\left(a\right)$",
+        "{\\bf TeX warns of this brace, and ends",
+        "\\DefineVerbatimEnvironment{Code}{Verbatim}{} \\begin{Code}\n} % $ \\end{document} { \\verb|\n\\end{Code}",
+        "\\newenvironment{c}{\\VerbatimEnvironment\\begin{minted}{c}}{\\end{minted}} \\begin{c}\n}$\n\\end{c}",
+        "\\lstnewenvironment{c}[1][]{\\lstset{#1}}{} \\begin{c}[a=b]\n} \\begin{equation}\n\\end{c}",
+        "\\begin{shown}\n} $ \\begin{equation} \n\\end{shown} \\code|{%| \\code{a % b}",
+        r"\expandafter\def\expandafter\baz\eatone##1{(#1)} \ifundef{\begin}{a}{b}",
     ],
 )
 def test_nothing_is_said_of_what_is_ended(body: str, tmp_path: Path) -> None:
@@ -63,6 +74,19 @@ def test_nothing_is_said_of_what_is_ended(body: str, tmp_path: Path) -> None:
     source = read_source(file)
     assert source.faults == []
     assert source.equations[-1].latex == "x = y"
+
+
+def test_what_a_class_beside_the_source_does_is_no_fault_of_the_source(tmp_path: Path) -> None:
+    (tmp_path / "own.cls").write_text(
+        r"\newenvironment{side}{\begin{lrbox}{\x}}{\end{lrbox}}\def\normal{\more\normal}\normal"
+        r"\newcommand\open[1]{\begin{minipage}{#1}}"
+    )
+    (file := tmp_path / "paper.tex").write_text(
+        whole("\\begin{side} a \\end{side} \\open{1cm} b").replace("article", "own")
+    )
+    assert read_source(file).faults == []
+    file.write_text(file.read_text().replace(AFTER, f"\\begin{{equation}} a{AFTER}"))
+    assert [said for *_, said in read_source(file).faults] == [r"\begin{equation} is not ended"]
 
 
 def test_a_fault_is_a_finding_and_a_note(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
