@@ -50,7 +50,8 @@ def formulas(system: Equations) -> dict[str, list[str]]:
         parts["Constraints"] = [line(e) for e in (*system.constraints, *told)]
     closed = not (system.forces or system.dissipation != 0 or t in system.L.free_symbols)
     steady = all(e.subs(dict.fromkeys(c.v, 0)) == 0 for e in system.residual)
-    kept = [line("E", system.energy.xreplace(put))] if closed and steady else []
+    square = short and sp.expand(kinetic.xreplace({v: 2 * v for v in c.v}) - 4 * kinetic) == 0
+    kept = [line("E", "T + V" if square else system.energy.xreplace(put))] if closed and steady else []
     if short:
         for q in cyclic_coordinates(system):
             momentum = derivative(system.L, c.v[c.q.index(q)])
@@ -93,7 +94,8 @@ def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...], multipliers: dict[sp.Symbol,
     if accelerated := [a for a in rates if a in e.free_symbols]:
         e = sp.expand(e)
         inertial = [a * e.coeff(a) for a in accelerated]
-        terms = [*inertial, sp.expand(e - sp.Add(*inertial))]
+        rest = sp.expand(e - sp.Add(*inertial))
+        terms = [*(a * shortest(e.coeff(a)) for a in accelerated), rest]
     written = {dummy: _function(jet) for jet, dummy in names.items()} | multipliers
     parts = [latex(term, written) for term in terms if term != 0] or ["0"]
     return parts[0] + "".join(f" {part}" if part.startswith("-") else f" + {part}" for part in parts[1:])

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from lagrotor.drawing.view import View
 
 Point = Sequence[sp.Expr]
+_WIDE = 18  # letters of a name beside a panel in one line
 _NOTHING = (
     "{}: the Lagrangian was given without bodies, so there is nothing to draw: give lines=[[(0, 0, 0), (x, y, z)], …] with "
     "positions in the coordinates, or build L from Frame(c).body(…)"
@@ -57,7 +59,7 @@ def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str
     if name in ("E", "energy"):
         return "$E$ [J]", run.energy
     if isinstance(what, str) and name in run.system.names:
-        return name.replace("$", r"\$"), run.reactions[name]
+        return fill(name, _WIDE).replace("$", r"\$"), run.reactions[name]
     if isinstance(what, str):
         known = [*moving, "E", *run.system.names]
         raise InputError(
