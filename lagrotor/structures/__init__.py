@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from lagrotor.structures.document import toml_of as toml_of
     from lagrotor.structures.document import write_structure as write_structure
     from lagrotor.structures.exact.exact_motion import exact_motion as exact_motion
+    from lagrotor.structures.exact.falls import measured_fall as measured_fall
     from lagrotor.structures.exact.held_to_exact import bounded_motion as bounded_motion
-    from lagrotor.structures.exact.held_to_exact import measured_fall as measured_fall
     from lagrotor.structures.exact.held_to_exact import measured_growth as measured_growth
     from lagrotor.structures.exact.structure_run import StructureRun as StructureRun
     from lagrotor.structures.exact.written_out import right_hand_side as right_hand_side

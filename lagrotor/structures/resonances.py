@@ -16,7 +16,7 @@ actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 
 rates in any of their bases.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations_with_replacement
@@ -311,27 +311,15 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
     return normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
 
 
-def fall_time_along(
-    s: Assembly, push: ArrayLike, longest: float, detuning: float, of: Of = "rates"
-) -> tuple[float, float]:
-    """When the push with the axes' rates (N, 2), rad/s, from upright, or with their tilts at rest, falls by the normal form of
-    fourth order, s, and its error.
-
-    inf where it does not within the `longest` time. detuning: up to which resonances are kept, rad/s. The error is what the
-    terms of fourth order change, and the time from a tilt of ⅓ on, where those left out are no longer small.
+def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: float, of: Of = "rates") -> float:
+    """When a push with the axes' rates (N, 2), rad/s, from upright, or with their tilts at rest, tilts an axis by the sine 1 by
+    the normal form of fourth order, s; inf where it does not within the `longest` time. detuning: up to which resonances are
+    kept, rad/s.
     """
-    low, high = (_tilted_after(s, push, longest, detuning, order, of) for order in (3, 4))
-    return high[1], abs(high[1] - low[1]) + high[1] - high[0] if high[1] < inf else inf
-
-
-def _tilted_after(
-    s: Assembly, given: ArrayLike, longest: float, detuning: float, order: int, of: Of
-) -> tuple[float, float]:
-    """When an axis tilts by the sine ⅓, and by 1, after a push by the normal form of an order, s; inf within the `longest`."""
     from scipy.integrate import solve_ivp
 
     h = local_hamiltonian(s)
-    n = normal_form_of(s, 1.0, detuning / h.rate, order)
+    n = normal_form_of(s, 1.0, detuning / h.rate)
     size = len(n.frequencies)
     push = finite_array("fall_time: push", given)
     off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
@@ -341,7 +329,7 @@ def _tilted_after(
     ):  # exact tilts are off by their squares
         raise InputError(f"fall_time: push: the bars do not allow these {of}: what each joins must keep its distance")
     start = np.linalg.inv(n.vectors) @ (start_of_push(s, 1.0, of) @ (h.basis.T @ push.ravel()))
-    begin = np.array([f.at(start) for f in _new_coordinates(n, order - 1)])[:size]
+    begin = np.array([f.at(start) for f in _new_coordinates(n, 3)])[:size]
     steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
     turning = np.array(n.frequencies) - np.linalg.pinv(steps.astype(float)) @ (steps @ np.array(n.frequencies))
     slow = n.series - polynomial(
@@ -355,20 +343,15 @@ def _tilted_after(
         point = np.concatenate([z, z.conj()])
         return np.array([-1j * f.at(point) for f in slopes])
 
-    def over(sine: float) -> Callable[[float, Complex], float]:
-        def at(t: float, z: Complex) -> float:
-            z = z * np.exp(-1j * turning * t)
-            tilts = sum(np.abs(shapes[:, g] @ z[g]) for g in groups)
-            return float(np.hypot(*np.reshape(tilts, (-1, 2)).T).max()) - sine
+    def fallen(t: float, z: Complex) -> float:
+        z = z * np.exp(-1j * turning * t)
+        tilts = sum(np.abs(shapes[:, g] @ z[g]) for g in groups)
+        return float(np.hypot(*np.reshape(tilts, (-1, 2)).T).max()) - _FALLEN
 
-        return at
-
-    third, fallen = over(_FALLEN / 3), over(_FALLEN)
     fallen.terminal = True  # type: ignore[attr-defined]
-    events, tight = (third, fallen), 1e-10 * np.abs(begin).max()
-    run = solve_ivp(flow, (0, longest * h.rate), begin, events=events, rtol=1e-10, atol=tight, method="DOP853")
-    times = [float(t[0]) / h.rate if len(t) and run.status == 1 else inf for t in run.t_events]
-    return times[0], times[1]
+    tight = 1e-10 * np.abs(begin).max()
+    run = solve_ivp(flow, (0, longest * h.rate), begin, events=fallen, rtol=1e-10, atol=tight, method="DOP853")
+    return float(run.t[-1]) / h.rate if run.status == 1 else inf
 
 
 def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:

@@ -18,6 +18,7 @@ from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
+from lagrotor.structures.exact.falls import measured_fall
 from lagrotor.structures.holding import hold_time
 from lagrotor.structures.resonances import (
     MOST_DOF,
@@ -37,6 +38,8 @@ from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
 _FARTHEST = 5  # times the push that is trusted: beyond, an axis tilts by ½ before anything grows
+_LEAST_TIMES = 20  # in which a push falls, if it does
+_MOST_TURNS = 10_000  # of the fastest mode, of an exact run
 _BOUNDED = "every small motion stays bounded"
 
 
@@ -139,22 +142,13 @@ class Standing(Shown):
         return window_of(self.structure, resonance, push) if resonance else None
 
     def fall_time(self, push: float | ArrayLike, of: Of = "rates") -> float:
-        """When it falls, s. A number: the least time of pushes of that size, inf where none falls. Rates (N, 2) of the axes:
-        that of this push from upright, by the normal form, inf where it does not fall in 20 least times: an estimate with the
-        error `fall_time_error`. of: "rates", rad/s, or "tilts", as `largest_push` has them; tilts (N, 2) are x, y of the axes.
+        """When it falls, s. A number: the least time of pushes of that size by the resonance's own terms, inf where none falls.
+        Rates (N, 2) of the axes: that of this push from upright, by the normal form of fourth order, inf where it does not fall
+        in 20 least times: an estimate, as far from the exact motion's as `fall_time_error` measures. of: "rates", rad/s, or
+        "tilts", as `largest_push` has them; tilts (N, 2) are x, y of the axes.
 
         Raises InputError as `resonances` does, and for pushes whose tilts are beyond what the expansion is trusted.
         """
-        return self._falls(push, of)[0]
-
-    def fall_time_error(self, push: float | ArrayLike, of: Of = "rates") -> float:
-        """How far `fall_time` of rates or tilts (N, 2) may be off, s: what the terms of fourth order change, and the time from
-        a tilt of ⅓ on, where those left out are no longer small. 0 for a number, which is a bound; inf where it is inf. No bound:
-        beside a slow mode, detuned by about as much as the fall is fast, falls were off by up to 22 times as much.
-        """
-        return self._falls(push, of)[1]
-
-    def _falls(self, push: float | ArrayLike, of: Of) -> tuple[float, float]:
         check_kind_of_push(of)
         along = np.ndim(push) > 0
         if along and np.shape(push) != (shape := (len(self.structure.joints), 2)):
@@ -163,7 +157,7 @@ class Standing(Shown):
             float(np.linalg.norm(finite_array("fall_time: push", push))) if along else checked_push("fall_time", push)
         )
         if not self.stands:
-            return 0.0, 0.0
+            return 0.0
         resonance, trusted = self._falls_by(of), trusted_push(self.structure, of=of)
         if resonance and size <= resonance.push():
             resonance = None
@@ -173,18 +167,42 @@ class Standing(Shown):
                 f"{trusted:.3g}: simulate it"
             )
         if not resonance:
-            return inf, 0.0
+            return inf
         least = resonance.least_time(size)
         if not along:
-            return least, 0.0
+            return least
         reach = max(abs(np.dot(k, resonance.rates)) for k in resonance.vectors)
-        time, error = fall_time_along(self.structure, push, 20 * least, 1.001 * reach, of)
+        time = fall_time_along(self.structure, push, _LEAST_TIMES * least, 1.001 * reach, of)
         if time == inf and size > trusted:
             raise InputError(
-                f"fall_time: this push of {size:.3g}{UNIT_OF_PUSH[of]} does not fall in {20 * least:.3g} s by the expansion, "
-                f"which is trusted to {trusted:.3g}: simulate it"
+                f"fall_time: this push of {size:.3g}{UNIT_OF_PUSH[of]} does not fall in {_LEAST_TIMES * least:.3g} s by the "
+                f"expansion, which is trusted to {trusted:.3g}: simulate it"
             )
-        return time, error
+        return time
+
+    def fall_time_error(self, push: float | ArrayLike, of: Of = "rates") -> float:
+        """How far `fall_time` of rates or tilts (N, 2) is from the exact motion's, s, run to a tilt of the sine 0.95 with two
+        tolerances, whose difference is added. The terms left out do not tell it: the last growth, where no order is small
+        beside another, may turn round and begin again. inf where either does not fall in 20 least times; 0 for a number, which
+        is a bound, and where it does not stand.
+
+        Raises InputError as `fall_time` does, and where 20 least times are more than 10⁴ turns of the fastest mode.
+        """
+        time = self.fall_time(push, of)
+        if not np.ndim(push) or not self.stands:
+            return 0.0
+        resonance = self._falls_by(of)
+        if time == inf or resonance is None:
+            return inf
+        longest = _LEAST_TIMES * resonance.least_time(float(np.linalg.norm(np.asarray(push))))
+        turns = longest * np.abs(resonance.rates).max() / (2 * np.pi)
+        if turns > _MOST_TURNS:
+            raise InputError(
+                f"fall_time_error: the exact motion of so small a push is up to {turns:.2g} turns long, more than {_MOST_TURNS}: "
+                f"fall_time gives {time:.4g} s by the normal form"
+            )
+        coarse, fine = (measured_fall(self.structure, push, longest, tol, of) for tol in (1e-7, 1e-9))
+        return abs(fine - time) + abs(fine - coarse) if max(coarse, fine) < inf else inf
 
     def hold_time(self, push: float, of: Of = "rates") -> float:
         """The time (s) before which no push of that size grows to sqrt(2) times its size: see `structures.holding`.
