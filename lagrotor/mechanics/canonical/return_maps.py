@@ -18,8 +18,8 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.errors import SingularError
-from lagrotor.mechanics.canonical.normal_forms import NormalForm
+from lagrotor.errors import InputError, SingularError
+from lagrotor.mechanics.canonical.normal_forms import NormalForm, check_form_order
 from lagrotor.mechanics.canonical.polynomials import (
     Coefficients,
     Polynomial,
@@ -107,20 +107,32 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
         detuning: |1 − e^{iα·(a − b)}| up to which a resonance is kept.
 
     Raises:
-        SingularError: where a multiplier is 1 or −1, or double and not diagonal.
+        InputError: where F is no such map to first order.
+        SingularError: where a multiplier is 1 or −1, or double and not diagonal, or some lie too near to 1 and others to −1.
     """
+    check_form_order(order, detuning)
     n = len(F)
+    if not n or n % 2 or any(not isinstance(f, Polynomial) or f.variables != n for f in F):
+        raise InputError("map_normal_form: give 2 m polynomials in as many variables, (u_1 … u_m, v_1 … v_m)")
     m, degree = n // 2, order - 1
     units = np.eye(n, dtype=int)
     M = np.array([[f.terms.get(tuple(e), 0.0) for e in units.tolist()] for f in F]).real
+    none, one = np.zeros((m, m)), np.eye(m)
+    J = np.block([[none, one], [-one, none]])
+    if (
+        any(len(f.part(0).coefficients) for f in F)
+        or not np.abs(M.T @ J @ M - J).max() < _NEAR * (1 + np.abs(M).max()) ** 2
+    ):
+        raise InputError(
+            f"map_normal_form: F is no canonical map with F(0) = 0: M = {M.tolist()} of its first order has not MᵀJM = J, or F "
+            "has a constant"
+        )
     for value in (1, -1):
         if (near := np.abs(np.linalg.eigvals(M) - value).min()) < _NEAR:
             way = "name the momentum of a symmetry, or " if value == 1 else ""
             raise SingularError(
                 f"normal_form: a multiplier is {value} to {near:.1g}: {way}move a parameter or the energy off this value"
             )
-    none, one = np.zeros((m, m)), np.eye(m)
-    J = np.block([[none, one], [-one, none]])
     normal = normal_coordinates(-J @ (M - np.eye(n)) @ np.linalg.inv(M + np.eye(n)), J)  # the same vectors: Cayley
     shares, weights = normal.frequencies, normal.weights
     angles = np.array(
@@ -128,6 +140,15 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
     )
     rates = np.concatenate([weights * angles, -weights * angles])
     back = np.linalg.inv(normal.vectors)
+    pair = np.diag(weights)
+    brackets = normal.vectors @ np.block([[none, pair], [-pair, none]]) @ normal.vectors.T - J
+    left = np.abs(back @ M @ normal.vectors - np.diag(np.exp(rates))).max() / np.abs(np.exp(rates)).max()
+    linear = float(max(left, np.abs(brackets).max()))  # multipliers that are taken as equal
+    if not linear < _NEAR:
+        raise SingularError(
+            f"normal_form: the multipliers {np.linalg.eigvals(M)} are not told apart, {linear:.1g} is left: some lie near 1 and "
+            "others near −1; move a parameter or the energy"
+        )
     rows = [linear_form(row) for row in normal.vectors]
     inner = [f.substitute(rows, degree) for f in F]
     z = [variable(k, n) for k in range(n)]
@@ -146,7 +167,7 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
     series = polynomial(pairs, n) + K
     plain = tuple(complex(a) if abs(a.imag) > 0 else float(a.real) for a in angles)
     form = NormalForm(plain, series, weights, tuple(generators), normal.vectors, order, 0.0)
-    return replace(form, error=_error(given, form, rates, K))
+    return replace(form, error=max(linear, _error(given, form, rates, K)))
 
 
 def _exponent(f: Sequence[Polynomial], K: Polynomial, rates: Coefficients, weights: Coefficients, d: int) -> Polynomial:

@@ -71,6 +71,35 @@ def test_a_multiplier_of_one_is_refused():
         map_normal_form([variable(0, 2) + variable(1, 2), variable(1, 2)], 4)
 
 
+def turned(*angles):
+    """Rotations of the pairs (u_j, v_j)."""
+    c, s = np.diag(np.cos(angles)), np.diag(np.sin(angles))
+    return [linear_form(row) for row in np.block([[c, s], [-s, c]])]
+
+
+def test_multipliers_near_one_and_minus_one_at_once_are_no_zero_rate():
+    with pytest.raises(SingularError, match="told apart"):  # was given as hyperbolic with the rate 0
+        map_normal_form(turned(pi - 1e-4, 1e-2), 4)
+    assert map_normal_form(turned(pi - 1e-2, 1e-2), 4).frequencies == pytest.approx((1e-2, pi - 1e-2), rel=1e-10)
+    near = map_normal_form(turned(1.0, 1.0 + 1e-8), 4)  # taken as equal
+    assert 1e-9 < near.error < 1e-7 and map_normal_form(turned(1.0, 2.0), 4).error < 1e-14
+
+
+@pytest.mark.parametrize(
+    "F",
+    [
+        [f.times(0.9) for f in turned(1.0)],
+        [f.times(c) for f, c in zip(turned(1.0, 0.5), (1, 2, 1, 1 / 3), strict=True)],
+        [turned(1.0)[0] + polynomial({(0, 0): 0.1}, 2), turned(1.0)[1]],
+        turned(1.0)[:1],
+        [],
+    ],
+)
+def test_what_is_no_canonical_map_with_a_fixed_point_is_refused(F):
+    with pytest.raises(InputError, match="map_normal_form"):
+        map_normal_form(F, 4)
+
+
 def test_jets_are_taylor_series():
     space = jet_space(2, 6)
     a, b = (space.variable(k) for k in range(2))
