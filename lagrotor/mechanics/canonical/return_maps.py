@@ -108,7 +108,7 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
 
     Raises:
         InputError: where F is no such map to first order.
-        SingularError: where a multiplier is 1 or −1, or double and not diagonal, or some lie too near to 1 and others to −1.
+        SingularError: where a multiplier is 1 or −1, or double and not diagonal, or some too near to 1 beside others near −1.
     """
     check_form_order(order, detuning)
     n = len(F)
@@ -146,8 +146,8 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
     linear = float(max(left, np.abs(brackets).max()))  # multipliers that are taken as equal
     if not linear < _NEAR:
         raise SingularError(
-            f"normal_form: the multipliers {np.linalg.eigvals(M)} are not told apart, {linear:.1g} is left: some lie near 1 and "
-            "others near −1; move a parameter or the energy"
+            f"normal_form: the multipliers {np.linalg.eigvals(M).tolist()} are not separated, {linear:.1g} is left: some are "
+            "near 1 and others near −1; move a parameter or the energy"
         )
     rows = [linear_form(row) for row in normal.vectors]
     inner = [f.substitute(rows, degree) for f in F]

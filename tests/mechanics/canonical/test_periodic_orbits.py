@@ -78,7 +78,7 @@ def turned(*angles):
 
 
 def test_multipliers_near_one_and_minus_one_at_once_are_no_zero_rate():
-    with pytest.raises(SingularError, match="told apart"):  # was given as hyperbolic with the rate 0
+    with pytest.raises(SingularError, match="not separated"):  # was given as hyperbolic with the rate 0
         map_normal_form(turned(pi - 1e-4, 1e-2), 4)
     assert map_normal_form(turned(pi - 1e-2, 1e-2), 4).frequencies == pytest.approx((1e-2, pi - 1e-2), rel=1e-10)
     near = map_normal_form(turned(1.0, 1.0 + 1e-8), 4)  # taken as equal
