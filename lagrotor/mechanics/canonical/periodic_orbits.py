@@ -14,8 +14,8 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.algebra import decide_zero
-from lagrotor.errors import DomainError, InputError, IntegrationError
+from lagrotor.algebra import decide_zero, derivative
+from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics.canonical.jets import JetSpace, TruncatedSeries, jet_space
 from lagrotor.mechanics.canonical.polynomials import Polynomial
 from lagrotor.mechanics.canonical.return_maps import ReturnMapForm, largest_difference, map_normal_form
@@ -23,10 +23,12 @@ from lagrotor.mechanics.lagrangian import gradient, t
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.printers import compile_program
+from lagrotor.numerics.segment import StopError
 
 Array = NDArray[np.float64]
 _LOCAL = (1e-11, 1e-13)  # errors of a step: of the map that is compared, and of the one that is read
 _MOST = 200_000  # evaluations
+_RESCALED = 6  # times, until the units are those of the orbit
 _NEWTON = 15  # steps to the orbit
 _CLOSED = 1e-11  # of the orbit's size: the last of them
 _OTHER = 1e-6  # of the orbit's momentum: another one at the same place
@@ -34,10 +36,13 @@ _FAR = 0.5  # of the orbit's size or period, without a drive: a step to another 
 
 
 class _Motion:
-    """Hamilton's equations for jets."""
+    """Hamilton's equations for jets of x in units (2n,), the same product in each pair."""
 
-    def __init__(self, H: sp.Expr, x: Sequence[sp.Symbol], begin: float) -> None:
+    def __init__(self, H: sp.Expr, x: Sequence[sp.Symbol], begin: float, units: Array) -> None:
         n = len(x) // 2
+        H = H.xreplace({s: sp.Float(u, 17) * s for s, u in zip(x, units, strict=True)}) / sp.Float(
+            units[0] * units[n], 17
+        )
         rates = (*gradient(H, x[n:]), *-gradient(H, x[:n]))
         self._rates, self._H = (compile_program(Program((*x, t), (), e), "numpy") for e in (rates, (H,)))
         self.begin = begin
@@ -94,10 +99,9 @@ def _along(rate: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class _Orbit:
-    """What one return is followed with: units (2n,) of x, the angles' turns, and E, None with a drive."""
+    """What one return is followed with: the angles' turns, and E, None with a drive."""
 
     motion: _Motion
-    units: Array
     turns: Array
     energy: float | None
 
@@ -106,25 +110,23 @@ class _Orbit:
         space = jet_space(2 * n - 2 * (self.energy is not None), degree)
         y = [space.variable(k) for k in range(space.exponents.shape[1])]
         if self.energy is None:
-            start = [y[k] * self.units[k] + x[k] for k in range(2 * n)]
+            start = [y[k] + x[k] for k in range(2 * n)]
             end = self._back(self.motion.moved(start, space.constant(period), local), x)
             return _Return(end, start, period)
-        speed = np.array([f.coefficients[0] for f in self.motion.rate(_numbers(x), self.motion.begin)]) / self.units
+        speed = np.array([f.coefficients[0] for f in self.motion.rate(_numbers(x), self.motion.begin)])
         if not np.abs(speed).max() * period > 1e-6:
             raise InputError("normal_form: nothing moves at this start: leave out the period for an equilibrium")
         S = _along(speed)
-        slope = self.units[0] * self.units[n] * np.linalg.norm(speed)  # ∂H/∂p_1
         place, p = [space.constant(0.0), *y[: n - 1], space.constant(0.0), *y[n - 1 :]], space.constant(0.0)
         start = []
         for _ in range(degree + 2):
             place[n] = p
-            start = [f * u + s for f, u, s in zip(_combined(S.T, place), self.units, x, strict=True)]
-            p = p - (self.motion.energy(start) - self.energy) / slope
+            start = [f + s for f, s in zip(_combined(S.T, place), x, strict=True)]
+            p = p - (self.motion.energy(start) - self.energy) / np.linalg.norm(speed)  # ∂H/∂p_1
         X, ahead = self.motion.moved(start, space.constant(period), local), S[:, :1]
         for _ in range(degree.bit_length() + 2):
             late = _combined(ahead, self._back(X, x))[0]
-            rate = [f / u for f, u in zip(self.motion.rate(X, self.motion.begin), self.units, strict=True)]
-            wait = -late / _combined(ahead, rate)[0]
+            wait = -late / _combined(ahead, self.motion.rate(X, self.motion.begin))[0]
             if not abs(wait.coefficients[0]) < _FAR * period:
                 raise InputError(
                     f"normal_form: no return near t = {period:.6g} s: give a start on the orbit and its period"
@@ -135,8 +137,8 @@ class _Orbit:
         return _Return([*there[1:n], *there[n + 1 :]], start, period, abs(float((there[n] - p).coefficients[0])))
 
     def _back(self, X: list[TruncatedSeries], x: Array) -> list[TruncatedSeries]:
-        """(X − x)/units, without whole turns."""
-        return [(f - s) / u for f, s, u in zip(X, x + self.turns, self.units, strict=True)]
+        """X − x, without whole turns."""
+        return [f - s for f, s in zip(X, x + self.turns, strict=True)]
 
 
 def _numbers(x: Array) -> list[TruncatedSeries]:
@@ -154,18 +156,26 @@ def return_map_form(
     n, begin, driven = len(x) // 2, float(at.get(t, 0.0)), H.has(t)
     if n == 1 and not driven:
         raise DomainError("normal_form: about an orbit of one degree of freedom nothing is left: see `libration`")
-    start = np.array([float(at[s]) for s in x])
-    motion = _Motion(H, x, begin)
+    start, units = np.array([float(at[s]) for s in x]), np.ones(2 * n)
+    there = {s: sp.Float(at[s]) for s in (*x, t)}
+    mobility = [derivative(derivative(H, s), s).xreplace(there) for s in x[n:]]
+    ratios = np.array([abs(float(e)) if e.is_finite else 1.0 for e in mobility]) * period / (2 * pi)
     try:
-        path = motion.path(_numbers(start), jet_space(1, 0).constant(period), _LOCAL[1], np.linspace(0, 1, 65))[..., 0]
-        if driven and not _of_drive(motion, path, period):
+        for _ in range(_RESCALED):
+            motion = _Motion(H, x, begin, units)
+            duration = jet_space(1, 0).constant(period)
+            path = motion.path(_numbers(start / units), duration, _LOCAL[1], np.linspace(0, 1, 65))[..., 0]
+            wide = _units(path * units, ratios)
+            if np.abs(np.log2(wide / units)).max() < 1:
+                break
+            units = wide
+        if driven and not _of_drive(motion, path, period, order):
             raise InputError(f"normal_form: H has not the period {period:.9g} s: give that of what drives")
-        turned = np.round((path[-1] - start) / (2 * pi)) * (np.arange(2 * n) < n)
+        turned = np.round((path[-1] * units - start) / (2 * pi)) * (np.arange(2 * n) < n)
         same = {s: s + 2 * sp.pi * int(k) for s, k in zip(x, turned, strict=True) if k}
-        turns = 2 * pi * turned * (decide_zero(H.xreplace(same) - H).answer == "zero")
-        orbit = _Orbit(
-            motion, _units(path), turns, None if driven else float(motion.energy(_numbers(start)).coefficients[0])
-        )
+        turns = 2 * pi * turned * (decide_zero(H.xreplace(same) - H).answer == "zero") / units
+        start = start / units
+        orbit = _Orbit(motion, turns, None if driven else float(motion.energy(_numbers(start)).coefficients[0]))
         for _ in range(_NEWTON):
             one = orbit.returned(start, period, 1, _LOCAL[1])
             c, M = np.array([f.coefficients[0] for f in one.F]), np.array([f.coefficients[1:] for f in one.F])
@@ -187,47 +197,57 @@ def return_map_form(
                 "is not closed; give its whole period"
             )
         returns = [orbit.returned(start, period, order - 1, local) for local in _LOCAL]
-    except IntegrationError as stop:
-        raise InputError(f"normal_form: the motion from {dict(at)} cannot be followed: {stop}") from None
+    except StopError as stop:
+        raise InputError(
+            f"normal_form: the motion from {dict(at)} cannot be followed for {period:.6g} s: {stop.reason}; give a start on an "
+            "orbit and its period"
+        ) from None
     maps = [[f.polynomial.where(f.polynomial.exponents.sum(1) > 0) for f in one.F] for one in returns]
     coarse, fine = (map_normal_form(F, order, detuning * period) for F in maps)
     error = max(
         fine.error, largest_difference(maps[1], maps[0]), largest_difference([fine.series], [coarse.series]),
         *(abs(float(f.coefficients[0])) for f in returns[1].F),
     )  # fmt: skip
-    unit = orbit.units[0] * orbit.units[n]  # of an action
+    unit = units[0] * units[n]  # of an action
 
     def scaled(f: Polynomial, power: int) -> Polynomial:
         return f.times(unit ** (power - f.exponents.sum(1) / 2))
 
-    beginning = {s: float(f.coefficients[0]) for s, f in zip(x, returns[1].start, strict=True)}
+    begins = [f * u for f, u in zip(returns[1].start, units, strict=True)]
+    beginning = {s: float(f.coefficients[0]) for s, f in zip(x, begins, strict=True)}
     return ReturnMapForm(
         **vars(replace(
             fine, series=scaled(fine.series, 1), generators=tuple(scaled(g, 1) for g in fine.generators), error=error
         )),
         period=returns[1].period, orbit=beginning,
-        frame=tuple(scaled((f - f.coefficients[0]).polynomial, 0) for f in returns[1].start), unit=float(unit),
+        frame=tuple(scaled((f - f.coefficients[0]).polynomial, 0) for f in begins), unit=float(unit),
     )  # fmt: skip
 
 
-def _of_drive(motion: _Motion, path: Array, period: float) -> bool:
-    """Whether the rates are the same a period later, beside the orbit and to rounding of its number."""
+def _of_drive(motion: _Motion, path: Array, period: float, order: int) -> bool:
+    """Whether the rates' series through the form's degree are the same a period later, to rounding of its number."""
+    n = path.shape[1]
+    space = jet_space(n, order - 1)
+    degrees = space.exponents.sum(1)
     for share, place in zip(np.linspace(0, 1, len(path)), path, strict=True):
-        beside = _numbers(place + 0.1 * np.cos(np.arange(len(place)) + 7 * share))
-        time = motion.begin + share * period
-        now, later = (np.array([f.coefficients[0] for f in motion.rate(beside, s)]) for s in (time, time + period))
-        if not np.abs(later - now).max() < 1e-9 * (1 + np.abs(now).max()):
-            return False
+        time, near = motion.begin + share * period, [space.variable(k) + place[k] for k in range(n)]
+        now, later = (np.array([f.coefficients for f in motion.rate(near, s)]) for s in (time, time + period))
+        least = 1e-14 * np.abs(now).max()
+        for d in range(order):
+            part = np.abs(now[:, degrees == d]).max(), np.abs((later - now)[:, degrees == d]).max()
+            if not part[1] <= 1e-9 * part[0] + least:
+                return False
     return True
 
 
-def _units(path: Array) -> Array:
-    """Of q and p, (2n,), with the same product in each pair, in which the orbit is about 1 wide."""
-    n = path.shape[1] // 2
+def _units(path: Array, ratios: Array) -> Array:
+    """Of q and p, (2n,), with the same product in each pair, in which the orbit is about 1 wide. ratios: of q to p at rest."""
     q, p = np.split(np.ptp(path, axis=0) / 2, 2)
     wide = (q > 1e-9 * q.max()) & (p > 1e-9 * p.max())
-    if not wide.any():
-        return np.ones(2 * n)
-    ratios = np.where(wide, q / np.where(wide, p, 1.0), np.exp(np.log(q[wide] / p[wide]).mean()))
-    action = (q * p).max()
+    if wide.any():
+        ratios = np.where(wide, q / np.where(wide, p, 1.0), np.exp(np.log(q[wide] / p[wide]).mean()))
+        action = (q * p).max()
+    else:
+        ratios = np.where((ratios > 0) & (ratios < np.inf), ratios, 1.0)
+        action = 1 / ratios.max()
     return np.concatenate([np.sqrt(action * ratios), np.sqrt(action / ratios)])

@@ -1,5 +1,6 @@
 """Normal forms about periodic orbits: published twists, steady motions, and what exact motions do."""
 
+from dataclasses import replace
 from math import acos, cos, pi, sin, tan
 
 import mpmath as mp
@@ -229,6 +230,34 @@ def test_the_twist_of_a_weak_oscillator_is_its_averaged_one():
         n = h.normal_form(order=4, at={line.q[0]: 0}, period=2 * pi / 1.8)
         gaps.append(abs(abs(n.twist[0, 0]) / (0.75 * e * 2 * pi / 1.8) - 1))
     assert gaps[0] < 0.1 and gaps[0] / gaps[1] > 1.6
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e6])
+def test_units_change_nothing(size):
+    """Lengths in others, a mass: angles, error and verdict stay, the twist is one over the action's unit."""
+    h = driven(lambda x: x**2 / 2 + x**4 / 8 - x * sp.cos(R(17, 10) * t) / 5)
+    moved = {line.q[0]: line.q[0] / sp.Float(size), h.p[0]: h.p[0] / sp.Float(size)}
+    scaled = replace(h, H=h.H.xreplace(moved) * sp.Float(size) ** 2)
+    one, other = (
+        g.normal_form(order=4, at={line.q[0]: -0.1 * s}, period=2 * pi / 1.7) for g, s in ((h, 1), (scaled, size))
+    )
+    assert other.frequencies == pytest.approx(one.frequencies, rel=1e-11) and other.stable and other.error < 1e-11
+    assert other.twist[0, 0] * size**2 == pytest.approx(one.twist[0, 0], rel=1e-9)
+    with pytest.raises(InputError, match="what drives"):
+        scaled.normal_form(order=4, at={line.q[0]: -0.1 * size}, period=3.0)
+
+
+def test_an_ion_at_rest_in_a_trap():
+    """Ω = 10⁷ rad/s, m = 10⁻²⁵ kg, q in metres: the trap of Ω = m = 1, whose unit of action is m Ω (1 mm)²."""
+    q, v = line.q[0], line.v[0]
+
+    def trap(m, omega, length):
+        V = m * omega**2 * (q**2 / 2 * (R(1, 50) + R(3, 20) * sp.cos(omega * t)) + q**4 / length**2 / 100)
+        return System(line, m * v**2 / 2 - V).hamiltonian().normal_form(order=4, at={q: 0}, period=2 * pi / omega)
+
+    plain, ion = trap(1, 1, 1), trap(R(1, 10**25), 10**7, R(1, 1000))
+    assert ion.frequencies == pytest.approx(plain.frequencies, rel=1e-10) and ion.stable
+    assert ion.twist[0, 0] * 1e-24 == pytest.approx(plain.twist[0, 0], rel=1e-9)
 
 
 def test_hyperbolic_orbits():
