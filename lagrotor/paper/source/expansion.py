@@ -21,9 +21,13 @@ _MOST_OF_STYLES = 1_000  # as many, of a package whose conditions are not known
 # TeX passes over NUL; another control character is no part of a formula, nor of a file that keeps one.
 _CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
 _INPUTS = (r"\input", r"\include", r"\subfile", r"\subfileinclude", r"\@input")
-_DEFINITIONS = (r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand")
+_DEFINITIONS = (
+    r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand", r"\newrobustcmd",
+    r"\renewrobustcmd",
+)  # fmt: skip
 _DOCUMENT_COMMANDS = (
     r"\NewDocumentCommand", r"\RenewDocumentCommand", r"\ProvideDocumentCommand", r"\DeclareDocumentCommand",
+    r"\NewExpandableDocumentCommand",
 )  # fmt: skip
 _ENVIRONMENTS = (r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment")
 _VERBATIM = "VerbatimEnvironment verbatim @verbatim Verbatim lstlisting minted comment tcblisting"
@@ -682,16 +686,22 @@ class Expander:
         return True
 
     def _pair(self, token: Token) -> bool:
-        named, left, right = self.argument(), self.argument(), self.argument()
+        r"""\DeclarePairedDelimiter{\abs}{|}{|}; \DeclarePairedDelimiterX{\ip}[2]{<}{>}{#1,#2}."""
+        named = self.argument()
+        count = latex_of(self.optional() or ()).strip()
+        left, right = self.argument(), self.argument()
+        body = self.argument() if token.text.endswith("X") else [Token("param", "#1", 0)]
+        opened, closed = Token("command", r"\left", 0), Token("command", r"\right", 0)
+        inside = [each for each in body if each.text != r"\delimsize"]
+        head = tuple(Token("param", f"#{n + 1}", 0) for n in range(int(count) if count.isdigit() else 1))
+        made = Macro((opened, *left, *inside, closed, *right), head)
+
+        def paired(expander: Expander) -> Iterable[Token]:
+            if not expander.star():
+                expander.optional()
+            return expander._body(made, token)
+
         if named:
-
-            def paired(expander: Expander) -> Iterable[Token]:
-                if not expander.star():
-                    expander.optional()
-                inside = expander.argument()
-                opened, closed = Token("command", r"\left", 0), Token("command", r"\right", 0)
-                return [opened, *left, *inside, closed, *right]
-
             self.macros.pop(named[0].text, None)
             self.own[named[0].text] = paired
         return True
@@ -1019,7 +1029,7 @@ _HANDLERS: dict[str, Handler] = {
     r"\expandafter": Expander._ignored,
     r"\let": Expander._let,
     r"\DeclareMathOperator": Expander._operator,
-    r"\DeclarePairedDelimiter": Expander._pair,
+    **dict.fromkeys((r"\DeclarePairedDelimiter", r"\DeclarePairedDelimiterX"), Expander._pair),
     r"\begin": Expander._begin,
     r"\end": Expander._end,
     r"\value": Expander._value,

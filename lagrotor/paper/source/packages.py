@@ -60,8 +60,8 @@ def _quantity(expander: Expander) -> Iterable[Token]:
     return ()
 
 
-def _derivative(mark: str) -> Package:
-    r"""\dv{x}, \dv{f}{x}, \dv[2]{f}{x}, \dv{x}(f); with partial marks also \pdv{f}{x}{y}."""
+def _derivative(mark: str, two: bool = False) -> Package:
+    r"""\dv{x}, \dv{f}{x}, \dv[2]{f}{x}, \dv{x}(f); with partial marks also \pdv{f}{x}{y}; two: \pd{f}{x} of commath."""
 
     def take(expander: Expander) -> Iterable[Token]:
         slash = expander.star()
@@ -69,7 +69,7 @@ def _derivative(mark: str) -> Package:
         first = latex_of(expander.argument())
         power = f"^{{{order}}}" if order else ""
         rest: list[str] = []
-        while len(rest) < (2 if mark == r"\partial" and not order else 1):
+        while len(rest) < (2 if mark == r"\partial" and not order and not two else 1):
             following = expander.peek()
             if following is None or following.kind != "open":
                 break
@@ -318,6 +318,16 @@ _BRAKET: dict[str, Package] = {
     **dict.fromkeys((r"\braket", r"\Braket"), _product_of_states),
     r"\ketbra": _as(r"\left| #1 \right\rangle\left\langle #2 \right| ", 2),
 }
+_COMMATH: dict[str, Package] = {
+    **dict.fromkeys((r"\od", r"\dod", r"\tod"), _derivative(r"\mathrm{d}", two=True)),
+    **dict.fromkeys((r"\pd", r"\dpd", r"\tpd"), _derivative(r"\partial", two=True)),
+    r"\abs": _between("|", "|"),
+    r"\norm": _between(r"\|", r"\|"),
+    r"\del": _between("(", ")"),
+    r"\sbr": _between("[", "]"),
+    r"\cbr": _between(r"\{", r"\}"),
+    r"\eval": _evaluated,
+}
 _SMALL: dict[str, Package] = {
     **dict.fromkeys((r"\bm", r"\pmb"), _as(r"\boldsymbol{#1}")),
     r"\coloneqq": _is(":= "),
@@ -366,6 +376,8 @@ def commands(loaded: Iterable[str], everything: bool = False) -> dict[str, Packa
         found |= _SIUNITX
     if everything or "braket" in names:
         found |= _BRAKET
+    if "commath" in names:
+        found |= _COMMATH
     if everything or names & {"physics", "physics2"}:
         found |= _PHYSICS
     elif "siunitx" in names:

@@ -150,3 +150,16 @@ def test_what_the_author_says_in_notation_settles_the_mark(tmp_path: Path, capsy
     assert 'p with a prime is a name, and no derivative ([notation] usual = "prime")' in first
     assert "k before ( is a factor" in first and "guessed" not in second
     assert "reads it otherwise now: repeat init" in third
+
+
+def test_delimiters_with_a_body_and_derivatives_of_commath_are_read(tmp_path: Path) -> None:
+    (file := tmp_path / "paper.tex").write_text(
+        r"\documentclass{article}\usepackage{mathtools,commath}\DeclarePairedDelimiterX{\ip}[2]{(}{)}{#1 \delimsize| #2}"
+        r"\DeclarePairedDelimiter\br{[}{]}\newrobustcmd{\q}[1]{\mathbf{#1}}\begin{document}"
+        r"\[ \ip{a}{b} + \ip*{a}{b} = \ip[\big]{a}{b} \br{x}\q{z} \] \[ \dpd[2]{f}{x}{y} + \od{g}{t} = \abs{a} \]\end{document}"
+    )
+    pair = r"\left(a | b\right)"
+    assert [each.latex for each in read_source(file).equations] == [
+        rf"{pair} + {pair} = {pair} \left[x\right]\mathbf{{z}}",
+        r"\frac{\partial^{2} f}{\partial x^{2}}{y} + \frac{\mathrm{d} g}{\mathrm{d} t} = \left| a \right|",
+    ]
