@@ -60,7 +60,7 @@ def test_what_is_shown_of_a_tree_is_short() -> None:
     c = coordinates("a b")
     upper = Frame(c).pin(c.q[0])
     lower = upper.moved(1, 0, 0).pin(c.q[1]).body(2, (0, 0, 1), (2, 0, 0))
-    rods = System(c, lower.kinetic + upper.body(1, (0, 0, 1)).kinetic - lower.potential((0, -g, 0)))
+    rods = System(c, lower.kinetic + upper.body(1, (0, 0, 1)).kinetic - lower.potential((0, -9.81, 0)))
     shown = rods._repr_markdown_()
     assert r"$$\ddot{a} \left(8 \cos b + 12\right) + \ddot{b}" in shown and "$$E = T + V$$" in shown
     turning = System(
