@@ -228,7 +228,8 @@ class _Course:
             begin = max(evolution.patience.begin, MORE.value * beside.stages[i].evaluations if beside else 0)
             most = begin + evolution.patience.turn * (t[-1] - t[0]) / evolution.turn
             try:
-                part = yield Leg(start, t, run.local, run.companion, most)
+                leg = Leg(start, t, run.local, run.companion, most)
+                part = (yield leg) if len(t) > 1 else Stretch(start[None], start, 0)
             except StopError as stop:
                 self.spent += stop.evaluations
                 self.refused.append(run.local)

@@ -141,9 +141,10 @@ def _by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     those to the end: trials together lose no more than DOP853 takes, but for the last.
     """
     # From a velocity that is not finite a solver makes a step that is not, and retries it for ever.
-    if not np.isfinite(segment.rhs(segment.left, segment.start)).all():
-        raise StopError(segment.left, "the right-hand side is not finite")
     by_dop853, progress = pulsed and tol < CROSSOVER.value, _Progress(segment)
+    progress.spent = 1
+    if not np.isfinite(segment.rhs(segment.left, segment.start)).all():
+        raise StopError(segment.left, "the right-hand side is not finite", evaluations=1)
     detour = DETOUR.value / segment.typical_rate if segment.typical_rate and not by_dop853 else np.inf
     taken, came, since, per_time = 0, 0.0, np.inf, np.inf  # by the last trial, and by DOP853 since
     while (left := progress.segment.left) < segment.right:

@@ -52,6 +52,14 @@ def test_every_trajectory_is_that_of_simulate():
         assert MODELS[found.models[i]] == run.model == expected.model
 
 
+def test_a_sweep_that_is_read_at_its_start_alone_gives_the_starts():
+    scenes = mixed()
+    alone = sweep(scenes, [1.5])
+    starts = np.array([scene.axes for scene in scenes], float)
+    np.testing.assert_allclose(alone.axes[:, :, 0], starts, atol=1e-13)
+    assert (alone.error <= 1e-6).all() and not alone.failed.size
+
+
 def test_the_error_falls_with_the_tolerance():
     scenes = family(40)
     exact = sweep(scenes, [0.0, 3.0], 1e-13)

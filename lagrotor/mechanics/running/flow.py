@@ -126,7 +126,7 @@ def smooth_motion(
         """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
         for stiff ones may be off by the same."""
         rate = 2 * np.pi / turn
-        bare = scaled_rhs(program.rhs(*parameters), scale)
+        bare, spent = scaled_rhs(program.rhs(*parameters), scale), 0
         problem = Problem(bare, start / scale, budget, project=scaled_projection(project, scale), typical_rate=rate)
         try:
             if companion and stiff and local >= CROSSOVER.value:
@@ -137,10 +137,13 @@ def smooth_motion(
                 except StopError as stop:
                     if stop.cause != "budget":
                         raise
-                    problem = replace(problem, budget=budget - stop.evaluations)
-            return to_units(integrate(problem, times, local), scale)
+                    spent = stop.evaluations
+                    problem = replace(problem, budget=budget - spent)
+            stretch = to_units(integrate(problem, times, local), scale)
+            return replace(stretch, evaluations=spent + stretch.evaluations)
         except StopError as stop:
             stop.reached = None if stop.reached is None else to_units(stop.reached, scale)
+            stop.evaluations += spent
             raise
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:

@@ -105,13 +105,14 @@ class SampledMotion(Run):
             raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")
         before = np.clip(np.searchsorted(self.t, wanted, side="right") - 1, 0, len(self.t) - 1)
         run_on = integration_of(self.system, self.values, self.engine, self.scales, self.switched, self.states[0])
-        states = np.empty((len(wanted), self.states.shape[1]))
+        states, evaluations = np.empty((len(wanted), self.states.shape[1])), self.evaluations
         for i in np.unique(before):
             inside = before == i
             grid = np.union1d(self.t[i], wanted[inside])
-            part = run_on(self.states[i], grid, self.local, False, inf).states
-            states[inside] = part[np.searchsorted(grid, wanted[inside])]
-        return self.read(wanted, states)
+            part = run_on(self.states[i], grid, self.local, False, inf)
+            states[inside] = part.states[np.searchsorted(grid, wanted[inside])]
+            evaluations += part.evaluations
+        return replace(self.read(wanted, states), evaluations=evaluations)
 
     def read(self: Kind, times: Array, states: Array) -> Kind:
         """The run at other times, at which its states are known."""

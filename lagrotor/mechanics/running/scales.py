@@ -60,6 +60,8 @@ def motion_scales(
     if span == 0:
         return Scales(1.0, _sizes(system, values, start[None], 1.0), 0)
     smooth, grid = motion is None, np.linspace(times[0], times[-1], 400)
+    size = len(system.c.q) + len(system.speeds)
+    guess = size + 2 if smooth else 0  # evaluations of `first_sizes`
     if motion is None:
         motion = _coarsely(system, values, start, span)
     try:
@@ -68,18 +70,19 @@ def motion_scales(
         stretch = stop.reached or Stretch(start[None], start, 1)
         # Of a motion that stops at once little is known; one whose budget is spent was followed for as long as that.
         reached = max(stop.at - float(times[0]), 0.0 if stop.cause == "budget" else 1e-3 * span)
-    states, evaluations, stiff = _finite(start, stretch), stretch.evaluations, False
+    states, evaluations, stiff = _finite(start, stretch), guess + stretch.evaluations, False
     if smooth and (system.forces or system.dissipation != 0):
         program = motion_program(system)
         bare = program.rhs(*parameter_values(program, values))
         n, some = len(system.c.q), states[:: max(1, len(states) // 8)]
-        stiff = min(_rates(bare, state, n, n + len(system.speeds)).real.min() for state in some) * span < -_STIFF
+        stiff = min(_rates(bare, state, n, size).real.min() for state in some) * span < -_STIFF
+        evaluations += len(some) * (size + 1)
     if stiff and reached < span:  # DOP853's steps are set by what dies out, not by the motion
         try:
             stretch = _coarsely(system, values, start, span, lsoda)(start, grid, _COARSE, False, _EVALUATIONS)
-            states, evaluations, reached = _finite(states, stretch), evaluations + stretch.evaluations, span
+            states, evaluations, reached = _finite(states, stretch), evaluations + guess + stretch.evaluations, span
         except StopError as stop:
-            evaluations += stop.evaluations
+            evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
     return Scales(turn, _sizes(system, values, states, turn), evaluations, bool(stiff))
 

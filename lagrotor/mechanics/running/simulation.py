@@ -161,7 +161,7 @@ def simulate_system(
     )  # fmt: skip
     estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, stacklevel=3)
     if system.multipliers:
-        _warn_of_dependence(run)
+        run = replace(run, evaluations=run.evaluations + _warn_of_dependence(run))
     return run if h.smooth else _up_to_its_end(run)
 
 
@@ -229,15 +229,16 @@ def _on_constraints(system: Equations, values: Values, q0: Array, v0: Array, beg
     return q, v
 
 
-def _warn_of_dependence(run: SystemRun) -> None:
+def _warn_of_dependence(run: SystemRun) -> int:
     """A LagrotorWarning with the time where the constraints of a run are dependent between two of its samples: there the
     product of the rows of G, g₁ ∧ … ∧ g_k, is zero. Where it is simply zero it is reversed beyond, and then
-    det(G(t) G(t')ᵀ) < 0 for times before and after it."""
+    det(G(t) G(t')ᵀ) < 0 for times before and after it. Returns the evaluations that it took to look."""
     rows = run.system.rows
     if len(run.t) < 2 or not run.system.left or not rows.free_symbols & {*run.system.c.q, time}:
-        return
+        return 0
     from scipy.interpolate import CubicHermiteSpline
 
+    spent = 0
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
     suspected = _reversals(run, CubicHermiteSpline(run.t, run.q, run.v)(fine), fine)
     for k in np.unique(np.searchsorted(run.t, suspected, side="right") - 1):
@@ -246,9 +247,10 @@ def _warn_of_dependence(run: SystemRun) -> None:
         if count > _BETWEEN:  # too long an interval to be interpolated
             fine = np.linspace(a, b, count + 1)
             try:
-                there = _reversals(run, run.at(fine).q, fine)
+                again = run.at(fine)
+                spent, there = spent + again.evaluations - run.evaluations, _reversals(run, again.q, fine)
             except StopError as stop:  # the run had passed there by other steps
-                there = np.array([stop.at])
+                spent, there = spent + stop.evaluations, np.array([stop.at])
             if not len(there):
                 continue
             at = there[0]
@@ -258,7 +260,8 @@ def _warn_of_dependence(run: SystemRun) -> None:
             LagrotorWarning,
             stacklevel=3,
         )
-        return
+        break
+    return spent
 
 
 def _reversals(run: SystemRun, q: Array, times: Array) -> Array:

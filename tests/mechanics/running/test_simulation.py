@@ -15,7 +15,7 @@ from scipy.special import ellipj, ellipk
 
 from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.mechanics import System, SystemRun, coordinates, t
-from lagrotor.mechanics.running import simulation
+from lagrotor.mechanics.running import programs, simulation
 from lagrotor.mechanics.running.first_integrals import defect_of
 
 m, l, g, k, R, Omega, w, A = sp.symbols("m l g k R Omega omega A", positive=True)
@@ -469,3 +469,36 @@ def test_a_row_that_turns_much_between_two_samples_is_not_taken_for_dependent_on
         warnings.simplefilter("error", LagrotorWarning)
         run = sleigh.simulate({}, (0, 0, 0), (1, 0, 7), [0, 10, 20.0], 1e-6)
     assert run.q[:, 0] == pytest.approx(np.sin(7 * run.t) / 7, abs=1e-5)
+
+
+def test_every_evaluation_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those of the survey, of a companion that was given up, of a look at constraints between two samples, and of `at`."""
+    calls, rhs = 0, programs.Generated.__dict__["rhs"].func
+
+    def counting(program: programs.Generated) -> object:
+        def of(*parameters: object) -> object:
+            inner = rhs(program)(*parameters)
+
+            def counted(s: float, y: np.ndarray) -> object:
+                nonlocal calls
+                calls += 1
+                return inner(s, y)
+
+            return counted
+
+        return of
+
+    monkeypatch.setattr(programs.Generated, "rhs", property(counting))
+    (x,), (v,) = (c := coordinates("x")).q, c.v
+    (*_, h), u = (plane := coordinates("x y theta")).q, plane.v
+    stiff = System(c, v**2 / 2 - x**2 / 2, forces=(-k * v,))
+    sleigh = System(plane, sum(e**2 for e in u) / 2, rolling=(-sp.sin(h) * u[0] + sp.cos(h) * u[1],))
+    for system, values, q, speeds in (
+        (stiff, {k: 1}, (1,), (0,)),
+        (stiff, {k: 1e3}, (1,), (0,)),
+        (sleigh, {}, (0, 0, 0), (1, 0, 7)),
+    ):
+        calls = 0
+        run = system.simulate(values, q, speeds, [0, 10], 1e-4)
+        assert run.evaluations == calls
+        assert run.at([1, 2.5]).evaluations == calls
