@@ -112,6 +112,11 @@ class Run(Shown):
             "ending": str(self.ending),
         }
 
+    def check_times(self, where: str) -> None:
+        """Raises InputError for a run without times."""
+        if not len(self.t):
+            raise InputError(f"{where}: the run has no times, as that of crossings where there are none")
+
     def about(self) -> dict[str, Any]:
         """What `save` writes beside the arrays, as JSON."""
         return {}
@@ -129,6 +134,7 @@ class Run(Shown):
         """The part of the run from the time `begin` (s) on. Raises InputError where nothing is left."""
         if isinstance(begin, bool) or not isinstance(begin, int | float | np.number) or begin != begin:
             raise InputError(f"after: begin = {begin!r} must be a time in s")
+        self.check_times("after")
         i, held = int(np.searchsorted(self.t, begin)), self.quantities()
         if i == len(self.t):
             raise InputError(f"after: the run ends at t = {self.t[-1]:g} s, before {begin:g} s")
@@ -171,6 +177,7 @@ class Run(Shown):
         """
         target = Path(path)
         if target.suffix == ".npz":
+            self.check_times("save")
             known = {"horizon": self.horizon, "evaluations": self.evaluations, "ending": asdict(self.ending)}
             arrays = {name: quantity.values for name, quantity in self.quantities().items()}
             return write_arrays(target, self.about() | known, {"t": self.t, "errors": self.errors} | arrays)
@@ -196,8 +203,8 @@ class Saved(NamedTuple):
 def read_run(path: str | Path) -> Saved:
     """The contents of a run that was saved as .npz, those of `Run` checked.
 
-    Raises InputError where that is not what the file is: not whole, or with times that do not increase, or errors, evaluations
-    or an ending that are none.
+    Raises InputError where that is not what the file is: not whole, or with times that decrease, or errors, evaluations or an
+    ending that are none.
     """
     about, arrays = read_arrays(Path(path))
     try:
@@ -209,8 +216,8 @@ def read_run(path: str | Path) -> Saved:
     wrong = None
     if t.ndim != 1 or not len(t) or errors.shape != t.shape:
         wrong = f"t {t.shape} and errors {errors.shape} do not fit together"
-    elif not np.isfinite(t).all() or (np.diff(t) <= 0).any():
-        wrong = "its times do not increase"
+    elif not np.isfinite(t).all() or (np.diff(t) < 0).any():  # crossings on an impact's gap have two states at one time
+        wrong = "its times decrease"
     elif type(evaluations) is not int or evaluations < 0:
         wrong = "its number of evaluations is none"
     elif type(horizon) is not float or (errors < 0).any():

@@ -177,7 +177,7 @@ class Trajectory(Run):
         """The run that `save` wrote as `.npz`.
 
         Raises:
-            InputError: where that is not what the file is: not whole, or not a motion (times that do not increase, axes that are
+            InputError: where that is not what the file is: not whole, or not a motion (times that decrease, axes that are
                 no unit vectors, numbers that are not finite).
         """
         about, held, known = read_run(path)

@@ -216,7 +216,7 @@ def spoiled(change: Callable[[dict[str, Any], dict[str, Any]], object], run: Tra
         (lambda about, held: held.update(axes=held["axes"][:, :-1]), "do not fit together"),
         (lambda about, held: held.update(t=held["t"][:, None]), "do not fit together"),
         (lambda about, held: held.update(t=np.float64(1.0) * np.ones(())), "do not fit together"),
-        (lambda about, held: held.update(t=held["t"][::-1]), "times do not increase"),
+        (lambda about, held: held.update(t=held["t"][::-1]), "times decrease"),
         (lambda about, held: held.update(rates=held["rates"] * np.nan), "not finite"),
         (lambda about, held: held.update(momenta=held["momenta"] * np.inf), "not finite"),
         (lambda about, held: held.update(axes=held["axes"] * 1.01), "no unit vectors"),

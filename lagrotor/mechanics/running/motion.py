@@ -100,6 +100,7 @@ class SampledMotion(Run):
 
     def at(self: Kind, times: ArrayLike) -> Kind:
         """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""
+        self.check_times("at")
         wanted = check_times("at", np.atleast_1d(times))
         if wanted[0] < self.t[0] or wanted[-1] > self.t[-1]:
             raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")

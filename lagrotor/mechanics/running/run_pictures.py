@@ -38,8 +38,7 @@ def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | Non
     """
     from lagrotor.drawing.run_figure import coordinates_figure, curves_figure
 
-    if not len(run.t):
-        raise InputError("plot: the run has no times, as that of crossings where there are none")
+    run.check_times("plot")
     units = {str(s): f" [{entry.unit}]" for s, entry in (glossary or {}).items() if entry.unit not in ("", "1")}
     if not what:
         labels = {f"${letter_latex(q)}${units.get(str(q), '')}": run.q[:, i] for i, q in enumerate(run.system.c.q)}
@@ -81,6 +80,7 @@ def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
     from lagrotor.drawing.view import view_lines, view_times
     from lagrotor.drawing.wheel import ROTORS
 
+    run.check_times("view")
     frames = run.at(view_times(run.t[0], run.t[-1]))
     drawn = [
         np.stack([_vectors(frames, vector_of("view: a point of lines", e, 3)) for e in _sequence(line)], 1)
@@ -105,6 +105,7 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
     from lagrotor.drawing.film import check_film, frame_times
     from lagrotor.drawing.skeleton import animate_lines
 
+    run.check_times("animate")
     check_film(Path(path), float(run.t[-1] - run.t[0]), fps)
     frames = run.at(frame_times(run.t[0], run.t[-1], fps))
     if lines:

@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from math import inf
 from typing import Any, TypeVar
@@ -41,7 +42,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     touch = max(run.tol, _LEAST) * _change(run, section)
     passages: list[tuple[float, int, Array]] = []
     hidden: list[tuple[float, float]] = []
-    side = 0.0
+    side, evaluations = 0.0, run.evaluations
 
     def observe(begun: float, left: float, right: float, curve: Any) -> None:
         nonlocal side
@@ -67,7 +68,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     )
     known = value(run.states, run.t)[0]
     for i, (a, b) in enumerate(pairwise(run.t)):
-        march(phases, full[i], np.array([a, b]), run.local, inf, observe)
+        evaluations += march(phases, full[i], np.array([a, b]), run.local, inf, observe).evaluations
         if side * known[i + 1] < 0:  # between the end of a piece and the beginning of the next
             way = 1 if known[i + 1] > 0 else -1
             near_end = bool(passages) and b - passages[-1][0] < 1e-3 * (b - a)
@@ -90,7 +91,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     more = run.states[before, size:].copy()
     if tail:
         more[:, 0] = times
-    return run.read(times, np.hstack([rows, more]))
+    return replace(run.read(times, np.hstack([rows, more])), evaluations=evaluations)
 
 
 def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:

@@ -1,6 +1,7 @@
 """Sections, impacts and accumulations, each against a textbook's closed form, and a twin that is elsewhere."""
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor.errors import InputError, LagrotorWarning
-from lagrotor.mechanics import Event, Impact, System, coordinates, t
+from lagrotor.mechanics import Event, Impact, System, SystemRun, coordinates, t
 from lagrotor.mechanics.running import phases
 
 C = coordinates("x")
@@ -58,6 +59,29 @@ def test_a_crossing_at_a_sample_is_one_and_in_its_direction(samples: int, tol: f
             assert len(there.t) in (9, 10)
             rates = {x: v, v - sp.Rational(1, 10**12): -x, x + v: v - x}[section]
             assert (np.sign(there.evaluate(rates)) == direction).all()
+
+
+def test_crossings_on_a_gap_hold_both_sides_of_an_impact_and_are_kept(tmp_path: Path) -> None:
+    """A ball from 1 m with e = 4/5: v = ∓√2 (4/5)ⁿ. What has no times is refused in words, was an IndexError or lost."""
+    events = (Impact(x, sp.Rational(4, 5)),)
+    run = BALL.simulate({g: 1}, (1,), (0,), (0, 4.0), 1e-9, events=events)
+    both = run.crossings(x)
+    assert both.v[:, 0] == pytest.approx(np.sqrt(2) * np.array([-1, 0.8, -0.8, 0.64]), abs=1e-9)
+    assert both.evaluations > run.evaluations
+    again = SystemRun.load(both.save(tmp_path / "both.npz"), BALL, events)
+    assert (again.states == both.states).all() and (again.t == both.t).all()
+    none = run.crossings(x - 5)
+    assert none.save(tmp_path / "none.csv").read_text().count("\n") == 1
+    lines = [[(0, 0, 0), (0, 0, x)]]
+    for refused in (
+        lambda: none.save(tmp_path / "none.npz"),
+        lambda: none.animate(tmp_path / "none.gif", lines=lines),
+        lambda: none.view(lines),
+        lambda: none.at([1.0]),
+        lambda: none.after(1.0),
+    ):
+        with pytest.raises(InputError, match="the run has no times"):
+            refused()
 
 
 def test_a_section_that_is_only_touched_is_found_and_one_that_is_missed_is_not() -> None:
