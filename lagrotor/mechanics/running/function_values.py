@@ -143,6 +143,7 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
         *system.rolling,
         system.dissipation,
         *system.forces,
+        *(e for _, e in system.velocities),
         *others,
     ]
     applied = unknown_functions(parts)

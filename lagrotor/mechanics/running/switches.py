@@ -134,7 +134,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
             put[atom] = _smooth(atom, w, s)
     for root in system.push.atoms(sp.Pow):
-        if root.exp == sp.Rational(-1, 2) and _reaches_zero(root.base, system.c.v):
+        if root.exp == sp.Rational(-1, 2) and _jumps_at_zero(system.push, root.base, system.c.v):
             raise InputError(
                 f"simulate: {root} is not defined where {root.base} = 0, and dry friction in several directions at once, "
                 f"which sticks there, is not run: add the square of a small speed under the root, {root.base} + v_0**2; what "
@@ -154,17 +154,26 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
 _JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
 
 
-def _reaches_zero(e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
-    """Whether a square of several velocities is zero at rest, or at the velocities where it is least."""
+def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
+    """Whether a square e of several velocities, under roots of a force, is zero at rest, or where it is least and the force,
+    by √e → 0, does not vanish with it."""
     speeds = [s for s in v if s in e.free_symbols]
     still = dict.fromkeys(speeds, sp.S.Zero)
     rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
     curvature = jacobian(list(gradient(e, speeds)), speeds)
     if len(speeds) < 2 or rest == 0:
         return len(speeds) > 1
-    if curvature.free_symbols & {*speeds} or decide_zero(curvature.det()).answer == "zero":
+    if curvature.free_symbols & {*speeds}:
         return False
-    return decide_zero(rest - slope.dot(curvature.LUsolve(slope)) / 2).answer == "zero"
+    try:
+        least, free = curvature.gauss_jordan_solve(-slope)
+    except ValueError:
+        return False
+    if decide_zero(rest + slope.dot(least.xreplace(dict.fromkeys(free, sp.S.Zero))) / 2).answer != "zero":
+        return False
+    r = sp.Dummy("r", positive=True)
+    sizes = [sp.expand(r * f.xreplace({sp.sqrt(e): r, 1 / sp.sqrt(e): 1 / r})).xreplace({r: sp.S.Zero}) for f in push]
+    return any(size.has(sp.nan, sp.zoo, sp.oo) or decide_zero(size).answer != "zero" for size in sizes)
 
 
 def _smooth(atom: sp.Expr, w: sp.Expr, s: sp.Symbol) -> sp.Expr:

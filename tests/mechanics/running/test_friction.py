@@ -75,6 +75,21 @@ def test_sticking_in_two_directions_is_refused_and_the_way_out_creeps_as_said() 
         np.testing.assert_allclose(creep, (0.0075, 0), atol=1e-7)
 
 
+def test_friction_that_vanishes_with_the_speed_of_sliding_runs_on_a_belt_and_a_ball_that_may_stick_is_refused() -> None:
+    """μ tanh(s/v_0) against the motion needs no v_0 under the root; four velocities have s = 0 where two combinations have."""
+    plane, small = coordinates("x y"), sp.Symbol("v_0", positive=True)
+    (a, b), kinetic = plane.v, sum(v**2 for v in plane.v) / 2
+    s = sp.sqrt((a - belt) ** 2 + b**2)
+    push = tuple(-F * sp.tanh(s / small) * w / s for w in (a - belt, b))
+    run = System(plane, kinetic, forces=push).simulate({F: 0.5, belt: 0.3, small: 0.1}, (0, 0), (1, 0.5), (0, 5))
+    np.testing.assert_allclose(run.v[-1], (0.3, 0), atol=1e-7)
+    ball = coordinates("x y a b")
+    s = sp.sqrt((ball.v[0] - belt + k * ball.v[3]) ** 2 + (ball.v[1] - k * ball.v[2]) ** 2)
+    rolling = System(ball, sum(v**2 for v in ball.v) / 2, dissipation=F * s)
+    with pytest.raises(InputError, match="several directions"):
+        rolling.simulate({F: 1, belt: 0.1, k: 0.2}, (0,) * 4, (1, 0.5, 0, 0), (0, 1))
+
+
 def test_a_mass_on_a_belt_sticks_and_slips_in_a_limit_cycle() -> None:
     """Friction that falls as soon as it slides, from 1 to 1/2; the mass sticks until the spring pulls as much."""
     w = v - belt

@@ -190,3 +190,15 @@ def test_where_knots_set_the_steps_two_runs_take_others(monkeypatch: pytest.Monk
     assert told_too_little() == 0
     monkeypatch.setattr(phases, "COMPANION_FIRST", phases.COMPANION_FIRST._replace(value=1.0))  # twin
     assert told_too_little() > 0
+
+
+def test_a_function_that_is_only_in_a_velocity_of_ones_own_has_a_value() -> None:
+    c, f, u = coordinates("x"), sp.Function("f"), sp.Symbol("u", real=True)
+    moved, known = (System(c, c.v[0] ** 2 / 2, velocities={u: (2 + e) * c.v[0]}) for e in (f(c.q[0]), sp.sin(c.q[0])))
+    run, other = (
+        moved.simulate({f: (np.sin, np.cos)}, (0.1,), (0.2,), (0, 1)),
+        known.simulate({}, (0.1,), (0.2,), (0, 1)),
+    )
+    np.testing.assert_allclose(run.q, other.q, atol=1e-8)
+    with pytest.raises(InputError, match="f without a value"):
+        moved.simulate({}, (0.1,), (0.2,), (0, 1))
