@@ -4,7 +4,7 @@
 # **Objective.** One row for each of the subjects of the theory past the paper: what the paper has, what holds and to
 # which order, a comparison with the exact model, and the figure.
 #
-# **Assumptions.** Those of the scripts t1 to t14 and n6 to n8, from which every formula and every number is taken.
+# **Assumptions.** Those of the scripts t1 to t15 and n6 to n8, from which every formula and every number is taken.
 
 # %%
 import sympy as sp
@@ -29,11 +29,12 @@ t11 = PAPER.scripts.run("derivations", "t11_slow_motion")
 t12 = PAPER.scripts.run("derivations", "t12_unequal_spins")
 t13 = PAPER.scripts.run("derivations", "t13_integrals")
 t14 = PAPER.scripts.run("derivations", "t14_guiding_centre")
+t15 = PAPER.scripts.run("derivations", "t15_return_maps")
 n6 = PAPER.scripts.run("derivations", "n6_resonances")
 n7 = PAPER.scripts.run("derivations", "n7_nonlinear_waves")
 n8 = PAPER.scripts.run("derivations", "n8_fast_spins")
-Omega_0, energy, wander, growth, power, reached, shift = (
-    sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda", "rho", r"\omega-\omega_0")
+Omega_0, energy, wander, growth, power, reached, shift, turned = (
+    sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda", "rho", r"\omega-\omega_0", "tau")
 )
 
 
@@ -206,6 +207,18 @@ rows = (
         "orders of the error of its path: "
         + "; ".join(f"{order:.2f} ({name})" for name, order in t14["measured"].items()),
         FigureLink("t14"),
+    ),
+    (
+        "about a periodic orbit",
+        "none",
+        (
+            "the angle of a return is a series in the action, of any Hamiltonian system: known, Birkhoff (1927), Moser (1973); of "
+            "Hénon's map, with c = cot α/2 of the orbit's own angle, α + τI + …,",
+            equal(turned, t15["twist"]),
+        ),
+        "orders of the error with the twist, and through sixth order: "
+        + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (_, one, two) in t15["measured"].items()),
+        FigureLink("t15"),
     ),
     (
         "what spins hold",

@@ -71,6 +71,8 @@ MUTANTS = [
     ("t12_unequal_spins", "slower = (sigma - 1) * ((sigma + 1)", "slower = (sigma - 1) * ((sigma - 1)"),
     ("t14_guiding_centre", "(G_1 - G_2) * sp.sin(h) ** 2 / k", "(G_1 + G_2) * sp.sin(h) ** 2 / k"),
     ("t14_guiding_centre", "u_v = -J * B.dot(slope)", "u_v = J * B.dot(slope)"),
+    ("t15_return_maps", "(1 - turn ** (n - m))", "(1 - turn ** (m - n))"),
+    ("t15_return_maps", "(3 * c + triple) / 8", "(3 * c - triple) / 8"),
     ("t8_toppling", "e = b * nu**2 - G * nu / k", "e = b * nu**2 + G * nu / k"),
     ("t8_toppling", "(-(G_1 + G_2) * nu, 0, 0)", "(0, 0, 0)"),
     ("t9_twist", "2 * mu_1 * mu_3 - mu_1**2 / 2", "2 * mu_1 * mu_3"),

@@ -1,0 +1,97 @@
+# %% [markdown]
+# # Figure t15: the normal form about a periodic orbit
+#
+# The section of Hénon and Heiles' orbit along the axis, and how many turns about an orbit a motion makes in a return, by the
+# normal form of the return map and on exact runs.
+
+# %%
+from functools import cache
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+
+MADE = PAPER.scripts.run("derivations", "t15_return_maps")
+FORMS, SIDES = MADE["forms"], MADE["sides"]
+SIZES = {  # of the exact runs; the form's curves go on to a little more
+    "an orbit of Hénon–Heiles": np.array([0.015, 0.025, 0.035, 0.045, 0.055]),
+    "a driven Duffing oscillator": np.array([0.2, 0.35, 0.45, 0.55, 0.65]),
+}
+AXIS, DRIVEN = SIZES
+INKS = (*CASE_COLOURS, CORRECTION_COLOUR)
+
+TITLE = "The normal form about a periodic orbit"
+ALT = (
+    "Left: five closed curves round a point on the section with dots of exact returns on the inner ones and beside the "
+    "outermost. Middle and right: turns in a return against the action, a straight line of the twist, a curve of sixth order, "
+    "and circles of exact runs that leave the line before they leave the curve."
+)
+
+
+# %%
+@cache
+def data() -> dict[str, np.ndarray]:
+    """Of each case: actions I (m,) with the exact turns in a return, and for a curve I (n,) the line's and the form's turns. On
+    the section x and p_x, exact (m, returns, 2) and of the form (m, n, 2)."""
+    found = {}
+    for name, sizes in SIZES.items():
+        n, h = FORMS[name], SIDES[name]
+        runs = [MADE["returns"](h, n, size) for size in sizes]
+        actions = np.linspace(0, 1.1 * sizes[-1] ** 2, 80)
+        found |= {
+            f"I, {name}": sizes**2,
+            f"exact, {name}": np.array([MADE["angle"](n, apart) for apart in runs]) / (2 * np.pi),
+            f"form at the runs, {name}": np.array([n.rotation_numbers([size**2])[0] for size in sizes]),
+            f"curve I, {name}": actions,
+            f"line, {name}": (n.frequencies[0] + n.twist[0, 0] * actions) / (2 * np.pi),
+            f"form, {name}": np.array([n.rotation_numbers([action])[0] for action in actions]),
+        }
+        if name == AXIS:
+            least = min(map(len, runs))
+            found["section"] = np.array([apart[:least, [0, 2]] for apart in runs])
+            turn = np.exp(1j * np.linspace(0, 2 * np.pi, 61))
+            places = [[list(n.place([size * z]).values()) for z in turn] for size in sizes]
+            found["section of the form"] = (np.array(places) - list(n.orbit.values()))[..., [0, 2]]
+    return found
+
+
+def measure() -> dict[str, float]:
+    """Largest distances (turns in a return) of the form and of the line from the exact runs but the widest, of each case."""
+    d, found = data(), {}
+    for name in SIZES:
+        exact = d[f"exact, {name}"][:-1]
+        line = np.interp(d[f"I, {name}"][:-1], d[f"curve I, {name}"], d[f"line, {name}"])
+        found[f"form, {name} (turns)"] = float(np.abs(d[f"form at the runs, {name}"][:-1] - exact).max())
+        found[f"line, {name} (turns)"] = float(np.abs(line - exact).max())
+    return found
+
+
+_form, _line, _driven_form, _driven_line = measure().values()
+CAPTION = (
+    f"Left and middle: the orbit of Hénon–Heiles along the axis that crosses y = 0 at the speed {MADE['CASES'][AXIS][1][MADE['y_v']]:g}. "
+    "Left: the section by the form of sixth order (curves) and 120 exact returns of each run (dots). Middle and right: turns about "
+    f"the orbit in a return. But for the widest run the form is off by at most {_form:.4f} and {_driven_form:.4f} turns, the line "
+    f"of the twist alone by {_line:.4f} and {_driven_line:.4f}. Birkhoff (1927)."
+)
+
+
+# %%
+def figure() -> Figure:
+    """The section; turns against the action, of two cases."""
+    d = data()
+    picture = Figure(figsize=(10.4, 4.2))
+    section, *panels = picture.subplots(1, 3)
+    for curve, dots, ink in zip(d["section of the form"], d["section"], INKS, strict=True):
+        section.plot(*curve.T, color=ink, lw=1)
+        section.plot(*dots.T, ".", color=ink, ms=3)
+    section.set(xlabel="x [1]", ylabel="momentum of x [1]", title="Section of Hénon–Heiles")
+    for panel, name in zip(panels, SIZES, strict=True):
+        panel.plot(d[f"curve I, {name}"], d[f"line, {name}"], "--", color=CASE_COLOURS[0], label="with the twist alone")
+        panel.plot(d[f"curve I, {name}"], d[f"form, {name}"], color=CORRECTION_COLOUR, label="form of sixth order")
+        panel.plot(d[f"I, {name}"], d[f"exact, {name}"], "o", color=EXACT_COLOUR, mfc="none", ms=5, label="exact runs")
+        panel.set(xlabel="action I [1]", ylabel="turns in a return [1]", title=name[0].upper() + name[1:])
+    handles, labels = panels[0].get_legend_handles_labels()
+    picture.legend(handles, labels, loc="outside lower center", ncols=3)
+    return picture
