@@ -212,8 +212,8 @@ rows = (
         "about a periodic orbit",
         "none",
         (
-            "the angle of a return is a series in the action, of any Hamiltonian system: known, Birkhoff (1927), Moser (1973); of "
-            "Hénon's map, with c = cot α/2 of the orbit's own angle, α + τI + …,",
+            "the angle of a return is a series in the action, of any Hamiltonian system: known, Birkhoff (1927), Moser (1973); "
+            "of Hénon's map, with c = cot α/2 of the orbit's own angle, α + τI + …,",
             equal(turned, t15["twist"]),
         ),
         "orders of the error with the twist, and through sixth order: "

@@ -7,7 +7,8 @@
 # **Assumptions.** A section across the orbit, motions of the orbit's energy; no multiplier is 1 or −1.
 #
 # **Notation.** $y=(u,v)$ the displacement on the section, $F$ the return map, $\Lambda$ its linear part; $z$, $w$ normal
-# coordinates with $\{z,w\}=-i$, $I=zw$; $\Phi_h$ the flow of $h$ in unit time; $\alpha$ the angle of a return, $c=\cot(\alpha/2)$.
+# coordinates with $\{z,w\}=-i$, $I=zw$; $\Phi_h$ the flow of $h$ in unit time; $\alpha$ the angle of a return,
+# $c=\cot(\alpha/2)$.
 #
 # **What is known.** Birkhoff (1927), Moser (1973); of Hénon's map Dullin, Meiss & Sterling (2000).
 
@@ -37,8 +38,9 @@ prove(E.T * Omega * E, sp.Matrix([[0, 1], [-1, 0]]), "y has canonical brackets",
 
 # %%
 phi_1, phi_2, theta = sp.symbols("phi_1 phi_2 theta", real=True)
-A = sp.Matrix([[sp.cos(theta) * sp.cos(phi_1), -sp.sin(theta) * sp.cos(phi_2)], [sp.sin(theta) * sp.cos(phi_2), sp.cos(theta) * sp.cos(phi_1)]])
-B = sp.Matrix([[sp.cos(theta) * sp.sin(phi_1), sp.sin(theta) * sp.sin(phi_2)], [sp.sin(theta) * sp.sin(phi_2), -sp.cos(theta) * sp.sin(phi_1)]])
+cos, sin = sp.cos, sp.sin
+A = sp.Matrix([[cos(theta) * cos(phi_1), -sin(theta) * cos(phi_2)], [sin(theta) * cos(phi_2), cos(theta) * cos(phi_1)]])
+B = sp.Matrix([[cos(theta) * sin(phi_1), sin(theta) * sin(phi_2)], [sin(theta) * sin(phi_2), -cos(theta) * sin(phi_1)]])
 S = sp.Matrix(sp.BlockMatrix([[A, -B], [B, A]]))
 prove(S.T * Omega * S, Omega, "the frame is canonical", names=r"S^T\Omega S")
 
@@ -74,7 +76,9 @@ prove(bracket(x, y), 1, "the coordinates are canonical", names=r"\{x,y\}")
 
 # %%
 kick = x**3 / 3
-prove((bracket(x, kick), bracket(y, kick)), (0, -(x**2)), "the kick is the flow of x³/3", names=(r"\{x,k\}", r"\{y,k\}"))
+prove(
+    (bracket(x, kick), bracket(y, kick)), (0, -(x**2)), "the kick is the flow of x³/3", names=(r"\{x,k\}", r"\{y,k\}")
+)
 
 # %% [markdown]
 # So $F=\Lambda\circ\Phi_k=\Phi_h\circ\Lambda$ with $h=k\circ\Lambda^{-1}$. The change $\Phi_\chi$ takes $h$ to
@@ -83,7 +87,12 @@ prove((bracket(x, kick), bracket(y, kick)), (0, -(x**2)), "the kick is the flow 
 # %%
 h = sp.Poly(turned(kick), z, w)
 chi = sum(value * z**m * w**n / (1 - turn ** (n - m)) for (m, n), value in h.terms())
-prove(chi - chi.subs({z: z / turn, w: w * turn}, simultaneous=True), h.as_expr(), "the change of third degree", names="h_3")
+prove(
+    chi - chi.subs({z: z / turn, w: w * turn}, simultaneous=True),
+    h.as_expr(),
+    "the change of third degree",
+    names="h_3",
+)
 
 # %% [markdown]
 # At fourth degree $\Phi_\chi^{-1}\Phi_h\Phi_{\chi\circ\Lambda^{-1}}$ leaves $\tfrac12\{h,\chi\}$ (Campbell, Baker, Hausdorff),
@@ -97,7 +106,8 @@ triple = (c**3 - 3 * c) / (3 * c**2 - 1)  # cot(3 alpha/2)
 prove(twist, (3 * c + triple) / 8, "the twist of Hénon's map", names=r"\tau")
 
 # %% [markdown]
-# It vanishes at $\cos\alpha=-1/4$, where the published twistless bifurcation is, and has no bound at the resonance of third order:
+# It vanishes at $\cos\alpha=-1/4$, where the published twistless bifurcation is, and has no bound at the resonance of third
+# order:
 
 # %%
 root = sp.sqrt(sp.Rational(3, 5))

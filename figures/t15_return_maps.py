@@ -19,7 +19,7 @@ SIZES = {  # of the exact runs; the form's curves go on to a little more
     "an orbit of Hénon–Heiles": np.array([0.015, 0.025, 0.035, 0.045, 0.055]),
     "a driven Duffing oscillator": np.array([0.2, 0.35, 0.45, 0.55, 0.65]),
 }
-AXIS, DRIVEN = SIZES
+AXIS = next(iter(SIZES))
 INKS = (*CASE_COLOURS, CORRECTION_COLOUR)
 
 TITLE = "The normal form about a periodic orbit"
@@ -70,10 +70,11 @@ def measure() -> dict[str, float]:
 
 _form, _line, _driven_form, _driven_line = measure().values()
 CAPTION = (
-    f"Left and middle: the orbit of Hénon–Heiles along the axis that crosses y = 0 at the speed {MADE['CASES'][AXIS][1][MADE['y_v']]:g}. "
-    "Left: the section by the form of sixth order (curves) and 120 exact returns of each run (dots). Middle and right: turns about "
-    f"the orbit in a return. But for the widest run the form is off by at most {_form:.4f} and {_driven_form:.4f} turns, the line "
-    f"of the twist alone by {_line:.4f} and {_driven_line:.4f}. Birkhoff (1927)."
+    f"Left and middle: the orbit of Hénon–Heiles along the axis; it crosses y = 0 at {MADE['CASES'][AXIS][1][MADE['y_v']]:g}. "
+    "Left: its section by the form of sixth order (curves) and 120 exact returns of each run (dots); the widest turns once in "
+    f"{1 / data()[f'exact, {AXIS}'][-1]:.2f} returns, so that its dots are in clusters. Middle and right: turns about the orbit "
+    f"in a return. But for the widest run the form is off by at most {_form:.5f} and {_driven_form:.4f} turns, the line of the "
+    f"twist alone by {_line:.5f} and {_driven_line:.4f}. Birkhoff (1927)."
 )
 
 
@@ -87,11 +88,13 @@ def figure() -> Figure:
         section.plot(*curve.T, color=ink, lw=1)
         section.plot(*dots.T, ".", color=ink, ms=3)
     section.set(xlabel="x [1]", ylabel="momentum of x [1]", title="Section of Hénon–Heiles")
+    section.margins(0.06)
     for panel, name in zip(panels, SIZES, strict=True):
         panel.plot(d[f"curve I, {name}"], d[f"line, {name}"], "--", color=CASE_COLOURS[0], label="with the twist alone")
         panel.plot(d[f"curve I, {name}"], d[f"form, {name}"], color=CORRECTION_COLOUR, label="form of sixth order")
         panel.plot(d[f"I, {name}"], d[f"exact, {name}"], "o", color=EXACT_COLOUR, mfc="none", ms=5, label="exact runs")
         panel.set(xlabel="action I [1]", ylabel="turns in a return [1]", title=name[0].upper() + name[1:])
+    panels[0].set_xticks(np.arange(4) / 1000)
     handles, labels = panels[0].get_legend_handles_labels()
     picture.legend(handles, labels, loc="outside lower center", ncols=3)
     return picture
