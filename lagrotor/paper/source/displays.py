@@ -208,6 +208,8 @@ class _Walker:
 
     def _begin(self, name: str, token: Token) -> None:
         if name == "document":
+            if not self.body:
+                self.expander.macros.begin_body()
             self.body = True
             self.expander.packages = packages.commands(self.expander.loaded)
         elif name in ("subequations", "dgroup"):

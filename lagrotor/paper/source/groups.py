@@ -52,6 +52,11 @@ class Macros(dict[str, Macro | None]):
         self.groups.append((mark, at))
         self._before.append({})
 
+    def begin_body(self) -> None:
+        """What a preamble leaves open is part of its programs, \\AtBeginDocument{\\begin{…}}: nothing is said of it."""
+        self.faults.clear()
+        self.groups = [(_SILENT[0], at) for _, at in self.groups]
+
     def close_to(self, level: int, say: bool = True) -> None:
         """End the groups above a level, of which none should be open."""
         while len(self.groups) > level:

@@ -89,6 +89,12 @@ def test_what_a_class_beside_the_source_does_is_no_fault_of_the_source(tmp_path:
     assert [said for *_, said in read_source(file).faults] == [r"\begin{equation} is not ended"]
 
 
+def test_what_a_preamble_leaves_open_is_no_fault(tmp_path: Path) -> None:
+    opens = r"\AtBeginDocument{\begin{center}}\AtEndDocument{\end{center}}\begin{document}"
+    (file := tmp_path / "paper.tex").write_text(whole("a").replace(r"\begin{document}", opens))
+    assert read_source(file).faults == []
+
+
 def test_a_fault_is_a_finding_and_a_note(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (file := tmp_path / "my paper.tex").write_text(whole("\\begin{equation} a = b\n\nText after it."))
     assert main(["check", str(file), "--json"]) == 1
