@@ -16,7 +16,7 @@ actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 
 rates in any of their bases.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations_with_replacement
@@ -51,6 +51,8 @@ _ON_BARS = 1e-6  # of the largest rate: what the bars do not allow
 _MOST_STEPS = 8  # of the search for the edge of a window
 _STOPPED = "no: its own terms stop it; how far it grows before is not known"
 _FASTEST = 1e9  # times the critical factor: beyond, no spins are sought
+_WIDE = 1.5  # times: intervals whose ends' distances from the critical factor are further apart are checked between
+_CHECKED = 0.125  # of the distance from the critical factor: how near an end is found
 _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow ones
 
 
@@ -463,14 +465,18 @@ def _like(s: Assembly, linear: SmallMotion, resonance: Resonance, factor: float)
 def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[float, float], ...]:
     """The factors on all spins at which no push of that size falls, by `largest_push` there, as intervals.
 
-    The last one ends at inf. They begin beyond the critical spins, where the two modes that become one there are far
-    enough apart for the expansion to be trusted. Resonances that no spins bring to detuning zero are left to `largest_push`:
-    near an interval's ends it may be less. Empty where no spins are known to hold it. Raises InputError as
+    The windows of the resonances that come to detuning zero at some factor (`window_of`) are cut out of the factors at which the
+    push is trusted. For the others, which come near and no nearer, as beside the critical spins, `largest_push` is compared with
+    `push` at both ends of what is left (for inf at 12 times the critical factor) and, where one is more than 1.5 times as far
+    from the critical factor as the other, between them. Where it is less, the end moves in to a factor at which it is not,
+    found by bisection to 1/8 of its distance from the critical factor, or the interval is left out. So no end is said to
+    hold that does not; inside, only that one factor is checked. Empty where no spins are known to hold it. Raises InputError as
     `resonances` does.
     """
     check_kind_of_push(of)
     push = checked_push("spin_intervals", push)
-    if spin_threshold(small_motion(s)) == inf:
+    least = spin_threshold(small_motion(s))
+    if least == inf:
         return ()
     windows = sorted(window_of(s, r, push) for _, r in resonant_factors(s, of=of))
     kept = []
@@ -481,11 +487,52 @@ def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[fl
             low = max(low, end)
         if low < high:
             kept.append((low, high))
+    if least:
+        kept = [part for low, high in kept for part in _checked_parts(s, least, low, high, push, of)]
     return tuple(kept)
 
 
+def _checked_parts(
+    s: Assembly, least: float, low: float, high: float, push: float, of: Of
+) -> list[tuple[float, float]]:
+    """The parts of an interval beyond the critical factor at whose ends and between them `largest_push` is not below a push."""
+    top = high if high < inf else max(_TOP * least, 2 * low)
+    between = [least + sqrt((low - least) * (top - least))] if top - least > _WIDE * (low - least) else []
+
+    def holds(factor: float) -> bool:
+        if trusted_push(s, factor, of) < push:
+            return False
+        return all(r.push() >= push for d in (3, 4) for r in resonances(s, factor, (d,), of) if r.falls)
+
+    parts = _where(holds, [low, *between, top], _CHECKED, least)
+    return [(a, high if b == top else b) for a, b in parts if a < b]
+
+
+def _where(
+    holds: Callable[[float], bool], grid: Sequence[float], near: float, origin: float = 0.0
+) -> list[tuple[float, float]]:
+    """Intervals of a grid at whose points something holds; their ends, at which it does, by bisection to `near` of their
+    distance from an origin.
+    """
+
+    def edge(outside: float, inside: float) -> float:
+        while abs(inside - outside) > near * (inside - origin):
+            middle = (inside + outside) / 2
+            outside, inside = (outside, middle) if holds(middle) else (middle, inside)
+        return inside
+
+    enough = [holds(f) for f in grid]
+    kept, start = [], grid[0]
+    for k in range(1, len(grid)):
+        if enough[k] and not enough[k - 1]:
+            start = edge(grid[k - 1], grid[k])
+        elif enough[k - 1] and not enough[k]:
+            kept.append((start, edge(grid[k], grid[k - 1])))
+    return kept + ([(start, grid[-1])] if enough[-1] else [])
+
+
 def _trusted_factors(s: Assembly, push: float, of: Of) -> list[tuple[float, float]]:
-    """Intervals of the factors at which a push is trusted; from the critical one on only where none falls at the first."""
+    """Intervals of the factors at which a push is trusted, the last to inf."""
     linear = small_motion(s)
     least, spin = spin_threshold(linear), float(np.abs(linear.gyroscopic).max())
     unit = least or (2 * np.sqrt(np.abs(linear.stiffness).max() * np.abs(linear.mass).max()) / spin if spin else 1.0)
@@ -496,35 +543,8 @@ def _trusted_factors(s: Assembly, push: float, of: Of) -> list[tuple[float, floa
     )
     while trusted_push(s, grid[-1], of) < push and grid[-1] < _FASTEST * unit:
         grid.append(2 * grid[-1])
-    enough = [trusted_push(s, f, of) >= push for f in grid]
-
-    def edge(outside: float, inside: float) -> float:
-        while abs(inside - outside) > 1e-6 * inside:
-            middle = (inside + outside) / 2
-            outside, inside = (outside, middle) if trusted_push(s, middle, of) >= push else (middle, inside)
-        return inside
-
-    kept, start = [], grid[0] if enough[0] else None
-    for k in range(1, len(grid)):
-        if enough[k] and not enough[k - 1]:
-            start = edge(grid[k - 1], grid[k])
-        elif enough[k - 1] and not enough[k] and start is not None:
-            kept.append((start, edge(grid[k], grid[k - 1])))
-            start = None
-    kept += [(start, inf)] if start is not None else []
-    if least and kept:  # beside it the modes that become one there are in resonance, whatever their detuning
-        low, high = kept[0]
-        while low < min(high, 2 * least) and any(
-            r.falls and r.push() < push and _colliding(r) for r in resonances(s, low, of=of)
-        ):
-            low = least + 1.2 * (low - least)
-        kept[0] = (low, high)
-    return kept
-
-
-def _colliding(r: Resonance) -> bool:
-    """Whether what resonates is as many times one mode as another, of the other sign: k = (2, 2)."""
-    return r.order == 4 and any(sorted(m for m in k if m) == [2, 2] for k in r.vectors)
+    kept = _where(lambda f: trusted_push(s, f, of) >= push, grid, 1e-6)
+    return [(low, inf if high == grid[-1] else high) for low, high in kept]
 
 
 def resonant_factors(

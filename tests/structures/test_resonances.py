@@ -321,6 +321,25 @@ def test_spin_intervals_are_those_of_the_largest_push():
     assert Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[10, 10], **WEIGHT).spin_intervals(0.1) == ()
 
 
+def test_no_end_of_a_spin_interval_lets_fall_what_the_largest_push_says_falls():
+    """Unequal rotors: 2 × 2.05 stays 1.3 rad/s from 2.82 there, at no factor equal to it, yet falls from 0.38 of the push."""
+    unequal = [Rotor(1, 1.12, 1.22, 1.08), Rotor(1, 1.03, 1.16, 1.13), Rotor(1, 0.98, 1.04, 1.15)]
+    more = {"link": [Link(1, 0.03, 0.03), Link(1, 0.26, 0.03)], "load": [1.47, 0.8, 1.01], "hinge": [0.69, 1.95, 2.91]}
+    joints = [(0, 0), (1, 0.2), (0.98, 1.2)]
+    s = at(
+        1, {"joints": joints, "bars": [(0, 1), (1, 2)], "rotor": unequal, "gravity": 9.81} | more, [-19.4, 50.8, 6.3]
+    )
+    push = 0.8 * trusted_push(s, 1.02)
+    assert trusted_push(s, 1.013) > push
+
+    def part(factor: float) -> float:
+        return replace(s, spins=tuple(factor * w for w in s.spins)).largest_push().value / push
+
+    (low, high), (_, end) = s.spin_intervals(push)
+    assert end == inf and part(low) >= 1 - 1e-6 and part(0.7 * low + 0.3 * high) > 1
+    assert part(1.013) < 0.5 and part(1 + (low - 1) / 1.3) < 1
+
+
 def test_what_lies_behind_the_largest_push():
     s = at(1.07, CORNER, [1, 0, 1])
     found, rate = s.largest_push(), local_hamiltonian(s).rate
