@@ -7,6 +7,7 @@ import re
 from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from itertools import chain, pairwise
 from pathlib import Path
 
 from lagrotor.errors import InputError
@@ -20,6 +21,7 @@ _MOST_EXPANSIONS, _MOST_TOKENS, _MOST_FILES = 20_000, 2_000_000, 500
 _MOST_OF_STYLES = 1_000  # as many, of a package whose conditions are not known
 # TeX passes over NUL; another control character is no part of a formula, nor of a file that keeps one.
 _CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
+_EMPTY_LINE = re.compile(r"\n\s*\n")
 _INPUTS = (r"\input", r"\include", r"\subfile", r"\subfileinclude", r"\@input")
 _DEFINITIONS = (
     r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand", r"\newrobustcmd",
@@ -64,7 +66,7 @@ class Expander:
     ) -> None:
         self.file, self.packages, self.bare = file, packages or {}, bare  # bare: without the packages beside the source
         self.own: dict[str, Package] = {}  # commands that the source defines and no list of tokens can hold
-        self.macros = Macros()
+        self.macros = Macros({r"\empty": Macro(()), r"\@empty": Macro(())})
         self.level: int | None = None  # to which groups are closed, once what read an environment has its number
         self.original = False  # whether the environment that comes next is the one that the source has defined anew
         self.theorems: dict[str, str] = {}  # environments that count: their counter
@@ -78,6 +80,7 @@ class Expander:
         self.stepped = ""  # the number that \refstepcounter in the text gave
         self.files = 0
         self.expansions: Counter[int] = Counter()  # by place: what a macro stands for has the place of the macro
+        self.in_vain = 0  # tokens looked at for the end of an argument that did not come
         self.most = _MOST_TOKENS  # tokens that may wait: those of the files, and what expansions add
         self.starts: list[
             tuple[int, str, list[int], str]
@@ -251,8 +254,18 @@ class Expander:
                 self.push([token])
                 return found
             found.append(token)
+            if token.kind == "text" and not braces and _EMPTY_LINE.search(token.text):
+                break
+        self._looked_in_vain(found, closing, at)
         self.push([Token("text", opening, at), *found])
         return None
+
+    def _looked_in_vain(self, passed: list[Token], end: str, at: int) -> None:
+        """Count what was passed to find the end of an argument, which TeX would stop at; a source has only so much of it."""
+        self.in_vain += len(passed)
+        if self.in_vain > self.most:
+            said = f"the argument that begins here, as many before, has no {end.strip() or 'end'} in its paragraph"
+            raise InputError("{}:{}: {}: end it".format(*self.line(at), said))
 
     def optional(self) -> list[Token] | None:
         """An optional argument, [..]; None where there is none."""
@@ -371,7 +384,7 @@ class Expander:
                 following = head[place + 1] if place + 1 < len(head) else None
                 if part.kind == "param":
                     delimited = following is not None and following.kind != "param"
-                    values.append(self._until(following) if delimited and following else self.argument())
+                    values.append(self._until(following, token) if delimited and following else self.argument())
                 elif (part.kind != "text" or part.text.strip()) and not (place and head[place - 1].kind == "param"):
                     self._take(part)
         made: list[Token] = []
@@ -450,25 +463,28 @@ class Expander:
             rest = token.text[len(part.text) :]
             self.push([Token("text", rest, token.at)] if rest else [])
 
-    def _until(self, end: Token) -> list[Token]:
-        """The tokens before `end`, which is taken; none where the paragraph ends first."""
+    def _until(self, end: Token, macro: Token) -> list[Token]:
+        """The tokens before `end`, which is taken; nothing is taken where the paragraph or the group ends first."""
         found: list[Token] = []
         depth = 0
-        while (token := self.next()) is not None:
-            if (
-                token.kind == "text" and re.search(r"\n\s*\n", token.text.partition(end.text)[0])
-            ) or token.text == r"\par":
-                self.push([*found, token])
-                return []
-            if depth == 0 and token.kind == end.kind == "text" and end.text in token.text:
-                before, _, rest = token.text.partition(end.text)
-                self.push([Token("text", rest, token.at)] if rest else [])
-                return found + ([Token("text", before, token.at)] if before else [])
-            if depth == 0 and token.kind == end.kind and token.text == end.text and end.kind != "text":
-                return found
+        for token in chain.from_iterable(map(reversed, reversed(self.waiting))):
+            ends = (
+                depth == 0
+                and token.kind == end.kind
+                and end.text in (token.text if end.kind == "text" else (token.text,))
+            )
+            before, _, rest = token.text.partition(end.text) if ends else (token.text, "", "")
             depth += {"open": 1, "close": -1}.get(token.kind, 0)
+            if token.text == r"\par" or ("\n" in before and _EMPTY_LINE.search(before)) or (depth < 0 and not ends):
+                break
+            if ends:
+                for _ in range(len(found) + 1):
+                    self.next()
+                self.push(self._plain(rest, token.at))
+                return found + self._plain(before, token.at)
             found.append(token)
-        return found
+        self._looked_in_vain(found, end.text, macro.at)
+        return []
 
     @staticmethod
     def _plain(text: str, at: int) -> list[Token]:
@@ -646,7 +662,8 @@ class Expander:
         while (part := self.next()) is not None and part.kind != "open":
             head.append(part)
         body = self.group(token.at)
-        if target is not None and target.kind == "command" and not self._is_kept(target.text, body):
+        by_lines = any(a.text == b.text == "^" for a, b in pairwise(head))  # ^^M: it reads lines as they stand
+        if target is not None and target.kind == "command" and not by_lines and not self._is_kept(target.text, body):
             if token.text in (r"\edef", r"\xdef"):  # a command that is not known yet cannot stand for itself
                 body = [part for part in self.expand(body) if part.text != target.text]
             macro = Macro(tuple(body), tuple(head))

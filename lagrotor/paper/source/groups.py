@@ -26,8 +26,8 @@ class Macros(dict[str, Macro | None]):
     groups: what is open, and where it began; faults: places, what stands there where no macro does, and what is wrong.
     """
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, known: dict[str, Macro | None]) -> None:
+        super().__init__(known)
         self.groups: list[tuple[str, int]] = []
         self.faults: dict[tuple[int, str, str], None] = {}
         self._before: list[dict[str, Macro | None]] = []  # of each open group, what its definitions hide; None: nothing

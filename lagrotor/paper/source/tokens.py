@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
-_VERBATIM = r"verbatim\*?|Verbatim\*?|BVerbatim|lstlisting|minted|comment|filecontents\*?"
+_VERBATIM = r"verbatim\*?|Verbatim\*?|BVerbatim|lstlisting|minted|comment|filecontents\*?|asy|asydef"
 _DEFINED = r"(?:\[[^][\n]*\]|\{[^{}\n]*\})*[\s%]*\}[\s%]*\{"  # in the definition of another environment
 _TOKEN = re.compile(
     rf"(?P<raw>\\begin\{{(?P<name>{_VERBATIM})\}}(?!{_DEFINED}).*?\\end\{{(?P=name)\}}"

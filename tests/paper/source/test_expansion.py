@@ -1,0 +1,73 @@
+r"""What the expansion of a source costs, and arguments that end with a mark: counted in tokens, not in seconds."""
+
+from pathlib import Path
+
+import pytest
+
+from lagrotor.errors import InputError
+from lagrotor.paper.source import expansion
+from lagrotor.paper.source.displays import read_latex
+from lagrotor.paper.source.expansion import Expander
+from lagrotor.paper.source.markup import read_source
+from lagrotor.paper.source.tokens import latex_of
+
+PREAMBLE = "\\documentclass{article}\n\\def\\be#1\\ee{\\begin{equation}#1\\end{equation}}\\def\\x#1;{(#1)}\n"
+
+
+def expanded(text: str) -> str:
+    return "".join(latex_of(Expander(text).tokens()).split())
+
+
+@pytest.mark.parametrize(
+    ("text", "result"),
+    [
+        (r"\def\x#1;{(#1)}\x a_{b;}c; d", "(a_{b;}c) d"),
+        (r"\def\x#1;{(#1)}{\x a} b; c", "{()a} b; c"),  # the group ends first: its brace is no part of the argument
+        ("\\def\\x#1;{(#1)}\\x a\n\nb; c", "()a\n\nb; c"),
+        (r"\def\x#1\y{(#1)}\x a\par b\y c", r"()a\par b\y c"),
+        ("\\newcommand\\x[1][1]{(#1)}\\x [0, 1)\n\nand [2]", "(1)[0, 1)\n\nand [2]"),
+        (r"\def\x{}\ifx\x\empty a\else b\fi\ifx\x\@empty c\else d\fi", "ac"),
+        (r"\def\x{y}\ifx\x\empty a\else b\fi", "b"),
+    ],
+)  # fmt: skip
+def test_an_argument_ends_with_its_mark_or_takes_nothing(text: str, result: str) -> None:
+    assert expanded(text) == "".join(result.split())
+
+
+def test_lines_that_a_macro_reads_as_they_stand_take_no_powers() -> None:
+    r"""asymptote.sty reads its pictures by \def\line#1^^M{…}: no ^ of a formula ends them."""
+    text = "\\def\\line#1^^M{(#1)\\line}\\def\\begun{\\line}\\begin{asy}\n$x^2$ \\end{asy}\n\\begun\n\\[ a^2 = b^{n-1} \\]\n"
+    assert [each.latex for each in read_latex(text).equations] == ["a^2 = b^{n-1}"]
+
+
+@pytest.mark.parametrize(
+    "each", ["\\be a_{1} = b \\ee\n\n", "\\x a_{1} b\n\n", "\\begin{equation*}\\y [0, 1)\\end{equation*}\n\n"]
+)
+def test_the_tokens_taken_grow_as_the_source_does(each: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    taken = 0
+    one = Expander.next
+
+    def counted(expander: Expander) -> object:
+        nonlocal taken
+        taken += 1
+        return one(expander)
+
+    monkeypatch.setattr(Expander, "next", counted)
+    costs = []
+    for times in (100, 400):
+        taken = 0
+        read_latex(PREAMBLE + "\\newcommand\\y[1][1]{y_{#1}}\\begin{document}\n" + times * each + "\\end{document}\n")
+        costs.append(taken)
+    assert costs[1] < 4.2 * costs[0]
+
+
+@pytest.mark.parametrize(("each", "mark"), [("\\x a_{1} b\n", ";"), ("\\y [0, 1) b\n", "]")])
+def test_ends_that_never_come_are_refused_before_they_cost_much(
+    each: str, mark: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(expansion, "_MOST_TOKENS", 50_000)
+    (file := tmp_path / "paper.tex").write_text(
+        PREAMBLE + "\\newcommand\\y[1][1]{y_{#1}}\\begin{document}\n" + 1000 * each + "\\end{document}\n"
+    )
+    with pytest.raises(InputError, match=rf"paper.tex:\d+: the argument that begins here, .* has no {mark} in its"):
+        read_source(file)
