@@ -372,6 +372,8 @@ def commands(loaded: Iterable[str], everything: bool = False) -> dict[str, Packa
     """The commands of the packages that a source loads; those of all packages where its preamble is not known."""
     names = set(loaded)
     found = dict(_SMALL)
+    if everything or names & {"esdiff", "diffcoeff"}:
+        del found[r"\diff"]  # \diff{f}{x} is a derivative of these
     if everything or "siunitx" in names:
         found |= _SIUNITX
     if everything or "braket" in names:

@@ -8,8 +8,10 @@ from lagrotor.errors import InputError
 from lagrotor.paper.source import expansion
 from lagrotor.paper.source.displays import read_latex
 from lagrotor.paper.source.expansion import Expander
+from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.markup import read_source
 from lagrotor.paper.source.tokens import latex_of
+from lagrotor.paper.source.usage import notation_of
 
 PREAMBLE = "\\documentclass{article}\n\\def\\be#1\\ee{\\begin{equation}#1\\end{equation}}\\def\\x#1;{(#1)}\n"
 
@@ -71,3 +73,19 @@ def test_ends_that_never_come_are_refused_before_they_cost_much(
     )
     with pytest.raises(InputError, match=rf"paper.tex:\d+: the argument that begins here, .* has no {mark} in its"):
         read_source(file)
+
+
+@pytest.mark.parametrize(
+    ("package", "formula", "said"),
+    [
+        ("esdiff", r"\diff{f}{x} = \diff{g}{x}", r"\diff is not known (of esdiff and diffcoeff, not read)"),
+        ("diffcoeff", r"g = \diffp{f}{{x}{y}}", r"\diffp is not known (of esdiff and diffcoeff, not read)"),
+        ("derivative", r"g = \pdv{f}{x,y}", r"\pdv is not known (of derivative, not read)"),
+        ("physics", r"g = \pdv{f}{x,y}", "what is differentiated by is not clear"),
+    ],
+)
+def test_derivatives_of_packages_that_are_not_read_are_refused_by_name(package: str, formula: str, said: str) -> None:
+    text = rf"\documentclass{{article}}\usepackage{{{package}}}\begin{{document}}\[ {formula} \]\end{{document}}"
+    (equation,) = read_latex(text).equations
+    stop = read_formula(equation.latex, notation_of([equation.latex])).stop
+    assert stop is not None and stop[0] == said
