@@ -31,7 +31,7 @@ def test_without_the_fast_extra_a_word_says_what_to_install(monkeypatch: pytest.
     monkeypatch.setitem(sys.modules, "heyoka", None)
     taylor._solver.cache_clear()  # what another test has compiled
     with pytest.raises(InputError, match=r"pip install 'lagrotor\[fast\]'"):
-        simulate(Scene((10, -10), rates=((0.1, 0, 0), (0.1, 0, 0))), [1.0], "minimal", 3e-4, engine="fast")
+        simulate(Scene((10, -10), rates=((0.1, 0, 0), (0.1, 0, 0))), [0.0, 1.0], "minimal", 3e-4, engine="fast")
     with pytest.raises(InputError, match="take minimal, or engine='core'"):
         simulate(Scene((10, -10), axes=((0.6, 0, 0.8),) * 2), [1.0], "spheres", engine="fast")
 

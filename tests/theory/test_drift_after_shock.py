@@ -117,7 +117,7 @@ def test_the_exact_cancelling_force_is_within_its_error(seed, bars, shocks):
     rng, pairs, turns = np.random.default_rng(seed), [], []
     for _ in range(bars):
         one, wanted = opposite_pair(rng), len(pairs) + shocks
-        for _ in range(10 * shocks):
+        for _ in range(50 * shocks):
             # Below 0.05 the accuracy of the runs is what one sees, and in fewer turns what is left of the swing.
             scene, turn = shocked(rng, one, 0.05), int(rng.choice([16, 24]))
             x = float(np.hypot(*scene.shock.force[:2]))
