@@ -54,8 +54,9 @@ def equilibria(
     inclination. Angles in sines and cosines are found between −π and π.
 
     With values of the parameters and a box, {coordinate: (least, largest)}: all equilibria there, each alone in its
-    `enclosure`, and none elsewhere in the box, by interval Newton. A pole of a force is no equilibrium. An edge that is no
-    rational, as π or 0.3, stands for all numbers that round to it: an equilibrium there is in the box.
+    `enclosure`, and none elsewhere in the box, by interval Newton, also under one constraint g(q) = 0. A pole of a force is no
+    equilibrium. An edge that is no rational, as π or 0.3, stands for all numbers that round to it: an equilibrium there is in
+    the box.
 
     Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
     stays undecided, as about equilibria that are not isolated.
@@ -92,9 +93,14 @@ def _in_box(
         )
     c = system.c
     values = {name: value for name, value in values.items() if not isinstance(value, sp.Lambda)}
-    if system.multipliers:
+    if len(system.constraints) > 1:
         raise InputError(
-            "equilibria: a box is searched without constraints: solve them for coordinates by in_coordinates"
+            "equilibria: a box is searched with one constraint at most: solve the others for coordinates by in_coordinates"
+        )
+    if system.rolling:
+        raise InputError(
+            "equilibria: where a body rolls, places of rest are not isolated: give linearise a point of your own, or leave out "
+            "rolling"
         )
     letters = system.letters | system.push.free_symbols
     if strangers := {name for name in values if isinstance(name, str)} - {*map(str, letters)}:
@@ -102,7 +108,10 @@ def _in_box(
     numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol(values, letters).items()}
     still = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
     forces = [put_in(e, still).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
-    forces = [e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}) for e in forces]
+    forces, constraints = (
+        [e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}) for e in part]
+        for part in (forces, [sp.sympify(g).subs(numbers) for g in system.constraints])
+    )
     sides = by_symbol(box, c.q)
     if {*sides} != {*c.q} or not all(isinstance(side, Sequence) and len(side) == 2 for side in sides.values()):
         raise InputError(f"equilibria: box = {box!r} must be {{coordinate: (least, largest)}} for each of {c.q}")
@@ -115,23 +124,40 @@ def _in_box(
     for q, (low, high) in edges.items():
         less, more = (0 if isinstance(x, int | sp.Rational) else 2**-53 for x in sides[q])
         edges[q] = low - abs(low) * sp.Rational(less), high + abs(high) * sp.Rational(more)
-    if left := sorted({str(s) for e in forces for s in e.free_symbols - {*c.q}}):
+    if left := sorted({str(s) for e in (*forces, *constraints) for s in e.free_symbols - {*c.q}}):
         raise InputError(f"equilibria: {', '.join(left)} without a value: in a box every letter has one, and time none")
-    roots, undecided = roots_in_box(forces, edges)
+    roots, undecided = _at_rest(forces, constraints, edges)
     middles = [{q: sp.Float(round((low + high) / 2, 20), 17) for q, (low, high) in root.items()} for root in roots]
     if undecided:
-        shown = ", ".join(f"{q} = {float(sum(x) / 2):.6g}" for q, x in undecided[0].items())
+        shown = ", ".join(f"{q} = {float(sum(undecided[0][q]) / 2):.6g}" for q in c.q)
         proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
-        free = [f" (no force depends on {q})" for q in c.q if not any(q in e.free_symbols for e in forces)]
+        acting = set().union(*(e.free_symbols for e in (*forces, *constraints)))
+        free = [f" (no force depends on {q})" for q in c.q if q not in acting]
+        bound = ", or a constraint whose derivative is zero" if constraints else ""
         raise SingularError(
             f"equilibria: {len(undecided)} small parts of the box are undecided, the first about {shown}: an equilibrium that is "
-            f"not isolated{''.join(free)}, or degenerate, or forces that jump or have no value; choose another box, or "
+            f"not isolated{''.join(free)}, or degenerate{bound}, or forces that jump or have no value; choose another box, or "
             f"coordinates on which they depend. Proved elsewhere in it: {proved or 'none'}"
         )
     return tuple(
         Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)
         for at, root in sorted(zip(middles, roots, strict=True), key=lambda pair: [float(x) for x in pair[0].values()])
     )
+
+
+def _at_rest(forces: Sequence[sp.Expr], constraints: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:
+    """Roots of F = 0, or of F cos χ + ∂g/∂q sin χ = 0 and g = 0 with the multiplier tan χ, and what is undecided."""
+    if not constraints:
+        return roots_in_box(forces, box)
+    (g,) = constraints
+    c, s = sp.symbols("c s", real=True, cls=sp.Dummy)
+    balance = [c * force + s * sp.diff(g, q) for force, q in zip(forces, box, strict=True)]
+    angle = {
+        c: (sp.S.Zero, sp.S.One),
+        s: (sp.S.NegativeOne, sp.S.One),
+    }  # c = 0 only where ∂g/∂q = 0, no root that stands alone
+    roots, undecided = roots_in_box([*balance, g, c**2 + s**2 - 1], {**box, **angle})
+    return [{q: root[q] for q in box} for root in roots], undecided
 
 
 def _rational(where: str, given: Any) -> sp.Rational:

@@ -151,3 +151,35 @@ def test_a_coordinate_on_which_no_force_depends_is_named() -> None:
     sliding = System(two, (two.v[0] ** 2 + two.v[1] ** 2) / 2 - two.q[0] ** 2)
     with pytest.raises(SingularError, match="no force depends on y"):
         sliding.equilibria(box={two.q[0]: (-1, 1), two.q[1]: (-1, 1)})
+
+
+def test_equilibria_under_one_constraint_lie_between_rationals() -> None:
+    """A pendulum in x and y; on an ellipse, against its own angle."""
+    kinetic = (u**2 + w**2) / 2
+    pendulum = System(d, kinetic - g * b, constraints=(a**2 + b**2 - R**2,))
+    box = {a: (-2, 2), b: (-2, 2)}
+    places = pendulum.equilibria(values={g: 9.81, R: 1.5}, box=box)
+    assert [(float(e.at[a]), float(e.at[b])) for e in places] == [(0, -1.5), (0, 1.5)]
+    assert all(low <= 0 <= high for low, high in (e.enclosure[a] for e in places))
+    spring = ((a - sp.Rational(1, 2)) ** 2 + b**2) / 2
+    places = System(d, kinetic - spring, constraints=(a**2 / 4 + b**2 - 1,)).equilibria(
+        values={}, box={a: (-3, 3), b: (-3, 3)}
+    )
+    across = np.sqrt(8) / 3  # of x = 2 cos φ, y = sin φ: sin φ = 0, or cos φ = 1/3
+    expected = [(-2, 0), (2 / 3, -across), (2 / 3, across), (2, 0)]
+    assert np.array([(e.at[a], e.at[b]) for e in places], float) == pytest.approx(np.array(expected), abs=1e-12)
+
+
+@pytest.mark.slow
+def test_a_cusp_of_a_constraint_is_left_undecided() -> None:
+    cusp = System(d, (u**2 + w**2) / 2 - b, constraints=(a**2 - b**3,))
+    with pytest.raises(SingularError, match=r"the first about a = .*, or a constraint whose derivative is zero"):
+        cusp.equilibria(values={}, box={a: (-1, 1), b: (-1, 1)})
+
+
+def test_a_box_is_refused_where_bodies_roll_or_constraints_are_many() -> None:
+    kinetic = (u**2 + w**2) / 2
+    with pytest.raises(InputError, match="one constraint at most: solve the others for coordinates by in_coordinates"):
+        System(d, kinetic, constraints=(a**2 + b**2 - 1, a - b)).equilibria(values={}, box={a: (0, 1), b: (0, 1)})
+    with pytest.raises(InputError, match="where a body rolls"):
+        System(d, kinetic, rolling=(u - 2 * w,)).equilibria(values={}, box={a: (0, 1), b: (0, 1)})

@@ -1,4 +1,4 @@
-"""What is said of the motion about upright compared with the exact one: growth, boundedness, the time of a fall."""
+"""What is said of the motion about upright compared with the exact one: growth, boundedness."""
 
 from dataclasses import replace
 
