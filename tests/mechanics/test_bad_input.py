@@ -237,7 +237,9 @@ BAD: dict[str, Callable[[], Any]] = {
     "an infinite box": lambda: pendulum.equilibria(values=VALUES, box={q: (0, np.inf)}),
     "a box of text": lambda: pendulum.equilibria(values=VALUES, box={q: ("a", "b")}),
     "a box that is none": lambda: pendulum.equilibria(values=VALUES, box=3),  # type: ignore[arg-type]
-    "a box under a constraint": lambda: circle.equilibria(values=VALUES, box={x: (-1, 1), y: (-1, 1)}),
+    "a box under two constraints": lambda: System(circle.c, circle.L, constraints=(x**2 + y**2 - 1, x - y)).equilibria(
+        values=VALUES, box={x: (-1, 1), y: (-1, 1)}
+    ),
     "a box in time": lambda: System(A, SWING + t * q).equilibria(values=VALUES, box={q: (-1, 1)}),
     "a box with a degenerate rest": lambda: System(A, v**2 / 2 - q**4).equilibria(values={}, box={q: (-1, 2)}),
     "an orbit of text": lambda: pendulum.floquet("here", VALUES, 1),  # type: ignore[arg-type]
