@@ -115,13 +115,13 @@ prove(
 # ## Beside the resonance
 #
 # Where the rates miss it by $\delta=k\cdot\omega$, $\tfrac13\delta N+2\operatorname{Re}P$ is conserved, and
-# $2|\operatorname{Re}P|\le2cN^{3/2}$. The least that it can be at $N$ has its barrier at
+# $2|\operatorname{Re}P|\le2cN^{3/2}$. The least that it can be at $N$ has its barrier at $N=\delta^2/81c^2$:
 
 # %%
 N = sp.Symbol("N", positive=True)
 lowest = delta * N / 3 - 2 * c * N ** sp.Rational(3, 2)
 barrier = (delta / (9 * c)) ** 2
-prove(lowest.diff(N).subs(N, barrier), 0, "the barrier", names=r"\partial_N")
+prove(lowest.diff(N).subs(N, barrier), 0, "the barrier", names=r"\partial_N(\tfrac13\delta N-2cN^{3/2})")
 
 # %% [markdown]
 # and a start at $\rho$, where it is at most $\tfrac13\delta\rho^2+2c\rho^3$, cannot pass it for

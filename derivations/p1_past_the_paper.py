@@ -64,7 +64,6 @@ cancelling = equal(p_y, impulse)
 walk = equal(wander, sp.factor(t7["alone"]))
 edge = equal(nu, toppling_threshold().expressions[0])
 twist = equal(growth, t9["unstable"])
-sp.Tuple(frequency, series)
 
 # %% [markdown]
 # ## Rows

@@ -180,7 +180,7 @@ assert all(abs(order - 1) < 0.1 for order in measured.values()), measured
 assert abs(twin) < 0.5, twin
 Remark(
     "The guiding centre",
-    "The path of the centre is off the centres of exact runs by angles that fall as the size of the motion to the "
+    "The path of the centre is off the centres of exact runs by angles that fall as these powers of the size of the motion: "
     + "; ".join(f"{order:.2f} ({name})" for name, order in measured.items())
-    + f"; where the swing's energy is taken as motion along the field the distance does not fall ({twin:.2f}).",
+    + f"; where the swing's energy is taken as motion along the field the distance does not fall (power {twin:z.2f}).",
 )
