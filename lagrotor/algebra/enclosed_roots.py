@@ -14,11 +14,8 @@ from lagrotor.algebra.differentiation import derivative
 from lagrotor.algebra.enclosures import Bounds, Point, enclosure, enclosures
 
 _DIGITS, _STEPS, _FAR, _NARROW = 60, 40, 1e9, sp.Rational(1, 10**25)
-_MOST_BOXES, _LEAST, _CUT = (
-    4_000,
-    sp.Rational(1, 10**6),
-    sp.Rational(49, 100),
-)  # beside the middle, where roots often are
+_MOST_BOXES, _MOST_UNDECIDED, _LEAST = 4_000, 16, sp.Rational(1, 10**6)
+_CUT = sp.Rational(49, 100)  # beside the middle, where roots often are
 _PIECEWISE = (sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min)
 Box = dict[sp.Symbol, Bounds]
 
@@ -95,9 +92,10 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
     """Narrow boxes, each of which holds exactly one root of the equations in the symbols of `box`, and small boxes that are left
     undecided: outside all of these there is no root.
 
-    A box is left out where an equation excludes zero or Krawczyk's K(X) does not meet it, holds one root where K(X) is inside,
-    and is cut in two otherwise. A root on the rim of the box is among them. Where a denominator may vanish the numerators are
-    taken in the equations' place; where it does there is no root. A root where a piece of a function begins is left undecided.
+    A box is left out where an equation excludes zero or Krawczyk's K(X) does not meet it, holds one root where K(X) is inside;
+    otherwise what it has in common with K(X) is cut in two, until 16 are undecided, or 4,000 tried. A root on the rim of the
+    box is among them. Where a denominator may vanish the numerators are taken in the equations' place; where it does there is
+    no root. A root where a piece of a function begins is left undecided.
     """
     unknowns = list(box)
     equations = [e.rewrite(_PIECEWISE, sp.Piecewise) for e in equations]
@@ -129,9 +127,11 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
                 if inside and not known and not any(_may_vanish(d, root) for d in below):
                     roots.append(root)
                 continue
+        if K is not None:
+            X = {s: _common(X[s], K[s]) for s in unknowns}
         widest = max(unknowns, key=lambda s: (X[s][1] - X[s][0]) / (box[s][1] - box[s][0]))
         low, high = X[widest]
-        if tried > _MOST_BOXES:
+        if tried > _MOST_BOXES or len(undecided) == _MOST_UNDECIDED:
             return roots, [*undecided, X, *open_boxes]
         if high - low < _LEAST * (box[widest][1] - box[widest][0]):
             undecided.append(X)
@@ -185,6 +185,17 @@ def _krawczyk(system: _Equations, X: Box) -> Box | None:
 
 def _meet(a: Bounds, b: Bounds) -> bool:
     return a[0] <= b[1] and b[0] <= a[1]
+
+
+def _common(a: Bounds, b: Bounds) -> Bounds:
+    """Bounds, with few digits, of what is in a and in b, which meet."""
+    low = max(a[0], _below(b[0])) if a[0] < b[0] else a[0]
+    return low, min(a[1], -_below(-b[1])) if b[1] < a[1] else a[1]
+
+
+def _below(x: sp.Rational) -> sp.Rational:
+    near = _short(x)
+    return near - max(abs(near) / 2**50, sp.Rational(1, 2**1000))
 
 
 def _short(x: sp.Rational) -> sp.Rational:

@@ -12,8 +12,9 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.algebra import decide_zero, normal_form
+from lagrotor.algebra import decide_zero, derivative, normal_form
 from lagrotor.algebra.enclosed_roots import Box, roots_in_box
+from lagrotor.algebra.enclosures import enclosures
 from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, put_in
@@ -135,7 +136,7 @@ def _in_box(
         free = [f" (no force depends on {q})" for q in c.q if q not in acting]
         bound = ", or a constraint whose derivative is zero" if constraints else ""
         raise SingularError(
-            f"equilibria: {len(undecided)} small parts of the box are undecided, the first about {shown}: an equilibrium that is "
+            f"equilibria: {len(undecided)} parts of the box are undecided, the first about {shown}: an equilibrium that is "
             f"not isolated{''.join(free)}, or degenerate{bound}, or forces that jump or have no value; choose another box, or "
             f"coordinates on which they depend. Proved elsewhere in it: {proved or 'none'}"
         )
@@ -146,18 +147,30 @@ def _in_box(
 
 
 def _at_rest(forces: Sequence[sp.Expr], constraints: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:
-    """Roots of F = 0, or of F cos χ + ∂g/∂q sin χ = 0 and g = 0 with the multiplier tan χ, and what is undecided."""
+    """Roots of F = 0, or of F cos χ + r ∂g/∂q sin χ = 0 and g = 0 with the multiplier r tan χ, and what is undecided.
+
+    r, of the sizes of F and ∂g/∂q, makes them alike whatever the units are.
+    """
     if not constraints:
         return roots_in_box(forces, box)
     (g,) = constraints
+    slopes = [derivative(g, q) for q in box]
+    r = _size(forces, box) / _size(slopes, box)
     c, s = sp.symbols("c s", real=True, cls=sp.Dummy)
-    balance = [c * force + s * sp.diff(g, q) for force, q in zip(forces, box, strict=True)]
-    angle = {
-        c: (sp.S.Zero, sp.S.One),
-        s: (sp.S.NegativeOne, sp.S.One),
-    }  # c = 0 only where ∂g/∂q = 0, no root that stands alone
+    balance = [c * force + s * r * slope for force, slope in zip(forces, slopes, strict=True)]
+    # c = 0 only where ∂g/∂q = 0, no root that stands alone
+    angle = {c: (sp.S.Zero, sp.S.One), s: (sp.S.NegativeOne, sp.S.One)}
     roots, undecided = roots_in_box([*balance, g, c**2 + s**2 - 1], {**box, **angle})
     return [{q: root[q] for q in box} for root in roots], undecided
+
+
+def _size(row: Sequence[sp.Expr], box: Box) -> sp.Rational:
+    """The largest of a row's products with the sides of the box at two places in it; 1 where none has a value but zero."""
+    sizes = [sp.S.Zero]
+    for share in (sp.Rational(2, 7), sp.Rational(5, 7)):
+        values = enclosures(row, {q: low + share * (high - low) for q, (low, high) in box.items()})
+        sizes += [abs(v[0]) * (high - low) for v, (low, high) in zip(values, box.values(), strict=True) if v]
+    return sp.Rational(float(max(sizes))) or sp.S.One
 
 
 def _rational(where: str, given: Any) -> sp.Rational:

@@ -170,7 +170,16 @@ def test_equilibria_under_one_constraint_lie_between_rationals() -> None:
     assert np.array([(e.at[a], e.at[b]) for e in places], float) == pytest.approx(np.array(expected), abs=1e-12)
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize("factor", [sp.Rational(1, 10**6), 10**6])
+def test_equilibria_under_a_constraint_do_not_depend_on_its_units(factor: sp.Expr) -> None:
+    """V = 10⁵ (y + x y / 3) on a circle, by its angle: cos φ + cos 2φ / 3 = 0."""
+    system = System(d, (u**2 + w**2) / 2 - 10**5 * (b + a * b / 3), constraints=(factor * (a**2 + b**2 - 1),))
+    places = system.equilibria(values={}, box={a: (-2, 2), b: (-2, 2)})
+    x = (np.sqrt(17) - 3) / 4
+    expected = [(x, -np.sqrt(1 - x**2)), (x, np.sqrt(1 - x**2))]
+    assert np.array([(e.at[a], e.at[b]) for e in places], float) == pytest.approx(np.array(expected), abs=1e-12)
+
+
 def test_a_cusp_of_a_constraint_is_left_undecided() -> None:
     cusp = System(d, (u**2 + w**2) / 2 - b, constraints=(a**2 - b**3,))
     with pytest.raises(SingularError, match=r"the first about a = .*, or a constraint whose derivative is zero"):
