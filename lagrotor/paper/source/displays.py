@@ -10,6 +10,8 @@ from lagrotor.paper.source import packages
 from lagrotor.paper.source.counters import Counters
 from lagrotor.paper.source.expansion import STYLES, Expander
 from lagrotor.paper.source.groups import Macro
+from lagrotor.paper.source.primitives import PRIMITIVES
+from lagrotor.paper.source.source_faults import faults_of
 from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
 
 # Each row of these is an equation with a number of its own; the others have one number.
@@ -123,7 +125,7 @@ class _Walker:
         self, text: str, file: Path | None, found: Source, numbered: set[str] | None = None, bare: bool = False
     ) -> None:
         whole = r"\documentclass" in text
-        self.expander = Expander(text, file, packages.commands((), everything=not whole), bare)
+        self.expander = Expander(text, file, PRIMITIVES, packages.commands((), everything=not whole), bare)
         self.found, self.whole = found, whole
         self.section, self.bare, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0
@@ -158,7 +160,7 @@ class _Walker:
                 self.expander.macros.fault(len(self.expander.starts[0][3]) - 1, "", r"\end{document} is missing")
         if self.whole and not self.body:
             self.expander.macros.fault(0, "", r"\begin{document} is missing")
-        self.found.faults = self.expander.faults()
+        self.found.faults = faults_of(self.expander)
         self.found.notes = list(dict.fromkeys(self.expander.notes))
         self.found.preamble = "\n".join(
             rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in self.expander.loaded

@@ -5,11 +5,12 @@ from pathlib import Path
 import pytest
 
 from lagrotor.errors import InputError
-from lagrotor.paper.source import expansion
+from lagrotor.paper.source import token_stream
 from lagrotor.paper.source.displays import read_latex
 from lagrotor.paper.source.expansion import Expander
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.markup import read_source
+from lagrotor.paper.source.primitives import PRIMITIVES
 from lagrotor.paper.source.tokens import latex_of
 from lagrotor.paper.source.usage import notation_of
 
@@ -17,7 +18,7 @@ PREAMBLE = "\\documentclass{article}\n\\def\\be#1\\ee{\\begin{equation}#1\\end{e
 
 
 def expanded(text: str) -> str:
-    return "".join(latex_of(Expander(text).tokens()).split())
+    return "".join(latex_of(Expander(text, None, PRIMITIVES).tokens()).split())
 
 
 @pytest.mark.parametrize(
@@ -67,7 +68,7 @@ def test_the_tokens_taken_grow_as_the_source_does(each: str, monkeypatch: pytest
 def test_ends_that_never_come_are_refused_before_they_cost_much(
     each: str, mark: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(expansion, "_MOST_TOKENS", 50_000)
+    monkeypatch.setattr(token_stream, "_MOST_TOKENS", 50_000)
     (file := tmp_path / "paper.tex").write_text(
         PREAMBLE + "\\newcommand\\y[1][1]{y_{#1}}\\begin{document}\n" + 1000 * each + "\\end{document}\n"
     )

@@ -1,0 +1,170 @@
+r"""Conditions: \if… \else \fi, \ifthenelse, \IfValueTF, \@ifnextchar; what cannot be known is taken as false."""
+
+import re
+from collections.abc import Iterable
+
+from lagrotor.paper.source.expansion import NO_VALUE, Expander, Package, Primitive
+from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
+
+_TRUE = ("iftrue", "ifmmode", "ifpdf", "ifPDFTeX")
+_FALSE = ("iffalse", "ifdraft", "ifluatex", "ifxetex", "ifLuaTeX", "ifXeTeX")
+_UNKNOWN = ("ifdim", "if", "ifcat", "ifodd", "ifdefined", "ifcsname", "ifvmode", "ifhmode", "ifinner", "ifcase")
+_NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
+
+
+def _condition(expander: Expander, token: Token) -> bool:
+    r"""Take the branch of \if…: what cannot be known is taken as false."""
+    name = token.text[1:]
+    if name == "ifnum":
+        holds = _compared(expander)
+    elif name == "ifx":
+        first, second = expander.next(), expander.next()
+        holds = first is not None and second is not None and _same(expander, first, second)
+    else:
+        holds = name in _TRUE or expander.flags.get(name, False)
+        if name in _UNKNOWN and name not in expander.flags:
+            expander.notes.append(rf"\{name} is taken as false")
+    if not holds:
+        _skip_to(expander, ("else", "fi"), token)
+    return True
+
+
+def _else(expander: Expander, token: Token) -> bool:
+    _skip_to(expander, ("fi",), token)
+    return True
+
+
+def _compared(expander: Expander) -> bool:
+    found: list[Token] = []
+    while (token := expander.next()) is not None:
+        found.append(token)
+        if token.kind == "text" and re.search(r"[<>=]\s*-?\d+\s", token.text):
+            break
+        if token.kind == "command" and token.text in (r"\relax", r"\z@", r"\@ne", r"\tw@"):
+            break
+        if len(found) > 12:
+            break
+    for place, token in enumerate(found):
+        if token.kind == "text" and (sign := re.search(r"[<>=]", token.text)):
+            relation = sign[0]
+            left_tokens = [*found[:place], Token("text", token.text[: sign.start()], token.at)]
+            right = re.match(r"\s*-?\d+\s?", token.text[sign.end() :])
+            right_text = right[0] if right else ""
+            rest = token.text[sign.end() + len(right_text) :]
+            right_tokens = [Token("text", right_text, token.at)] if right else found[place + 1 :]
+            if right:
+                expander.push([*plain(rest, token.at), *found[place + 1 :]])
+            a, b = expander.number(left_tokens), expander.number(right_tokens)
+            return {"<": a < b, ">": a > b, "=": a == b}[relation]
+    expander.push(found)
+    expander.notes.append(r"\ifnum is taken as false")
+    return False
+
+
+def _same(expander: Expander, first: Token, second: Token) -> bool:
+    a, b = expander.macros.get(first.text), expander.macros.get(second.text)
+    if a is not None and b is not None:
+        return [t[:2] for t in a.body] == [t[:2] for t in b.body]
+    return a is None and b is None and first.text == second.text
+
+
+def _skip_to(expander: Expander, ends: tuple[str, ...], condition: Token) -> None:
+    """Leave out tokens to the \\else or \\fi of this condition."""
+    depth = 0
+    while (token := expander.next()) is not None:
+        if token.kind != "command":
+            continue
+        word = token.text[1:]
+        if depth == 0 and word in ends:
+            return
+        if word == "fi":
+            depth -= 1
+        elif word.startswith("if") and word not in _NO_CONDITIONS:
+            depth += 1
+    expander.macros.fault(condition.at, condition.text, rf"{condition.text} has no \fi: what follows is left out")
+
+
+def _if_value(expander: Expander, token: Token) -> bool:
+    r"""\IfValueTF, \IfNoValueT, \IfBooleanTF: of an argument of \NewDocumentCommand."""
+    tested = expander.argument()
+    if token.text.startswith(r"\IfBoolean"):
+        holds = latex_of(tested).strip() == "*"
+    else:
+        holds = (NO_VALUE in tested) == token.text.startswith(r"\IfNoValue")
+    ending = re.search("T?F?$", token.text)[0]  # type: ignore[index]
+    branches = {letter: expander.argument() for letter in ending}
+    expander.push(branches.get("T" if holds else "F", ()))
+    return True
+
+
+def _if_then_else(expander: Expander, token: Token) -> bool:
+    r"""\ifthenelse{\boolean{long}}{…}{…}; what cannot be known is taken as false."""
+    test, yes, no = latex_of(expander.argument()).strip(), expander.argument(), expander.argument()
+    denied = re.match(r"\\(?:NOT|not)\b\s*", test)
+    bare = test[denied.end() :] if denied else test
+    said = re.fullmatch(r"\\boolean\s*\{(\w+)\}", bare)
+    same = re.fullmatch(r"\\equal\s*\{([^{}]*)\}\s*\{([^{}]*)\}", bare)
+    if said:
+        holds = expander.flags.get(f"if{said[1]}", False)
+    elif same:
+        first, second = (latex_of(expander.expand(tokenize(each))).strip() for each in same.groups())
+        holds = first == second
+    else:
+        expander.notes.append(rf"\ifthenelse{{{test}}} is taken as false")
+        holds = bool(denied)
+    expander.push(yes if holds != bool(denied) else no)
+    return True
+
+
+def _if_next(expander: Expander, token: Token) -> bool:
+    r"""\@ifnextchar[{…}{…} and \@ifstar{…}{…}: what comes next says which of the two."""
+    wanted = latex_of(expander.argument()).strip() if token.text == r"\@ifnextchar" else "*"
+    first, second = expander.argument(), expander.argument()
+    expander.skip_spaces()
+    after = expander.peek()
+    comes = after is not None and latex_of([after]).startswith(wanted)
+    if comes and token.text == r"\@ifstar":
+        expander.star()
+    expander.push(first if comes else second)
+    return True
+
+
+def _boolean(expander: Expander, token: Token) -> bool:
+    name = f"if{expander.name()}"
+    _set_flag(expander, name, token.text == r"\setboolean" and expander.name() == "true")
+    return True
+
+
+def _new_flag(expander: Expander, token: Token) -> bool:
+    expander.skip_spaces()
+    if (named := expander.next()) is not None:
+        _set_flag(expander, named.text[1:], False)
+    return True
+
+
+def _set_flag(expander: Expander, name: str, value: bool) -> None:
+    r"""\draftfalse and \drafttrue set \ifdraft from now on."""
+
+    def setter(value: bool) -> Package:
+        def take(expander: Expander) -> Iterable[Token]:
+            expander.flags[name] = value
+            return ()
+
+        return take
+
+    expander.flags[name] = value
+    expander.own |= {rf"\{name[2:]}true": setter(True), rf"\{name[2:]}false": setter(False)}
+
+
+CONDITIONS: dict[str, Primitive] = {
+    **{rf"\{name}": _condition for name in (*_TRUE, *_FALSE, *_UNKNOWN, "ifnum", "ifx")},
+    **dict.fromkeys(
+        [rf"\If{test}{ending}" for test in ("Value", "NoValue", "Boolean") for ending in ("T", "F", "TF")], _if_value
+    ),
+    **dict.fromkeys((r"\newboolean", r"\provideboolean", r"\setboolean"), _boolean),
+    **dict.fromkeys((r"\@ifnextchar", r"\@ifstar"), _if_next),
+    r"\else": _else,
+    r"\fi": lambda expander, token: True,
+    r"\ifthenelse": _if_then_else,
+    r"\newif": _new_flag,
+}

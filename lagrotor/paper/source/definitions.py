@@ -1,0 +1,159 @@
+r"""Definitions of commands: \newcommand, \def, \let, \NewDocumentCommand, \DeclarePairedDelimiter …"""
+
+from collections.abc import Iterable
+from itertools import pairwise
+
+from lagrotor.paper.source.expansion import Expander, Primitive
+from lagrotor.paper.source.groups import Macro
+from lagrotor.paper.source.tokens import Token, latex_of, plain
+
+_HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection", r"\appendix")
+
+
+def _defined(expander: Expander, token: Token) -> bool:
+    expander.star()
+    expander.skip_spaces()
+    named = expander.argument()
+    count = expander.optional()
+    default = expander.optional() if count is not None else None
+    body = expander.argument()
+    name = next((t.text for t in named if t.kind == "command"), "")
+    if not name or (token.text == r"\providecommand" and (name in expander.macros or name in expander.packages)):
+        return True
+    if _is_kept(expander, name, body):
+        return True
+    digits = latex_of(count or ()).strip()
+    head = [Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0)]
+    expander.macros[name] = Macro(tuple(body), tuple(head), None if default is None else tuple(default))
+    return True
+
+
+def _document_command(expander: Expander, token: Token) -> bool:
+    named, spec, body = expander.argument(), latex_of(expander.argument()), expander.argument()
+    if named:
+        expander.macros[named[0].text] = Macro(tuple(body), spec=spec.strip() or " ")
+    return True
+
+
+def _def(expander: Expander, token: Token) -> bool:
+    target = _target(expander)
+    head: list[Token] = []
+    while (part := expander.next()) is not None and part.kind != "open":
+        head.append(part)
+    body = expander.group(token.at)
+    by_lines = any(a.text == b.text == "^" for a, b in pairwise(head))  # ^^M: it reads lines as they stand
+    if target is not None and target.kind == "command" and not by_lines and not _is_kept(expander, target.text, body):
+        if token.text in (r"\edef", r"\xdef"):  # a command that is not known yet cannot stand for itself
+            body = [part for part in expander.expand(body) if part.text != target.text]
+        macro = Macro(tuple(body), tuple(head))
+        if token.text in (r"\gdef", r"\xdef"):
+            expander.macros.define_globally(target.text, macro)
+        else:
+            expander.macros[target.text] = macro
+    return True
+
+
+def _let(expander: Expander, token: Token) -> bool:
+    target, source = _target(expander), _target(expander)
+    if source is not None and source.kind == "text" and source.text.startswith("="):
+        rest = source.text[1:].lstrip()
+        if rest:
+            expander.push([Token("text", rest, source.at)])
+        source = _target(expander)
+    if source is not None and source.kind == "text" and len(source.text) > 1:
+        expander.push([Token("text", source.text[1:], source.at + 1)])
+        source = Token("text", source.text[0], source.at)
+    if target is not None and source is not None and target.kind == "command":
+        known = expander.macros.get(source.text)
+        if known is not None:
+            expander.macros[target.text] = known
+        elif source.kind == "command" and source.text in expander.packages:
+            expander.own[target.text] = expander.packages[source.text]
+        elif source.text != target.text:
+            kind = "primitive" if source.kind == "command" else source.kind
+            expander.macros[target.text] = Macro((Token(kind, source.text, source.at),))
+    return True
+
+
+def _named(expander: Expander, token: Token) -> bool:
+    expander.push([token])
+    made = _target(expander)
+    expander.push([made] if made else [])
+    return True
+
+
+def _target(expander: Expander) -> Token | None:
+    r"""The command that is defined next, \csname … \endcsname too."""
+    expander.skip_spaces()
+    while (token := expander.next()) is not None and token.text == r"\expandafter":
+        expander.skip_spaces()
+    if token is None or token.text != r"\csname":
+        return token
+    name: list[Token] = []
+    while (part := expander.next()) is not None and part.text != r"\endcsname":
+        name.append(part)
+    return Token("command", "\\" + latex_of(expander.expand(name)).strip(), token.at)
+
+
+def _is_kept(expander: Expander, name: str, body: list[Token]) -> bool:
+    """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here, or reads ahead."""
+    known = name in _HEADINGS or name in expander.primitives
+    return any(
+        t.text in (r"\@setfontsize", r"\futurelet", r"\not@math@alphabet")
+        or (known and "@" in t.text and t.kind == "command")
+        for t in body
+    )
+
+
+def _operator(expander: Expander, token: Token) -> bool:
+    star = "*" if expander.star() else ""
+    named, body = expander.argument(), expander.argument()
+    if named:
+        made = [Token("command", r"\operatorname", 0), *plain(star, 0), Token("open", "{", 0)]
+        expander.macros[named[0].text] = Macro((*made, *body, Token("close", "}", 0)))
+    return True
+
+
+def _pair(expander: Expander, token: Token) -> bool:
+    r"""\DeclarePairedDelimiter{\abs}{|}{|}; \DeclarePairedDelimiterX{\ip}[2]{<}{>}{#1,#2}."""
+    named = expander.argument()
+    count = latex_of(expander.optional() or ()).strip()
+    left, right = expander.argument(), expander.argument()
+    body = expander.argument() if token.text.endswith("X") else [Token("param", "#1", 0)]
+    opened, closed = Token("command", r"\left", 0), Token("command", r"\right", 0)
+    inside = [each for each in body if each.text != r"\delimsize"]
+    head = tuple(Token("param", f"#{n + 1}", 0) for n in range(int(count) if count.isdigit() else 1))
+    made = Macro((opened, *left, *inside, closed, *right), head)
+
+    def paired(expander: Expander) -> Iterable[Token]:
+        if not expander.star():
+            expander.optional()
+        return expander.body(made, token)
+
+    if named:
+        expander.macros.pop(named[0].text, None)
+        expander.own[named[0].text] = paired
+    return True
+
+
+DEFINITIONS: dict[str, Primitive] = {
+    **dict.fromkeys(
+        (
+            r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand", r"\newrobustcmd",
+            r"\renewrobustcmd",
+        ),
+        _defined,
+    ),
+    **dict.fromkeys((r"\def", r"\gdef", r"\edef", r"\xdef"), _def),
+    **dict.fromkeys(
+        (
+            r"\NewDocumentCommand", r"\RenewDocumentCommand", r"\ProvideDocumentCommand", r"\DeclareDocumentCommand",
+            r"\NewExpandableDocumentCommand",
+        ),
+        _document_command,
+    ),
+    **dict.fromkeys((r"\DeclarePairedDelimiter", r"\DeclarePairedDelimiterX"), _pair),
+    r"\csname": _named,
+    r"\let": _let,
+    r"\DeclareMathOperator": _operator,
+}  # fmt: skip

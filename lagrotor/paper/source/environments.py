@@ -1,0 +1,159 @@
+r"""Environments: their definitions, what \begin{…} and \end{…} stand for, those that show what stands in them."""
+
+from lagrotor.paper.source.expansion import STYLES, Expander, Primitive
+from lagrotor.paper.source.groups import Macro
+from lagrotor.paper.source.tokens import Token, latex_of, tokenize
+
+_VERBATIM = "VerbatimEnvironment verbatim @verbatim Verbatim lstlisting minted comment tcblisting"
+_VERBATIM_COMMANDS = {rf"\{name}" for name in _VERBATIM.split()}
+
+
+def _environment(expander: Expander, token: Token) -> bool:
+    expander.star()
+    name = expander.name()
+    if token.text == r"\NewDocumentEnvironment":
+        spec, begin, end = latex_of(expander.argument()), expander.argument(), expander.argument()
+        expander.environments[name] = Macro(tuple(begin), spec=spec.strip() or " "), tuple(end)
+        return True
+    count = expander.optional()
+    default = expander.optional() if count is not None else None
+    begin, end = expander.argument(), expander.argument()
+    if _VERBATIM_COMMANDS & {part.text for part in begin}:
+        expander.verbatim.add(name)
+    digits = latex_of(count or ()).strip()
+    head = tuple(Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0))
+    expander.environments[name] = Macro(tuple(begin), head, None if default is None else tuple(default)), tuple(end)
+    return True
+
+
+def _theorem(expander: Expander, token: Token) -> bool:
+    r"""\newtheorem{name}[counter]{Title}[within]: an environment that counts."""
+    if expander.star():
+        return True
+    name, shared = expander.name(), expander.optional()
+    expander.argument()
+    within = expander.optional()
+    expander.theorems[name] = latex_of(shared).strip() if shared is not None else name
+    if shared is None:
+        expander.counters.add(name, latex_of(within).strip() if within is not None else "")
+    return True
+
+
+def _verbatim_environment(expander: Expander, token: Token) -> bool:
+    r"""\lstnewenvironment, \DefineVerbatimEnvironment, \newminted, \newtcblisting, \excludecomment."""
+    first = expander.optional()
+    name = expander.name()
+    if token.text == r"\newminted":
+        name = latex_of(first).strip() if first else f"{name}code"
+    expander.verbatim.add(name)
+    parts = {r"\excludecomment": 0, r"\lstnewenvironment": 2, r"\DefineVerbatimEnvironment": 2}.get(token.text, 1)
+    parts += token.text in (r"\DeclareTCBListing", r"\NewTCBListing")
+    while expander.optional() is not None:
+        pass
+    for _ in range(parts):
+        expander.argument()
+    return True
+
+
+def _begin(expander: Expander, token: Token) -> bool:
+    name = expander.argument()
+    known = _environment_of(expander, name)
+    if known is None and (command := _command_of(expander, latex_of(name).strip(), "", token.at)):
+        expander.macros.open(latex_of(name).strip(), token.at)
+        expander.push([command])
+        return True
+    if latex_of(name).strip() in expander.verbatim and _pass_over(expander, latex_of(name).strip(), token.at):
+        return True
+    if latex_of(name).strip() not in ("document", ""):
+        expander.macros.open(latex_of(name).strip(), _own_place(expander, known, token))
+    if known is None:
+        if (counter := expander.theorems.get(latex_of(name).strip())) is not None:
+            expander.counters.step(counter)
+        expander.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
+        return False
+    expander.count(rf"\begin{{{latex_of(name)}}}", token.at)
+    expander.push(expander.body(known[0], token))
+    return True
+
+
+def _end(expander: Expander, token: Token) -> bool:
+    name = expander.argument()
+    known = _environment_of(expander, name)
+    if known is None and (command := _command_of(expander, latex_of(name).strip(), "end", token.at)):
+        expander.push([command, Token("scope", latex_of(name).strip(), token.at)])
+        return True
+    if known is None:
+        if latex_of(name).strip() not in ("document", ""):
+            expander.level = expander.macros.end_environment(latex_of(name).strip(), token.at)
+        expander.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
+        return False
+    expander.count(rf"\end{{{latex_of(name)}}}", token.at)
+    expander.push(
+        [
+            *(Token(t.kind, t.text, token.at) for t in known[1]),
+            Token("scope", latex_of(name).strip(), _own_place(expander, known, token)),
+        ]
+    )
+    return True
+
+
+def _environment_of(expander: Expander, name: list[Token]) -> tuple[Macro, tuple[Token, ...]] | None:
+    known = None if expander.original else expander.environments.get(latex_of(name).strip())
+    expander.original = False
+    return known
+
+
+def _pass_over(expander: Expander, name: str, at: int) -> bool:
+    """Pass over an environment that shows what stands in it, where the source itself has it."""
+    start, _, _, text = expander.file_of(at)
+    ending = rf"\end{{{name}}}"
+    place = text.find(ending, at - start)
+    if place < 0 or not text.startswith(r"\begin", at - start):
+        return False
+    end = start + place + len(ending)
+    while expander.waiting and not (expander.waiting[-1] and not start <= expander.waiting[-1][-1].at < end):
+        tokens = expander.waiting.pop()
+        if tokens:
+            last = tokens.pop()
+            if last.at + len(last.text) > end:  # taken as a comment or \verb over the end
+                tokens[:] = tokenize(text[end - start :], end)[::-1]
+            expander.waiting.append(tokens)
+    return True
+
+
+def _own_place(expander: Expander, known: tuple[Macro, tuple[Token, ...]] | None, token: Token) -> int:
+    """The place of a token; none where a package beside the source defines the environment and may end its parts."""
+    parts = (*known[0].body, *known[1]) if known else ()
+    return -1 if parts and expander.file_of(parts[0].at)[1].endswith(STYLES) else token.at
+
+
+def _command_of(expander: Expander, name: str, verb: str, at: int) -> Token | None:
+    r"""\begin{x} is \x where the source defines \x and \endx."""
+    defined = rf"\{name}" in expander.macros and rf"\end{name}" in expander.macros
+    return Token("command", rf"\{verb}{name}", at) if defined else None
+
+
+def _display(expander: Expander, token: Token) -> bool:
+    r"""\align and \endalign, as definitions of environments have them: what \begin{align} and \end{align} are."""
+    name = token.text[1:]
+    verb, name = (r"\end", name[3:]) if name.startswith("end") else (r"\begin", name)
+    expander.original = token.kind == "primitive"
+    expander.push(tokenize(rf"{verb}{{{name}}}", token.at))
+    return True
+
+
+_DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "displaymath", "subequations")
+ENVIRONMENTS: dict[str, Primitive] = {
+    **dict.fromkeys((r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment"), _environment),
+    **dict.fromkeys(
+        (
+            r"\lstnewenvironment", r"\DefineVerbatimEnvironment", r"\newminted", r"\newtcblisting", r"\DeclareTCBListing",
+            r"\NewTCBListing", r"\excludecomment",
+        ),
+        _verbatim_environment,
+    ),
+    **{rf"\{end}{name}": _display for name in _DISPLAYS for end in ("", "end")},
+    r"\newtheorem": _theorem,
+    r"\begin": _begin,
+    r"\end": _end,
+}  # fmt: skip

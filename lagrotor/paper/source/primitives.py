@@ -1,0 +1,33 @@
+r"""The commands of TeX and LaTeX that act while a source is expanded."""
+
+from lagrotor.paper.source.conditions import CONDITIONS
+from lagrotor.paper.source.counter_commands import COUNTING
+from lagrotor.paper.source.definitions import DEFINITIONS
+from lagrotor.paper.source.environments import ENVIRONMENTS
+from lagrotor.paper.source.expansion import Expander, Primitive
+from lagrotor.paper.source.source_files import FILES
+from lagrotor.paper.source.tokens import Token
+
+
+def _ignored(expander: Expander, token: Token) -> bool:
+    return True
+
+
+def _ensured(expander: Expander, token: Token) -> bool:
+    expander.push(expander.argument())
+    return True
+
+
+_WITHOUT_EFFECT = (
+    r"\long", r"\global", r"\protected", r"\outer", r"\relax", r"\protect", r"\expandafter", r"\makeatletter",
+    r"\makeatother", r"\ensuremath@", r"\xspace",
+)  # fmt: skip
+PRIMITIVES: dict[str, Primitive] = {
+    **CONDITIONS,
+    **DEFINITIONS,
+    **ENVIRONMENTS,
+    **FILES,
+    **COUNTING,
+    **dict.fromkeys(_WITHOUT_EFFECT, _ignored),
+    r"\ensuremath": _ensured,
+}

@@ -1,0 +1,229 @@
+"""The tokens of a source and of the files that it takes in, one after the other, and the arguments read from them."""
+
+import re
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable
+from itertools import chain
+from pathlib import Path
+
+from lagrotor.errors import InputError
+from lagrotor.files import read_text
+from lagrotor.paper.source.groups import Macro, Macros
+from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
+
+_MOST_TOKENS, _MOST_FILES = 2_000_000, 500
+# TeX passes over NUL; another control character is no part of a formula, nor of a file that keeps one.
+_CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
+_EMPTY_LINE = re.compile(r"\n\s*\n")
+_NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
+
+
+class TokenStream:
+    """Tokens as they stand, by `next()`; what is put before them, by `push()`; what is open in them, `macros`."""
+
+    def __init__(self, text: str, file: Path | None = None, bare: bool = False) -> None:
+        self.file, self.bare = file, bare  # bare: without the packages beside the source
+        self.macros = Macros({r"\empty": Macro(()), r"\@empty": Macro(())})
+        self.files = 0
+        self.in_vain = 0  # tokens looked at for the end of an argument that did not come
+        self.most = _MOST_TOKENS  # tokens that may wait: those of the files, and what expansions add
+        # where each file begins, its name, its ends of lines, its text
+        self.starts: list[tuple[int, str, list[int], str]] = []
+        self.end = 0
+        self.reading: list[tuple[Path, list[Token]]] = []  # files, and what is left of each
+        self.waiting: list[list[Token]] = []  # tokens in reverse order, the innermost file or expansion last
+        self.take_in(text, file or Path())
+
+    def take_in(self, text: str, file: Path) -> None:
+        text = text.translate(_CONTROL)
+        self.files += 1
+        self.reading = [each for each in self.reading if any(each[1] is tokens for tokens in self.waiting)]
+        if file in (known for known, _ in self.reading):
+            raise InputError(f"{file} takes in itself, by itself or through another file: leave out one \\input")
+        if self.files > _MOST_FILES:
+            raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: give its parts")
+        self.starts.append((self.end, file.name, [m.start() for m in re.finditer("\n", text)], text))
+        self.waiting.append(tokenize(text, self.end)[::-1])
+        self.reading.append((file, self.waiting[-1]))
+        self.most += len(self.waiting[-1])
+        self.end += len(text) + 1
+
+    def read_file(self, name: str, suffixes: tuple[str, ...] = (".tex", "")) -> bool:
+        """Take in a file beside the source; whether it is there."""
+        if self.file is None or (self.bare and suffixes[0] != ".tex"):
+            return False
+        for suffix in suffixes:
+            for folder in (self.file.parent, self.file.parent.parent):
+                path = folder / f"{name}{suffix}"
+                if not path.is_file() and path.parent.is_dir():  # as kpathsea finds it on every system
+                    path = next(
+                        (each for each in path.parent.iterdir() if each.name.lower() == path.name.lower()), path
+                    )
+                if path.is_file() and path.suffix in (".tex", ".sty", ".cls", ".ltx", ".def", ".inp"):
+                    self.take_in(read_text(path, "latin-1"), path)
+                    return True
+        return False
+
+    def line(self, at: int) -> tuple[str, int]:
+        """The file and the line of a place."""
+        start, name, ends, _ = self.file_of(at)
+        return name, bisect_left(ends, at - start) + 1
+
+    def file_of(self, at: int) -> tuple[int, str, list[int], str]:
+        return self.starts[bisect_right(self.starts, at, key=lambda each: each[0]) - 1]
+
+    def leave_file(self, at: int) -> bool:
+        r"""Whether a place is in a part that could stand by itself, which \end{document} ends."""
+        within = [tokens for _, tokens in self.reading if any(tokens is each for each in self.waiting)]
+        if not self.file_of(at)[0] or not within:
+            return False
+        while self.waiting.pop() is not within[-1]:
+            pass
+        return True
+
+    def next(self) -> Token | None:
+        """The next token as it stands; None at the end."""
+        while self.waiting:
+            if self.waiting[-1]:
+                return self.waiting[-1].pop()
+            self.waiting.pop()
+        return None
+
+    def push(self, tokens: Iterable[Token]) -> None:
+        """Put tokens before what comes next."""
+        added = list(tokens)
+        added.reverse()
+        if self.waiting and len(self.waiting[-1]) < 64:
+            self.waiting[-1].extend(added)
+        elif added:
+            self.waiting.append(added)
+
+    def skip_spaces(self) -> None:
+        while (token := self.next()) is not None:
+            if token.kind != "text":
+                self.push([token])
+                return
+            if rest := token.text.lstrip():
+                self.push([Token("text", rest, token.at + len(token.text) - len(rest))])
+                return
+
+    def peek(self) -> Token | None:
+        token = self.next()
+        if token is not None:
+            self.push([token])
+        return token
+
+    def argument(self) -> list[Token]:
+        """The next argument: what is in braces, or one character or command."""
+        self.skip_spaces()
+        token = self.next()
+        if token is None or token.kind in ("close", "math") or token.text in _NO_ARGUMENT:
+            self.push([token] if token else [])
+            return []
+        if token.kind == "open":
+            return self.group(token.at)
+        if token.kind == "text" and len(token.text) > 1:
+            self.push([Token("text", token.text[1:], token.at + 1)])
+            return [Token("text", token.text[0], token.at)]
+        return [token]
+
+    def following(self) -> str:
+        """The argument in braces that comes next, which stays, as plain text."""
+        found = self.argument()
+        self.push([Token("open", "{", 0), *found, Token("close", "}", 0)])
+        return latex_of(found).strip()
+
+    def group(self, at: int) -> list[Token]:
+        """What is before the brace that closes the one at a place."""
+        found: list[Token] = []
+        depth = 1
+        while (token := self.next()) is not None:
+            depth += {"open": 1, "close": -1}.get(token.kind, 0)
+            if depth == 0:
+                return found
+            found.append(token)
+        self.macros.fault(at, "{", "{ is not closed: what follows is taken as its argument")
+        return found
+
+    def delimited(self, opening: str, closing: str) -> list[Token] | None:
+        """What is between two characters, such as brackets, where the first comes next; None where it does not."""
+        self.skip_spaces()
+        token = self.next()
+        if token is None or token.kind != "text" or not token.text.startswith(opening):
+            self.push([token] if token else [])
+            return None
+        self.push([Token("text", token.text[1:], token.at + 1)] if token.text[1:] else [])
+        found: list[Token] = []
+        at, braces, depth = token.at, 0, 1
+        while (token := self.next()) is not None:
+            if token.kind == "text" and not braces:
+                for place, character in enumerate(token.text):
+                    depth += (character == opening != closing) - (character == closing)
+                    if depth == 0:
+                        found += [Token("text", token.text[:place], token.at)] if place else []
+                        rest = token.text[place + 1 :]
+                        self.push([Token("text", rest, token.at + place + 1)] if rest else [])
+                        return found
+            braces += {"open": 1, "close": -1}.get(token.kind, 0)
+            if braces < 0:
+                self.push([token])
+                return found
+            found.append(token)
+            if token.kind == "text" and not braces and _EMPTY_LINE.search(token.text):
+                break
+        self._looked_in_vain(found, closing, at)
+        self.push([Token("text", opening, at), *found])
+        return None
+
+    def optional(self) -> list[Token] | None:
+        """An optional argument, [..]; None where there is none."""
+        return self.delimited("[", "]")
+
+    def star(self) -> bool:
+        """Whether a star comes next, which is taken."""
+        token = self.next()
+        if token is not None and token.kind == "text" and token.text.startswith("*"):
+            self.push([Token("text", token.text[1:], token.at + 1)] if token.text[1:] else [])
+            return True
+        self.push([token] if token else [])
+        return False
+
+    def name(self) -> str:
+        """An argument as plain text."""
+        return latex_of(self.argument()).strip()
+
+    def until(self, end: Token, macro: Token) -> list[Token]:
+        """The tokens before `end`, which is taken; nothing is taken where the paragraph or the group ends first."""
+        found: list[Token] = []
+        depth = 0
+        for token in chain.from_iterable(map(reversed, reversed(self.waiting))):
+            ends = (
+                depth == 0
+                and token.kind == end.kind
+                and end.text in (token.text if end.kind == "text" else (token.text,))
+            )
+            before, _, rest = token.text.partition(end.text) if ends else (token.text, "", "")
+            depth += {"open": 1, "close": -1}.get(token.kind, 0)
+            if token.text == r"\par" or ("\n" in before and _EMPTY_LINE.search(before)) or (depth < 0 and not ends):
+                break
+            if ends:
+                for _ in range(len(found) + 1):
+                    self.next()
+                self.push(plain(rest, token.at))
+                return found + plain(before, token.at)
+            found.append(token)
+        self._looked_in_vain(found, end.text, macro.at)
+        return []
+
+    def _looked_in_vain(self, passed: list[Token], end: str, at: int) -> None:
+        """Count what was passed to find the end of an argument, which TeX would stop at; a source has only so much of it."""
+        self.in_vain += len(passed)
+        if self.in_vain > self.most:
+            said = f"the argument that begins here, as many before, has no {end.strip() or 'end'} in its paragraph"
+            raise InputError("{}:{}: {}: end it".format(*self.line(at), said))
+
+    def take(self, part: Token) -> None:
+        token = self.next()
+        if token is not None and part.kind == "text" and token.kind == "text" and token.text.startswith(part.text):
+            rest = token.text[len(part.text) :]
+            self.push([Token("text", rest, token.at)] if rest else [])
