@@ -15,14 +15,16 @@ _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifbl
 def _condition(expander: Expander, token: Token) -> bool:
     r"""Take the branch of \if…: what cannot be known is taken as false."""
     name = token.text[1:]
-    if name == "ifnum":
+    if name in expander.flags:
+        holds = expander.flags[name]
+    elif name == "ifnum":
         holds = _compared(expander)
     elif name == "ifx":
         first, second = expander.next(), expander.next()
         holds = first is not None and second is not None and _same(expander, first, second)
     else:
-        holds = name in _TRUE or expander.flags.get(name, False)
-        if name in _UNKNOWN and name not in expander.flags:
+        holds = name in _TRUE
+        if name in _UNKNOWN:
             expander.notes.append(rf"\{name} is taken as false")
     if not holds:
         _skip_to(expander, ("else", "fi"), token)

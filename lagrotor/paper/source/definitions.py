@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from itertools import pairwise
 
 from lagrotor.paper.source.expansion import Expander, Primitive
-from lagrotor.paper.source.groups import Macro
-from lagrotor.paper.source.tokens import Token, latex_of, plain
+from lagrotor.paper.source.groups import Macro, numbered
+from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
 
 _HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection", r"\appendix")
 
@@ -22,9 +22,7 @@ def _defined(expander: Expander, token: Token) -> bool:
         return True
     if _is_kept(expander, name, body):
         return True
-    digits = latex_of(count or ()).strip()
-    head = [Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0)]
-    expander.macros[name] = Macro(tuple(body), tuple(head), None if default is None else tuple(default))
+    expander.macros[name] = Macro(tuple(body), numbered(count), None if default is None else tuple(default))
     return True
 
 
@@ -56,9 +54,7 @@ def _def(expander: Expander, token: Token) -> bool:
 def _let(expander: Expander, token: Token) -> bool:
     target, source = _target(expander), _target(expander)
     if source is not None and source.kind == "text" and source.text.startswith("="):
-        rest = source.text[1:].lstrip()
-        if rest:
-            expander.push([Token("text", rest, source.at)])
+        expander.push(plain(source.text[1:].lstrip(), source.at))
         source = _target(expander)
     if source is not None and source.kind == "text" and len(source.text) > 1:
         expander.push([Token("text", source.text[1:], source.at + 1)])
@@ -68,6 +64,7 @@ def _let(expander: Expander, token: Token) -> bool:
         if known is not None:
             expander.macros[target.text] = known
         elif source.kind == "command" and source.text in expander.packages:
+            expander.macros.pop(target.text, None)
             expander.own[target.text] = expander.packages[source.text]
         elif source.text != target.text:
             kind = "primitive" if source.kind == "command" else source.kind
@@ -117,13 +114,11 @@ def _operator(expander: Expander, token: Token) -> bool:
 def _pair(expander: Expander, token: Token) -> bool:
     r"""\DeclarePairedDelimiter{\abs}{|}{|}; \DeclarePairedDelimiterX{\ip}[2]{<}{>}{#1,#2}."""
     named = expander.argument()
-    count = latex_of(expander.optional() or ()).strip()
+    head = numbered(expander.optional(), 1)
     left, right = expander.argument(), expander.argument()
     body = expander.argument() if token.text.endswith("X") else [Token("param", "#1", 0)]
-    opened, closed = Token("command", r"\left", 0), Token("command", r"\right", 0)
     inside = [each for each in body if each.text != r"\delimsize"]
-    head = tuple(Token("param", f"#{n + 1}", 0) for n in range(int(count) if count.isdigit() else 1))
-    made = Macro((opened, *left, *inside, closed, *right), head)
+    made = Macro((*tokenize(r"\left"), *left, *inside, *tokenize(r"\right"), *right), head)
 
     def paired(expander: Expander) -> Iterable[Token]:
         if not expander.star():

@@ -12,7 +12,7 @@ from lagrotor.paper.source.expansion import STYLES, Expander
 from lagrotor.paper.source.groups import Macro
 from lagrotor.paper.source.primitives import PRIMITIVES
 from lagrotor.paper.source.source_faults import faults_of
-from lagrotor.paper.source.tokens import Token, is_word, latex_of, tokenize
+from lagrotor.paper.source.tokens import Token, latex_of, tokenize
 
 # Each row of these is an equation with a number of its own; the others have one number.
 _ROWS_WORDS = "align gather eqnarray alignat flalign xalignat xxalignat IEEEeqnarray numcases subnumcases"
@@ -610,7 +610,7 @@ def _without_columns(tokens: list[Token], kind: str) -> str:
     depth = braces = columns = 0
     kept: list[Token] = []
     for token in tokens:
-        depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0) if is_word(token) else 0
+        depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0)
         braces += {"open": 1, "close": -1}.get(token.kind, 0)
         if token.kind == "align" and depth == 0:
             columns += 1

@@ -1,7 +1,7 @@
 r"""Environments: their definitions, what \begin{…} and \end{…} stand for, those that show what stands in them."""
 
 from lagrotor.paper.source.expansion import STYLES, Expander, Primitive
-from lagrotor.paper.source.groups import Macro
+from lagrotor.paper.source.groups import Macro, numbered
 from lagrotor.paper.source.tokens import Token, latex_of, tokenize
 
 _VERBATIM = "VerbatimEnvironment verbatim @verbatim Verbatim lstlisting minted comment tcblisting"
@@ -20,9 +20,10 @@ def _environment(expander: Expander, token: Token) -> bool:
     begin, end = expander.argument(), expander.argument()
     if _VERBATIM_COMMANDS & {part.text for part in begin}:
         expander.verbatim.add(name)
-    digits = latex_of(count or ()).strip()
-    head = tuple(Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else 0))
-    expander.environments[name] = Macro(tuple(begin), head, None if default is None else tuple(default)), tuple(end)
+    expander.environments[name] = (
+        Macro(tuple(begin), numbered(count), None if default is None else tuple(default)),
+        tuple(end),
+    )
     return True
 
 
@@ -56,49 +57,45 @@ def _verbatim_environment(expander: Expander, token: Token) -> bool:
 
 
 def _begin(expander: Expander, token: Token) -> bool:
-    name = expander.argument()
+    name = expander.name()
     known = _environment_of(expander, name)
-    if known is None and (command := _command_of(expander, latex_of(name).strip(), "", token.at)):
-        expander.macros.open(latex_of(name).strip(), token.at)
+    if known is None and (command := _command_of(expander, name, "", token.at)):
+        expander.macros.open(name, token.at)
         expander.push([command])
         return True
-    if latex_of(name).strip() in expander.verbatim and _pass_over(expander, latex_of(name).strip(), token.at):
+    if name in expander.verbatim and _pass_over(expander, name, token.at):
         return True
-    if latex_of(name).strip() not in ("document", ""):
-        expander.macros.open(latex_of(name).strip(), _own_place(expander, known, token))
+    if name not in ("document", ""):
+        expander.macros.open(name, _own_place(expander, known, token))
     if known is None:
-        if (counter := expander.theorems.get(latex_of(name).strip())) is not None:
+        if (counter := expander.theorems.get(name)) is not None:
             expander.counters.step(counter)
-        expander.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
+        expander.push(tokenize(f"{{{name}}}", token.at))
         return False
-    expander.count(rf"\begin{{{latex_of(name)}}}", token.at)
+    expander.count(rf"\begin{{{name}}}", token.at)
     expander.push(expander.body(known[0], token))
     return True
 
 
 def _end(expander: Expander, token: Token) -> bool:
-    name = expander.argument()
+    name = expander.name()
     known = _environment_of(expander, name)
-    if known is None and (command := _command_of(expander, latex_of(name).strip(), "end", token.at)):
-        expander.push([command, Token("scope", latex_of(name).strip(), token.at)])
+    if known is None and (command := _command_of(expander, name, "end", token.at)):
+        expander.push([command, Token("scope", name, token.at)])
         return True
     if known is None:
-        if latex_of(name).strip() not in ("document", ""):
-            expander.level = expander.macros.end_environment(latex_of(name).strip(), token.at)
-        expander.push([Token("open", "{", token.at), *name, Token("close", "}", token.at)])
+        if name not in ("document", ""):
+            expander.level = expander.macros.end_environment(name, token.at)
+        expander.push(tokenize(f"{{{name}}}", token.at))
         return False
-    expander.count(rf"\end{{{latex_of(name)}}}", token.at)
-    expander.push(
-        [
-            *(Token(t.kind, t.text, token.at) for t in known[1]),
-            Token("scope", latex_of(name).strip(), _own_place(expander, known, token)),
-        ]
-    )
+    expander.count(rf"\end{{{name}}}", token.at)
+    scope = Token("scope", name, _own_place(expander, known, token))
+    expander.push([*(Token(t.kind, t.text, token.at) for t in known[1]), scope])
     return True
 
 
-def _environment_of(expander: Expander, name: list[Token]) -> tuple[Macro, tuple[Token, ...]] | None:
-    known = None if expander.original else expander.environments.get(latex_of(name).strip())
+def _environment_of(expander: Expander, name: str) -> tuple[Macro, tuple[Token, ...]] | None:
+    known = None if expander.original else expander.environments.get(name)
     expander.original = False
     return known
 

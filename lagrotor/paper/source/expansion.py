@@ -95,10 +95,8 @@ class Expander(TokenStream):
         name = token.text
         macro = self.macros.get(name)
         if macro is not None:
-            style = (
-                self.file_of(macro.body[0].at)[1] if self.expansions[token.at] > _MOST_OF_STYLES and macro.body else ""
-            )
-            if style.endswith(STYLES):
+            style = self.file_of(macro.body[0].at)[1] if macro.body else ""
+            if self.expansions[token.at] > _MOST_OF_STYLES and style.endswith(STYLES):
                 self.notes.append(f"{name} of {style} expands without end, and is left out")
                 self.macros.define_globally(name, Macro(()))
                 return True
@@ -106,7 +104,7 @@ class Expander(TokenStream):
             self.push(self.body(macro, token))
             return True
         command = self.own.get(name) or self.packages.get(name)
-        if command is not None and name not in self.macros:
+        if command is not None:
             given = command(self)
             if given is None:
                 return False
@@ -122,6 +120,7 @@ class Expander(TokenStream):
         return False
 
     def count(self, name: str, at: int) -> None:
+        """One expansion more at a place, of which there may be so many."""
         self.expansions[at] += 1
         if self.expansions[at] > _MOST_EXPANSIONS or sum(map(len, self.waiting[-3:])) > self.most:
             raise InputError(
@@ -177,6 +176,7 @@ class Expander(TokenStream):
         return self.counters.printed(counter, self.printed)
 
     def number(self, tokens: Iterable[Token]) -> int:
+        r"""A sum of digits, \value{…}, \arabic{…}."""
         text = latex_of(self.expand(tokens)).strip()
         for constant, value in ((r"\z@", "0"), (r"\@ne", "1"), (r"\tw@", "2"), (r"\m@ne", "-1")):
             text = text.replace(constant, value)

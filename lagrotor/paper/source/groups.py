@@ -1,9 +1,10 @@
 r"""What is open in a source, as TeX keeps it: braces, environments, \left; the definitions that end with each, and what is not
 ended."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from lagrotor.paper.source.tokens import Token
+from lagrotor.paper.source.tokens import Token, latex_of
 
 # Groups that programs of macros open and close in parts: nothing is said of them.
 _SILENT = (r"\begingroup", r"\bgroup")
@@ -18,6 +19,12 @@ class Macro:
     head: tuple[Token, ...] = ()
     default: tuple[Token, ...] | None = None
     spec: str = ""
+
+
+def numbered(count: Iterable[Token] | None, default: int = 0) -> tuple[Token, ...]:
+    """The arguments #1 … #n of a definition that states n by `count`, [2]."""
+    digits = latex_of(count or ()).strip()
+    return tuple(Token("param", f"#{n + 1}", 0) for n in range(int(digits) if digits.isdigit() else default))
 
 
 class Macros(dict[str, Macro | None]):

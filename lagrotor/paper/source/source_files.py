@@ -51,8 +51,7 @@ def _class(expander: Expander, token: Token) -> bool:
             _preamble_of(expander, option.strip())
         return True
     if expander.files > 1 and expander.document_class and token.text == r"\documentclass":
-        _preamble_of(expander, None)  # a file taken in that could stand by itself: its own preamble is read as it comes
-        return True
+        return True  # a file taken in that could stand by itself: its own preamble is read as it comes
     if not expander.read_file(name, (".cls",)) or token.text == r"\LoadClass":
         expander.document_class = name
     expander.document_class = expander.document_class or name
@@ -60,7 +59,7 @@ def _class(expander: Expander, token: Token) -> bool:
     return True
 
 
-def _preamble_of(expander: Expander, name: str | None) -> None:
+def _preamble_of(expander: Expander, name: str) -> None:
     """The preamble of the main file of a subfile."""
     if name and expander.file is not None:
         path = expander.file.parent / (name if name.endswith(".tex") else f"{name}.tex")

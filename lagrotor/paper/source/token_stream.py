@@ -152,7 +152,7 @@ class TokenStream:
         if token is None or token.kind != "text" or not token.text.startswith(opening):
             self.push([token] if token else [])
             return None
-        self.push([Token("text", token.text[1:], token.at + 1)] if token.text[1:] else [])
+        self.push(plain(token.text[1:], token.at + 1))
         found: list[Token] = []
         at, braces, depth = token.at, 0, 1
         while (token := self.next()) is not None:
@@ -160,9 +160,9 @@ class TokenStream:
                 for place, character in enumerate(token.text):
                     depth += (character == opening != closing) - (character == closing)
                     if depth == 0:
-                        found += [Token("text", token.text[:place], token.at)] if place else []
+                        found += plain(token.text[:place], token.at)
                         rest = token.text[place + 1 :]
-                        self.push([Token("text", rest, token.at + place + 1)] if rest else [])
+                        self.push(plain(rest, token.at + place + 1))
                         return found
             braces += {"open": 1, "close": -1}.get(token.kind, 0)
             if braces < 0:
@@ -183,7 +183,7 @@ class TokenStream:
         """Whether a star comes next, which is taken."""
         token = self.next()
         if token is not None and token.kind == "text" and token.text.startswith("*"):
-            self.push([Token("text", token.text[1:], token.at + 1)] if token.text[1:] else [])
+            self.push(plain(token.text[1:], token.at + 1))
             return True
         self.push([token] if token else [])
         return False
@@ -225,5 +225,4 @@ class TokenStream:
     def take(self, part: Token) -> None:
         token = self.next()
         if token is not None and part.kind == "text" and token.kind == "text" and token.text.startswith(part.text):
-            rest = token.text[len(part.text) :]
-            self.push([Token("text", rest, token.at)] if rest else [])
+            self.push(plain(token.text[len(part.text) :], token.at))

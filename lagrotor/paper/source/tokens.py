@@ -53,11 +53,6 @@ def latex_of(tokens: Iterable[Token]) -> str:
     return "".join(parts)
 
 
-def is_word(token: Token) -> bool:
-    """Whether a token is a command with letters, after which TeX skips spaces."""
-    return token.kind == "command" and (token.text[-1].isalpha() or token.text[-1] == "@")
-
-
 def plain(text: str, at: int) -> list[Token]:
     """A run of characters as a token; none where it is empty."""
     return [Token("text", text, at)] if text else []

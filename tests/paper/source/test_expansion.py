@@ -31,6 +31,9 @@ def expanded(text: str) -> str:
         ("\\newcommand\\x[1][1]{(#1)}\\x [0, 1)\n\nand [2]", "(1)[0, 1)\n\nand [2]"),
         (r"\def\x{}\ifx\x\empty a\else b\fi\ifx\x\@empty c\else d\fi", "ac"),
         (r"\def\x{y}\ifx\x\empty a\else b\fi", "b"),
+        (r"\let\ifdraft\iffalse\ifdraft a\else b\fi", "b"),
+        (r"\let\ifdraft\iftrue\ifdraft a\else b\fi", "a"),
+        (r"\newboolean{long}\longtrue\iflong a\else b\fi\longfalse\iflong c\else d\fi", "ad"),
     ],
 )  # fmt: skip
 def test_an_argument_ends_with_its_mark_or_takes_nothing(text: str, result: str) -> None:
