@@ -111,7 +111,7 @@ def _in_box(
     forces = [put_in(e, still).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
     forces, constraints = (
         [e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}) for e in part]
-        for part in (forces, [sp.sympify(g).subs(numbers) for g in system.constraints])
+        for part in (forces, [g.subs(numbers) for g in system.constraints])
     )
     sides = by_symbol(box, c.q)
     if {*sides} != {*c.q} or not all(isinstance(side, Sequence) and len(side) == 2 for side in sides.values()):
