@@ -460,9 +460,8 @@ class _Checker:
                     )
                 continue
             definitions[first.name] = place, read
-        used: dict[
-            tuple[str, str], tuple[int, _Read]
-        ] = {}  # by letter and chapter, the first use: in another it may differ
+        # by letter and chapter, the first use: in another chapter a letter may have another meaning
+        used: dict[tuple[str, str], tuple[int, _Read]] = {}
         for place, read in enumerate(self.statements):
             for name in _letters_of(read.statement):
                 used.setdefault((name, read.equation.section.split(".")[0]), (place, read))
@@ -610,7 +609,7 @@ def _proportional(a: sp.Expr, b: sp.Expr) -> bool:
 
 
 def _changed(a: sp.Expr, b: sp.Expr) -> tuple[str, str] | None:
-    """The term of b with whose sign or factor 2 changed the two say the same, and what it ought to be."""
+    """The term of b that must change its sign, or be twice or half as large, for the two to say the same; what it must be."""
     terms = sp.Add.make_args(sp.expand(b))
     if len(terms) > _MOST_TERMS:
         return None

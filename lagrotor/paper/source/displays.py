@@ -109,9 +109,8 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
             found = Source(title)
             _Walker(text, file, found, walker.referred, bare).read()
         if found.faults and not bare and any(name.endswith(STYLES) for _, name, *_ in walker.expander.starts):
-            _Walker(
-                text, file, other := Source(title), bare=True
-            ).read()  # what a package beside it has a part in is not said
+            other = Source(title)  # without the packages beside it: a fault that they have a part in is not said
+            _Walker(text, file, other, bare=True).read()
             found.faults = [each for each in found.faults if each in other.faults]
     except RecursionError:
         raise InputError(f"{file or 'the source'}: environments are nested too deeply: write them in parts") from None

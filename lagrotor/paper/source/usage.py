@@ -157,9 +157,7 @@ def power_in(box: Box) -> bool:
         if only.kind in ("operator", "text") or only.name in ("dagger", "top", "intercal", "prime", "T"):
             return False
         if only.kind == "letter" and (only.upright or (is_printed_as_vector(box) and box.name.islower())):
-            return (
-                len(only.name) == 1 and only.name in _UPRIGHT
-            )  # an upright letter is a label, and so is one over a vector
+            return only.name in _UPRIGHT  # another upright letter is a label, and so is one over a vector
         return not (only.kind == "bracket" and len(only.parts[0]) == 1)
     listed = any(b.kind == "comma" for b in row)
     return not (
