@@ -125,6 +125,8 @@ def _in_box(
     for q, (low, high) in edges.items():
         less, more = (0 if isinstance(x, int | sp.Rational) else 2**-53 for x in sides[q])
         edges[q] = low - abs(low) * sp.Rational(less), high + abs(high) * sp.Rational(more)
+    if any(e.free_symbols & {*system.multipliers} for e in forces):
+        raise InputError("equilibria: a force at rest has the reaction of a constraint: a box is searched without it")
     if left := sorted({str(s) for e in (*forces, *constraints) for s in e.free_symbols - {*c.q}}):
         raise InputError(f"equilibria: {', '.join(left)} without a value: in a box every letter has one, and time none")
     roots, undecided = _at_rest(forces, constraints, edges)
@@ -137,8 +139,8 @@ def _in_box(
         bound = ", or a constraint whose derivative is zero" if constraints else ""
         raise SingularError(
             f"equilibria: {len(undecided)} parts of the box are undecided, the first about {shown}: an equilibrium that is "
-            f"not isolated{''.join(free)}, or degenerate{bound}, or forces that jump or have no value; choose another box, or "
-            f"coordinates on which they depend. Proved elsewhere in it: {proved or 'none'}"
+            f"not isolated{''.join(free)}, or degenerate{bound}, forces that jump or have no value, or too large a box for the "
+            f"search; choose another one, or coordinates on which they depend. Proved elsewhere in it: {proved or 'none'}"
         )
     return tuple(
         Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)

@@ -45,9 +45,9 @@ def formulas(system: Equations) -> dict[str, list[str]]:
         parts["Equations of motion"][:0] = [line(latex(v), e) for v, e in put.items() if v != e]
     if system.multipliers:
         rolling = enumerate(system.rolling, len(system.constraints))
-        # What q' = B u + b keeps it says, where it is written.
-        told = [e for i, e in rolling if not (own and put) or i in own.left]
-        parts["Constraints"] = [line(e) for e in (*system.constraints, *told)]
+        # Where q' = B u + b is written, without the rows that it keeps.
+        rows = [e for i, e in rolling if not (own and put) or i in own.left]
+        parts["Constraints"] = [line(e) for e in (*system.constraints, *rows)]
     closed = not (system.forces or system.dissipation != 0 or t in system.L.free_symbols)
     steady = all(e.subs(dict.fromkeys(c.v, 0)) == 0 for e in system.residual)
     square = short and sp.expand(kinetic.xreplace({v: 2 * v for v in c.v}) - 4 * kinetic) == 0
