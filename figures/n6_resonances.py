@@ -77,8 +77,9 @@ CAPTION = (
     "A corner of three rotors, the middle one at rest, 2 kg on each tip, massless bars. Left: at "
     f"{_centre:.4f} times the critical spins two slow precessions add up to a fast one. Outside the lines, "
     f"{_half:.4f} to each side for a push of 0.01, no start falls by the terms of third order: of {_runs:.0f} exact runs there "
-    f"{_outside:.0f} fell. Right: times to fall at the resonance, exact, of slope −{-_slope:.3f}, within {_off:.1f} of those "
-    f"by the normal form of fourth order, and at least {_over:.2f} times the least of any direction. Pushes in √(κ/a), "
+    f"{_outside:.0f} fell. Right: times to fall at the resonance, pushed in one steep direction: exact, of slope "
+    f"−{-_slope:.3f}, within {_off:.1f} of those by the normal form of fourth order, and at "
+    f"least {_over:.2f} times the least of any direction. Pushes in √(κ/a), "
     "times in √(a/κ)."
 )
 

@@ -97,7 +97,8 @@ CAPTION = (
     f"what a power of time leaves, and up to {_largest:.1f}; {_chaotic:.0f} of {AMPLITUDES.size * MOMENTA.size} are beyond "
     f"{CHAOTIC:g}, {_lined:.0f} (×) end with bar and axes in line. Sections where the mean x stops growing, one colour for each "
     f"start, while the error is below 10⁻⁶: at r_0 = {SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} the averaged action keeps "
-    f"each on a curve; at {SECTIONS[1][0]:g}, {SECTIONS[1][1]:g} {_wild:.0f} of {PHASES.size} are chaotic: 10⁻⁶ is kept for "
+    f"each on a curve; at r_0 = {SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g}, {_wild:.0f} of {PHASES.size} are "
+    f"chaotic: 10⁻⁶ is kept for "
     f"{_short:.0f} turns or more, the others for all {_long:.0f}. The line is where 10⁻¹⁴ has grown to tol."
 ).replace("-", "−")
 
