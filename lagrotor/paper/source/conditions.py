@@ -139,7 +139,7 @@ def _boolean(expander: Expander, token: Token) -> bool:
 
 def _new_flag(expander: Expander, token: Token) -> bool:
     expander.skip_spaces()
-    if (named := expander.next()) is not None:
+    if (named := expander.next()) is not None and named.text.startswith(r"\if"):
         _set_flag(expander, named.text[1:], False)
     return True
 

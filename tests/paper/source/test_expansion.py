@@ -34,6 +34,7 @@ def expanded(text: str) -> str:
         (r"\let\ifdraft\iffalse\ifdraft a\else b\fi", "b"),
         (r"\let\ifdraft\iftrue\ifdraft a\else b\fi", "a"),
         (r"\newboolean{long}\longtrue\iflong a\else b\fi\longfalse\iflong c\else d\fi", "ad"),
+        (r"\newif\foo \foo a\fi", r"\foo a"),  # no condition: LaTeX refuses it
     ],
 )  # fmt: skip
 def test_an_argument_ends_with_its_mark_or_takes_nothing(text: str, result: str) -> None:
