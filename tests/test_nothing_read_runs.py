@@ -223,6 +223,9 @@ def system_text(folder: Path, text: str) -> None:
     own = System(c, strange * v**2 / 2 - q**2 / 2)
     with suppress(LagrotorError):
         own.simulate({strange: 1.0}, q0=(0.1,), v0=(0.0,), t=(0.0, 0.1))
+    called = sp.Function(text)
+    with suppress(LagrotorError):
+        System(c, v**2 / 2 - called(q)).simulate({called: (np.sin, np.cos)}, q0=(0.1,), v0=(0.0,), t=(0.0, 0.1))
     system = System(c, m * v**2 / 2 - q**2 / 2)
     values: dict[Any, Any] = {m: text}
     for use in (
@@ -413,6 +416,21 @@ def test_the_key_of_the_seals_is_this_users_alone(tmp_path: Path, monkeypatch: p
     assert fresh() == fresh() == file.read_bytes() and len(fresh()) == 32
     monkeypatch.setenv("XDG_STATE_HOME", os.devnull)
     assert fresh() != fresh() and len(fresh()) == 32
+
+
+def test_no_key_is_taken_from_the_working_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder that came with a report, a key and its seals; the twin is the same key in the user's folder."""
+    fresh, brought = kept_products._key.__wrapped__, b"k" * 32
+    for folder in (tmp_path / "came", tmp_path / "home" / ".local" / "state"):
+        (folder / "lagrotor").mkdir(parents=True)
+        (folder / "lagrotor" / "report.key").write_bytes(brought)
+    monkeypatch.chdir(tmp_path / "came")
+    monkeypatch.setattr(Path, "home", lambda: tmp_path)
+    for states in (".", "", "../came"):
+        monkeypatch.setenv("XDG_STATE_HOME", states)
+        assert fresh() != brought
+    monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
+    assert fresh() == brought
 
 
 def test_no_file_of_arrays_runs(tmp_path: Path) -> None:

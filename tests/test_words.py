@@ -20,6 +20,9 @@ WORDS = (
     "asks",
     "allowance",
     "riddle",
+    "freedoms",
+    "would miss",
+    "least exact",
 )
 FORBIDDEN = re.compile(
     rf"(?<!DOUBLE-)\b({'|'.join(WORDS)})\b|\bon trial\b|\bclaims tried\b|\bcount as parallel\b", re.IGNORECASE

@@ -179,7 +179,7 @@ def _of_order(
         least = max(abs(np.dot(vectors[0], rates)), 1e-9 * rates[-1])
         group = [k for k in vectors if abs(np.dot(k, rates)) <= _GROUP * least]
         vectors = [k for k in vectors if k not in group]
-        n = normal_form_of(s, factor, max(abs(np.dot(k, rates)) for k in group) / h.rate * 1.001)
+        n = normal_form_of(s, factor, max(abs(np.dot(k, rates)) for k in group) / h.rate * 1.001, order)
         resonance = _resonance(n, h.rate, pushed, group, rates, slopes, factor)
         if resonance:
             yield replace(resonance, of=of)

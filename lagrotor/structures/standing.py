@@ -182,9 +182,9 @@ class Standing(Shown):
 
     def fall_time_error(self, push: float | ArrayLike, of: Of = "rates") -> float:
         """How far `fall_time` of rates or tilts (N, 2) is from the exact motion's, s, run to a tilt of the sine 0.95 with two
-        tolerances, whose difference is added. The terms left out do not tell it: the last growth, where no order is small
-        beside another, may turn round and begin again. inf where either does not fall in 20 least times; 0 for a number, which
-        is a bound, and where it does not stand.
+        tolerances, whose difference is added. The terms left out are no estimate: in the last growth, which may turn round and
+        begin again, no order is small beside another. inf where either does not fall in 20 least times; 0 for a number, which is
+        a bound, and where it does not stand.
 
         Raises InputError as `fall_time` does, and where 20 least times are more than 10⁴ turns of the fastest mode.
         """

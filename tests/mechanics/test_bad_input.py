@@ -319,7 +319,8 @@ def test_a_refusal_names_the_door(door: str, call: Callable[[], Any]) -> None:
 def test_a_kinetic_energy_that_is_negative_is_said() -> None:
     """A Lagrangian may have one, as that of a geodesic in spacetime; a mass has not."""
     with pytest.warns(LagrotorWarning, match="negative"):
-        run(System(A, M * v**2 / 2 - q**2 / 2), {M: -1})
+        moved = run(System(A, M * v**2 / 2 - q**2 / 2), {M: -1})
+    assert moved.q[:, 0] == pytest.approx(0.1 * np.cosh(moved.t), rel=1e-5)
 
 
 def unit_quaternion() -> System:

@@ -154,19 +154,27 @@ def test_a_coordinate_on_which_no_force_depends_is_named() -> None:
 
 
 def test_equilibria_under_one_constraint_lie_between_rationals() -> None:
-    """A pendulum in x and y; on an ellipse, against its own angle."""
-    kinetic = (u**2 + w**2) / 2
-    pendulum = System(d, kinetic - g * b, constraints=(a**2 + b**2 - R**2,))
+    """A pendulum in x and y."""
+    pendulum = System(d, (u**2 + w**2) / 2 - g * b, constraints=(a**2 + b**2 - R**2,))
     box = {a: (-2, 2), b: (-2, 2)}
     places = pendulum.equilibria(values={g: 9.81, R: 1.5}, box=box)
     assert [(float(e.at[a]), float(e.at[b])) for e in places] == [(0, -1.5), (0, 1.5)]
     assert all(low <= 0 <= high for low, high in (e.enclosure[a] for e in places))
+
+
+@pytest.mark.parametrize(
+    ("box", "inside"),
+    [
+        ({a: (0.3, 3), b: (-0.5, 1.1)}, slice(2, 4)),
+        pytest.param({a: (-3, 3), b: (-3, 3)}, slice(4), marks=pytest.mark.slow),
+    ],
+)
+def test_equilibria_on_an_ellipse_are_those_by_its_own_angle(box: dict, inside: slice) -> None:
+    """A spring to (1/2, 0) and x = 2 cos φ, y = sin φ: sin φ = 0, or cos φ = 1/3."""
     spring = ((a - sp.Rational(1, 2)) ** 2 + b**2) / 2
-    places = System(d, kinetic - spring, constraints=(a**2 / 4 + b**2 - 1,)).equilibria(
-        values={}, box={a: (-1, 3), b: (-2, 2)}
-    )
-    across = np.sqrt(8) / 3  # of x = 2 cos φ, y = sin φ: sin φ = 0, or cos φ = 1/3
-    expected = [(2 / 3, -across), (2 / 3, across), (2, 0)]
+    places = System(d, (u**2 + w**2) / 2 - spring, constraints=(a**2 / 4 + b**2 - 1,)).equilibria(values={}, box=box)
+    across = np.sqrt(8) / 3
+    expected = [(-2, 0), (2 / 3, -across), (2 / 3, across), (2, 0)][inside]
     assert np.array([(e.at[a], e.at[b]) for e in places], float) == pytest.approx(np.array(expected), abs=1e-12)
 
 

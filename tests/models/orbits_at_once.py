@@ -1,4 +1,4 @@
-"""Paired precessions of many pairs side by side in numbers of 64 bits: what the errors that orbits tell are held to.
+"""Paired precessions of many pairs side by side, in numbers of 64 bits: the reference for the errors that orbits give.
 
 Newton's method from the orbits that are tested; the flow and its slope by extrapolated steps of the midpoint rule (Gragg), whose
 weights are rational, so that the steps are as exact as the numbers.
@@ -17,7 +17,7 @@ from lagrotor.numerics import compile_program
 from lagrotor.numerics.codegen import tangent_program
 
 Long = np.longdouble
-ENOUGH = bool(np.finfo(Long).eps < 2e-19)
+ENOUGH = bool(np.finfo(Long).eps < 2e-19)  # a mantissa of 64 bits
 SUBSTEPS = (2, 4, 6, 8, 10)  # order 10
 SMALL = 1e-15  # step of Newton's method, relative, that changes no more
 MOST = 6  # of them

@@ -172,4 +172,4 @@ def test_a_formula_is_what_its_operators_make_of_it(pair: tuple[str, sp.Expr]) -
 @given(st.text(max_size=40))
 def test_any_text_is_read_or_refused(text: str) -> None:
     with suppress(InputError):
-        read(text, NAMES, "here")
+        assert isinstance(read(text, NAMES, "here"), sp.Basic | sp.MatrixBase)

@@ -44,12 +44,14 @@ def test_the_hinge_is_exact_from_upright_to_hanging(theta: float) -> None:
     assert 1.25 * np.hypot(found[0], found[2]) == pytest.approx(2 * theta, rel=1e-13, abs=1e-22)
 
 
-def same(s: Structure, tol: float, **more) -> None:
+def same(s: Structure, tol: float) -> bool:
+    """Whether the runs of both engines agree within their errors, and keep the bars."""
     start = started(s, size=0.05)
     core, fast = (s.simulate(T, **start, tol=tol, engine=engine) for engine in ("core", "fast"))
-    assert np.abs(core.axes - fast.axes).max() < core.error + fast.error < 2 * tol
-    assert np.abs(fast.link_length - np.array([bar[2] for bar in s.bars])[:, None]).max(initial=0) < 1e-12
-    assert fast.axes[:, 0] == pytest.approx(core.axes[:, 0], abs=1e-15) and fast.evaluations > 0
+    off = np.abs(core.axes - fast.axes)
+    stretched = np.abs(fast.link_length - np.array([bar[2] for bar in s.bars])[:, None]).max(initial=0)
+    assert stretched < 1e-12 and off[:, 0].max() <= 1e-15 and fast.evaluations > 0
+    return off.max() < core.error + fast.error < 2 * tol
 
 
 @pytest.fixture
@@ -58,7 +60,7 @@ def heyoka():
 
 
 def test_a_run_of_the_fast_extra_is_that_of_the_core(heyoka) -> None:
-    same(Structure([(0, 0)], spins=20, gravity=9.81, spin_friction=0.3, friction=0.1), 1e-7)
+    assert same(Structure([(0, 0)], spins=20, gravity=9.81, spin_friction=0.3, friction=0.1), 1e-7)
 
 
 def test_it_is_compiled_once_for_all_spins(heyoka) -> None:
@@ -75,7 +77,7 @@ def test_it_is_compiled_once_for_all_spins(heyoka) -> None:
 @pytest.mark.parametrize("tol", [1e-6, 1e-10])
 @pytest.mark.parametrize("s", [*LOADED.values(), nine()], ids=[*LOADED, "nine"])
 def test_a_run_of_any_structure_is_that_of_the_core(heyoka, s, tol) -> None:
-    same(s, tol)
+    assert same(s, tol)
 
 
 @pytest.mark.slow

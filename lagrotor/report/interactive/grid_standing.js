@@ -5,7 +5,7 @@
 // couples the two. With a the inertia of an axis about its joint and kappa the moment of its weight, both the same for all,
 // a motion s of the pair of degrees of freedom with the coupling beta obeys a² s⁴ + (beta² − 2 a kappa) s² + kappa² = 0: it is bounded
 // where beta >= 2 sqrt(a kappa). beta: the singular values of W, W[row][column] the sum of the G of the rotors in both, over
-// the root of the two's numbers of rotors. Freedoms without a partner have beta = 0, and fall at any spin.
+// the root of the two's numbers of rotors. Degrees of freedom without a partner have beta = 0, and fall at any spin.
 
 const SIDE = 3, GRAVITY = 9.81; // m/s²; every rotor has M = R = I1 = I3 = 1
 

@@ -94,8 +94,10 @@ def _key() -> bytes:
     """This user's key, made at the first report; one for this process alone where none can be kept."""
     new = secrets.token_bytes(32)
     with suppress(OSError, RuntimeError):  # no home, or none that can be written to
-        states = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
-        file = Path(states) / "lagrotor" / "report.key"
+        states = Path(os.environ.get("XDG_STATE_HOME", ""))
+        if not states.is_absolute():  # from there a folder that came from elsewhere could bring its own key
+            states = Path.home() / ".local" / "state"
+        file = states / "lagrotor" / "report.key"
         file.parent.mkdir(parents=True, exist_ok=True)
         with suppress(FileExistsError), open(os.open(file, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600), "wb") as made:
             made.write(new)

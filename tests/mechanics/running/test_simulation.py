@@ -388,7 +388,8 @@ def test_a_run_past_dependent_constraints_says_where() -> None:
         board.simulate({l: 0.2}, q0, v0, np.linspace(0, 2, 41))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        board.simulate({l: 0.2}, q0, v0, np.linspace(0, 1, 21))
+        before = board.simulate({l: 0.2}, q0, v0, np.linspace(0, 1, 21))
+    assert before.ending.kind == "end" and before.t[-1] == 1 and before.q[-1, 4] < np.pi / 2
 
 
 def test_constraints_that_turn_round_stay_independent() -> None:
@@ -399,7 +400,8 @@ def test_constraints_that_turn_round_stay_independent() -> None:
     )
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        skate.simulate({}, (0, 0, 0), (1, 0, 3), np.linspace(0, 4, 9))
+        run = skate.simulate({}, (0, 0, 0), (1, 0, 3), np.linspace(0, 4, 9), 1e-8)
+    assert run.q[:, :2] == pytest.approx(np.column_stack([np.sin(3 * run.t), 1 - np.cos(3 * run.t)]) / 3, abs=1e-7)
 
 
 def test_a_complex_lagrangian_is_refused() -> None:
