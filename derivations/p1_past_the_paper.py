@@ -60,6 +60,8 @@ prove(
     "the impulse that cancels the drift",
     names="p_y",
 )
+
+# %%
 cancelling = equal(p_y, impulse)
 walk = equal(wander, sp.factor(t7["alone"]))
 edge = equal(nu, toppling_threshold().expressions[0])
