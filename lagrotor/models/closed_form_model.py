@@ -39,7 +39,7 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> C
         return ClosedMotion(0.0, "at rest and left alone: nothing moves", lambda t: (_still(axes, t), _still(rates, t)))
     if scene.link is None:
         reason = "no bar: each rotor turns about its own angular momentum, exactly"
-        return _tops(axes, rates, scene.rotor.J, scene.momenta, t_end, 0.0, reason)
+        return _tops(axes, rates, scene.rotor.J, scene.momenta, t_end, reason)
     if scene.spins[0] == scene.spins[1]:
         return _parallel(scene, axes, rates, t_end)
     if scene.spins[0] == -scene.spins[1]:
@@ -55,13 +55,7 @@ def _still(value: Array, t: Array) -> Array:
 
 
 def _tops(
-    axes: Array,
-    rates: Array,
-    inertia: float,
-    momenta: tuple[float, float],
-    t_end: float,
-    mismatch: float,
-    reason: str,
+    axes: Array, rates: Array, inertia: float, momenta: tuple[float, float], t_end: float, reason: str
 ) -> ClosedMotion:
     """Two free tops: r turns about L = inertia r × r' + G r at |L|/inertia."""
     turns = (inertia * np.cross(axes, rates) + np.array(momenta)[:, None] * axes) / inertia
@@ -78,7 +72,7 @@ def _tops(
 
     fastest = float(speeds.max()) * t_end
     off = float(np.abs((axes**2).sum(1) - 1).max() + np.abs((axes * rates).sum(1)).max() / (speeds.max() or 1.0))
-    return ClosedMotion(mismatch + (off + ROUND) * (1 + fastest), reason, motion)
+    return ClosedMotion((off + ROUND) * (1 + fastest), reason, motion)
 
 
 def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMotion:
@@ -93,7 +87,7 @@ def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMo
             "use model='linear' or 'minimal'"
         )
     one = _tops(
-        _twice(mean), _twice(mean_rate), own + shared, scene.momenta, t_end, 0.0,
+        _twice(mean), _twice(mean_rate), own + shared, scene.momenta, t_end,
         "equal spins, parallel axes: one rotor of both inertias, exactly",
     )  # fmt: skip
     phases = np.linspace(0, 2 * pi, 65)

@@ -5,6 +5,7 @@ Exact for any bar and any k = ell / R. Singular only where an axis lies along th
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 from math import asin, asinh, atan2, cosh, hypot, sin, sinh
 from typing import TYPE_CHECKING
@@ -102,6 +103,13 @@ def _observe(scene: Scene, states: Array) -> Observed:
     value, ratio = _ratio(scene)
     parts = np.stack(_axes(ratio)(*states.T, value)).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
     return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
+
+
+def scene_at(scene: Scene, state: Array) -> Scene:
+    """The scene, begun in a state of the model (6,)."""
+    seen = MODEL.observe(scene, state[None])
+    axes, rates = (tuple(tuple(map(float, row)) for row in part[:, 0]) for part in (seen.axes, seen.rates))
+    return replace(scene, axes=axes, rates=rates)  # type: ignore[arg-type]
 
 
 def _singular(axes: Array) -> str:

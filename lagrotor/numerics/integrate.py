@@ -30,7 +30,7 @@ Engine = Literal["core", "fast"]
 
 @dataclass(frozen=True)
 class Problem:
-    """y' = free(s, y), or driven(s, y) within the pulse centred `at` with `width`; y = start at t = 0; s = t − at.
+    """y' = free(s, y), or driven(s, y) within the pulse centred `at` with `width`; y = start at t = `begin`; s = t − at.
 
     `project` brings a state (d,), or states (d, n), back onto their constraints; `budget` is how many evaluations the
     run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
@@ -50,6 +50,7 @@ class Problem:
     project: Projection | None = None
     typical_rate: float = 0.0
     time_to_singular: Callable[[Array], float] | None = None
+    begin: float = 0.0
 
 
 def check_tolerance(tol: float) -> float:
@@ -66,7 +67,7 @@ def check_engine(engine: str, caller: str = "simulate") -> None:
 
 
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
-    """Integrate from t = 0 through `times` (increasing, not negative) with a local error `tol`; states (n, d) there.
+    """Integrate from `begin` through increasing `times` with a local error `tol`; states (n, d) there.
 
     In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut
     at the pulse's edges, s = ± 6.5 width; within them no step is longer than `longest` widths, so no tolerance can miss it.
@@ -75,7 +76,7 @@ def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver 
     Raises StopError, with the time, its cause and what was reached, when the solver cannot go on or `budget` is spent.
     """
     t_eval = times - problem.at
-    begin, end = -problem.at, float(t_eval[-1])
+    begin, end = problem.begin - problem.at, float(t_eval[-1])
     parts, y, spent = [np.repeat(problem.start[None], np.count_nonzero(t_eval == begin), axis=0)], problem.start, 0
     for left, right, pulsed in segments(begin, end, problem.width if problem.driven else 0.0):
         if right > left:

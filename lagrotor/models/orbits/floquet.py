@@ -17,16 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
-from lagrotor.models.minimal import MODEL
+from lagrotor.models.minimal import MODEL, scene_at
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
-from lagrotor.models.orbits.variational import flow
+from lagrotor.models.orbits.variational import close_arc, flow
 from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
 
 Array = NDArray[np.float64]
 # Bound of the trace's error, relative to the size of the monodromy; held by tests/theory/test_paired_stability.py.
 _INTEGRATED = 1e-13
-_LAST_STEP = 1e-8  # of Newton's method, relative: the next is its square
 # What reversed time does to the state, about the start and about the end of a quarter of a turn.
 _A, _B = np.array([[1.0, -1, -1, -1, 1, 1], [-1.0, 1, -1, 1, -1, 1]])[..., None]
 
@@ -92,18 +91,10 @@ def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
     scene, start = orbit.scene, MODEL.start(orbit.scene)
     inertia = 2 * sum(scene.inertias) * (1 - scene.axes[0][0] ** 2)
     start = start + np.array([0, 0, 0, 0, 0, momentum / inertia])
-    time, through = pi / 2 / abs(orbit.frequency), flow(scene)
-    for _ in range(12):
-        now = through(start, time)
-        slope = np.column_stack([now.slope[[0, 4], 4], now.rate[[0, 4]]])
-        step = -np.linalg.solve(slope, now.end[[0, 4]])
-        start, time = start + np.array([0, 0, 0, 0, step[0], 0]), time + float(step[1])
-        if not 0 < time < 20 * pi / abs(orbit.frequency):
-            break
-        if np.abs(step / (start[4], time)).max() < _LAST_STEP:
-            rates = MODEL.observe(scene, start[None]).rates[:, 0]
-            pushed = replace(scene, rates=tuple(tuple(map(float, v)) for v in rates))  # type: ignore[arg-type]
-            return replace(orbit, scene=pushed, frequency=copysign(pi / 2 / time, orbit.frequency))
+    turn = 2 * pi / abs(orbit.frequency)
+    start, time = close_arc(flow(scene), start, [4], turn / 4, [0, 4], np.zeros(2), 10 * turn)
+    if time:
+        return replace(orbit, scene=scene_at(scene, start), frequency=copysign(pi / 2 / time, orbit.frequency))
     raise DomainError(f"floquet: no orbit with a momentum of {momentum:g} kg m²/s is found; take a smaller one")
 
 

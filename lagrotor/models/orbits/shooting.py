@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, IntegrationError
-from lagrotor.models.minimal import MODEL
+from lagrotor.models.minimal import scene_at
 from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
@@ -132,13 +132,11 @@ class QuarterPeriod:
 
     def orbit(self, z: Array) -> ExactOrbit:
         """The orbit of the unknowns z, as a scene that starts on it."""
-        seen = MODEL.observe(self.scene, self.state(z)[None])
-        axes, rates = (tuple(tuple(map(float, row)) for row in part[:, 0]) for part in (seen.axes, seen.rates))
         frequency = pi / 2 * self.natural / float(z[3])
         # An error of the quarter period's end, brought back to the unknowns at fixed amplitude, and on to the axes.
         slope = self._slope(z)
         off = INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
-        start = replace(self.scene, axes=axes, rates=rates)  # type: ignore[arg-type]
+        start = scene_at(self.scene, self.state(z))
         return ExactOrbit(start, frequency, off * float(np.linalg.norm(slope)), off * abs(frequency / float(z[3])))
 
 

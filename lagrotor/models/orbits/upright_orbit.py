@@ -10,13 +10,11 @@ from math import atanh, pi
 import numpy as np
 
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models.minimal import MODEL
-from lagrotor.models.orbits.variational import flow
+from lagrotor.models.minimal import scene_at
+from lagrotor.models.orbits.variational import close_arc, flow
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
-
-_LAST_STEP = 1e-8  # of Newton's method, relative: the next is its square
 
 
 @dataclass(frozen=True)
@@ -43,21 +41,14 @@ def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
         )
     if amplitude == 0:
         raise DomainError("upright_orbit: r0 = 0 is the pair at rest; take an amplitude above 0")
-    inertia, through, u = 2 * sum(scene.inertias), flow(scene), atanh(amplitude)
+    inertia, through, natural = 2 * sum(scene.inertias), flow(scene), natural_rate(scene)
     # Delta' of the normal mode; Delta = k chi for a bar shorter than the axes.
-    guess = 2 * scene.sigma * (first - second) * amplitude / inertia / min(scene.k, 1.0)
-    unknowns = np.array([guess, -(first + second) * amplitude / inertia, pi / natural_rate(scene)])
-    for _ in range(12):
-        now = through(np.array([u, 0, 0, 0, *unknowns[:2]]), unknowns[2])
-        slope = np.column_stack([now.slope[[0, 1, 3]][:, [4, 5]], now.rate[[0, 1, 3]]])
-        step = -np.linalg.solve(slope, now.end[[0, 1, 3]] + np.array([u, 0, 0]))
-        unknowns = unknowns + step
-        if not (np.isfinite(unknowns).all() and 0 < unknowns[2] < 20 * pi / natural_rate(scene)):
-            break
-        if np.abs(step).max() < _LAST_STEP * max(1.0, np.abs(unknowns).max()):
-            start = np.array([u, 0, 0, 0, *unknowns[:2]])
-            turned, seen = float(through(start, unknowns[2]).end[2]), MODEL.observe(scene, start[None])
-            axes, rates = (tuple(tuple(map(float, row)) for row in part[:, 0]) for part in (seen.axes, seen.rates))
-            begun = replace(scene, shock=None, axes=axes, rates=rates)  # type: ignore[arg-type]
-            return UprightOrbit(begun, pi / float(unknowns[2]), turned / float(unknowns[2]))
+    twist = 2 * scene.sigma * (first - second) * amplitude / inertia / min(scene.k, 1.0)
+    guess = np.array([atanh(amplitude), 0, 0, 0, twist, -(first + second) * amplitude / inertia])
+    start, time = close_arc(
+        through, guess, [4, 5], pi / natural, [0, 1, 3], np.array([-guess[0], 0, 0]), 20 * pi / natural
+    )
+    if time:
+        turned = float(through(start, time).end[2])
+        return UprightOrbit(scene_at(replace(scene, shock=None), start), pi / time, turned / time)
     raise DomainError(f"upright_orbit: no orbit of amplitude {r0:g} is found; take a smaller one")

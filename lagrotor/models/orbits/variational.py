@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lagrotor.models.programs.minimal_program import Ratio
 
 Array = NDArray[np.float64]
+_LAST_STEP = 1e-8  # of Newton's method, relative: the next is its square
 
 
 @generated((massive, ratio) for massive in (False, True) for ratio in RATIOS)
@@ -60,3 +61,27 @@ def flow(scene: Scene) -> Callable[..., Flow]:
         return Flow(end[:6], end[6:].reshape(6, 6), np.array(plain(time, end[:6])))
 
     return through
+
+
+def close_arc(
+    through: Callable[..., Flow],
+    start: Array,
+    free: list[int],
+    time: float,
+    rows: list[int],
+    end: Array,
+    longest: float,
+) -> tuple[Array, float]:
+    """The start and the time at which these rows of the motion's end are as wanted, by Newton's method in the components `free`
+    of the start and the time; a time of 0 where it finds none below the longest."""
+    for _ in range(12):
+        now = through(start, time)
+        slope = np.column_stack([now.slope[np.ix_(rows, free)], now.rate[rows]])
+        step = -np.linalg.solve(slope, now.end[rows] - end)
+        start, time = start.copy(), time + float(step[-1])
+        start[free] += step[:-1]
+        if not (np.isfinite(start).all() and 0 < time < longest):
+            break
+        if np.abs(step).max() < _LAST_STEP * max(1.0, time, float(np.abs(start[free]).max())):
+            return start, time
+    return start, 0.0

@@ -22,12 +22,12 @@ from lagrotor.numerics.any_run import Ending, Quantity, Run, read_run
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.generated import function_of
-from lagrotor.numerics.integrate import check_tolerance
-from lagrotor.numerics.pulse import COMPANION_STEP, segments
+from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
+from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
-from lagrotor.numerics.segment import StopError, Stretch
+from lagrotor.numerics.segment import Segment, SegmentSolver, StopError, Stretch
 from lagrotor.pair.scene import Shock
 
 OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
@@ -236,58 +236,52 @@ def run_solver(
         ]
         return np.maximum(*(np.linalg.norm(part, axis=-1).max(axis=1) for part in apart))
 
-    def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
-        return _solved(rate, shock, at, width, start, times, local, companion, budget, method)
+    def free(s: float, y: Array) -> list[float]:
+        return rate(y.tolist(), 0.0)
 
-    evolution = Evolution(system.state[: 18 * n_b], integrate, distance, turn, Patience(50_000, 2_000))
+    def driven(s: float, y: Array) -> list[float]:
+        return rate(y.tolist(), _strength(shock, s))
+
+    def integrate_from(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        longest = COMPANION_STEP if companion else 1.0
+        problem = Problem(free, start, budget, driven if shock else None, at, width, longest, begin=float(times[0]))
+        return integrate(problem, times, local, _by_scipy(method))
+
+    evolution = Evolution(system.state[: 18 * n_b], integrate_from, distance, turn, Patience(50_000, 2_000))
     run = estimate_run(evolution, times, tolerance)
     run.warn_unless_kept("run_solver", tolerance)
     known = {"errors": run.errors, "horizon": run.horizon, "evaluations": run.evaluations, "ending": run.ending}
     return _run_of(system, run.t, run.states, known)
 
 
-def _solved(
-    rate: OfState, shock: Shock | None, at: float, width: float, y: Array, times: Array, local: float, companion: bool,
-    budget: float, method: str,
-) -> Stretch:  # fmt: skip
-    """One integration by scipy's solver from times[0], cut at the shock's edges. Raises StopError."""
+def _by_scipy(method: str) -> SegmentSolver:
+    """scipy's solver of a segment, at a twentieth of the local error."""
     from scipy.integrate import solve_ivp
 
-    error, spent, parts = local / 20, 0, [y[None]]
+    def solve(segment: Segment, pulsed: bool, local: float) -> Stretch:
+        spent, inside, error, run = 0, segment.t_eval, local / 20, None
 
-    def counted(s: float, y: Array, acting: Shock | None) -> list[float]:
-        nonlocal spent
-        spent += 1
-        if spent > budget:
-            raise StopError(at + s, f"{spent} evaluations spent", None, spent, "budget")
-        return rate(y.tolist(), _strength(acting, s))
+        def counted(s: float, y: Array) -> list[float]:
+            nonlocal spent
+            spent += 1
+            if spent > segment.budget:
+                raise StopError(segment.left, f"{spent} evaluations spent", evaluations=spent, cause="budget")
+            return segment.rhs(s, y)
 
-    since_peak, reached = times - at, 1
-    for left, right, pulsed in segments(float(since_peak[0]), float(since_peak[-1]), width):
-        if right <= left:
-            continue
-        longest = {"max_step": width * (COMPANION_STEP if companion else 1.0)} if pulsed else {}
-        inside = since_peak[(since_peak > left) & (since_peak <= right)]
-        solved, reason = None, ""
         try:
-            solved = solve_ivp(
-                counted, (left, right), y, method=method, args=(shock if pulsed else None,),
-                t_eval=np.union1d(inside, [right]), rtol=max(error, 2.3e-14), atol=error, **longest,
+            run = solve_ivp(
+                counted, (segment.left, segment.right), segment.start, method=method, max_step=segment.longest,
+                t_eval=np.union1d(inside, [segment.right]), rtol=max(error, 2.3e-14), atol=error,
             )  # fmt: skip
-        except StopError as stop:
-            made = np.concatenate(parts)
-            raise StopError(
-                float(times[reached - 1]), stop.reason, Stretch(made, made[-1], spent), cause="budget"
-            ) from None
+            reason = run.message
         except OUT_OF_RANGE as failure:
             reason = str(failure)
-        if not solved or not solved.success or not np.isfinite(solved.y).all():
-            made = np.concatenate(parts)
-            reason = f"{method}: {solved.message if solved else reason}; lower S or D, or take a larger tol"
-            raise StopError(float(times[reached - 1]), reason, Stretch(made, made[-1], spent))
-        parts.append(solved.y.T[: len(inside)])
-        y, reached = solved.y[:, -1], reached + len(inside)
-    return Stretch(np.concatenate(parts), y, spent)
+        if not run or not run.success or not np.isfinite(run.y).all():
+            reason = f"{method}: {reason}; lower S or D, or take a larger tol"
+            raise StopError(segment.left, reason, evaluations=spent)
+        return Stretch(run.y.T[: len(inside)], run.y[:, -1], spent)
+
+    return solve
 
 
 def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> OfState:

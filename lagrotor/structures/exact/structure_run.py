@@ -237,12 +237,8 @@ def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
 
     def by_steps(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         watch, begin = LineWatch(motion), float(times[0])
-        problem: Any = Problem(watch.observe(rhs), start, budget, at=-begin, project=motion.project, typical_rate=1.0)
-        try:
-            part = integrate(problem, times - begin, local)
-        except StopError as stop:
-            stop.at += begin
-            raise
+        problem = Problem(watch.observe(rhs), start, budget, project=motion.project, typical_rate=1.0, begin=begin)
+        part = integrate(problem, times, local)
         watch.keep(float(times[-1]), part.end)
         try:
             watch.check()
