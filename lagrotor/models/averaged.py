@@ -13,7 +13,6 @@ through N − 2 and N − 4 are parts of it; how the differences of the motions 
 Spins that are not opposite let the axes twist apart freely, so that no motion beside the orbits stays small.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -173,18 +172,6 @@ def swing_rates(forms: Forms) -> Any:
     return rates
 
 
-def slow_slopes(forms: Forms, order: int) -> tuple[_Sums, Callable[[Any], Any]]:
-    """The slopes of the normal form through an order, and from them {y, H} without the swing's own rate, of y (m, 6)."""
-    form, swing = forms.form, swing_rates(forms)
-    slopes = _sums(tuple(form.series.through(order).derivative(j) for j in range(6)))
-
-    def rate(y: Any) -> Any:
-        slope = slopes.at(y)
-        return np.hstack([form.weights * slope[:, 3:], -form.weights * slope[:, :3]]) - swing * y
-
-    return slopes, rate
-
-
 def normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
     """Normal coordinates (6,) of a state of `minimal`, by the form through an order, its azimuth left out.
 
@@ -222,16 +209,19 @@ def slow_course(
     """
     from scipy.integrate import solve_ivp
 
-    rate, vectors = slow_slopes(forms, order)[1], forms.form.vectors[:2]
+    form, swing = forms.form, swing_rates(forms)
+    slopes = _sums(tuple(form.series.through(order).derivative(j) for j in range(6)))
+
+    def rate(_: float, y: Any) -> Any:
+        slope = slopes.at(y[None])[0]
+        return np.concatenate([form.weights * slope[3:], -form.weights * slope[:3]]) - swing * y
 
     def far(_: float, y: Any) -> float:
-        return 1.0 - float(np.abs(vectors @ y).max())
+        return 1.0 - float(np.abs(form.vectors[:2] @ y).max())
 
     far.terminal = True  # type: ignore[attr-defined]
     end = float(t[-1]) or 1e-9  # of the start alone
-    run = solve_ivp(
-        lambda _, y: rate(y[None])[0], (0.0, end), begin, "DOP853", t_eval=t, events=far, rtol=local[0], atol=local[1]
-    )
+    run = solve_ivp(rate, (0.0, end), begin, "DOP853", t_eval=t, events=far, rtol=local[0], atol=local[1])
     if run.status != 0:
         raise DomainError("averaged: the swing's centre moves far from where it began; use model='minimal'")
     return run.y.T, int(run.nfev)

@@ -87,7 +87,7 @@ def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMo
             "use model='linear' or 'minimal'"
         )
     one = _tops(
-        _twice(mean), _twice(mean_rate), own + shared, scene.momenta, t_end,
+        np.tile(mean, (2, 1)), np.tile(mean_rate, (2, 1)), own + shared, scene.momenta, t_end,
         "equal spins, parallel axes: one rotor of both inertias, exactly",
     )  # fmt: skip
     phases = np.linspace(0, 2 * pi, 65)
@@ -98,7 +98,3 @@ def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMo
             "model='minimal' or 'spheres'"
         )
     return ClosedMotion(one.error + (_MAY_PART if apart else 0.0), one.reason, one.motion)
-
-
-def _twice(vector: Array) -> Array:
-    return np.stack([vector, vector])

@@ -22,9 +22,7 @@ from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_s
 from lagrotor.theory.natural_rate import natural_rate
 
 _ORDER = 6
-_PHASES = (
-    2 * _ORDER
-)  # of the swing, over which a mean is taken: every harmonic of the form and of its products averages out
+_PHASES = 2 * _ORDER  # of the swing: every harmonic of the form and of its products averages out over them
 _PARTS = 8  # of the duration: the largest rate of any is taken
 _LEAST = 4  # turns of the swing after the pulse, below which no mean over a run tells the drift from the swing (`mean_error`)
 _LOCAL = 1e-7, 1e-10  # errors of the slow motion's integration

@@ -35,11 +35,8 @@ FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which smal
 _SAFETY = 1.1  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02
 FARTHEST_OFF = 0.1  # estimated error beyond which the next orders are no estimate
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
-_A_PART, _A_TURN = (
-    17,
-    24,
-)  # points of the error's quadrature: in all before, within and after a pulse each, and more a turn
-_MOST = 100_000  # the most it takes
+# Points of the error's quadrature: in all before, within and after a pulse each, more a turn, and the most.
+_A_PART, _A_TURN, _MOST = 17, 24, 100_000
 
 
 @dataclass(frozen=True, eq=False)

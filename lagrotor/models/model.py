@@ -271,13 +271,11 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _MOST_PANELS = 2_000  # beyond, the work of a broad pulse is not followed
 
 
-def _lower_order() -> Array:
-    """Weights (12,) that integrate polynomials up to the ninth degree, the two nodes in the middle left out."""
-    kept = np.r_[0:5, 7:12]
-    moments = [(1 - (-1) ** (n + 1)) / (n + 1) for n in range(10)]
-    weights = np.zeros(12)
-    weights[kept] = np.linalg.solve(np.vander(_NODES[kept], increasing=True).T, moments)
-    return weights
+# Weights that integrate polynomials up to the ninth degree, the two nodes in the middle left out.
+_KEPT, _LOWER = np.r_[0:5, 7:12], np.zeros(12)
+_LOWER[_KEPT] = np.linalg.solve(
+    np.vander(_NODES[_KEPT], increasing=True).T, [2 / (n + 1) * (1 - n % 2) for n in range(10)]
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,7 +302,7 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
     edges = np.linspace(begin, end, count + 1)
     half = np.diff(edges)[:, None] / 2
     t = (edges[:-1, None] + half * (1 + _NODES)).ravel()
-    return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _lower_order()).ravel(), end)
+    return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _LOWER).ravel(), end)
 
 
 def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> Array:

@@ -39,9 +39,8 @@ from lagrotor.shown import scientific
 LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
 BY_NAME = Patience(20_000, 250 * 2 * pi)
-REPLACEABLE = Patience(
-    1_000, 500 * 2 * pi
-)  # where a looser run may take its place: five times as many serve none better
+# Where a looser run may take its place: five times as many serve none better.
+REPLACEABLE = Patience(1_000, 500 * 2 * pi)
 LONG_RUN = Calibrated(
     300.0,
     "turns beyond which the averaged motion is tried before one is integrated",
@@ -90,10 +89,7 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
     of a pair with its bar takes engine = "fast" less time than that estimate, and is integrated at once. An integrated
     model is held to `tol` while it runs: see `lagrotor.numerics.estimated_run`.
     """
-    turns, missed = (
-        typical_rate(scene) * t_end / (2 * pi),
-        "a run too short to estimate the cheaper ones' errors",
-    )
+    turns, missed = typical_rate(scene) * t_end / (2 * pi), "a run too short to estimate the cheaper ones' errors"
     if engine == "core" or scene.link is None or turns > SHORT.value:
         try:
             motion = closed_form(scene, t_end, tol)
@@ -275,14 +271,6 @@ class _Door:
             refusal.args = (f"{model.name}: {refusal}",)
             raise
 
-    def _is_slack(self, name: str) -> bool:
-        """Whether the constraints of a model are so nearly dependent at the start that rounding may exceed `tol`."""
-        model, axes, rates = MODELS[name], self.units.scene.axes, self.units.scene.rates
-        if model.slack is None:
-            return False
-        start = np.concatenate([*axes, *rates])
-        return bool(MOST_SLACK.value * np.finfo(float).eps * model.slack(start[None])[0] > self.tol)
-
     def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
         """The model that `auto` takes, why, and its run: the first of the ladder that reaches the end, from the chosen one on;
         else the one that comes farthest."""
@@ -290,7 +278,10 @@ class _Door:
         # Where none reaches the end, those before the last go on where they are badly conditioned.
         tries = [(model, model is not LADDER[-1]) for model in LADDER[begun:]]
         unbounded = [(model, False) for model in LADDER[:-1] if self.units.scene.link]
-        slack = bool(unbounded) and self._is_slack(choice.model)
+        # Whether the constraints are so nearly dependent at the start that rounding may exceed `tol`.
+        slack, start = False, np.concatenate([*self.units.scene.axes, *self.units.scene.rates])
+        if unbounded and (off := MODELS[choice.model].slack):
+            slack = bool(MOST_SLACK.value * np.finfo(float).eps * off(start[None])[0] > self.tol)
         tries = [*unbounded, *tries] if slack else [*tries, *unbounded]
         why = (
             f"beside a dead point rounding of the constraints of {choice.model} may exceed tol"

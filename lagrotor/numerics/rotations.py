@@ -52,7 +52,9 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
     angle = h * (spins[:, None] + swept / (6 * (1 + (r0 * r1).sum(-1))))
     steps = carried @ turn_about(r0, angle)
     Q = np.empty((*axes.shape, 3))
-    Q[:, 0] = _from_upright(axes[:, 0])
+    e_z, side = np.eye(3)[2], np.where(axes[:, 0, :1] < 0, -1.0, 1.0) * np.eye(3)[0]
+    over = np.where(axes[:, 0, 2:] < 0, side, e_z)
+    Q[:, 0] = turn_between(over, axes[:, 0]) @ turn_between(e_z, over)
     for i in range(len(h)):
         Q[:, i + 1] = steps[:, i] @ Q[:, i]
     return Q
@@ -80,14 +82,6 @@ def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[
     r /= size
     v /= size
     return r, v - (v * r).sum(-1, keepdims=True) * r
-
-
-def _from_upright(axes: Array) -> Array:
-    """Rotations (k, 3, 3) from e_z to the axes (k, 3): the shortest, or for those that hang down by way of ±e_x."""
-    e_z = np.broadcast_to([0.0, 0.0, 1.0], axes.shape)
-    side = np.where(axes[:, :1] < 0, -1.0, 1.0) * np.array([1.0, 0.0, 0.0])
-    over = np.where(axes[:, 2:] < 0, side, e_z)
-    return turn_between(over, axes) @ turn_between(e_z, over)
 
 
 def turn_about(n: Array, angle: Array) -> Array:

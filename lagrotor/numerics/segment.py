@@ -58,6 +58,7 @@ class Stretch:
 
 
 SegmentSolver = Callable[[Segment, bool, float], Stretch]  # a segment, whether within a pulse, a local error
+Integrate = Callable[[Array, Array, float, bool, float], Stretch]  # start, times, local error, companion, budget
 Cause = Literal["budget", "singular", "event", "stopped"]
 WAYS_OUT = {
     "budget": "take a larger tol or a shorter run",

@@ -157,7 +157,11 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
             lanes = kept + kept[-1:] * (LANES - len(kept))  # the last few are filled up with copies
             m = len(legs[lanes[-1]].times)
             # A shorter one is read once more and again where it ends, at neighbouring doubles.
-            grid = np.array([_lengthened(legs[i].times - legs[i].times[0], m) for i in lanes]).T
+            since, later = (
+                [legs[i].times - legs[i].times[0] for i in lanes],
+                1 + 4 * np.finfo(float).eps * np.arange(1, m),
+            )
+            grid = np.array([np.append(t, t[-1] * later[: m - len(t)]) for t in since]).T
             solver.set_time(np.zeros(LANES))
             solver.state[:d] = np.array([legs[i].start for i in lanes]).T
             solver.state[d] = [dummy_size(legs[i].local, order) for i in lanes]
@@ -174,12 +178,6 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
                 reason = "the Taylor series has no step"
                 answers[i] = StopError(float(legs[i].times[max(n, 1) - 1]), reason, made) if stopped else made
     return answers
-
-
-def _lengthened(times: Array, m: int) -> Array:
-    """Increasing times (n,), followed by neighbouring doubles up to m."""
-    more = times[-1] * (1 + 4 * np.finfo(float).eps * np.arange(1, m - len(times) + 1))
-    return np.concatenate([times, more])
 
 
 def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:

@@ -68,7 +68,9 @@ def _search(
     near &= np.abs(values).max(1) > touch + noise  # what lies on the section crosses nothing
     if not (falling | ~near).all() or not np.isfinite(values).all():
         if halvings == 0:
-            _between_nodes(values, middle + half * _NODES, parts)
+            signs, t = np.sign(values), middle + half * (_NODES[:-1] + _NODES[1:]) / 2
+            for row, k in np.argwhere(signs[:, :-1] * signs[:, 1:] < 0).tolist():  # all that is known: a change of sign
+                parts.append((float(t[k]), row, int(signs[row, k + 1])))
             return left, right
         ends = [(left, middle), (middle, right)]
         hidden = [_search(functions, a, b, touch, noise, parts, halvings - 1) for a, b in ends]
@@ -90,15 +92,11 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
     turns = [x for x in _real_roots(slope) if abs(chebyshev.chebval(x, series)) <= touch]
     crossed = []
     for x in _real_roots(series):
-        # A pair of zeros at a turn that stays within `touch` is one touched zero.
-        if not any(_same_side(series, x, turn, touch) for turn in turns):
+        # A pair of zeros at a turn is one touched zero, where nothing between zero and turn exceeds `touch`.
+        between = (np.abs(chebyshev.chebval(np.linspace(x, turn, 9), series)).max() for turn in turns)
+        if not any(largest <= 1.01 * touch for largest in between):
             crossed.append((x, 1 if chebyshev.chebval(x, slope) > 0 else -1))
     return crossed + [(x, 0) for x in turns]
-
-
-def _same_side(series: Array, x: float, turn: float, touch: float) -> bool:
-    """Whether nothing between a zero and a turn exceeds `touch`."""
-    return bool(np.abs(chebyshev.chebval(np.linspace(x, turn, 9), series)).max() <= 1.01 * touch)
 
 
 def _keeps_its_sign(series: Array) -> bool:
@@ -114,13 +112,6 @@ def _real_roots(series: Array) -> list[float]:
     roots = chebyshev.chebroots(trimmed)
     real = roots[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1 + _SLACK)].real
     return sorted(float(x) for x in np.clip(real, -1, 1))
-
-
-def _between_nodes(values: Array, t: Array, parts: list[tuple[float, int, int]]) -> None:
-    """What can be said of a function that is not resolved: where it changes sign between two nodes."""
-    for i, row in enumerate(values):
-        for k in np.flatnonzero(np.sign(row[:-1]) * np.sign(row[1:]) < 0):
-            parts.append((float((t[k] + t[k + 1]) / 2), i, int(np.sign(row[k + 1] - row[k]))))
 
 
 def _each_once(parts: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:

@@ -35,11 +35,8 @@ from lagrotor.structures.resonances import (
 from lagrotor.structures.small_motion import small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
-_ORDERS = {
-    4: 6,
-    6: 5,
-    MOST_DOF: 4,
-}  # of the normal form, N + 1, by the degrees of freedom up to which it is expanded so far
+# Of the normal form, N + 1, by the degrees of freedom up to which it is expanded so far.
+_ORDERS = {4: 6, 6: 5, MOST_DOF: 4}
 _ZERO = 1e-9  # of the largest coefficient: what moves it apart by less is rounding
 _DETUNINGS = (0.0, 1e-3, 1e-2, 0.1)  # of the largest rate: what is nearer is kept as a resonance
 

@@ -326,9 +326,8 @@ def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: flo
     push = finite_array("fall_time: push", given)
     off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
     most = np.abs(push).max()
-    if (
-        np.abs(off).max() > (_ON_BARS + (4 * most if of == "tilts" else 0)) * most
-    ):  # exact tilts are off by their squares
+    room = _ON_BARS + (4 * most if of == "tilts" else 0)  # exact tilts are off by their squares
+    if np.abs(off).max() > room * most:
         raise InputError(f"fall_time: push: the bars do not allow these {of}: what each joins must keep its distance")
     start = np.linalg.inv(n.vectors) @ (start_of_push(s, 1.0, of) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, 3)])[:size]

@@ -69,7 +69,10 @@ def test_a_grid_is_solved_sparsely_and_to_the_same_numbers() -> None:
     np.add.at(left, c.i, c.coupling[:, None] * found[c.j] + lam[L * L :, None] * pull_i)
     np.add.at(left, c.j, c.coupling[:, None] * found[c.i] + lam[L * L :, None] * pull_j)
     assert np.abs(left).max() < 1e-9 * np.abs(found).max()
-    assert np.isnan(replace(motion.saddle).solve(0 * r, motion.pulls(0 * r), np.ones(4 * L * L + len(bars)))).all()
+    still = 0 * r[None]
+    assert np.isnan(
+        replace(motion.saddle).solve(still, motion.pulls(still), np.ones((1, len(bars) + 4 * L * L, 1)))
+    ).all()
 
 
 def test_a_long_chain_moves() -> None:

@@ -15,15 +15,12 @@ from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
-from lagrotor.numerics.segment import Projection, StopError, Stretch
+from lagrotor.numerics.segment import Integrate, Projection, StopError, Stretch
 from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_rhs, taylor_solver
 
 Array = NDArray[np.float64]
 Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
-Integrate = Callable[
-    [Array, Array, float, bool, float], Stretch
-]  # start, times, local error, companion, budget → states
 _LIKE = 8.0  # ratio of a component to one below which none is scaled
 
 

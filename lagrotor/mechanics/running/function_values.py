@@ -60,17 +60,13 @@ class FunctionValue:
             values = real.reshape(places[0].shape)
             if not any(np.iscomplexobj(p) for p in places):
                 return values
-            slopes = [
-                p.imag * self._slope(where, orders, i)(*(p.real for p in places))
-                for i, p in enumerate(places)
-                if p.imag.any()
-            ]
-            return values + 1j * sum(slopes, np.zeros(values.shape))
+            for i, p in enumerate(places):
+                if p.imag.any():
+                    slope = self.jet(where, (*orders[:i], orders[i] + 1, *orders[i + 1 :]))
+                    values = values + 1j * p.imag * slope(*(p.real for p in places))
+            return values + 0j
 
         return call
-
-    def _slope(self, where: str, orders: Orders, i: int) -> Callable[..., Any]:
-        return self.jet(where, (*orders[:i], orders[i] + 1, *orders[i + 1 :]))
 
     def _known(self, where: str, orders: Orders) -> Callable[..., Any]:
         if self.knots is not None and len(orders) == 1:

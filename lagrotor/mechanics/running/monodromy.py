@@ -45,18 +45,12 @@ class MonodromyMatrix:
 
 def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, period: float) -> MonodromyMatrix:
     """`System.floquet`."""
-    try:
-        duration = np.nan if isinstance(period, str | bool) else float(period)
-    except (TypeError, ValueError):
-        duration = np.nan
+    duration = _number(period)
     if not 0 < duration < np.inf:
         raise InputError(f"floquet: period = {period!r} must be a positive time in s")
     check_values("floquet", system, values)
     given_time = {str(s): x for s, x in at.items()}.get(str(t), 0) if isinstance(at, Mapping) else 0
-    try:
-        begin = np.nan if isinstance(given_time, str | bool) else float(given_time)
-    except (TypeError, ValueError):
-        begin = np.nan
+    begin = _number(given_time)
     if not np.isfinite(begin):
         raise InputError(f"floquet: t = {given_time!r} must be a time in s")
     given = motion_program(system)
@@ -96,3 +90,11 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
 def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:
     """The rate of (q, u), and its derivatives by them."""
     return slope[0][:size], slope[1][:size, :size]
+
+
+def _number(given: Any) -> float:
+    """NaN for what is none."""
+    try:
+        return np.nan if isinstance(given, str | bool) else float(given)
+    except (TypeError, ValueError):
+        return np.nan

@@ -14,7 +14,7 @@ from lagrotor.algebra.subexpressions import written
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
-from lagrotor.mechanics.running.flow import Array, Integrate, Values, smooth_motion
+from lagrotor.mechanics.running.flow import Array, Values, smooth_motion
 from lagrotor.mechanics.running.function_values import FunctionValue, with_values
 from lagrotor.mechanics.running.phases import Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
@@ -23,6 +23,7 @@ from lagrotor.mechanics.running.scales import Scales
 from lagrotor.numerics.any_run import Quantity, Run
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
+from lagrotor.numerics.segment import Integrate
 
 Kind = TypeVar("Kind", bound="SampledMotion")
 

@@ -68,10 +68,6 @@ class Generated:
     parameters: tuple["sp.Symbol | Jet", ...]
 
     @cached_property
-    def state_names(self) -> tuple[str, ...]:
-        return tuple(map(str, self.states))
-
-    @cached_property
     def letters(self) -> tuple[str, ...]:
         """The names of the parameters that are numbers."""
         return tuple(str(p) for p in self.parameters if not isinstance(p, Jet))
@@ -479,7 +475,7 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
         names = [str(key) for key in values]
         twice = sorted({name for name in names if names.count(name) > 1})
         raise InputError(f"{where}: {', '.join(twice)} with two values, of the symbol and of its name: give one")
-    if moving := [name for name in given.state_names if name in by_name]:
+    if moving := [str(s) for s in given.states if str(s) in by_name]:
         raise InputError(
             f"{where}: values give {', '.join(moving)} a value, which moves: a start is given by q0 and v0, a time by t"
         )

@@ -10,7 +10,6 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.flow import (
     Array,
-    Integrate,
     Rhs,
     Values,
     projection_of,
@@ -21,7 +20,7 @@ from lagrotor.mechanics.running.flow import (
 from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values, velocities_along
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.segment import Segment, StopError, Stretch
+from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
 _PER_TURN = 50  # evaluations that the survey takes for a turn
@@ -128,7 +127,7 @@ def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
     places, speeds = np.maximum(np.abs(q), np.abs(v) / rate), np.maximum(np.abs(u), np.abs(a) / rate)
     if m == n:
         places, speeds = np.maximum(places, np.abs(a) / rate / rate), np.maximum(speeds, np.abs(q) / span)
-    return np.concatenate([_without_zeros(places), _without_zeros(speeds)])
+    return np.concatenate([_positive(places, 1e-6), _positive(speeds, 1e-6)])
 
 
 def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]:
@@ -140,11 +139,6 @@ def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]
         moved[j] += step
         slope[:, j] = (np.asarray(bare(0.0, moved), float)[:size] - known) / step
     return np.asarray(np.linalg.eigvals(slope) if np.isfinite(slope).all() else [0.0], complex)
-
-
-def _without_zeros(sizes: Array) -> Array:
-    largest = float(sizes.max()) or 1.0
-    return np.where(sizes > 1e-6 * largest, sizes, largest)
 
 
 def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Array:
@@ -178,6 +172,7 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
     return np.concatenate([places, speeds])
 
 
-def _positive(sizes: Array) -> Array:
+def _positive(sizes: Array, least: float = 0.0) -> Array:
+    """The sizes, the largest one for those that are not finite or no more than `least` of it."""
     largest = float(np.nanmax(sizes, initial=0.0)) or 1.0
-    return np.where(np.isfinite(sizes) & (sizes > 0), sizes, largest)
+    return np.where(np.isfinite(sizes) & (sizes > least * largest), sizes, largest)

@@ -11,9 +11,7 @@ from lagrotor.mechanics.running.programs import Generated, energy_program, mass_
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
-_SINGULAR = (
-    1e-6  # least eigenvalue of the mass matrix over that at the start; of the cosines of the constraints' normals
-)
+_SINGULAR = 1e-6  # least eigenvalue of the mass matrix over that at the start; least cosine of the constraints' normals
 _TAKES_PART = 0.2  # component of a direction from which on a coordinate is named
 
 

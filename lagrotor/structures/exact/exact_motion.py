@@ -54,7 +54,7 @@ class ExactMotion:
         c = self.c
         swing = c.R[c.j, None] * v[c.j] - c.R[c.i, None] * v[c.i]
         right = np.concatenate([self.forces(t, r, v).ravel(), -(v * v).sum(1), -(swing * swing).sum(1)])
-        return self.saddle.solve(r, self.pulls(r), right)
+        return self.saddle.solve(r[None], self.pulls(r[None]), right[None, :, None])[0, :, 0]
 
     def pulls(self, r: Array) -> tuple[Array, Array]:
         """−R_i d and R_j d of the bars (…, B, 3), d from tip i to tip j: half the gradients of |d|²; r (…, N, 3)."""
@@ -172,7 +172,7 @@ class ExactMotion:
         right[:, 3 * N :, 0], right[:, 3 * N : 4 * N, 1], right[:, 4 * N :, 1] = -self.off(r), -(r * v).sum(-1), -rates
         at_once = max(_ROWS // right.shape[1], 1)
         moved = [
-            self.saddle.solve_each(r[part], (first[part], second[part]), right[part])[:, : 3 * N]
+            self.saddle.solve(r[part], (first[part], second[part]), right[part])[:, : 3 * N]
             for part in (slice(k, k + at_once) for k in range(0, len(states), at_once))
         ]
         return (states + np.concatenate(moved).swapaxes(1, 2).reshape(states.shape)).T.reshape(y.shape)

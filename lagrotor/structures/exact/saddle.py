@@ -35,18 +35,8 @@ class Saddle:
     places: Index
 
     def solve(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
-        """The unknowns (n,) for axes r (N, 3), gradients of the bars by r_i and r_j (B, 3), and the right side (n,).
-
-        A singular system gives NaN.
-        """
-        entries = np.concatenate([r.ravel(), pulls[0].ravel(), pulls[1].ravel()])
-        b = np.empty_like(right)
-        b[self.order] = right
-        x = self._solve_in_band(entries, b) if self.band <= _WIDEST else self._solve_sparse(entries, b)
-        return x[self.order]
-
-    def solve_each(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
-        """The unknowns (s, n, k) of s states, r (s, N, 3), the gradients (s, B, 3), right sides (s, n, k).
+        """The unknowns (s, n, k) of s states with axes r (s, N, 3), gradients of the bars by r_i and r_j (s, B, 3), and right
+        sides (s, n, k).
 
         A singular system gives NaN, for its own state only.
         """
@@ -60,17 +50,10 @@ class Saddle:
             ab = np.repeat(self.base.reshape(1, -1), states, axis=0)
             ab[:, self.places] = np.concatenate([entries, entries], axis=1)
             x = in_band(self.band, ab.reshape(states * n, -1), b.reshape(-1, k).copy()).reshape(right.shape)
-            if not np.isfinite(x).all():  # one of them is singular, and they were solved as one
-                x = np.array([self._solve_in_band(*each) for each in zip(entries, b, strict=True)])
+            if states > 1 and not np.isfinite(x).all():  # one of them is singular, and they were solved as one
+                each = (slice(i, i + 1) for i in range(states))
+                return np.concatenate([self.solve(r[i], (pulls[0][i], pulls[1][i]), right[i]) for i in each])
         return np.asarray(x[:, self.order])
-
-    def _solve_in_band(self, entries: Array, b: Array) -> Array:
-        ab = self.base.copy()
-        half = len(entries)
-        flat = ab.reshape(-1)
-        flat[self.places[:half]] = entries
-        flat[self.places[half:]] = entries
-        return in_band(self.band, ab, b)
 
     def _solve_sparse(self, entries: Array, b: Array) -> Array:
         from scipy.sparse import csc_matrix

@@ -1,6 +1,5 @@
 """A structure's run: exact motion from a tilt and its rates, with its error estimate; what it holds, its pictures, its file."""
 
-from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from math import pi
 from pathlib import Path
@@ -14,7 +13,7 @@ from lagrotor.numerics.any_run import Quantity, Run, read_run
 from lagrotor.numerics.arrays import check_times, finite_array
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
-from lagrotor.numerics.segment import StopError, Stretch
+from lagrotor.numerics.segment import Integrate, StopError, Stretch
 from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.coefficients import Array, coefficients
@@ -162,9 +161,6 @@ class StructureRun(Run):
 
 
 _PATIENCE = Patience(50_000, 2_000 * 2 * pi)
-Integrate = Callable[
-    [Array, Array, float, bool, float], Stretch
-]  # start, times, local error, companion, budget → states
 
 
 def simulate_structure(
@@ -194,7 +190,10 @@ def simulate_structure(
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     shape, begin = (len(s.joints), 3), float(times[0])
-    drives = _try_drive(drive, "drive", shape, times), _try_drive(ground, "ground", shape[1:], times)
+    drives = [
+        None if given is None else _TriedDrive(given, name, size, times)
+        for given, name, size in ((drive, "drive", shape), (ground, "ground", shape[1:]))
+    ]
     motion = exact_motion(s, *(each and each.since(begin) for each in drives))
     c = motion.c
     conserved = not (any(drives) or c.decay.any() or c.friction.any() or c.damping.any())
@@ -289,12 +288,22 @@ def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
 
 @dataclass
 class _TriedDrive:
-    """A drive that gives NaN, and says why, where what was given for it fails or gives no finite array of its shape."""
+    """A drive, tried at the times of a run, that gives NaN where what was given fails or gives no finite array of its shape."""
 
     given: Drive
     name: str
     shape: tuple[int, ...]
+    times: Array
     why: str = ""
+
+    def __post_init__(self) -> None:
+        if not callable(self.given):
+            raise InputError(
+                f"simulate: {self.name} = {self.given!r} must be a function t → array of shape {self.shape}"
+            )
+        for t in self.times.tolist():
+            self(t)
+            self.refuse()
 
     def __call__(self, t: float) -> Array:
         where = f"simulate: {self.name} at t = {t:g}"
@@ -314,16 +323,3 @@ class _TriedDrive:
         """Raises InputError where it has failed."""
         if self.why:
             raise InputError(self.why) from None
-
-
-def _try_drive(drive: Drive | None, name: str, shape: tuple[int, ...], times: Array) -> _TriedDrive | None:
-    """The drive, tried at the times of the run."""
-    if drive is None:
-        return None
-    if not callable(drive):
-        raise InputError(f"simulate: {name} = {drive!r} must be a function t → array of shape {shape}")
-    tried = _TriedDrive(drive, name, shape)
-    for t in times.tolist():
-        tried(t)
-        tried.refuse()
-    return tried

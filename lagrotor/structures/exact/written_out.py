@@ -10,6 +10,7 @@ it holds: before, its pivot is zero; after, it is not, as the masses are positiv
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from math import comb
 from typing import Any
 
@@ -74,7 +75,12 @@ def eliminate_in_levels(
                 pivots[j].append(-(shares[j] * entry))
                 b[j].append(-(shares[j] * own))
                 del rows[j][i]
-            _couple(rows, list(row), shares, row)
+            for one, other in combinations(row, 2):
+                between = -(shares[one] * row[other])
+                if other in rows[one]:
+                    rows[one][other].append(between)
+                else:
+                    rows[one][other] = rows[other][one] = [between]
             done.append((i, inverse, own, shares))
             left.discard(i)
     return Elimination(done, pivots, rows, b)
@@ -93,17 +99,6 @@ def _level(left: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) 
             chosen.append(i)
             beside.update(rows[i])
     return chosen
-
-
-def _couple(rows: list[dict[int, Terms]], ends: list[int], shares: Mapping[int, Any], row: Mapping[int, Any]) -> None:
-    """What an eliminated unknown leaves between each two of its neighbours."""
-    for k, i in enumerate(ends):
-        for j in ends[k + 1 :]:
-            left = -(shares[i] * row[j])
-            if j in rows[i]:
-                rows[i][j].append(left)
-            else:
-                rows[i][j] = rows[j][i] = [left]
 
 
 _Vector = list[Any]
