@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from lagrotor.paper.rotor_pair.own_paper import audit as audit
     from lagrotor.structures.assembly import Brace as Brace
     from lagrotor.structures.structure import Structure as Structure
-    from lagrotor.structures.waves.pattern import Pattern as Pattern
+    from lagrotor.structures.waves.patterns import Pattern as Pattern
     from lagrotor.theory.drift_after_shock import cancelling_force as cancelling_force
     from lagrotor.theory.drift_after_shock import toppling_after_shock as toppling_after_shock
     from lagrotor.theory.natural_rate import natural_rate as natural_rate

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from lagrotor.models.orbits.continuation import trace_family as trace_family
     from lagrotor.models.orbits.periodic_orbit import fourier_orbit as fourier_orbit
     from lagrotor.models.orbits.periodic_orbit import parting as parting
+    from lagrotor.models.orbits.shooting import UprightOrbit as UprightOrbit
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
-    from lagrotor.models.orbits.upright_orbit import UprightOrbit as UprightOrbit
-    from lagrotor.models.orbits.upright_orbit import upright_orbit as upright_orbit
+    from lagrotor.models.orbits.shooting import upright_orbit as upright_orbit
     from lagrotor.models.spring_link.rigid_body import RigidBody as RigidBody
     from lagrotor.models.spring_link.rigid_body import finite_rotation as finite_rotation
     from lagrotor.models.spring_link.rigid_body import inertia_transform as inertia_transform

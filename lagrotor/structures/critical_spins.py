@@ -1,4 +1,4 @@
-"""The least factor on all its spins from which on a structure stands upright to first order.
+"""The least factor on all its spins from which on a structure stands upright to first order, and the signs for which it is least.
 
 What weight tips over, spin alone may hold. Without friction, K the stiffness and B the gyroscopic matrix on the n degrees of
 freedom:
@@ -16,15 +16,20 @@ Friction on every axis undoes it: what fell still falls, however slowly (Kelvin,
 All of this is the linear motion.
 """
 
+from dataclasses import dataclass
+from itertools import product
 from math import inf
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.small_motion import SmallMotion, small_motion
 
+_MOST = 12  # rotors whose patterns of signs are tried
+_SAME = 1e-9  # relative: spins as near as that are one
 _GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: where thresholds are looked for when K is of both signs
 
 
@@ -105,3 +110,37 @@ def _by_scan(linear: SmallMotion) -> float:
         middle = (low + high) / 2
         low, high = (middle, high) if linear.at_spins(middle).growth > 0 else (low, middle)
     return float(high)
+
+
+@dataclass(frozen=True)
+class Patterns:
+    """tried: patterns; standing: how many stand at some spin; least: the least spin (rad/s, inf where none); best: the
+    first pattern that needs it.
+    """
+
+    tried: int
+    standing: int
+    least: float
+    best: tuple[int, ...]
+
+
+def sign_patterns(s: Assembly) -> Patterns:
+    """The structure of equal |spin| with each pattern of signs, the first sign +; at most 12 rotors.
+
+    A turn of all signs changes nothing (a mirror image).
+
+    Raises:
+        InputError: for more rotors.
+    """
+    N = len(s.joints)
+    if N > _MOST:
+        raise InputError(f"sign_patterns: {N} rotors have 2^{N - 1} patterns: at most {_MOST} rotors")
+    linear = small_motion(s)
+    I3 = np.array([rotor.I3 for rotor in s.rotor])
+    needed = {}
+    for rest in product((1, -1), repeat=N - 1):
+        signs = (1, *rest)
+        needed[signs] = spin_threshold(linear.with_momenta(I3 * np.array(signs)))
+    least = min(needed.values())
+    best = next(signs for signs, spin in needed.items() if spin <= least * (1 + _SAME))
+    return Patterns(len(needed), sum(v < inf for v in needed.values()), least, best)

@@ -1,8 +1,11 @@
-"""The paired precession of opposite spins as the exact model has it: a periodic orbit found by shooting.
+"""Periodic orbits of the exact model found by shooting: Newton's method takes the exact Jacobian of the flow.
 
-At Phi = 0 the axes are parallel in the x-z plane and turn through it (chi = alpha = 0, U' = 0, x = r_0); a quarter
-period later the symmetries put U = alpha = 0, chi' = 0. Unknown are u = artanh r_0, chi'(0), alpha'(0) (in units of
-Omega_0) and the quarter period's phase Omega_0 t; Newton's method takes the exact Jacobian of the flow.
+Of the paired precession of opposite spins the axes are parallel at Phi = 0 in the x-z plane and turn through it (chi = alpha = 0,
+U' = 0, x = r_0); a quarter period later the symmetries put U = alpha = 0, chi' = 0. Unknown are u = artanh r_0, chi'(0),
+alpha'(0) (in units of Omega_0) and the quarter period's phase Omega_0 t.
+
+About upright, with spins that are not opposite, x swings between ±r_0, and the orbit closes up to a turn: at Phi = 0 and half a
+turn later the axes are parallel and U is stationary at ±artanh r_0. Unknown are chi'(0), alpha'(0) and the time of half a turn.
 """
 
 from dataclasses import dataclass, replace
@@ -11,11 +14,12 @@ from math import atanh, copysign, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.errors import DomainError, IntegrationError
+from lagrotor.errors import DomainError, InputError, IntegrationError
 from lagrotor.models.minimal import scene_at
-from lagrotor.models.orbits.variational import flow
+from lagrotor.models.orbits.variational import close_arc, flow
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
+from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import shape_of
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 
@@ -153,3 +157,40 @@ def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     z = family.follow(None, abs(r0))
     # Of −r0: the same orbit half a period later.
     return family.orbit(z * np.array([copysign(1, r0), copysign(1, r0), 1.0, 1.0]))
+
+
+@dataclass(frozen=True)
+class UprightOrbit:
+    """A scene that starts on the orbit at Phi = 0, its frequency (rad/s), and the mean rate alpha' of turning about the joint
+    line (rad/s)."""
+
+    scene: Scene
+    frequency: float
+    turning: float
+
+
+def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
+    """The orbit of amplitude r0 = sin(inclination) where the axes are parallel, of the scene's rotor, bar and spins.
+
+    Raises:
+        InputError: without a bar, without spin, and for opposite spins, whose orbit is `exact_orbit`.
+        DomainError: unless 0 < |r0| < 1, and where Newton's method, begun at the linear motion, finds none.
+    """
+    amplitude, (first, second) = amplitude_of(r0, "upright_orbit"), scene.momenta
+    if scene.link is None or first + second == 0:
+        raise InputError(
+            f"upright_orbit: needs a bar and spins that are not opposite, not {scene.spins}; see exact_orbit"
+        )
+    if amplitude == 0:
+        raise DomainError("upright_orbit: r0 = 0 is the pair at rest; take an amplitude above 0")
+    inertia, through, natural = 2 * sum(scene.inertias), flow(scene), natural_rate(scene)
+    # Delta' of the normal mode; Delta = k chi for a bar shorter than the axes.
+    twist = 2 * scene.sigma * (first - second) * amplitude / inertia / min(scene.k, 1.0)
+    guess = np.array([atanh(amplitude), 0, 0, 0, twist, -(first + second) * amplitude / inertia])
+    start, time = close_arc(
+        through, guess, [4, 5], pi / natural, [0, 1, 3], np.array([-guess[0], 0, 0]), 20 * pi / natural
+    )
+    if time:
+        turned = float(through(start, time).end[2])
+        return UprightOrbit(scene_at(replace(scene, shock=None), start), pi / time, turned / time)
+    raise DomainError(f"upright_orbit: no orbit of amplitude {r0:g} is found; take a smaller one")

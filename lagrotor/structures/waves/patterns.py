@@ -1,4 +1,5 @@
-"""Patterns that have a name: rows, zigzags, rings, honeycomb, square, squares with octagons; bars one metre long.
+"""`Pattern`: a periodic pattern of rotors, and what can be found out about its waves; patterns that have a name: rows, zigzags,
+rings, honeycomb, square, squares with octagons, their bars one metre long.
 
 More of `Pattern` is given by name: spins, link, gravity, hinge …
 """
@@ -8,7 +9,19 @@ from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.pair.quantities import finite_number
-from lagrotor.structures.waves.pattern import Pattern
+from lagrotor.structures.waves import chern, dispersion, edge_waves, nonlinear_waves
+from lagrotor.structures.waves.cell import Cell
+
+
+class Pattern(Cell):
+    """Pattern(joints, steps, bars, spins, turn, rotor, link, gravity, load, friction, hinge, braces): see `Cell`."""
+
+    long_wave_speeds = dispersion.long_wave_speeds
+    dispersion = dispersion.dispersion
+    chern_numbers = chern.chern_numbers
+    edge_waves = edge_waves.edge_waves
+    nonlinear_wave = nonlinear_waves.nonlinear_wave
+    three_waves = nonlinear_waves.three_waves
 
 
 def straight_row(spring: float | None = None, **more: Any) -> Pattern:
