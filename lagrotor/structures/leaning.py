@@ -37,7 +37,7 @@ def rest_near(s: Assembly, tilt: ArrayLike) -> Array:
         raise InputError(f"rest_near: tilt = {given.tolist()}: x and y of an axis must have x² + y² < 1")
     r = close_bars(motion, np.column_stack([given, np.sqrt(1 - np.square(given).sum(1))]))
     for _ in range(_MOST):
-        T = _tangents(motion, r)
+        T = constraint_tangents(motion, r)
         left = T.T @ motion.accelerations(0.0, r, 0 * r).ravel()
         if np.abs(left).max(initial=0) < 1e-13 * motion.c.rate**2:
             return r
@@ -69,7 +69,7 @@ def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
         raise InputError(
             f"modes_about: the structure is not at rest at these axes, off by {off:.1e}: take those of rest_near"
         )
-    T = _tangents(motion, r)
+    T = constraint_tangents(motion, r)
     M, stiff, along, C = _linear(motion, r, T)
     linear = SmallMotion(M, (C + C.T) / 2, (C - C.T) / 2, along * stiff @ along.T, T, motion.c.rate)
     return modes_of(linear, linear, components=3)
@@ -83,7 +83,7 @@ def _linear(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array, Arra
     return M, np.where(np.abs(stiff) < _SOFT * np.abs(stiff).max(initial=0), 0, stiff), along, C
 
 
-def _tangents(motion: ExactMotion, r: Array) -> Array:
+def constraint_tangents(motion: ExactMotion, r: Array) -> Array:
     """An orthonormal basis (3N, n) of what the constraints allow at the axes r."""
     c, N = motion.c, len(r)
     rows = np.zeros((N + len(c.i), N, 3))

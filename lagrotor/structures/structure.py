@@ -4,7 +4,16 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from lagrotor.pair.scene import Link, Rotor
-from lagrotor.structures import characteristic, critical_spins, leaning, resonances, response, small_motion, standing
+from lagrotor.structures import (
+    characteristic,
+    critical_spins,
+    leaning,
+    resonances,
+    response,
+    small_motion,
+    standing,
+    steady_precession,
+)
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.exact import structure_run
 from lagrotor.structures.exact.closing import check_closure
@@ -51,6 +60,7 @@ class Structure(Assembly):
     modes = small_motion.modes
     rest_near = leaning.rest_near
     modes_about = leaning.modes_about
+    steady_precession = steady_precession.steady_precession
     stands = standing.stands
     critical_spin = critical_spins.critical_spin
     spin_intervals = resonances.spin_intervals

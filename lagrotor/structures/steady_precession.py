@@ -1,0 +1,219 @@
+"""Steady precessions of a structure, and small motion about them: the periodic orbits that its modes become at finite tilt.
+
+Bars keep their directions while the axes turn, so that the motion linearised about a precession has periodic coefficients, and
+Floquet's multipliers take the place of modes. The orbit is found by shooting: of a state y = (r, r'/rate) and a period T
+
+    φ_T(y) = y,    u = tilt,    u' = 0,    u the component of an axis that moves most in the mode,
+
+by Gauss and Newton's steps, the family followed from small tilts (Lyapunov's centre theorem; Meyer & Offin, Introduction to
+Hamiltonian Dynamical Systems, ch. 9). The monodromy comes from differences of the exact flow; of its multipliers two are 1, along
+the orbit and across the energy, and are left out before the others are found. One top's orbit is its steady precession, where
+A Ω² cos θ − G Ω + S g = 0.
+"""
+
+from dataclasses import dataclass
+from math import pi
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.errors import ConstraintError, InputError, LagrotorError
+from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
+from lagrotor.numerics.segment import RightHandSide
+from lagrotor.pair.quantities import finite_number
+from lagrotor.shown import Shown, scientific
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array
+from lagrotor.structures.exact.closing import close_bars
+from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
+from lagrotor.structures.exact.written_out import right_hand_side
+from lagrotor.structures.leaning import constraint_tangents
+from lagrotor.structures.small_motion import modes
+
+_STEP = 1e-3  # of the monodromy's differences, of fourth order; half of it for Newton's steps, of second
+_CLOSED = 1e-11  # of axes and of rates over the structure's rate: an orbit is closed
+_NULL = 1e-7  # of the largest: a direction in which the conditions say less has a family of orbits, and is left alone
+_AHEAD = 0.1  # of tilt, from one orbit to the next
+_LEAST = 1e-3  # such a step below which the family ends
+_COARSE = 1e-10  # error of the motion of which Newton's steps take differences
+_NEWTON = 8  # steps to an orbit
+_MOST = 100_000  # evaluations of a period
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SteadyPrecession(Shown):
+    """A periodic orbit of period T (s): axes and rates (N, 3) of its start, in 1/s, where axis and component of largest motion
+    have the tilt and turn back.
+
+    multipliers (2n,): two ones, then those of the return; errors (2n,): their estimates. growth: log of the largest modulus, a
+    turn; 0 where no multiplier is off the unit circle by more than its error. mismatch: of axes and of rates over the
+    structure's rate, from the start after one period.
+    """
+
+    tilt: float
+    period: float
+    axes: Array
+    rates: Array
+    multipliers: NDArray[np.complex128]
+    errors: Array
+    growth: float
+    mismatch: float
+
+    def summary(self) -> dict[str, str]:
+        """Period, multipliers and growth, name → words."""
+        upper = [k for k in range(2, len(self.errors)) if self.multipliers[k].imag >= 0]
+        rows = {
+            f"multiplier {i + 1}": f"{(mu := self.multipliers[k]):.8g}, of modulus {abs(mu):.8g}, known to "
+            f"{scientific(self.errors[k], 1)}"
+            for i, k in enumerate(upper)
+        }
+        return (
+            {
+                "tilt": f"{self.tilt:g}",
+                "period [s]": f"{self.period:.10g}",
+                "rate [rad/s]": f"{2 * pi / self.period:.10g}",
+            }
+            | rows
+            | {"growth": f"{self.growth:.6g} a turn" if self.growth else "none beyond the error"}
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Shooting:
+    """The flow of a structure's states y (6N,) in its time c.rate t, and the component u of the axes that is held."""
+
+    motion: ExactMotion
+    rhs: RightHandSide
+    held: int
+
+    def end(self, y: Array, duration: float, local: float = TIGHTEST) -> Array:
+        problem = Problem(self.rhs, y, _MOST, project=self.motion.project, typical_rate=1.0)
+        return integrate(problem, np.array([duration]), local).end
+
+    def slopes(self, y: Array, duration: float, weights: dict[float, Array], local: float) -> Array:
+        """Of differences with several weights (k,): slopes (k, 2, 6N, 2n) of states on the constraints and of their ends, by n
+        directions of axes and as many of rates."""
+        tangents = np.kron(np.eye(2), constraint_tangents(self.motion, y[: len(y) // 2].reshape(-1, 3)))
+        slopes: Any = 0.0
+        for step, weight in weights.items():
+            states = self.motion.project(self.motion.project(y[:, None] + step * tangents))
+            ends = np.column_stack([self.end(state, duration, local) for state in states.T])
+            slopes = slopes + weight[:, None, None, None] * np.stack([states, ends])
+        return np.asarray(slopes)
+
+    def orbit(self, y: Array, duration: float, tilt: float) -> tuple[Array, float, float]:
+        """(start, duration, mismatch) of the orbit near. Raises ConstraintError where none is reached."""
+        held = [self.held, len(y) // 2 + self.held]
+        sides = {k * _STEP / 2: np.array([k / _STEP]) for k in (1, -1)}
+        for _ in range(_NEWTON):
+            end = self.end(y, duration)
+            off = np.concatenate([end - y, y[held] - [tilt, 0.0]])
+            if np.abs(off).max() < _CLOSED:
+                return y, duration, float(np.abs(end - y).max())
+            start, later = self.slopes(y, duration, sides, _COARSE)[0]
+            ahead = np.append(np.asarray(self.rhs(0.0, end)), [0.0, 0.0])
+            rows = np.column_stack([np.vstack([later - start, start[held]]), ahead])
+            change = np.linalg.lstsq(rows, -off, rcond=_NULL)[0]
+            if not np.abs(change).max() < 0.5 * duration:
+                break
+            y = self.motion.project(self.motion.project(y + start @ change[:-1]))
+            duration += float(change[-1])
+        raise ConstraintError("Newton's method does not reach a periodic orbit")
+
+
+def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPrecession:
+    """The precession that a mode of `modes()` becomes when the axis that moves most in it tilts by `tilt`, with its multipliers.
+
+    Where one integral more makes a family of orbits of the same tilt, as the turning of a pair about its joint line, it is that
+    nearest to the mode.
+
+    Args:
+        s: without friction, upright at rest.
+        mode: its number in `modes()`, from 0; one with a rate that does not grow.
+        tilt: the largest component of an axis' unit vector in the mode, between 0 and 1.
+
+    Raises:
+        InputError: for a mode or tilt that there is not, with friction, and where no such orbit exists.
+    """
+    where = "steady_precession"
+    linear = modes(s)
+    count, c = len(linear.rates), (motion := exact_motion(s)).c
+    if isinstance(mode, bool) or not isinstance(mode, int | np.integer) or not 0 <= mode < count:
+        raise InputError(f"{where}: mode = {mode!r} is not a number from 0 to {count - 1}, as modes() has them")
+    size = finite_number(tilt, f"{where}: tilt", "1")
+    if not 0 < size < 1:
+        raise InputError(f"{where}: tilt = {size:g} must lie between 0 and 1, the sine of a right angle")
+    if c.decay.any() or c.friction.any() or c.damping.any():
+        raise InputError(f"{where}: friction or a damper takes energy, and no motion returns: leave it out")
+    rate, growth, shape = linear.rates[mode], linear.growth[mode], linear.shapes[mode]
+    if growth > 0 or rate == 0:
+        why = f"grows, {growth:.3g} 1/s" if growth > 0 else "has no rate"
+        raise InputError(f"{where}: mode {mode} {why}: only an oscillation becomes a precession; take another mode")
+    lead = int(np.abs(shape).argmax())
+    shoot = _Shooting(motion, right_hand_side(motion), 3 * (lead // 2) + lead % 2)
+    zeros = np.zeros((len(shape), 1))
+
+    def scaled(y: Array, ratio: float) -> Array:
+        """The state with all tilts and rates in a ratio, on the constraints."""
+        r, v = y.reshape(2, -1, 3) * ratio
+        r[:, 2] = np.sqrt(np.maximum(1 - (r[:, :2] ** 2).sum(1), 1e-3))
+        r = close_bars(motion, r / np.linalg.norm(r, axis=1)[:, None])
+        return motion.project(motion.project(np.concatenate([r.ravel(), v.ravel()])))
+
+    begin = np.hstack([shape.real, zeros, -shape.imag * rate / c.rate, zeros]).reshape(-1, 2, 3).swapaxes(0, 1).ravel()
+    at, ahead, duration = 0.0, min(_AHEAD, size), 2 * pi * c.rate / rate
+    y = begin
+    while at < size:
+        there = min(size, at + ahead)
+        try:
+            y, duration, mismatch = shoot.orbit(scaled(y, there / (at or 1.0)), duration, there)
+            at, ahead = there, min(_AHEAD, 2 * ahead)
+        except (LagrotorError, np.linalg.LinAlgError):
+            ahead /= 2
+            if ahead < _LEAST:
+                raise InputError(
+                    f"{where}: no periodic orbit of tilt {size:g} is reached from mode {mode}: "
+                    + (
+                        f"its family ends or turns near {at:.3g}; take a smaller tilt"
+                        if at
+                        else _why_none(linear.rates, mode)
+                    )
+                ) from None
+    multipliers, errors = _multipliers(shoot, y, duration)
+    outside = np.abs(multipliers) > 1 + errors
+    most = float(np.log(np.abs(multipliers[outside]).max())) if outside.any() else 0.0
+    axes, rates = y.reshape(2, -1, 3)
+    return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, most, mismatch)
+
+
+def _why_none(rates: Array, mode: int) -> str:
+    """Which other rates are multiples of this one, where Lyapunov's theorem promises no orbit."""
+    ratios = np.delete(rates, mode) / rates[mode]
+    near = sorted(
+        {int(m) for m, ratio in zip(np.rint(ratios), ratios, strict=True) if abs(ratio - m) < 0.02 * max(m, 1)}
+    )
+    if not near:
+        return "take another mode, or a smaller tilt"
+    several = ", ".join(map(str, near))
+    return f"other modes have {several} times its rate, and what it becomes is no orbit of its own; change a spin"
+
+
+def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[np.complex128], Array]:
+    """All multipliers and their errors, (2n,): from differences by a step and by twice as long ones."""
+    shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # of differences by a step and by two
+    weights = {k * sign * _STEP: sign * np.array(w) / (12 * _STEP) for k, w in shares.items() for sign in (1, -1)}
+    slopes = shoot.slopes(y, duration, weights, TIGHTEST)
+    forms, start = [np.linalg.lstsq(*part)[0] for part in slopes], slopes[0, 0]
+    along = np.linalg.lstsq(start, np.asarray(shoot.rhs(0.0, y)))[0]
+    beside = y[None] + np.concatenate([_STEP * start.T, -_STEP * start.T])
+    energy = shoot.motion.energy(
+        *(shoot.motion.axes_and_rates(beside) * np.array([1.0, shoot.motion.c.rate])[:, None, None, None])
+    )
+    across = np.linalg.svd(np.stack([along / np.linalg.norm(along), -np.subtract(*np.split(energy, 2))]))[2][2:].T
+    inner, other = (across.T @ form @ across for form in forms)
+    values, right = np.linalg.eig(inner)
+    conditions = np.linalg.norm(np.linalg.pinv(right), axis=1) * np.linalg.norm(right, axis=0)
+    errors = conditions * (np.linalg.norm(inner - other, 2) + TIGHTEST * np.linalg.norm(inner, 2))
+    order = np.lexsort((-values.imag, np.abs(np.angle(values)), -np.round(np.abs(values), 6)))
+    return np.append([1.0, 1.0], values[order]), np.append([0.0, 0.0], errors[order])
