@@ -410,9 +410,7 @@ class _Reader:
         if name in STYLES:
             return self.styled(name, item)
         self.place -= 1
-        package = {"diff": "esdiff and diffcoeff", "pdv": "derivative", "odv": "derivative"}.get(name.removesuffix("p"))
-        of = f" (of {package}, not read)" if package else ""
-        self.stop(f"is not known{of}", "write what it stands for, or define it by \\newcommand")
+        self.stop("is not known", "write what it stands for, or define it by \\newcommand")
         return []
 
     def nothing(self, name: str) -> list[Box]:

@@ -2,6 +2,7 @@ r"""Commands of common packages (physics, siunitx, bm, mathtools, braket …), i
 
 import re
 from collections.abc import Iterable
+from itertools import zip_longest
 
 from lagrotor.paper.source.expansion import Expander, Package
 from lagrotor.paper.source.tokens import Token, latex_of, tokenize
@@ -67,36 +68,95 @@ def _derivative(mark: str, two: bool = False) -> Package:
         slash = expander.star()
         order = latex_of(expander.optional() or ()).strip()
         first = latex_of(expander.argument())
-        power = f"^{{{order}}}" if order else ""
         rest: list[str] = []
-        while len(rest) < (2 if mark == r"\partial" and not order and not two else 1):
-            following = expander.peek()
-            if following is None or following.kind != "open":
-                break
+        while len(rest) < (2 if mark == r"\partial" and not order and not two else 1) and _is_braced(expander):
             rest.append(latex_of(expander.argument()))
         if not rest:
-            inside = (
-                expander.delimited("(", ")") if (following := expander.peek()) and following.text[:1] == "(" else None
-            )
+            following = expander.peek()
+            inside = expander.delimited("(", ")") if following and following.text[:1] == "(" else None
             operand = "" if inside is None else rf"\left( {latex_of(inside)} \right)"
-            return tokenize(rf"\frac{{{mark}{power}}}{{{mark} {first}{power}}}{operand}")
-        if len(rest) == 2:
-            return tokenize(rf"\frac{{{mark}^{{2}} {first}}}{{{mark} {rest[0]} {mark} {rest[1]}}}")
-        if slash:
-            return tokenize(rf"\left.{mark}{power} {first}\middle/{mark} {rest[0]}{power}\right.")
-        return tokenize(rf"\frac{{{mark}{power} {first}}}{{{mark} {rest[0]}{power}}}")
+            return tokenize(_quotient(mark, "", [(first, order)], order) + operand)
+        return tokenize(_quotient(mark, first, [(each, order) for each in rest], order or str(len(rest)), slash))
 
     return take
 
 
-def _differential(expander: Expander) -> Iterable[Token]:
-    r"""\dd x, \dd{x}, \dd[3]{x}, \dd(x)."""
-    order = latex_of(expander.optional() or ()).strip()
-    head = rf"\,\mathrm{{d}}^{{{order}}}" if order else r"\,\mathrm{d}"
+def _quotient(mark: str, of: str, by: list[tuple[str, str]], order: str, slash: bool = False) -> str:
+    """The derivative of `of` by variables, each with its order."""
+    power = f"^{{{order}}}" if order not in ("", "1") else ""
+    below = " ".join(f"{mark} {each}" + (f"^{{{times}}}" if times not in ("", "1") else "") for each, times in by)
+    if slash:
+        return rf"\left.{mark}{power} {of}\middle/{below}\right."
+    return rf"\frac{{{mark}{power} {of}}}{{{below}}}"
+
+
+def _is_braced(expander: Expander) -> bool:
     following = expander.peek()
-    if following is not None and following.kind == "open":
-        return tokenize(f"{head} {latex_of(expander.argument())}")
-    return tokenize(f"{head} ")
+    return following is not None and following.kind == "open"
+
+
+def _listed_derivative(mark: str, package: str) -> Package:
+    r"""\diffp[2,3]{f}{x,y}[a] of diffcoeff, \diffp*{f}{{x^2}{y}}{a} of esdiff, \pdv[order={2,3}]{f}{x,y} of derivative."""
+
+    def take(expander: Expander) -> Iterable[Token]:
+        star = expander.star()
+        _ = expander.star("!") or expander.star("/")
+        option = latex_of(expander.optional() or ()).strip()
+        if package == "derivative":
+            said = re.search(r"order\s*=\s*(?:\{([^{}]*)\}|([^,]*))", option)
+            option = said[1] or said[2] if said else ""
+        orders = [each.strip() for each in option.split(",")]
+        of = latex_of(expander.argument())
+        expander.star("/")
+        variables = expander.argument()
+        if package == "esdiff":
+            parts = [latex_of(part) for part in _groups(variables)]
+            raised = [re.fullmatch(r"(.*?)\^\{?(\w+)\}?", part) for part in parts]
+            by = [(m[1], m[2]) if m else (part, "") for m, part in zip(raised, parts, strict=True)]
+        else:
+            names = [re.sub(r"^\{(.*)\}$", r"\1", each.strip()) for each in latex_of(variables).split(",")]
+            by = [(name, order) for name, order in zip_longest(names, orders[: len(names)], fillvalue="")]
+        if len(by) == 1 and package == "esdiff":
+            by = [(by[0][0], orders[0] or by[0][1])]
+        times = [order or "1" for _, order in by]
+        total = str(sum(map(int, times))) if all(map(str.isdecimal, times)) else "+".join(times)
+        appended = star and package != "esdiff"
+        made = _quotient(mark, "" if appended else of, by, total) + (f" {of}" if appended else "")
+        held = (expander.argument() if star else None) if package == "esdiff" else None
+        if package == "diffcoeff":
+            held = expander.optional()
+        at = rf"_{{{latex_of(held)}}}" if held is not None else ""
+        following = expander.peek()
+        if at or (package == "derivative" and following is not None and following.text == "_"):
+            made = rf"\left({made}\right)" if mark == r"\partial" else rf"\left.{made}\right|"
+        return tokenize(made + at)
+
+    return take
+
+
+def _groups(tokens: list[Token]) -> Iterable[list[Token]]:
+    """What is in braces, group by group; all where there is none."""
+    if not any(each.kind == "open" for each in tokens[:1]):
+        return [tokens]
+    parts: list[list[Token]] = []
+    depth = 0
+    for each in tokens:
+        depth -= each.kind == "close"
+        if depth:
+            parts[-1].append(each)
+        elif each.kind == "open":
+            parts.append([])
+        depth += each.kind == "open"
+    return parts
+
+
+def _differential(expander: Expander) -> Iterable[Token]:
+    r"""\dd x, \dd{x}, \dd[3]{x}, \dd(x); \odif{x,y} of derivative, \dl{x,y} of diffcoeff."""
+    order = latex_of(expander.optional() or ()).strip().removeprefix("order").lstrip(" =")
+    head = rf"\,\mathrm{{d}}^{{{order}}}" if order else r"\,\mathrm{d}"
+    if not _is_braced(expander):
+        return tokenize(f"{head} ")
+    return tokenize("".join(f"{head} {each}" for each in latex_of(expander.argument()).split(",")))
 
 
 def _evaluated(expander: Expander) -> Iterable[Token]:
@@ -247,10 +307,10 @@ _FUNCTIONS = (
 )  # fmt: skip
 
 _PHYSICS: dict[str, Package] = {
-    **dict.fromkeys((r"\dv", r"\derivative", r"\odv"), _derivative(r"\mathrm{d}")),
+    **dict.fromkeys((r"\dv", r"\derivative"), _derivative(r"\mathrm{d}")),
     **dict.fromkeys((r"\pdv", r"\pderivative", r"\partialderivative"), _derivative(r"\partial")),
     **dict.fromkeys((r"\fdv", r"\functionalderivative"), _derivative(r"\delta")),
-    **dict.fromkeys((r"\dd", r"\differential", r"\odif"), _differential),
+    **dict.fromkeys((r"\dd", r"\differential"), _differential),
     **dict.fromkeys((r"\qty", r"\quantity"), _quantity),
     **dict.fromkeys((r"\vb", r"\vectorbold"), _as(r"\mathbf{#1}")),
     **dict.fromkeys((r"\va", r"\vectorarrow"), _as(r"\vec{\mathbf{#1}}")),
@@ -328,6 +388,11 @@ _COMMATH: dict[str, Package] = {
     r"\cbr": _between(r"\{", r"\}"),
     r"\eval": _evaluated,
 }
+_DERIVATIVES = {
+    "esdiff": {r"\diff": r"\mathrm{d}", r"\diffp": r"\partial"},
+    "diffcoeff": {r"\diff": r"\mathrm{d}", r"\diffp": r"\partial", r"\dl": ""},
+    "derivative": {r"\odv": r"\mathrm{d}", r"\pdv": r"\partial", r"\fdv": r"\delta", r"\odif": ""},
+}  # a command of derivatives: its mark; of differentials: none
 _SMALL: dict[str, Package] = {
     **dict.fromkeys((r"\bm", r"\pmb"), _as(r"\boldsymbol{#1}")),
     r"\coloneqq": _is(":= "),
@@ -372,12 +437,17 @@ def commands(loaded: Iterable[str], everything: bool = False) -> dict[str, Packa
     """The commands of the packages that a source loads; those of all packages where its preamble is not known."""
     names = set(loaded)
     found = dict(_SMALL)
-    if everything or names & {"esdiff", "diffcoeff"}:
-        del found[r"\diff"]  # \diff{f}{x} is a derivative of these
+    if everything:
+        del found[r"\diff"]  # \diff{f}{x} is a derivative of esdiff and diffcoeff
     if everything or "siunitx" in names:
         found |= _SIUNITX
     if everything or "braket" in names:
         found |= _BRAKET
+    for package in names & _DERIVATIVES.keys():
+        found |= {
+            name: _differential if mark == "" else _listed_derivative(mark, package)
+            for name, mark in _DERIVATIVES[package].items()
+        }
     if "commath" in names:
         found |= _COMMATH
     if everything or names & {"physics", "physics2"}:

@@ -179,10 +179,10 @@ class TokenStream:
         """An optional argument, [..]; None where there is none."""
         return self.delimited("[", "]")
 
-    def star(self) -> bool:
-        """Whether a star comes next, which is taken."""
+    def star(self, mark: str = "*") -> bool:
+        """Whether a star, or another mark, comes next, which is taken."""
         token = self.next()
-        if token is not None and token.kind == "text" and token.text.startswith("*"):
+        if token is not None and token.kind == "text" and token.text.startswith(mark):
             self.push(plain(token.text[1:], token.at + 1))
             return True
         self.push([token] if token else [])
