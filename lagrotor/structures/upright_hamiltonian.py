@@ -61,7 +61,14 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     if linear.damping.any() or c.decay.any():
         raise InputError("local_hamiltonian: friction acts: leave it out, the motion without it has a Hamiltonian")
     n = linear.dof
-    axes = _axes(c, linear.basis, order)
+    back = np.linalg.pinv(bar_rows(c))
+    axes = on_bars(  # polynomials in q through the order; exact through order − 1 in x and y
+        c,
+        [linear_form(row, float) for row in linear.basis],
+        lambda u: [axis_of(u[k : k + 2], order) for k in range(0, len(u), 2)],
+        lambda bound: [combined(row, bound) for row in back],
+        order,
+    )
     inertia = float(np.abs(linear.mass).max())
     rate = float(np.sqrt(np.abs(linear.stiffness).max() / inertia)) or c.rate
     J = [[[f.derivative(b) for f in axis] for b in range(n)] for axis in axes]
@@ -90,18 +97,6 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
         total([a[i].product(by_a[i], order) for i in range(n)]).times(0.5),
     )
     return LocalHamiltonian(parts, linear.basis, linear.mass / inertia, rate)
-
-
-def _axes(c: Coefficients, basis: Array, order: int) -> list[Row]:
-    """x, y, z of each axis as polynomials in q, through the order; exact through order − 1 in x and y."""
-    back = np.linalg.pinv(bar_rows(c))
-    return on_bars(
-        c,
-        [linear_form(row, float) for row in basis],
-        lambda u: [axis_of(u[k : k + 2], order) for k in range(0, len(u), 2)],
-        lambda bound: [combined(row, bound) for row in back],
-        order,
-    )
 
 
 def on_bars(

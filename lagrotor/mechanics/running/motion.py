@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
 from math import inf
-from typing import Any, TypeVar
+from typing import Any, Self
 
 import numpy as np
 import sympy as sp
@@ -24,8 +24,6 @@ from lagrotor.numerics.any_run import Quantity, Run
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
 from lagrotor.numerics.segment import Integrate
-
-Kind = TypeVar("Kind", bound="SampledMotion")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -99,7 +97,7 @@ class SampledMotion(Run):
     def _values(self, *expressions: sp.Expr) -> Array:
         return function_program(self.system, *expressions).along(self.values, "evaluate")(self.states, self.t)
 
-    def at(self: Kind, times: ArrayLike) -> Kind:
+    def at(self, times: ArrayLike) -> Self:
         """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""
         self.check_times("at")
         wanted = check_times("at", np.atleast_1d(times))
@@ -116,7 +114,7 @@ class SampledMotion(Run):
             evaluations += part.evaluations
         return replace(self.read(wanted, states), evaluations=evaluations)
 
-    def read(self: Kind, times: Array, states: Array) -> Kind:
+    def read(self, times: Array, states: Array) -> Self:
         """The run at other times, at which its states are known."""
         errors = self.errors[np.minimum(np.searchsorted(self.t, times), len(self.t) - 1)]
         return replace(self, t=times, errors=errors, states=states)
