@@ -288,7 +288,7 @@ class _Door:
             if slack
             else choice.reason
         )
-        spent, early = 0, list[tuple[str, str, EstimatedRun]]()
+        spent, early = 1, list[tuple[str, str, EstimatedRun]]()  # `choose` looked at the start
         refused: dict[str, IntegrationError | SingularError] = {}
         for model, bounded in tries:
             try:

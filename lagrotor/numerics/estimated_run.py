@@ -4,6 +4,11 @@ SAFETY times the difference of the two runs is taken for the error of the better
 it, and more where what they conserve, or their cost, says that both are off by nearly the same. It is also how far neighbouring
 motions part: where it exceeds the tolerance, the run has reached its horizon. Where it exceeds LOST, nothing is known any more:
 there the comparison ends, and the better run goes on alone. What the motion conserves must be kept as well as the error allows.
+
+It is an estimate. Where errors follow the tolerance the difference is APART − 1 times the error of the better run, and the
+estimate 12 times that error: the median of 866 random runs read at 64 times more is 12 to 13. Two runs may be off by the same
+for longer than SWING: between start and end the error up to a time was larger than estimated in 8 of them, at most 5 times, and
+beyond `tol` never without a warning. The largest of a whole run was larger in one, by a sixth (tests/told_over_true.py).
 """
 
 import warnings

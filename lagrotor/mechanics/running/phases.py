@@ -37,7 +37,8 @@ from lagrotor.numerics.zeros import zeros_between
 _BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start
 _FRESH = 0.01  # of the first step of a phase, in which that is looked at
 _ROUNDINGS = 64.0  # of a state, of which a condition is unsure
-_NOISE = 1e-12  # of a velocity or a reaction, below which it is zero
+_NOISE = 1e-12  # of the size of a velocity or a reaction, below which it is zero
+_STEP = 1e-5  # of a size, by which a component is varied for the size of a function
 _AT_ONCE = 20  # events without time between them, after which the motion is outside what is followed
 _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink alike; what is left to their end, of the run
 SAFETY = 20.0  # local error of a run over that of the steps on which its events are sought
@@ -105,8 +106,8 @@ class Switched:
     """A system with events: its smooth part, the surfaces of its jumps, the events, the values of the parameters, the splines
     among them, and the events as they were given.
 
-    scale (N + m,): of each component, for the solver. While it is run: the phases that it was in, the endings of its runs, and
-    the times between which a step may hide an event.
+    scale (N + m,): of each component, for the solver; sizes: of each, zero before they are known. While it is run: the phases
+    that it was in, the endings of its runs, and the times between which a step may hide an event.
     """
 
     system: Equations
@@ -114,6 +115,7 @@ class Switched:
     surfaces: tuple[Surface, ...]
     events: tuple[Event | Impact, ...]
     scale: Array
+    sizes: Array
     splines: tuple[Piece, ...] = ()
     shown: tuple[Event | Impact, ...] = ()
     phases: dict[tuple[Any, ...], Phase] = field(default_factory=dict)
@@ -165,6 +167,17 @@ class Switched:
         """Expressions at one moment, of the motion of `system`."""
         program = function_program(system, *expressions)
         return program.along(self.numbers(at.mode))(at.y[None], np.array([at.t]))[:, 0]
+
+    def sizes_of(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
+        """The sizes (k,) of terms of expressions at one moment, in any units: Σ |∂e/∂y| times the size of y."""
+        y = at.y[: self.size]
+        steps = np.diag(_STEP * np.maximum(np.abs(y), self.sizes))
+        beside = function_program(system, *expressions).along(self.numbers(at.mode))(
+            np.vstack([y + steps, y - steps]), np.full(2 * self.size, at.t)
+        )
+        with np.errstate(all="ignore"):
+            sizes = np.abs(beside[:, : self.size] - beside[:, self.size :]).sum(1) / (2 * _STEP)
+        return np.asarray(np.nan_to_num(sizes, posinf=0.0))
 
     def numbers(self, mode: ContactMode) -> dict[str, Any]:
         """The values of the parameters, of the signs in this mode, and of the polynomials of its pieces."""
@@ -233,7 +246,8 @@ def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Even
         in_pieces(system, events, values) if isinstance(values, Mapping) else (system, events, ())
     )
     smooth, surfaces = without_jumps(whole)
-    return Switched(smooth, values, surfaces, followed, np.ones(len(system.c.q) + len(system.speeds)), splines, events)
+    size = len(system.c.q) + len(system.speeds)
+    return Switched(smooth, values, surfaces, followed, np.ones(size), np.zeros(size), splines, events)
 
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
@@ -506,8 +520,11 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
     """The sign of a surface where the state is on it: by the rates of w on either side (Filippov); 0 where both lead to it."""
+    argument = h.surfaces[i].argument
     above, below = _rates_beside(h, at, i, 1)
-    if not h.surfaces[i].argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE:
+    if not argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE * float(
+        h.sizes_of(h.system, [total_derivative(argument, h.system.c)], at)[0]
+    ):
         above, below = _rates_beside(h, at, i, 2)  # of a place, passed at rest
     size = _NOISE * (abs(above) + abs(below))
     if abs(above - below) <= size:  # no jump here
@@ -542,20 +559,22 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
     """A mode that the state and its reactions agree with. fixed: the signs are those that were decided at an event."""
     mode = at.mode
     if h.surfaces and not fixed:
-        w = h.evaluate(h.system, [s.argument for s in h.surfaces], at)
-        scale = _NOISE * (1 + np.abs(at.y).max())
-        for i in map(int, np.flatnonzero(np.abs(w) > scale)):
+        arguments = [s.argument for s in h.surfaces]
+        w, noise = h.evaluate(h.system, arguments, at), _NOISE * h.sizes_of(h.system, arguments, at)
+        for i in map(int, np.flatnonzero(np.abs(w) > noise)):
             mode = mode.with_sign(i, int(np.sign(w[i])))
-        for i in map(int, np.flatnonzero(np.abs(w) <= scale)):
+        for i in map(int, np.flatnonzero(np.abs(w) <= noise)):
             mode = mode.with_sign(i, _sign_beyond(h, at._replace(mode=mode), i))
     for _ in range(2 * (len(mode.signs) + len(mode.closed)) + 1):
         phase = h.phase(mode)
         reactions = [each for each in phase.conditions if each[0] in ("above", "below", "reaction")]
         if not reactions:
             break
-        values = h.evaluate(phase.system, [e for *_, e in reactions], at._replace(mode=mode))
+        expressions, here = [e for *_, e in reactions], at._replace(mode=mode)
+        values = h.evaluate(phase.system, expressions, here)
         worst = int(np.argmin(values))
-        if values[worst] >= -_NOISE * (1 + np.abs(values).max()):
+        size = np.abs(values).max() if len(values) > 1 else 0.0
+        if values[worst] >= -_NOISE * (size + float(h.sizes_of(phase.system, expressions, here)[worst])):
             break
         kind, i, _ = reactions[worst]
         mode = mode.with_gap(i, False) if kind == "reaction" else mode.with_sign(i, -1 if kind == "above" else 1)
@@ -572,7 +591,7 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
         left = intervals[-1] * ratio / (1 - ratio) if ratio < 1 else np.inf
         if (np.diff(intervals) < 0).all() and left <= _GONE * span:
             return float(left)
-    if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * (1 + abs(now)):
+    if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * now:
         raise StopError(clock + now, "events follow each other without time between them")
     if sum(map(len, history.values())) > MOST_EVENTS.value:
         raise StopError(clock + now, f"{MOST_EVENTS.value:,} events", cause="budget")

@@ -19,7 +19,7 @@ from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projec
 from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
 from lagrotor.mechanics.running.lyapunov import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
-from lagrotor.mechanics.running.phases import begin, with_events
+from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import (
     depends_on_time,
     function_program,
@@ -94,7 +94,7 @@ class SystemRun(SampledMotion):
         ):
             raise InputError(f"load: {path} is no run of a system: its states are none: give a file that `save` wrote")
         check_engine(engine, "load")
-        h = replace(with_events(system, values, given), scale=powers_of_two(scales.sizes))
+        h = replace(with_events(system, values, given), scale=powers_of_two(scales.sizes), sizes=scales.sizes)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
@@ -126,8 +126,10 @@ def simulate_system(
     for event in h.events:
         program = function_program(h.system, *event.expressions)
         at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v])[None], times[:1])[:, 0]
-        if isinstance(event, Impact):
-            _check_impact(event, float(at_start[0]), float(at_start[1]), times[0])
+        if isinstance(event, Impact) and not 0 <= at_start[1] <= 1:
+            raise InputError(
+                f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it lies between 0 and 1"
+            )
     if system.multipliers:
         q, v = _on_constraints(system, values, q, v, times[0])
     check_pole("simulate", system, values, np.concatenate([q, v, [times[0]]]))
@@ -140,7 +142,8 @@ def simulate_system(
     else:
         start = begin(h, q, v, times[0])
         scales = motion_scales(system, values, start, times, integration_of(system, values, engine, None, h, start))
-        h = replace(h, scale=powers_of_two(scales.sizes))
+        h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes)
+        _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
     evolution = Evolution(
         start=start,
         integrate=integration_of(system, values, engine, scales, h, start),
@@ -176,16 +179,17 @@ def _slack(system: Equations, values: Values, sizes: Array) -> Callable[[Array],
     return slack
 
 
-def _check_impact(impact: Impact, gap: float, restitution: float, begin: float) -> None:
-    """Raises InputError for a gap that is negative at the start, and a restitution that is none."""
-    if gap < -_OFF:
-        raise InputError(
-            f"simulate: the gap {impact.gap} is {gap:.6g} at t = {begin:g} s: start where it is not negative"
-        )
-    if not 0 <= restitution <= 1:
-        raise InputError(
-            f"simulate: the restitution {impact.restitution} is {restitution:.6g}: it lies between 0 and 1"
-        )
+def _check_gaps(h: Switched, at: Moment) -> None:
+    """Raises InputError for a gap that is negative at the start."""
+    gaps = [impact.gap for impact in h.impacts]
+    if not gaps:
+        return
+    values = h.evaluate(h.system, gaps, at)
+    for gap, value, size in zip(gaps, values, h.sizes_of(h.system, gaps, at), strict=True):
+        if value < -_OFF * size:
+            raise InputError(
+                f"simulate: the gap {gap} is {value:.6g} at t = {at.t:g} s: start where it is not negative"
+            )
 
 
 def _up_to_its_end(run: SystemRun) -> SystemRun:

@@ -251,3 +251,29 @@ def test_events_far_from_the_zero_of_the_clock_are_as_exact(begin: float, system
     off = far.scales.distance(np.hstack([near.q, near.v]), np.hstack([far.q, far.v]))
     assert (off <= far.errors + near.errors).all() and off.max() < 1e-12
     assert len(near.t) == 8 and near.v.min() < -0.5 < 0.5 <= near.v.max()
+
+
+STOP, STIFFNESS, FRICTION = sp.symbols("X k F", positive=True)
+RUBBED = System(C, v**2 / 2 - STIFFNESS * x**2 / 2, forces=(-FRICTION * sp.sign(v),))
+
+
+def rubbed(length: float, time: float, start: float = 0.0) -> SystemRun:
+    """A body on a spring that rubs, strikes a stop at 0.7 and comes to rest, in units so many times smaller."""
+    values = {STIFFNESS: time**-2, FRICTION: 0.2 * length / time**2, STOP: 0.7 * length, e: 0.5}
+    times = time * np.linspace(0, 9, 10)
+    return RUBBED.simulate(values, [start * length], [1.2 * length / time], times, 1e-9, events=Impact(STOP - x, e))
+
+
+@pytest.mark.parametrize("units", [(1e-13, 1.0), (1e-15, 1e6), (1e9, 1.0), (1.0, 1e-9), (1e3, 3e7)])
+def test_stops_and_friction_are_the_same_in_any_units(
+    units: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of 10⁻¹² m/s a velocity was held for rest, and the body for stuck; of 10⁻⁹ m a start beyond its stop was taken."""
+    one, other = rubbed(1.0, 1.0), rubbed(*units)
+    assert other.q / units[0] == pytest.approx(one.q, abs=one.error + other.error)
+    rubbed(*units, start=0.7 + 1e-12)  # beyond the stop by rounding
+    with pytest.raises(InputError, match="the gap"):
+        rubbed(*units, start=0.701)
+    if units[0] < 1e-12:  # twin: sizes of one, whatever the units are
+        monkeypatch.setattr(phases.Switched, "sizes_of", lambda h, system, expressions, at: np.ones(len(expressions)))
+        assert np.abs(rubbed(*units).q / units[0] - one.q).max() > 0.1
