@@ -683,7 +683,7 @@ _COMMANDS: dict[str, tuple[str, str]] = {
     **{name: ("big", name) for name in BIG},
     **{name: ("function", name) for name in FUNCTIONS},
     **{name: (kind, name) for name, kind in _SIMPLE.items()},
-    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "vert": ("bar", "|")},
+    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "vert": ("bar", "|"), "dag": ("letter", "dagger")},
 }
 Form = Callable[[_Reader, Token, str], list[Box]]
 _FORMS: dict[str, Form] = {

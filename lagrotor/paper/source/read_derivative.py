@@ -37,7 +37,8 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
         if box.upright and "d" not in reader.notation.letters:
             raise FormulaError(box.at, "an upright d has no letter", "write the letter behind it")
         return None
-    if box.primes or "d" in reader.notation.letters or not all(b.kind == "number" for b in box.sup or ()):
+    counted = all(b.kind == "number" or (reader.integrating and b.name.isupper()) for b in box.sup or ())  # d^{3N} r
+    if box.primes or "d" in reader.notation.letters or not counted:
         return None
     if not box.upright and "d" in reader.notation.bare and not reader.integrating:
         why = "whether d is a letter or a differential is open"
@@ -164,8 +165,17 @@ def total_derivative_of(reader: FormulaReader, node: Node, variable: Node, order
 
 
 def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
-    r"""\partial_x f, \partial_t^2 u."""
+    r"""\partial_x f, \partial_t^2 u; by itself on a side \partial\Omega, a boundary."""
     box = row[place]
+    after = row[place + 1] if place + 1 < len(row) else box
+    body = (
+        after.kind == "letter"
+        and after.name[0].isupper()
+        and not (after.sup or after.sub or after.primes or after.marks)
+    )
+    if body and not (box.sub or box.sup or place or row[2:]):
+        reader.guess("boundary", f"∂{after.name} is the boundary of {after.name}")
+        return Letter(f"boundary_{after.name}{after.style}"), 2
     if box.sub is None:
         why = "what ∂ differentiates by is missing"
         raise FormulaError(box.at, why, "write \\partial_x or \\frac{\\partial f}{\\partial x}")

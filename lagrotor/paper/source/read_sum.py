@@ -1,11 +1,14 @@
 """Sums, products and limits with what they run over."""
 
+from itertools import pairwise
+
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_integral import read_integral
 from lagrotor.paper.source.read_scripts import letter_of
-from lagrotor.paper.source.rows import strip, without_thin
+from lagrotor.paper.source.rows import all_boxes, strip, without_thin
 from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node
+from lagrotor.paper.source.usage import arguments
 
 
 def read_sum(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
@@ -38,38 +41,78 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
             raise FormulaError(box.at, "what the sum runs over is missing", "write its index")
         return [Letter("all")]
     relations = [k for k, b in enumerate(below) if b.kind == "relation"]
-    if not relations:
-        if all(b.kind in ("letter", "comma") for b in below) and box.sup is None:
-            if not any(b.kind == "comma" for b in below) and len({b.name for b in below}) < len(below):
-                why = "whether words or indices stand below is open"
-                raise FormulaError(box.at, why, "write commas between indices")
-            letters = [
-                letter_of(reader, b)[0] if b.primes or b.name not in ("i", "j") else Letter(b.name)
-                for b in below
-                if b.kind == "letter"
-            ]
-            return letters if len(letters) == 1 else [letters[0], Letter("all"), Letter("all"), *letters[1:]]
-        if len(below) == 1 and below[0].kind == "text" and below[0].name.isalpha() and box.sup is None:
-            return [Letter(f"all_{below[0].name}")]
-        raise FormulaError(box.at, "what the sum runs over is not clear", "write \\sum_{i=1}^{n}")
-    if len(relations) == 1 and below[relations[0]].name == "=" and below[0].kind == "letter" and relations[0] == 1:
-        name = below[0].name
-        reader.bound.append(name)
-        start = reader.expression(below[2:])
-        ends = [reader.expression(box.sup)] if box.sup is not None else []
-        reader.bound.pop()
-        return [
-            letter_of(reader, below[0])[0] if name not in ("i", "j") or below[0].primes else Letter(name),
-            start,
-            *ends,
-        ]
-    if len(relations) == 1 and below[relations[0]].name in CONDITIONS and box.sup is None:
-        names = [each for each in below if each.kind == "letter"]
-        reader.bound += (bound := [each.name for each in names if each.name in ("i", "j")])
-        sides = [reader.expression(part) for part in (below[: relations[0]], below[relations[0] + 1 :])]
+    reader.bound += (bound := [each.name for each in all_boxes(below) if each.name in ("i", "j") and not each.primes])
+    try:
+        if not relations and box.sup is None:
+            return _over_all(reader, box, below)
+        if len(relations) == 1 and below[relations[0]].name == "=":
+            return _from_first(reader, box, below, relations[0])
+        if box.sup is None and relations:
+            return _where(reader, [strip(part) for part in arguments(below)])
+    finally:
         del reader.bound[len(reader.bound) - len(bound) :]
-        return [Call(CONDITIONS[below[relations[0]].name], tuple(sides))]
+    if [b.kind for b in below] == ["letter"] and box.sup is not None:  # \\sum_k^N
+        return [letter_of(reader, below[0])[0], Letter("first"), reader.expression(box.sup)]
+    if not relations:
+        raise FormulaError(box.at, "what the sum runs over is not clear", "write \\sum_{i=1}^{n}")
     raise FormulaError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+
+
+def _over_all(reader: FormulaReader, box: Box, below: list[Box]) -> list[Node]:
+    """Indices that take all their values, a word, or the pairs ⟨ij⟩."""
+    parts = [strip(part) for part in arguments(below)]
+    if any(b.kind == "bracket" for b in below):
+        return _where(reader, parts)
+    if all(b.kind in ("letter", "comma") for b in below):
+        if len(parts) == 1 and len({b.name for b in below}) < len(below):
+            why = "whether words or indices stand below is open"
+            raise FormulaError(box.at, why, "write commas between indices")
+        letters = [letter_of(reader, b)[0] for b in below if b.kind == "letter"]
+        return letters if len(letters) == 1 else [letters[0], Letter("all"), Letter("all"), *letters[1:]]
+    if len(below) == 1 and below[0].kind == "text" and below[0].name.isalpha():
+        return [Letter(f"all_{below[0].name}")]
+    raise FormulaError(box.at, "what the sum runs over is not clear", "write \\sum_{i=1}^{n}")
+
+
+def _from_first(reader: FormulaReader, box: Box, below: list[Box], sign: int) -> list[Node]:
+    """From the first value on, i = 1 and i, j = 1, or each of a list, i = 1, 2, 3."""
+    names = [strip(part) for part in arguments(below[:sign])]
+    values = [strip(part) for part in arguments(below[sign + 1 :])]
+    if not all([b.kind for b in part] == ["letter"] for part in names):
+        raise FormulaError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+    letters = [letter_of(reader, part[0])[0] for part in names]
+    reader.bound += (bound := [part[0].name for part in names])
+    try:
+        first, ends = list(map(reader.expression, values)), [reader.expression(box.sup)] if box.sup else []
+    finally:
+        del reader.bound[len(reader.bound) - len(bound) :]
+    if len(values) == 1 and (len(names) == 1 or ends):
+        return [letters[0], first[0], *ends, *letters[1:]]
+    if len(names) == 1 and not ends:
+        return [Call("In", (letters[0], Call("set", tuple(first))))]
+    raise FormulaError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+
+
+def _where(reader: FormulaReader, parts: list[list[Box]]) -> list[Node]:
+    """Indices and the conditions on them, parted by commas: i, j, i ≠ j; i < j < k; ⟨ij⟩."""
+    letters: list[Node] = []
+    conditions: list[Node] = []
+    for part in parts:
+        signs = [k for k, b in enumerate(part) if b.kind == "relation"]
+        if [b.kind for b in part] == ["letter"]:
+            letters.append(letter_of(reader, part[0])[0])
+        elif [b.name for b in part] == [r"\langle"] and all(b.kind in ("letter", "comma") for b in part[0].parts[0]):
+            pair = [letter_of(reader, b)[0] for b in part[0].parts[0] if b.kind == "letter"]
+            conditions.append(Call("pairs", tuple(pair)))
+        elif signs and all(part[k].name in CONDITIONS for k in signs):
+            sides = [reader.expression(part[a + 1 : b]) for a, b in pairwise([-1, *signs, len(part)])]
+            conditions += [Call(CONDITIONS[part[k].name], two) for k, two in zip(signs, pairwise(sides), strict=True)]
+        else:
+            at = part[0].at if part else parts[0][0].at
+            raise FormulaError(at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+    if letters:
+        return [letters[0], Letter("all"), Letter("all"), *letters[1:], *conditions]
+    return conditions if len(conditions) == 1 else [Call("And", tuple(conditions))]
 
 
 def _limit(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:

@@ -220,6 +220,9 @@ def _index(part: Box) -> list[str] | None:
     """The text of one box of an index."""
     if part.sup is not None and part.kind != "letter":
         return None
+    if part.sub is not None and part.kind != "letter":  # {t,1}_D, 1_a
+        inner, own = _index(replace(part, sub=None)), index_of(part)
+        return None if inner is None or own is None else [*inner, *own]
     if part.kind == "letter":
         own = index_of(part)
         raised = "" if part.sup is None else _plain(part.sup)
