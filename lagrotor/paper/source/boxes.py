@@ -684,6 +684,10 @@ _COMMANDS: dict[str, tuple[str, str]] = {
     **{name: ("function", name) for name in FUNCTIONS},
     **{name: (kind, name) for name, kind in _SIMPLE.items()},
     **{"|": ("bar", "||"), "Vert": ("bar", "||"), "vert": ("bar", "|"), "dag": ("letter", "dagger")},
+    **{
+        f"Up{name.lower()}": ("letter", name)
+        for name in ["Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Phi", "Psi", "Omega"]
+    },
 }
 Form = Callable[[_Reader, Token, str], list[Box]]
 _FORMS: dict[str, Form] = {

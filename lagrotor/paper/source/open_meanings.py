@@ -515,6 +515,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "reach", f"the {box.name} is of the term that follows it alone", ""
     if box.name in ("sum", "prod"):
         counted = len(below) > 2 and is_plain_letter(below[0]) and below[1].name == "=" and bool(box.sup)
+        counted = counted and sum(b.kind == "relation" for b in below) == 1
         if not (counted or (len(below) == 1 and is_plain_letter(below[0]) and not box.sup)):
             yield "sum", f"what {box.name} runs over is as it is written", ""
     elif box.name == "int":

@@ -18,6 +18,7 @@ from lagrotor.paper.source.read_bracket import (
 from lagrotor.paper.source.read_derivative import (
     at_its_variable,
     in_integral,
+    is_differential,
     is_open_integral,
     read_fraction,
     read_nabla,
@@ -137,7 +138,11 @@ class Grammar(FormulaReader):
             place = behind
         if any(map(is_operator, factors)) and len(factors) > 1:
             return Call("matmul", tuple(factors))  # in this order
-        if sum(map(is_vector, factors)) > 1:
+        vectors = [each for each in factors if is_vector(each)]
+        if self.integrating and len(vectors) == 2 and factors[-1] is vectors[1] and is_differential(factors[-1]):
+            self.guess("line", "the vector before the differential of a vector is multiplied by it with a dot")
+            return Call("dot", (product_of(factors[:-1]), factors[-1]))  # \int\vec F d\vec r
+        if len(vectors) > 1:
             return _matrices(factors, row)
         if _is_contracted(row, self.notation.upper):
             return Call("contraction", tuple(factors))

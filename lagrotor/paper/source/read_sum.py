@@ -47,6 +47,10 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
             return _over_all(reader, box, below)
         if len(relations) == 1 and below[relations[0]].name == "=":
             return _from_first(reader, box, below, relations[0])
+        if box.sup is not None and len(relations) > 1:  # j = 1, j \\ne i
+            first, *others = [strip(part) for part in arguments(below)]
+            if len(first) > 2 and first[1].name == "=" and not any(b.name == "=" for part in others for b in part):
+                return [*_from_first(reader, box, first, 1), *_where(reader, others)]
         if box.sup is None and relations:
             return _where(reader, [strip(part) for part in arguments(below)])
     finally:
