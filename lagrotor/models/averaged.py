@@ -256,7 +256,8 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
         raise DomainError(
             f"averaged: spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s are not opposite: the axes part freely, and no "
-            "motion stays small; use model='minimal', or lagrotor.theory.guiding_centre for where the swing's centre goes"
+            "motion stays small; use model='minimal', or lagrotor.theory.guiding_centre(scene).path(t) for where the swing's "
+            "centre goes"
         )
     units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
     one, end, begin, starts, spent = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0

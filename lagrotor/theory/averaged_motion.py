@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lagrotor.errors import DomainError, InputError
+from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.calibrated_factors import LARGEST_SWING
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
@@ -191,7 +192,7 @@ def time_to_reach(scene: Scene, x: float) -> float:
         DomainError: as `slow_motion`, unless 0 < x < 1, and where the bar comes to tilt by more than 30 degrees before,
             sin = (|eta| + s)/(k sqrt(1 − x²)).
     """
-    if not 0 < x < 1:
+    if not 0 < finite_number(x, "time_to_reach: x", "1") < 1:
         raise DomainError(f"time_to_reach: x = {x:g} must lie between 0 and 1")
     motion, lean = slow_motion(scene), asin(x)
     if lean <= motion.farthest:
@@ -241,13 +242,14 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
         DomainError: unless |r0| <= 0.4 and |d| <= 0.16.
     """
     amplitude = amplitude_of(r0, "slow_frequency")
-    if scene.link is None or scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
-        raise InputError(f"slow_frequency: needs a bar and opposite spins, not {scene.spins}")
+    push = finite_number(momentum, "slow_frequency: momentum", "kg m²/s")
+    if not isinstance(scene, Scene) or scene.link is None or sum(scene.spins) != 0 or scene.spins[0] == 0:
+        raise InputError(f"slow_frequency: {scene!r} needs a bar and opposite spins")
     if not abs(amplitude) <= LARGEST_SWING.value:
         raise DomainError(f"slow_frequency: r0 = {r0:g} is beyond {LARGEST_SWING.value:g}; use lagrotor.floquet")
     swing = sqrt(scene.sigma) * abs(amplitude)
     one = _motion(scene, 0.0, 0.0, swing, 0.0)
-    push = scene.k * momentum / scene.momenta[0]
+    push *= scene.k / scene.momenta[0]
     if not abs(push) <= LARGEST_SWING.value**2:
         raise DomainError(f"slow_frequency: k momentum/G = {push:.3g} is beyond {LARGEST_SWING.value**2:g}")
     squared = (1.5 * swing**4 - push**2) * (push + one.weight * swing**2)

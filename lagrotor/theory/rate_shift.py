@@ -68,7 +68,8 @@ def frequency_shift(scene: Scene) -> float:
     Raises:
         InputError: without a bar, and without any spin.
     """
-    return float(shift_coefficient(scene.sigma, scene.k, opposite_share(scene)))
+    share = opposite_share(scene)
+    return float(shift_coefficient(scene.sigma, scene.k, share))
 
 
 def azimuth_drift(scene: Scene) -> float:

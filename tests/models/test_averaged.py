@@ -115,6 +115,18 @@ def test_a_difference_of_another_kind_hides_no_error(pair: Scene, r0: float) -> 
         assert averaged.FALLING.value * square * last < off < averaged.FALLING.value * square**2 * before
 
 
+@pytest.mark.filterwarnings("ignore::lagrotor.errors.LagrotorWarning")
+def test_on_the_paired_precession_the_closed_form_is_closer_and_takes_no_evaluation() -> None:
+    """What docs/models.md says of the chart; beside the orbit there is none."""
+    orbit = series_orbit(Scene((10, -10), link=Link()), 0.05, 21)
+    t = turns(orbit.start, 1000, 61)
+    closed, run = (simulate(orbit.start, t, model) for model in ("closed_form", "averaged"))
+    off = np.linalg.norm(run.axes - orbit(t), axis=-1).max()
+    assert closed.evaluations == 0 and closed.error < 1e-10 and 1e-9 < off < 1e-7 < run.error < 1e-4
+    with pytest.raises(DomainError):
+        simulate(swinging(0.01), turns(swinging(0.01), 1000), "closed_form")
+
+
 @pytest.mark.slow
 def test_ten_thousand_turns() -> None:
     scene = swinging(0.01)

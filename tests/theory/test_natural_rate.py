@@ -138,6 +138,8 @@ def test_the_shift_joins_equal_and_opposite_spins():
     assert frequency_shift(scene) == pytest.approx(1e6 * series, rel=1e-6)
     with pytest.raises(InputError, match="needs a bar"):
         frequency_shift(Scene((7, 3), link=None))
+    with pytest.raises(InputError, match="needs a bar"):
+        frequency_shift(None)
 
 
 HEAVY = Link(1.15, 6.0, 0.04)

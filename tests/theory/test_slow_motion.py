@@ -131,4 +131,11 @@ def test_refused() -> None:
         slow_frequency(Scene((10, 10)), 0.1)
     with pytest.raises(DomainError, match="beyond"):
         slow_frequency(Scene((10, -10)), 0.1, 5.0)
+    for momentum in (None, "x", np.nan):
+        with pytest.raises(InputError, match="momentum"):
+            slow_frequency(Scene((10, -10)), 0.1, momentum)
+    with pytest.raises(InputError, match="x = None"):
+        time_to_reach(shocked, None)
+    with pytest.raises(InputError, match="needs a bar"):
+        slow_frequency(None, 0.1)
     assert cos(slow_motion(shocked).farthest) < 1e-15
