@@ -310,14 +310,11 @@ def _look_about(row: list[Box], found: Notation) -> None:
     for place, box in enumerate(row):
         before, after = (row[place - 1] if place else None), (row[place + 1] if place + 1 < len(row) else None)
         _look_above(box, found)
-        held = {
-            stem_of(b) for part in box.parts for b in all_boxes(part) if b.kind == "letter" and "vec" not in b.marks
-        }
         transposed = box.sup and [b.name for b in without_thin(box.sup)] in (["T"], ["top"], ["dagger"], ["intercal"])
         if transposed and any(b.kind == "nabla" for part in box.parts for b in part):
             found.seen.add("hessian")
         if transposed and "vec" not in box.marks:
-            found.matrices |= {stem_of(box)} if box.kind == "letter" else held
+            found.matrices |= {stem_of(box)} if box.kind == "letter" else _held(box)
         if box.sup and [b.name for b in box.sup] == ["dagger"]:
             found.seen.add("operators")
         _look_at_number(box, after, found)
@@ -331,7 +328,7 @@ def _look_about(row: list[Box], found: Notation) -> None:
         if box.kind in ("nabla", "partial") and after is not None and after.kind == "letter":
             found.differentiated.add(stem_of(after))
         if box.kind == "bracket":
-            _look_at_bracket(box, before, after, held, found)
+            _look_at_bracket(box, before, after, found)
         elif box.kind == "relation" and before is not None and after is not None:
             _look_at_relation(row, place, found)
         elif box.name == "times" or (box.name == "cdot" and before is not None and before.kind == "nabla"):
@@ -344,15 +341,16 @@ def _look_about(row: list[Box], found: Notation) -> None:
 
 def _look_above(box: Box, found: Notation) -> None:
     """Letters above and below of which the place says whether they are indices or powers."""
-    above = without_thin(box.sup or [])
-    names = {b.name for b in above if b.kind == "letter" and not b.upright}
     if box.kind in ("partial", "nabla") and box.sub and len(box.sub) == 1:
         found.upper |= {b.name for b in box.sub} & _ABOVE
-    power = box.kind != "letter" or len(above) > 1 or box.name in ("d", "e")
-    if power and not (len(names) == len(above) > 1 and (names <= set("ijkl") or names <= set(TENSOR))):
-        found.exponents |= {b.name for b in all_boxes(above) if b.kind == "letter"}
-    elif power:
-        found.upper |= names
+    if box.sup:
+        above = without_thin(box.sup)
+        names = {b.name for b in above if b.kind == "letter" and not b.upright}
+        power = box.kind != "letter" or len(above) > 1 or box.name in ("d", "e")
+        if power and not (len(names) == len(above) > 1 and (names <= set("ijkl") or names <= set(TENSOR))):
+            found.exponents |= {b.name for b in all_boxes(above) if b.kind == "letter"}
+        elif power:
+            found.upper |= names
     if box.kind == "fraction":
         over, under = (without_thin(part) for part in box.parts)
         if over and under and over[0].kind == under[0].kind == "partial" and over[0].sup is None:
@@ -434,12 +432,18 @@ def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
         found.matrices.add(stem_of(before))
 
 
-def _look_at_bracket(box: Box, before: Box | None, after: Box | None, held: set[str], found: Notation) -> None:
+def _held(box: Box) -> set[str]:
+    """The letters in a box, without those that are printed with an arrow."""
+    letters = (b for part in box.parts for b in all_boxes(part) if b.kind == "letter")
+    return {stem_of(b) for b in letters if "vec" not in b.marks}
+
+
+def _look_at_bracket(box: Box, before: Box | None, after: Box | None, found: Notation) -> None:
     content = box.parts[0]
     if box.closing == r"\rangle" and (box.name == "|" or any(b.kind == "bar" for b in content)):
         found.seen.add("ket")
     if box.name == "[" and sum(b.kind == "comma" for b in content) == 1 and _is_commutator(content, before, after):
-        found.matrices |= held
+        found.matrices |= _held(box)
         found.seen.add("operators")
     letters = [b for b in content if b.kind == "letter" and any(c.kind == "comma" for c in content)]
     found.primed |= {stem_of(b) for b in letters if b.primes} & {stem_of(b) for b in letters if not b.primes}

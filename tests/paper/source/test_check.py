@@ -1,12 +1,15 @@
 """A source by itself: slips are found with their line, what may be physics is left alone."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from lagrotor.algebra import decide_equal
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.paper.readable import readable
+from lagrotor.paper.source import check
 from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, REFUTED, UNITS, StepFinding, check_source
 from lagrotor.paper.source.displays import read_latex
 from lagrotor.paper.source.markup import read_source
@@ -225,11 +228,25 @@ def test_a_step_that_takes_too_much_work_is_left_undecided_and_says_so(tmp_path:
     (found,) = findings(tmp_path, rf"\[ b = p {inner} + v = q ({inner})^n \]")
     assert (found.verdict, found.why) == ("undecided", "the difference is too large")
     given = rf"\[ u = {inner} \] \[ p = w \] \[ b = p u + v = q u^n \]"
-    assert [each.why for each in findings(tmp_path, given)] == ["the difference is too large"]
+    assert [each.why for each in findings(tmp_path, given)] == ["n, q may be related to the letters before"]
     for right, verdict in ((rf"v + p {inner}", HOLDS), (rf"v - p {inner}", REFUTED)):
         assert verdicts(tmp_path, rf"\[ b = p {inner} + v = {right} \]") == [verdict]
     nested = r"\tan(\tan(\tan(x)))"
     assert verdicts(tmp_path, rf"\[ b = {nested} + 1 = {nested} + 2 \]") == [REFUTED]
+
+
+def test_with_definitions_put_in_only_what_agrees_at_a_point_is_decided_exactly(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    decisions = []
+
+    def counted(a: Any, b: Any) -> Any:
+        decisions.append((a, b))
+        return decide_equal(a, b)
+
+    monkeypatch.setattr(check, "decide_equal", counted)
+    assert verdicts(tmp_path, r"\[ u = x + y \] \[ b = p u + v = q u^2 \]") == ["undecided"] and len(decisions) == 1
+    assert verdicts(tmp_path, r"\[ u = x + y \] \[ b = p u + v = p x + p y + v \]") == [HOLDS] and len(decisions) == 3
 
 
 def test_a_latin_1_source_is_read(tmp_path: Path) -> None:
