@@ -8,7 +8,7 @@ there the comparison ends, and the better run goes on alone. What the motion con
 It is an estimate. Where errors follow the tolerance the difference is APART − 1 times the error of the better run, and the
 estimate 12 times that error: the median of 866 random runs read at 64 times more is 12 to 13. Two runs may be off by the same
 for longer than SWING: between start and end the error up to a time was larger than estimated in 8 of them, at most 5 times, and
-beyond `tol` never without a warning. The largest of a whole run was larger in one, by a sixth (tests/told_over_true.py).
+beyond `tol` never without a warning. The largest of a whole run was larger in two, at most twice (tests/told_over_true.py).
 """
 
 import warnings
