@@ -26,6 +26,7 @@ from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
 from lagrotor.paper.source.tree import (
+    KNOWN,
     Call,
     Letter,
     Node,
@@ -35,6 +36,7 @@ from lagrotor.paper.source.tree import (
     letters_of,
     sympy_expression,
     text_of,
+    walk,
 )
 from lagrotor.paper.source.usage import Notation, letters_printed, notation_of
 
@@ -58,6 +60,10 @@ _RELATION = re.compile(r"=|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propt
 _CONDITIONS = re.compile(
     r"\b(?:modulo|up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*|by parts|boundary|relabel\w*"
     r"|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|vanish\w*|limit|small|assum\w*|on.shell|constraint)\b",
+    re.IGNORECASE,
+)
+_TO_BE_SOLVED = re.compile(
+    r"\b(?:if|when\w*|where|unless|until|only|satisf\w*|sol[uv]\w*|roots?|condition\w*|equations?|require\w*|must|equilibri\w*)\b",
     re.IGNORECASE,
 )
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
@@ -159,7 +165,7 @@ class _Checker:
             verdict, why = self._step(left.node, right.node, first=step == 1)
             if (guess := _guess(reading)) and verdict in (HOLDS, REFUTED):
                 verdict, why = "undecided", f"{why}; but it is a guess that {guess}"
-            if step > 1 or verdict == HOLDS:
+            if step > 1 or verdict in (HOLDS, REFUTED):
                 yield self._finding(each, step, right, verdict, why)
 
     def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
@@ -178,13 +184,10 @@ class _Checker:
         return replace(statement, sides=(first, last, *shifted), relations=("=", *statement.relations))
 
     def _identity(self, left: Node, right: Node) -> bool:
-        """Whether the first step may be an identity: no letter stands alone."""
-        return (
-            not isinstance(left, Letter)
-            and not isinstance(right, Letter)
-            and bool(letters_of(right))
-            and isinstance(left, Call)
-        )
+        """Whether the first step may be an identity: no letter stands alone, a number beside functions alone."""
+        of_functions = any(isinstance(each, Call) and each.name in KNOWN for each in walk(left))
+        beside = bool(letters_of(right)) or (of_functions and isinstance(right, Number) and right.value != 0)
+        return isinstance(left, Call) and not isinstance(right, Letter) and beside
 
     def _step(self, left: Node, right: Node, first: bool) -> tuple[str, str]:
         try:
@@ -205,8 +208,14 @@ class _Checker:
             return "undecided", f"the difference {why}"
         if answer == "shape":
             return "undecided", "one side is printed as a vector, the other as a number"
-        verdict, why = self._refuted(left, right, a, b)
-        if verdict != REFUTED and used and self._are_near(used) and (slip := self._slip_from(given[0], b, right)):
+        verdict, why = self._refuted(left, right, a, b, first)
+        if (
+            verdict != REFUTED
+            and used
+            and not first
+            and self._are_near(used)
+            and (slip := self._slip_from(given[0], b, right))
+        ):
             return REFUTED, f"with {', '.join(used)} the two sides differ; {slip}"
         return verdict, why
 
@@ -215,10 +224,10 @@ class _Checker:
         each = self.readings[self.place][0]
         last = [e for e, _ in self.readings[max(self.place - 3, 0) : self.place] if e.section == each.section]
         near = [*last, *(read.equation for label in each.cites for read in self.labelled[label])]
-        return {*used} <= {f"({e.id})" for e in near} and not self._says_condition()
+        return {*used} <= {f"({e.id})" for e in near} and not self._says(_CONDITIONS)
 
-    def _says_condition(self) -> str:
-        words = _CONDITIONS.search(self.source.words.get(self.readings[self.place][0].id, ""))
+    def _says(self, condition: re.Pattern[str]) -> str:
+        words = condition.search(self.source.words.get(self.readings[self.place][0].id, ""))
         return words[0] if words else ""
 
     def _slip_from(self, put: Any, b: Any, right: Node) -> str | None:
@@ -230,44 +239,52 @@ class _Checker:
             return None
         return self._change(put, right, letters)
 
-    def _refuted(self, left: Node, right: Node, a: Any, b: Any) -> tuple[str, str]:
-        """Whether a difference that is not zero refutes the step."""
+    def _refuted(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> tuple[str, str]:
+        """Whether a difference that is not zero refutes the step; first: of the whole equation."""
         own, others = set(letters_of(left)), set(letters_of(right))
         if has_opaque(a, b):
             return "undecided", "derivatives, integrals or functions may be related"
         if more := sorted(others - own):
             return "undecided", f"{', '.join(more)} may be related to the letters before"
-        if words := self._says_condition():
+        if words := self._says(_CONDITIONS):
             return "undecided", f"the text beside it says: {words}"
         if not others and own:
             if (value := _constant(a)) is not None and decided(a, value) == "zero":
                 return REFUTED, f"the left side is {value} for all values of its letters"
-            if a.has(sp.Function) and (slip := self._change(b, left, own)) and "sign" in slip:
+            if not first and a.has(sp.Function) and (slip := self._change(b, left, own)) and "sign" in slip:
                 return REFUTED, f"the left side is not {b}; {slip}"
             return "undecided", "it is a condition, not an identity"
         difference = "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(sp.factor_terms(a - b))
-        slip = self._slip(left, right, a, b)
+        if first and (not (a.has(sp.Function) and b.has(sp.Function)) or self._says(_TO_BE_SOLVED)):
+            return "undecided", "it may be a condition"
+        slip = self._slip(left, right, a, b, first)
         if slip is None:
             return "undecided", f"the two sides differ by {difference}: it may be a condition"
         if related := next(self._related(own), None):
             return "undecided", f"{related} may be used"
         return REFUTED, f"the two sides differ by {difference}; {slip}"
 
-    def _slip(self, left: Node, right: Node, a: Any, b: Any) -> str | None:
+    def _slip(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> str | None:
         """The one change with which the two sides agree."""
         names = {*letters_of(left), *letters_of(right)}
-        return self._change(a, right, names) or self._change(b, left, names)
+        return self._change(a, right, names, first) or self._change(b, left, names, first)
 
-    def _change(self, fixed: Any, changing: Node, names: set[str]) -> str | None:
-        """The one change of a side with which it is the other, `fixed`."""
-        symbols = sorted({*fixed.free_symbols, *(sp.Symbol(name, real=True) for name in names)}, key=str)
+    def _change(self, fixed: Any, changing: Node, names: set[str], by_identity: bool = False) -> str | None:
+        """The one change of a side with which it is the other, `fixed`; by_identity: not to the same print, as cos x = sin x."""
+        given = _expression_of(changing, self.opaque)
+        letters = (sp.Symbol(name, real=True) for name in names)
+        symbols = sorted({*fixed.free_symbols, *given.free_symbols, *letters}, key=str)
         point = {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}
         value = _number(fixed, point)
-        if (ratio := _ratio(fixed, _expression_of(changing, self.opaque), point)) is not None:
+        ratio = _ratio(fixed, given, point)
+        if ratio is not None and not (by_identity and fixed == sp.Rational(str(ratio)) * given):
             return f"with the factor {ratio} of the whole they agree"
-        for mutant, said in islice(chain(_whole(changing), slips(changing, names)), _MOST_SLIPS):
+        whole = () if by_identity else _whole(changing)  # tan x = cot x may be a condition
+        for mutant, said in islice(chain(whole, slips(changing, names)), _MOST_SLIPS):
             other = _expression_of(mutant, self.opaque)
-            if other is not None and _near(value, _number(other, point)) and decided(fixed, other) == "zero":
+            if other is None or (by_identity and fixed == other):
+                continue
+            if _near(value, _number(other, point)) and decided(fixed, other) == "zero":
                 return f"with {said} they agree"
         return None
 

@@ -58,7 +58,8 @@ _MOST_BITS = 20_000  # of a number that is evaluated
 _MOST_ADDED = 40  # terms of a sum that is written out
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
-_KNOWN = {
+# Functions whose identities are decided.
+KNOWN = {
     **{name: getattr(sp, name) for name in ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth")},
     **{
         name: getattr(sp, name)
@@ -237,7 +238,7 @@ def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
     parts = [sympy_expression(each, opaque) for each in node.args]
     if _too_large(node, parts):
         return opaque.symbol(node)
-    return _VALUES[node.name](*parts) if node.name in _VALUES else _KNOWN[node.name](*parts)
+    return _VALUES[node.name](*parts) if node.name in _VALUES else KNOWN[node.name](*parts)
 
 
 def has_opaque(*values: Any) -> bool:
@@ -305,7 +306,7 @@ def _transparent(node: Call) -> bool:
         return all(map(_column, node.args))
     if node.name == "norm":
         return _column(node.args[0])
-    return node.name == "negative" or (node.name in _KNOWN and not any(vectors))
+    return node.name == "negative" or (node.name in KNOWN and not any(vectors))
 
 
 def _column(node: Node) -> bool:

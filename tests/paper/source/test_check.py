@@ -110,6 +110,7 @@ def test_slips_of_factors_powers_indices_and_functions_are_found(
         r"\frac{d}{dx} a x = a",  # a may depend on x
         r"\sum_{k=1}^2 a_k = 2 a_k",  # a_k is another letter
         r"\frac{d}{dt} p = p",
+        r"(\vec a + \vec b)\cdot\vec c = \vec a\cdot\vec c",  # b is normal to c
     ],
 )
 def test_conditions_and_what_may_depend_on_a_variable_are_left_alone(step: str, tmp_path: Path) -> None:
@@ -320,3 +321,34 @@ def test_a_slip_is_found_where_definitions_are_put_in(text: str, slip: str) -> N
     wrong = [each for each in check_source(read_latex(text)) if each.verdict == "would be refuted"]
     assert len(wrong) == 1
     assert slip in readable(wrong[0].why)
+
+
+# A single equation of known functions: what is an identity, with one slip; what may be a condition.
+FIRST = [
+    (r"\sin(2x) = 2\sin x\cos x", r"\sin(2x) = \sin x\cos x"),
+    (r"\cos(a + b) = \cos a\cos b - \sin a\sin b", r"\cos(a + b) = \cos a\cos b + \sin a\sin b"),
+    (r"\cos 2x = 1 - 2\sin^2 x", r"\cos 2x = 1 - \sin^2 x"),
+    (r"e^{x} e^{y} = e^{x + y}", r"e^{x} e^{y} = e^{x - y}"),
+    (r"\cos^2 x + \sin^2 x = 1", r"\cos^2 x + \sin^2 x = 2"),
+]
+
+
+@pytest.mark.parametrize(("good", "wrong"), FIRST)
+def test_a_single_equation_of_known_functions_is_an_identity(good: str, wrong: str, tmp_path: Path) -> None:
+    assert verdicts(tmp_path, rf"\[ {good} \]") == [HOLDS]
+    assert verdicts(tmp_path, rf"\[ {wrong} \]") == [REFUTED]
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        r"\sin\theta = \cos\theta", r"\tan x = \cot x", r"\tan x = \tanh x", r"\cos x\cosh x = 1", r"\sin 2x = 2\sin x",
+        r"\cosh^2 x + \sinh^2 x = 1", "e^{x} = e^{-x}", r"\cos x = -\cos x", "(a + b)^2 = a^2 - 2ab + b^2", r"\tan x = x",
+    ],
+)  # fmt: skip
+def test_a_single_equation_that_may_be_a_condition_is_left_alone(condition: str, tmp_path: Path) -> None:
+    assert verdicts(tmp_path, rf"\[ {condition} \]") == []
+
+
+def test_an_equation_to_be_solved_is_no_identity(tmp_path: Path) -> None:
+    assert verdicts(tmp_path, r"The roots of \[ \sin(2x) = \sin x\cos x \]") == []
