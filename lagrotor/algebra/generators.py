@@ -93,7 +93,17 @@ def _enter(node: sp.Expr, found: Survey) -> tuple[sp.Expr, ...]:
         found.radicands[base] = None
         return (base,)
     elif node.func in CIRCULAR or node.func in HYPERBOLIC or node.func is sp.exp:
-        return _enter_function(node, found)
+        turn, rates = angle_of(node)
+        for monomial, rate in rates.items():
+            multiples = found.angles.setdefault((node.func not in CIRCULAR, monomial), Multiples())
+            multiples.step = int(sp.ilcm(multiples.step, rate.q))
+            multiples.largest = max(multiples.largest, abs(rate))
+            multiples.exponential &= node.func is sp.exp
+        constants = tuple(part(turn * sp.pi) for part in FAMILY[False])
+        for value in constants:
+            if value.has(sp.cos, sp.sin):
+                raise NotExactError(f"{value} is not made of square roots of integers.")
+        return constants
     elif _is_rational_step(node):
         return node.args[:1] if node.is_Pow else node.args
     else:
@@ -108,20 +118,6 @@ def _check_symbol(node: sp.Expr) -> None:
 
 def _is_rational_step(node: sp.Expr) -> bool:
     return bool(node.is_Rational or node.is_Add or node.is_Mul or (node.is_Pow and node.exp.is_Integer))
-
-
-def _enter_function(node: sp.Expr, found: Survey) -> tuple[sp.Expr, ...]:
-    turn, rates = angle_of(node)
-    for monomial, rate in rates.items():
-        multiples = found.angles.setdefault((node.func not in CIRCULAR, monomial), Multiples())
-        multiples.step = int(sp.ilcm(multiples.step, rate.q))
-        multiples.largest = max(multiples.largest, abs(rate))
-        multiples.exponential &= node.func is sp.exp
-    constants = tuple(part(turn * sp.pi) for part in FAMILY[False])
-    for value in constants:
-        if value.has(sp.cos, sp.sin):
-            raise NotExactError(f"{value} is not made of square roots of integers.")
-    return constants
 
 
 def radicand(node: sp.Expr) -> sp.Expr | None:

@@ -26,7 +26,16 @@ def _gamma(u: sp.Expr) -> sp.Expr | None:
     u = sp.expand(u)
     constant, rest = _constant(u)
     if not rest:
-        return _number_gamma(constant)
+        value = sp.gamma(constant)
+        if not value.has(sp.gamma):
+            return value
+        if constant > 1:
+            return (constant - 1) * sp.gamma(constant - 1, evaluate=False)
+        if constant < 0:
+            return sp.gamma(constant + 1, evaluate=False) / constant
+        if constant > sp.S.Half:
+            return sp.pi / (sp.sin(sp.pi * constant) * sp.gamma(1 - constant, evaluate=False))
+        return None
     shift = floor(constant)
     if shift and abs(shift) <= _MOST_STEPS:
         base = u - shift
@@ -41,19 +50,6 @@ def _gamma(u: sp.Expr) -> sp.Expr | None:
         v = u / n  # the multiplication theorem
         product = sp.Mul(*(sp.gamma(v + sp.Rational(k, n), evaluate=False) for k in range(n)))
         return (2 * sp.pi) ** sp.Rational(1 - n, 2) * sp.Integer(n) ** (u - sp.S.Half) * product
-    return None
-
-
-def _number_gamma(c: sp.Rational) -> sp.Expr | None:
-    value = sp.gamma(c)
-    if not value.has(sp.gamma):
-        return value
-    if c > 1:
-        return (c - 1) * sp.gamma(c - 1, evaluate=False)
-    if c < 0:
-        return sp.gamma(c + 1, evaluate=False) / c
-    if c > sp.S.Half:
-        return sp.pi / (sp.sin(sp.pi * c) * sp.gamma(1 - c, evaluate=False))
     return None
 
 

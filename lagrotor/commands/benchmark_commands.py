@@ -3,7 +3,6 @@
 import argparse
 import json
 import os
-from collections.abc import Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -13,7 +12,6 @@ from lagrotor.commands.options import Command, check_folder
 from lagrotor.commands.terminal import progress, table
 
 if TYPE_CHECKING:
-    from lagrotor.benchmark.limits.threshold import Limit
     from lagrotor.benchmark.runner import Benchmark
     from lagrotor.benchmark.throughput import Throughput
 
@@ -154,22 +152,16 @@ def stability_command(given: argparse.Namespace) -> int:
     if given.json:
         print(text)
     else:
-        print(table(LIMIT_HEAD, limit_rows(thresholds)), table(THROUGHPUT_HEAD, throughput_rows(rates)), sep="\n\n")
+        limit_rows = [
+            (x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in thresholds
+        ]
+        throughput_rows = [(x.what, f"{x.rate:.3g} {x.unit}", f"{x.share:.2g}", x.against) for x in rates]
+        print(table(LIMIT_HEAD, limit_rows), table(THROUGHPUT_HEAD, throughput_rows), sep="\n\n")
     if given.out:
         written = [*draw_stability(useful, given.out), write_text(given.out / "stability.json", text + "\n")]
         if not given.json:
             print(*written, sep="\n")
     return 0
-
-
-def limit_rows(thresholds: "Sequence[Limit]") -> list[tuple[str, ...]]:
-    """The limits as rows under LIMIT_HEAD."""
-    return [(x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in thresholds]
-
-
-def throughput_rows(rates: "Sequence[Throughput]") -> list[tuple[str, ...]]:
-    """The rates as rows under THROUGHPUT_HEAD."""
-    return [(x.what, f"{x.rate:.3g} {x.unit}", f"{x.share:.2g}", x.against) for x in rates]
 
 
 def _throughput(measure: Any, quick: bool) -> "list[Throughput]":

@@ -42,7 +42,16 @@ def speed_chart(chart: Benchmark) -> Figure:
         lines = _panel(axes, chart, work)
     figure.axes[0].set_ylabel("largest error of a tip (m)")
     figure.suptitle(chart.says, x=0.06, ha="left")
-    _legend(figure, lines)
+    legend = figure.legend(
+        handles=[line for line, _ in lines],
+        loc="outside right upper",
+        fontsize=7,
+        title="in brackets: set-up time",
+        title_fontsize=7,
+        alignment="left",
+    )
+    for text, (_, is_heading) in zip(legend.get_texts(), lines, strict=True):
+        text.set_fontweight("bold" if is_heading else "normal")
     if failures:
         figure.supxlabel("left out:\n" + "\n".join(failures), x=0.01, ha="left", fontsize=6.5, linespacing=1.3)
     return figure
@@ -84,16 +93,3 @@ def _curve(axes: Axes, points: list[ChartPoint], work: Work, number: int, look: 
         at = getattr(end, work), end.error
         axes.annotate(str(number), at, (3, -7), textcoords="offset points", fontsize=7, color=look["color"])
     return line
-
-
-def _legend(figure: Figure, lines: list[tuple[Line2D, bool]]) -> None:
-    legend = figure.legend(
-        handles=[line for line, _ in lines],
-        loc="outside right upper",
-        fontsize=7,
-        title="in brackets: set-up time",
-        title_fontsize=7,
-        alignment="left",
-    )
-    for text, (_, is_heading) in zip(legend.get_texts(), lines, strict=True):
-        text.set_fontweight("bold" if is_heading else "normal")

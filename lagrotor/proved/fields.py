@@ -231,7 +231,10 @@ def structure_field(s: Assembly, tilt: Any, rates: Any) -> Field:
     made, held = structure_program(s)
     n = 3 * len(s.joints)
     if len(held) > 2 * len(s.joints) and tilt is not None:
-        tilt, rates = _nearest(s, tilt, rates)
+        from lagrotor.structures.exact.structure_run import simulate_structure
+
+        run = simulate_structure(s, [0.0], tilt, rates)
+        tilt, rates = run.axes[:, 0], run.rates[:, 0]
     r, v = _axes("tilt", tilt, len(s.joints)), _axes("rates", rates, len(s.joints))
     q: Balls = []
     w: Balls = []
@@ -247,14 +250,6 @@ def structure_field(s: Assembly, tilt: Any, rates: Any) -> Field:
         w += rate
     timed = (ZERO,) * (len(made.outputs) - 2 * n)
     return on_constraints(Field(made, {}, (*q, *w, *timed), held=held, about=of_structure(s)))
-
-
-def _nearest(s: Assembly, tilt: Any, rates: Any) -> Any:
-    """Floats on the bars near the tilt and rates."""
-    from lagrotor.structures.exact.structure_run import simulate_structure
-
-    run = simulate_structure(s, [0.0], tilt, rates)
-    return run.axes[:, 0], run.rates[:, 0]
 
 
 def _axes(name: str, given: Any, N: int) -> list[Balls]:

@@ -87,7 +87,7 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
         _, rows = values_at(tape, state, True)
         J = arb_mat([row[: 2 * n] for row in rows])
         energy = _energy_hessian(made, system)
-        found = _square_matrix(values_at(energy, state), 2 * n)
+        found = arb_mat(2 * n, 2 * n, values_at(energy, state))
         calm = not any(system.forces) and damped(system, made, state)
         stability, eigenvalues = stability_of(system, J, found, calm)
         names = tuple(map(str, system.c.q))
@@ -142,16 +142,6 @@ def _energy_hessian(made: Field, system: Equations) -> Tape:
     return made.function([sp.diff(e, x) for e in first for x in states])
 
 
-def _square_matrix(values: Balls, n: int) -> Matrix:
-    """Values row by row as a matrix."""
-    return arb_mat(n, n, values)
-
-
-def conservative(system: Equations) -> bool:
-    """Whether nothing but the Lagrangian acts."""
-    return system.dissipation == 0 and not any(system.forces)
-
-
 def damped(system: Equations, made: Field, state: Sequence[Ball]) -> bool:
     """Whether Rayleigh's function takes energy out: D = vᵀ H(q) v / 2 with every principal minor of H zero or positive there."""
     v = system.c.v
@@ -187,7 +177,8 @@ def stability_of(
         return "stable", tuple(found)
     if any(real > 0 for real, _ in found):
         return "unstable", tuple(found)
-    if found and conservative(system) and on_axis(found):
+    conservative = system.dissipation == 0 and not any(system.forces)
+    if found and conservative and on_axis(found):
         return "stable to first order", tuple(found)
     return "undecided", tuple(found)
 

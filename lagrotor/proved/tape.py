@@ -3,7 +3,7 @@
 It is plain data, so that a certificate can hold it: (name, operand, …) with operands the places of earlier results.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -163,16 +163,11 @@ _RULES: dict[Any, Any] = {
 }
 
 
-def tape_of(program: Program, put: Mapping[sp.Symbol, sp.Expr] | None = None) -> Tape:
-    """The program's operations. put: expressions of other arguments that take the place of some of its arguments."""
-    given = dict(put or {})
-    inner = sorted({s for e in given.values() for s in e.free_symbols} - set(program.arguments), key=str)
-    arguments = [s for s in (*program.arguments, *inner) if s not in given]
-    recorder = Recorder([str(s) for s in arguments])
-    for i, s in enumerate(arguments):
+def tape_of(program: Program) -> Tape:
+    """The program's operations."""
+    recorder = Recorder([str(s) for s in program.arguments])
+    for i, s in enumerate(program.arguments):
         recorder.name(s, recorder.keep("argument", i))
-    for s, e in given.items():
-        recorder.name(s, recorder.record(e))
     stages, outputs = reduce_common(program)
     for name, e in stages:
         recorder.name(name, recorder.record(e))

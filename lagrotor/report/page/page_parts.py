@@ -118,17 +118,6 @@ def headline_entry(headline: Headline, report: Report) -> str:
     return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{shown}</li>"
 
 
-def finding_entry(title: str, text: str) -> str:
-    """A sentence that a derivation found besides."""
-    return f"<h3>{prose(title)}</h3><p>{prose(text)}</p>"
-
-
-def derivation_entry(derivation: tuple[str, str, str]) -> str:
-    """A derivation, folded."""
-    stem, name, inside = derivation
-    return f'<details class="derivation" id="derivation-{stem}"><summary>{prose(name)}</summary>{inside}</details>'
-
-
 def count_entry(answer: str, count: int, meaning: str) -> str:
     """How often a verdict was given, and what it means."""
     return f"<li><b>{count}</b> {badge(answer)} <span>{escape(meaning)}</span></li>"

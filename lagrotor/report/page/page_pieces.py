@@ -83,14 +83,9 @@ def _fact(fact: Fact) -> str:
     symbols = "".join(f" {inline(letter)}" for letter in fact.formulas if letter.is_Symbol)
     parts = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
     parts += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
-    parts.append(formula_list(formula for formula in fact.formulas if not formula.is_Symbol))
+    parts += [typeset(latex(formula)) for formula in fact.formulas if not formula.is_Symbol]
     parts += map(typeset, fact.sources)
     return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
-
-
-def formula_list(expressions: Iterable[sp.Basic]) -> str:
-    """Each expression on a line of its own."""
-    return "".join(typeset(latex(expression)) for expression in expressions)
 
 
 def inline(expression: sp.Basic) -> str:

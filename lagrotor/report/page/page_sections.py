@@ -19,10 +19,8 @@ from lagrotor.report.facts import note
 from lagrotor.report.page.page_parts import (
     claim_entry,
     count_entry,
-    derivation_entry,
     equation_entry,
     erratum_entry,
-    finding_entry,
     headline_entry,
     picture_entry,
     reading_of,
@@ -113,7 +111,10 @@ def _derivations(report: Report) -> str:
     how = "<p>Each derivation opens. The run that wrote this page decided each of its equations exactly, or through the order "
     how += "that it shows; letters as in the "
     how += '<a href="#notation">notation</a>.</p>'
-    return how + "\n".join(map(derivation_entry, report.derivations))
+    return how + "\n".join(
+        f'<details class="derivation" id="derivation-{stem}"><summary>{prose(name)}</summary>{inside}</details>'
+        for stem, name, inside in report.derivations
+    )
 
 
 def _errata(report: Report) -> str:
@@ -123,7 +124,7 @@ def _errata(report: Report) -> str:
 def _shown(part: ShownPart, report: Report) -> str:
     """Tables, what was found, figures."""
     parts = [side_by_side(table, report) for table in part.tables]
-    parts += [finding_entry(title, text) for title, text in part.remarks]
+    parts += [f"<h3>{prose(title)}</h3><p>{prose(text)}</p>" for title, text in part.remarks]
     parts += [picture_entry(picture, report) for picture in part.pictures]
     return "\n".join(parts)
 

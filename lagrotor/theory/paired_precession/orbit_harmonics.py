@@ -44,11 +44,6 @@ def start_of(harmonics: Array) -> tuple[Array, Array]:
     return exchanged * parallel * (signs @ harmonics), across * (signs * h @ harmonics)
 
 
-def speed_of(harmonics: Array) -> float:
-    """Bound of |dr/dPhi|."""
-    return float(np.linalg.norm(np.arange(len(harmonics)) @ np.abs(harmonics)))
-
-
 def harmonic_momentum(harmonics: Array, frequency: float, inertias: tuple[float, float], momentum: float) -> float:
     """P about the joint line of the motion at `frequency`, inertias (a, b) and G of rotor 1, evaluated at Phi = 0.
 

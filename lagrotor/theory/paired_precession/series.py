@@ -202,11 +202,6 @@ def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain | None = None) -> Re
     return residual
 
 
-def unknowns_at_rest(field: Domain) -> list[Any]:
-    """The unknowns x, Y, z and the two multipliers at rest."""
-    return [field.zero, field.zero, field.one, field.zero, field.zero]
-
-
 def check_order(order: int) -> int:
     """The order of a series. Raises InputError unless it is a whole number, 1 or more."""
     if isinstance(order, bool) or not isinstance(order, int) or order < 1:
@@ -239,5 +234,6 @@ def _solve_series(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> Pa
     field = coefficient_field(shape, ratio)
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
     exactly, numeric = equations(shape, ratio, field), None if exact else equations(shape, ratio)
-    solution = lindstedt_poincare(exactly, unknowns_at_rest(field), mode, order, field, numeric=numeric)
+    rest = [field.zero, field.zero, field.one, field.zero, field.zero]  # x, Y, z and the two multipliers
+    solution = lindstedt_poincare(exactly, rest, mode, order, field, numeric=numeric)
     return PairedSeries(solution, order, shape, ratio, field)

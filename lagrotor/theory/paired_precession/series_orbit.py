@@ -11,7 +11,7 @@ from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown, superscript
 from lagrotor.theory.natural_rate import natural_rate
-from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of, harmonic_momentum, speed_of, start_of
+from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of, harmonic_momentum, start_of
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
 SERIES_ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to 1
@@ -65,7 +65,8 @@ class PrecessionOrbit(Shown):
 
     def error_at(self, t: ArrayLike) -> Array:
         """Bound of an axis' error at times t (…) in s: `error`, and the phase that the frequency's error adds up to."""
-        return self.error + speed_of(self.harmonics) * self.frequency_error * np.abs(np.asarray(t, dtype=float))
+        speed = np.linalg.norm(np.arange(len(self.harmonics)) @ np.abs(self.harmonics))  # a bound of |dr/dPhi|
+        return self.error + speed * self.frequency_error * np.abs(np.asarray(t, dtype=float))
 
     @property
     def momentum(self) -> float:

@@ -8,7 +8,6 @@ from lagrotor.models.simulate import simulate
 from lagrotor.numerics.curves import best_harmonics, measured_order
 from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
-from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.claims.natural_rates import BARS
 from lagrotor.paper.rotor_pair.claims.precession_runs import (
@@ -30,11 +29,6 @@ WEAK = 5.0  # N
 _COSINE = "the rate at average inclination θ is the natural rate over cos θ"
 
 
-def _mean_square(run: Trajectory) -> float:
-    """Square of the average inclination of both axes (rad²)."""
-    return float(run.inclinations.mean()) ** 2
-
-
 def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
     """c of rate/natural rate = 1 + c θ̄² at the least amplitude, and the power of θ̄ in the change.
 
@@ -46,7 +40,7 @@ def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
     for r0 in AMPLITUDES:
         if spins[0] == -spins[1] != 0:
             rate = precession_scene(spins, r0, bar)[1]
-            sizes.append(_mean_square(once_round(spins, r0, bar)))
+            sizes.append(float(once_round(spins, r0, bar).inclinations.mean()) ** 2)
         else:
             scene = Scene(spins, link=bar, rates=((r0 * natural, 0, 0),) * 2)
             run = simulate(scene, np.linspace(0, 6, 401), "minimal", 1e-11)
