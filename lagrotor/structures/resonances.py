@@ -49,6 +49,7 @@ _TRUSTED = 0.1  # the sine of a tilt
 _EQUAL = 1e-6  # of the largest rate
 _ON_BARS = 1e-6  # of the largest rate: what the bars do not allow
 _MOST_STEPS = 8  # of the search for the edge of a window
+_FAR = 0.2  # of a resonant factor: how far its slope there is relied on
 _STOPPED = "no: its own terms stop it; how far it grows before is not known"
 _FASTEST = 1e9  # times the critical factor: beyond, no spins are sought
 _WIDE = 1.5  # times: intervals whose ends' distances from the critical factor are further apart are checked between
@@ -389,7 +390,7 @@ def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
     """How far a structure may be pushed out of upright, whatever the direction, by the terms through fourth order.
 
     of: "rates", a push of the axes' rates from upright, or "tilts", of their tilts at rest. 0 where it does not stand to first
-    order. Raises InputError as `resonances` does.
+    order. From some 100 times the critical spins on rounding lowers it. Raises InputError as `resonances` does.
     """
     check_kind_of_push(of)
     if small_motion(s).growth > 0:
@@ -464,23 +465,26 @@ def _like(s: Assembly, linear: SmallMotion, resonance: Resonance, factor: float)
 def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[float, float], ...]:
     """The factors on all spins at which no push of that size falls, by `largest_push` there, as intervals.
 
-    The windows of the resonances that come to detuning zero at some factor (`window_of`) are cut out of the factors at which the
-    push is trusted. For the others, which come near and no nearer, as beside the critical spins, `largest_push` is compared with
-    `push` at both ends of what is left (for inf at 12 times the critical factor) and, where one is more than 1.5 times as far
-    from the critical factor as the other, between them. Where it is less, the end moves in to a factor at which it is not,
-    found by bisection to 1/8 of its distance from the critical factor, or the interval is left out. So no end is said to
-    hold that does not; inside, only that one factor is checked. Empty where no spins are known to hold it. Raises InputError as
-    `resonances` does.
+    The windows of the resonances that come to detuning zero at some factor (`window_of`) are cut out of the factors at which
+    the push is trusted, up to a fifth of that factor away. For what lies farther, and for those that come near and no nearer,
+    as beside the critical spins, `largest_push` is compared with `push` at both ends of what is left (for inf at 12 times the
+    critical factor or more) and, where one is more than 1.5 times as far from the critical factor as the other, at three
+    between. Where it is less, the end moves in to a factor at which it is not, found by bisection to 1/8 of its distance from
+    the critical factor, or the interval is left out. So no end is said to hold that does not; inside, only those three factors
+    are checked. Empty where no spins are known to hold it. Raises InputError as `resonances` does.
     """
     check_kind_of_push(of)
     push = checked_push("spin_intervals", push)
     least = spin_threshold(small_motion(s))
     if least == inf:
         return ()
-    windows = sorted(window_of(s, r, push) for _, r in resonant_factors(s, of=of))
+    windows = []
+    for factor, r in resonant_factors(s, of=of):
+        low, high = window_of(s, r, push)
+        windows.append((max(low, (1 - _FAR) * factor), min(high, (1 + _FAR) * factor)))
     kept = []
     for low, high in _trusted_factors(s, push, of):
-        for start, end in windows:
+        for start, end in sorted(windows):
             if low < start < high:
                 kept.append((low, start))
             low = max(low, end)
@@ -496,7 +500,8 @@ def _checked_parts(
 ) -> list[tuple[float, float]]:
     """The parts of an interval beyond the critical factor at whose ends and between them `largest_push` is not below a push."""
     top = high if high < inf else max(_TOP * least, 2 * low)
-    between = [least + sqrt((low - least) * (top - least))] if top - least > _WIDE * (low - least) else []
+    wide = top - least > _WIDE * (low - least)
+    between = [least + float(x) for x in np.geomspace(low - least, top - least, 5)[1:-1]] if wide else []
 
     def holds(factor: float) -> bool:
         if trusted_push(s, factor, of) < push:

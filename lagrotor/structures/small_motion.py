@@ -25,7 +25,9 @@ Matrix = NDArray[Any]  # real of a structure, complex of a pattern
 
 _ZERO = 1e-6  # of a root, and of the structure's rate beside a double root zero, which is found to half of a double's digits
 _SLOWEST = 1e-9  # of the structure's rate: of slower precessions of fast spins the digits are lost
-_DAMPED = 1e-10  # of a root: with friction two roots of opposite real parts do not become one, and a smaller part is known
+_DAMPED = (
+    1e-10  # of a root: with friction two roots of opposite real parts do not become one, and a smaller part is known
+)
 _DEPENDENT = 1e-10  # of the bars' largest singular value: one below it is zero
 
 
@@ -178,7 +180,9 @@ class SmallMotion:
         neutral = sizes.min(-1, keepdims=True) <= _DEPENDENT * sizes.max(-1, keepdims=True)  # else no root is zero
         near = np.maximum(np.abs(s), np.where(neutral, 1.0, _SLOWEST))
         still = np.abs(s.real) < (np.where(neutral, _ZERO, _DAMPED) if self.damping.any() else _ZERO) * near
-        return np.asarray(self.rate * (np.where(still, 0, s.real) + 1j * np.where(np.abs(s.imag) < _ZERO * near, 0, s.imag)))
+        return np.asarray(
+            self.rate * (np.where(still, 0, s.real) + 1j * np.where(np.abs(s.imag) < _ZERO * near, 0, s.imag))
+        )
 
     @property
     def growth(self) -> float:

@@ -68,9 +68,9 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
 
         Omega_0 ( (|c| + d) r²/(1 − r²) + 3 N r⁴ ),  N = C² + share sigma |sigma − 1| + share³ sigma²/k⁴.
 
-    The first part is derived; N has the powers of the next order, but its factor 3 is empirical: an estimate, held in 10,000
-    random swings, off by at most 0.71 of it. One rotor alone precesses at Omega_0 / cos theta exactly. A swing of opposite
-    spins that is made to turn at nu besides is shifted by −(a + b) nu/(k G) of Omega_0 more.
+    So it is an estimate, no bound: the first part is derived; N has the powers of the next order, but its factor 3 is
+    empirical, held in 10,000 random swings, off by at most 0.71 of it. One rotor alone precesses at Omega_0 / cos theta
+    exactly. A swing of opposite spins that is made to turn at nu besides is shifted by −(a + b) nu/(k G) of Omega_0 more.
 
     Raises:
         DomainError: unless 0 <= r <= 0.4, √N r² <= 0.12, sigma r² <= 0.5, and where a twist beside the orbit grows by more than

@@ -340,6 +340,21 @@ def test_no_end_of_a_spin_interval_lets_fall_what_the_largest_push_says_falls():
     assert part(1.013) < 0.5 and part(1 + (low - 1) / 1.3) < 1
 
 
+@pytest.mark.parametrize("times", [1_000, *(pytest.param(x, marks=pytest.mark.slow) for x in (5, 40, 1e5))])
+def test_at_fast_spins_the_push_that_holds_lies_within_an_interval(times):
+    """Slow precessions of 10⁻⁵ of the fast one and less are no rate zero; and with friction they fall, however slowly."""
+    rotors = tuple(Rotor(length=x) for x in (1.0, 1.3, 0.8))
+    one = Structure([(0, 0), (1, 0), (2.1, 0.3)], [(0, 1), (1, 2)], [1, -0.5, 1], rotors, gravity=9.81)
+    factor = times * one.critical_spin()
+    fast = replace(one, spins=tuple(factor * w for w in one.spins))
+    push = 0.9 * fast.largest_push().value
+    assert fast.stands().kind == "holds" and push > 0
+    assert any(low <= factor <= high for low, high in one.spin_intervals(push))
+    rubbed = replace(fast, friction=0.1)
+    assert rubbed.critical_spin() == inf and rubbed.stands().kind == "never"
+    assert "friction undoes what the spins hold" in rubbed.stands().why
+
+
 def test_what_lies_behind_the_largest_push():
     s = at(1.07, CORNER, [1, 0, 1])
     found, rate = s.largest_push(), local_hamiltonian(s).rate
