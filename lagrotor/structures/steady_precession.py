@@ -134,7 +134,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
         tilt: the largest component of an axis' unit vector in the mode, between 0 and 1.
 
     Raises:
-        InputError: for a mode or tilt that there is not, with friction, and where no such orbit exists.
+        InputError: for a mode or tilt that there is not, with friction, and where no such orbit is reached.
     """
     where = "steady_precession"
     linear = modes(s)

@@ -1,5 +1,7 @@
 """The paper's simulator: bodies against exact free motion, links against the exact pair, steps against their limit."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -27,7 +29,7 @@ from lagrotor.models import (
     run_steps,
     step_limit,
 )
-from lagrotor.models.spring_link.run import step_function
+from lagrotor.models.spring_link.run import rate_function, step_function
 from lagrotor.numerics import skew_matrix
 
 ZERO, ONE = np.zeros(3), np.eye(3)
@@ -400,3 +402,30 @@ def test_a_run_that_begins_far_from_the_zero_of_the_clock_is_as_exact():
     near, far = (run_solver(system, None, begin + t, 1e-9) for begin in (0.0, 2.0**24))
     assert far.error == pytest.approx(near.error) and far.error < 1e-9
     assert abs(far.tips - near.tips).max() < 1e-11
+
+
+@pytest.mark.parametrize(
+    "t", [[0.0, 0.1, 0.25], [-0.2, -0.05, 0.0], [0.14, 0.2], [0.01, 0.05, 0.1], [-0.2, 0.13]], ids=str
+)
+def test_a_run_is_cut_at_a_shock_wherever_it_begins_and_ends(t):
+    """A shock at 0 of width 0.02 s, at the start, at the end, before the run, around its start, up to an edge."""
+    scene = replace(MOVING, shock=Shock((5.0, 0.0, 0.0), 0.0, 0.02))
+    system = paper_system(scene, 200, 1)
+    n = len(system.vertices)
+    run = run_solver(system, scene.shock, t, 1e-7)
+
+    def centres(force):
+        rate = rate_function(system, force)
+        strength = (lambda s: np.exp(-((s / 0.02) ** 2))) if force else (lambda s: 0.0)
+        exact = solve_ivp(
+            lambda s, y: rate(y.tolist(), strength(s)), (t[0], t[-1]), system.state[: 18 * n], "DOP853", t,
+            rtol=1e-11, atol=1e-12, max_step=0.01,
+        )  # fmt: skip
+        return exact.y[: 3 * n].reshape(n, 3, -1).swapaxes(1, 2)
+
+    assert run.t == pytest.approx(t) and run.ending.kind == "end"
+    assert abs(run.centres - centres(scene.shock)).max() < run.error
+    once = run_solver(system, scene.shock, t[:1], 1e-7)  # a single time, its start
+    assert once.centres == pytest.approx(run.centres[:, :1], abs=1e-12) and once.evaluations == 0
+    if t[0] < 0.13:  # twin: the shock is felt
+        assert abs(run.centres - centres(None)).max() > 1e-5

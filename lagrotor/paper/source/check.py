@@ -270,7 +270,10 @@ class _Checker:
         return self._change(a, right, names, first) or self._change(b, left, names, first)
 
     def _change(self, fixed: Any, changing: Node, names: set[str], by_identity: bool = False) -> str | None:
-        """The one change of a side with which it is the other, `fixed`; by_identity: not to the same print, as cos x = sin x."""
+        """The one change of a side with which it is the other, `fixed`.
+
+        by_identity: by more than to the same print, as cos x = sin x, and not by putting θ₁ for θ₂: both may be conditions.
+        """
         given = _expression_of(changing, self.opaque)
         letters = (sp.Symbol(name, real=True) for name in names)
         symbols = sorted({*fixed.free_symbols, *given.free_symbols, *letters}, key=str)
@@ -280,7 +283,7 @@ class _Checker:
         if ratio is not None and not (by_identity and fixed == sp.Rational(str(ratio)) * given):
             return f"with the factor {ratio} of the whole they agree"
         whole = () if by_identity else _whole(changing)  # tan x = cot x may be a condition
-        for mutant, said in islice(chain(whole, slips(changing, names)), _MOST_SLIPS):
+        for mutant, said in islice(chain(whole, slips(changing, () if by_identity else names)), _MOST_SLIPS):
             other = _expression_of(mutant, self.opaque)
             if other is None or (by_identity and fixed == other):
                 continue

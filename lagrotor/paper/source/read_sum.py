@@ -47,7 +47,7 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
             return _over_all(reader, box, below)
         if len(relations) == 1 and below[relations[0]].name == "=":
             return _from_first(reader, box, below, relations[0])
-        if box.sup is not None and len(relations) > 1:  # j = 1, j \\ne i
+        if box.sup is not None and len(relations) > 1:  # j = 1, j \ne i
             first, *others = [strip(part) for part in arguments(below)]
             if len(first) > 2 and first[1].name == "=" and not any(b.name == "=" for part in others for b in part):
                 return [*_from_first(reader, box, first, 1), *_where(reader, others)]
@@ -55,7 +55,7 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
             return _where(reader, [strip(part) for part in arguments(below)])
     finally:
         del reader.bound[len(reader.bound) - len(bound) :]
-    if [b.kind for b in below] == ["letter"] and box.sup is not None:  # \\sum_k^N
+    if [b.kind for b in below] == ["letter"] and box.sup is not None:  # \sum_k^N
         return [letter_of(reader, below[0])[0], Letter("first"), reader.expression(box.sup)]
     if not relations:
         raise FormulaError(box.at, "what the sum runs over is not clear", "write \\sum_{i=1}^{n}")

@@ -344,6 +344,7 @@ def test_a_single_equation_of_known_functions_is_an_identity(good: str, wrong: s
     [
         r"\sin\theta = \cos\theta", r"\tan x = \cot x", r"\tan x = \tanh x", r"\cos x\cosh x = 1", r"\sin 2x = 2\sin x",
         r"\cosh^2 x + \sinh^2 x = 1", "e^{x} = e^{-x}", r"\cos x = -\cos x", "(a + b)^2 = a^2 - 2ab + b^2", r"\tan x = x",
+        r"\cos^2\theta_1 - \sin^2\theta_2 = \cos 2\theta_2", r"2\sin\theta_1\cos\theta_2 = \sin 2\theta_1",
     ],
 )  # fmt: skip
 def test_a_single_equation_that_may_be_a_condition_is_left_alone(condition: str, tmp_path: Path) -> None:
