@@ -29,7 +29,7 @@ def vanishes(expression: sp.Expr, relations: Relations, numbers: Mapping[sp.Symb
 
     Raises NotExactError outside the class, beyond the bound on the work, and where a divisor vanishes.
     """
-    spend(expression, factored=True)
+    spend(expression, squared=True)
     found = survey(expression, *relations, *(value for _, value in relations.values()))
     roots = find_roots(found)
     if roots.unsigned:

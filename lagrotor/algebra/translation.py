@@ -25,7 +25,7 @@ from lagrotor.algebra.reduction import vanishes
 from lagrotor.algebra.scalar import parts
 from lagrotor.algebra.signs import NONNEGATIVE, POSITIVE, Region, is_nonnegative, is_positive, is_real, signs
 from lagrotor.algebra.special_functions import RULES
-from lagrotor.algebra.work import spend
+from lagrotor.algebra.work import spend, spend_on_products
 from lagrotor.errors import NotExactError, TooLargeError
 
 # Of a polynomial whose factors are sought; parts of an expression that is brought over one denominator for it.
@@ -489,12 +489,12 @@ class Translation:
         side = side.xreplace(put)
         if side.has(sp.I) or not _is_small(side):
             return None
+        spend_on_products(side, factored=True)
         side = self._without_powers(sp.expand(side))
         if side.is_Rational:
             return side, []
         if len(sp.Add.make_args(side)) > _MOST_TERMS:
             return None
-        spend(side, factored=True)
         try:
             content, factors = sp.factor_list(side)
         except (sp.PolynomialError, NotImplementedError):

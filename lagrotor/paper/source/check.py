@@ -48,12 +48,15 @@ WRONG = (REFUTED, UNITS, FAULT)
 # Terms of which each is tried with the other sign, to say what is wrong; operations of what is brought over one denominator;
 # work, in parts looked at, beyond which a step is not decided.
 _MOST_TERMS, _MOST_OPERATIONS, _MOST_WORK = 12, 2000, 200_000
+_LARGEST = 1e300  # of numbers that are compared
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 # Changes that are tried to find a slip; equations back to which a step may refer.
 _MOST_SLIPS, _MEMORY = 120, 60
 # Formulas of the text that give a value: with a unit, or in units where it is 1.
 _VALUED = re.compile(r"\\(?:mathrm|rm|text|hbar)\b|k_")
+# Where a reading stops at what a package may define.
+_UNKNOWN = re.compile(r"(\\(?:[A-Za-z@]+|begin\{[^{}]*\})) is not known")
 # What the text may say of letters; relations that make nothing of one letter out of another.
 _RELATION = re.compile(r"=|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
 # What the text says where two sides agree only under a condition.
@@ -129,6 +132,10 @@ class _Checker:
             self.place = place
             if not reading.whole:
                 what, helps = reading.stop or ("", "")
+                if (name := _UNKNOWN.fullmatch(what)) and (missing := self.source.missing):
+                    files = " and ".join(f"{file}, loaded in line {line}," for file, line in missing.items())
+                    verb = "is" if len(missing) == 1 else "are"
+                    helps = f"{files} {verb} not beside the source: {name[1]} may be defined there"
                 yield self._finding(each, 0, None, "not read", f"{what}: {helps}")
                 continue
             for number, statement in enumerate(reading.statements):
@@ -556,6 +563,8 @@ def _ratio(a: Any, b: Any, point: dict[sp.Symbol, sp.Rational]) -> Fraction | No
     value, other = _number(a, point), _number(b, point)
     if not (value.is_real and other.is_real and value and other):
         return None
+    if abs(value / other) > _LARGEST:
+        return None
     ratio = Fraction(float(value / other)).limit_denominator(100)
     exact = sp.Rational(ratio.numerator, ratio.denominator)
     return ratio if ratio > 0 and _near(value, exact * other) and decided(a, exact * b) == "zero" else None
@@ -579,8 +588,13 @@ def _with(node: Call, place: int, part: Node) -> Call:
 
 
 def _number(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
+    """The value at a point; nan beyond what floats hold."""
     entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
-    return sp.N(entry.xreplace(point), 15)
+    try:
+        value = sp.N(entry.xreplace(point), 15)
+        return value if abs(complex(value)) < _LARGEST else sp.nan
+    except (ArithmeticError, ValueError, TypeError):
+        return sp.nan
 
 
 def _near(a: Any, b: Any) -> bool:
@@ -597,10 +611,7 @@ def _may_agree(a: Any, b: Any) -> bool:
     symbols = sorted(a.free_symbols | b.free_symbols, key=str)
     for shift in (3, 7, 19):
         point = {s: sp.Rational(2 * n + shift, 5 * n + 7) for n, s in enumerate(symbols)}
-        try:
-            values = _number(a, point), _number(b, point)
-        except (ArithmeticError, ValueError, TypeError):
-            continue
+        values = _number(a, point), _number(b, point)
         if all(value.is_real and value.is_finite for value in values):
             return _near(*values)
     return True

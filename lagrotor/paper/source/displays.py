@@ -67,7 +67,8 @@ class Source:
     """What a source says of a paper: title, authors, section number → heading, displayed equations; inline formula → section.
 
     notes: what could not be known of it; faults: file, line, and what TeX would stop at there; words: id → the text of the
-    paragraph before and behind; preamble: packages that its formulas need.
+    paragraph before and behind; preamble: packages that its formulas need; missing: packages and classes that are loaded, and
+    neither distributed with TeX nor beside the source: file → line.
     """
 
     title: str
@@ -80,6 +81,7 @@ class Source:
     words: dict[str, str] = field(default_factory=dict)
     preamble: str = ""
     labels: dict[str, str] = field(default_factory=dict)
+    missing: dict[str, int] = field(default_factory=dict)
 
 
 @dataclass
@@ -161,6 +163,7 @@ class _Walker:
             self.expander.macros.fault(0, "", r"\begin{document} is missing")
         self.found.faults = faults_of(self.expander)
         self.found.notes = list(dict.fromkeys(self.expander.notes))
+        self.found.missing = self.expander.missing
         self.found.preamble = "\n".join(
             rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in self.expander.loaded
         )

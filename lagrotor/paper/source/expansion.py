@@ -49,6 +49,9 @@ class Expander(TokenStream):
         self.flags: dict[str, bool] = {}
         self.counters = Counters()
         self.loaded: set[str] = set()
+        self.missing: dict[
+            str, int
+        ] = {}  # packages and classes of no distribution that are not beside the source: their line
         self.document_class = ""
         self.notes: list[str] = []
         self.stepped = ""  # the number that \refstepcounter in the text gave

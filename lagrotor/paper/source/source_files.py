@@ -4,6 +4,30 @@ from lagrotor.files import read_text
 from lagrotor.paper.source.expansion import Expander, Primitive
 from lagrotor.paper.source.tokens import Token, latex_of
 
+# Packages and classes of the distributions of TeX that are used most: no command of the source's own is sought in them.
+_NAMES = (
+    "article report book letter memoir amsart amsbook scrartcl scrreprt scrbook beamer standalone minimal revtex4 revtex4-1"
+    " revtex4-2 IEEEtran elsarticle ctexart ctexrep ctexbook acmart svjour3 mnras aastex63 tufte-book tufte-handout exam"
+    " amsmath amssymb amsthm amsfonts amstext amsbsy amsopn amscd mathtools bm physics physics2 siunitx siunits braket commath"
+    " esdiff diffcoeff derivative empheq breqn IEEEtrantools cases nicefrac xfrac cancel slashed tensor mathrsfs dsfont bbm"
+    " bbold esint esvect stmaryrd euscript eucal wasysym textcomp upgreek mathdesign mathspec unicode-math newtxmath newtxtext"
+    " mathptmx mathpazo txfonts pxfonts lmodern times helvet courier palatino fourier kpfonts libertine iwona gensymb units"
+    " mhchem chemformula accents scalerel relsize ulem soul color xcolor colortbl graphicx graphics epsfig epstopdf svg float"
+    " wrapfig caption subcaption subfig subfigure rotating pdflscape lscape placeins afterpage overpic tikz pgf pgfplots"
+    " pgfplotstable circuitikz tikz-cd tikz-3dplot tikz-feynman tikzscale xy listings listingsutf8 minted verbatim fancyvrb"
+    " alltt algorithm algorithm2e algorithmic algpseudocode array tabularx tabulary booktabs longtable multirow multicol"
+    " makecell dcolumn threeparttable hhline arydshln adjustbox framed mdframed tcolorbox todonotes comment hyperref url cite"
+    " natbib biblatex cleveref varioref refcount backref bookmark hypcap nameref xr xr-hyper tocloft tocbibind titlesec titletoc"
+    " titling sectsty fancyhdr geometry fullpage a4wide a4 layout setspace parskip indentfirst enumitem enumerate paralist"
+    " footmisc appendix authblk abstract lineno pdfpages import standalone subfiles inputenc fontenc fontspec babel polyglossia"
+    " csquotes microtype xspace etoolbox ifthen calc ifpdf iftex ifxetex ifluatex xparse expl3 xifthen xstring kvoptions pgffor"
+    " xkeyval keyval environ thmtools ntheorem chngcntr glossaries glossaries-extra acronym nomencl makeidx imakeidx index lipsum"
+    " blindtext datetime datetime2 isodate eurosym pifont marvosym fontawesome fontawesome5 latexsym showkeys showframe nag"
+    " fixltx2e ragged2e emptypage lastpage eso-pic transparent draftwatermark grffile moreverb needspace xeCJK ctex CJK CJKutf8"
+    " ucs fix-cm cmap lettrine epigraph hyphenat anyfontsize type1cm bigints mathdots yhmath"
+)
+_DISTRIBUTED = frozenset(_NAMES.split())
+
 
 def _input(expander: Expander, token: Token) -> bool:
     expander.skip_spaces()
@@ -35,7 +59,8 @@ def _use(expander: Expander, token: Token) -> bool:
     for name in map(str.strip, expander.name().split(",")):
         if name not in expander.loaded:  # TeX takes in a package once
             expander.loaded.add(name)
-            expander.read_file(name, (".sty",))
+            if not expander.read_file(name, (".sty",)) and name not in _DISTRIBUTED:
+                expander.missing.setdefault(f"{name}.sty", expander.line(token.at)[1])
     expander.optional()
     return True
 
@@ -52,7 +77,10 @@ def _class(expander: Expander, token: Token) -> bool:
         return True
     if expander.files > 1 and expander.document_class and token.text == r"\documentclass":
         return True  # a file taken in that could stand by itself: its own preamble is read as it comes
-    if not expander.read_file(name, (".cls",)) or token.text == r"\LoadClass":
+    beside = expander.read_file(name, (".cls",))
+    if not beside and name not in _DISTRIBUTED:
+        expander.missing.setdefault(f"{name}.cls", expander.line(token.at)[1])
+    if not beside or token.text == r"\LoadClass":
         expander.document_class = name
     expander.document_class = expander.document_class or name
     expander.counters.begin(name)

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.commands.command_line import main
@@ -353,3 +354,59 @@ def test_a_single_equation_that_may_be_a_condition_is_left_alone(condition: str,
 
 def test_an_equation_to_be_solved_is_no_identity(tmp_path: Path) -> None:
     assert verdicts(tmp_path, r"The roots of \[ \sin(2x) = \sin x\cos x \]") == []
+
+
+@pytest.mark.parametrize("beside", [False, True])
+def test_a_package_that_is_not_beside_the_source_is_named_where_its_command_stops_a_reading(
+    beside: bool, tmp_path: Path
+) -> None:
+    if beside:
+        (tmp_path / "notation.sty").write_text(r"\newcommand{\twice}[1]{2 #1}")
+    (file := tmp_path / "paper.tex").write_text(
+        "\\documentclass{article}\n\\usepackage{amsmath,graphicx}\n\\usepackage{notation}\n"
+        "\\begin{document}\n\\[ E = \\twice{x} + x = 3 x \\]\n\\end{document}\n"
+    )
+    (found,) = check_source(read_source(file))
+    if beside:
+        assert found.verdict == HOLDS
+    else:
+        assert found.verdict == "not read"
+        assert found.why == (
+            r"\twice is not known: notation.sty, loaded in line 3, is not beside the source: \twice may be defined there"
+        )
+    source = read_latex(
+        "\\documentclass{article}\\usepackage{amsmath}\\begin{document}\\[ E = \\twice{x} \\]\\end{document}"
+    )
+    (other,) = check_source(source)
+    assert other.why == r"\twice is not known: write what it stands for, or define it by \newcommand"
+
+
+def test_a_class_that_is_not_beside_the_source_is_named_too() -> None:
+    source = read_latex(
+        "\\documentclass{house}\n\\usepackage{own}\\begin{document}\\[ E = \\twice{x} \\]\\end{document}"
+    )
+    (found,) = check_source(source)
+    assert "house.cls, loaded in line 1, and own.sty, loaded in line 2, are not beside the source" in found.why
+
+
+@pytest.mark.parametrize(
+    ("sides", "verdict"),
+    [
+        (r"e^{10^{24} + x} y = 2 e^{10^{24} - x} y", "undecided"),
+        (r"e^{900 + x} y = e^{900 - x} y", "undecided"),
+        (r"e^{10^{24} x} y = y e^{10^{24} x}", HOLDS),
+    ],
+)
+def test_values_beyond_what_floats_hold_end_no_check(sides: str, verdict: str, tmp_path: Path) -> None:
+    found = findings(tmp_path, rf"\[ E = {sides} \]")
+    assert [each.verdict for each in found] == [verdict]
+
+
+def test_a_change_a_ratio_and_a_constant_of_what_is_too_large_are_not_sought() -> None:
+    x, y = sp.symbols("x y", real=True)
+    huge = sp.exp(10**24 + x)
+    point = {x: sp.Rational(3, 5), y: sp.Rational(5, 7)}
+    assert check._number(huge, point) is sp.nan and check._number(sp.exp(900) * y, point) is sp.nan
+    assert check._ratio(huge, 2 * y, point) is None and check._constant(huge) is None
+    assert check._ratio(sp.exp(600) * x, sp.exp(-600) * x, point) is None
+    assert check._ratio(2 * y, y, point) == 2 and check._constant(y - y + sp.Integer(2)) == 2
