@@ -1,11 +1,15 @@
 """Brackets, first integrals in involution, canonical transformations, against textbooks and against the motion itself."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 import sympy as sp
 
 from lagrotor.errors import DomainError, InputError
-from lagrotor.mechanics import System, coordinates, rotational_bracket, t
+from lagrotor.mechanics import System, coordinates, energy, rotational_bracket, t
+from lagrotor.pair import bar_curve, mercator_lagrangian, minimal_embedding
+from lagrotor.pair.notation import MERCATOR, MINIMAL
 
 m, g, k, B = sp.symbols("m g k B", positive=True)
 
@@ -109,6 +113,39 @@ def test_it_moves_as_the_lagrangian_does():
         run = pair.simulate({}, q, v, t=np.linspace(0, 2e-3, 3), tol=1e-12)
         state = np.array([[*run.q[k], *momenta(*run.q[k], *run.v[k])] for k in range(3)])
         assert (state[2] - state[0]) / 2e-3 == pytest.approx(rates(*state[1]), abs=1e-4)
+
+
+def test_a_long_lagrangian_is_not_multiplied_out(monkeypatch: pytest.MonkeyPatch):
+    """The pair in three coordinates, its bar longer than the axes; H is the energy at random states. A top's H stays short."""
+    module = import_module("sympy.simplify.simplify")
+    counts, multiplied_out = [0], module.dotprodsimp
+
+    def counting(e: sp.Expr, withsimp: bool = False) -> sp.Expr:
+        counts[0] += 1
+        return multiplied_out(e, withsimp)
+
+    monkeypatch.setattr(module, "dotprodsimp", counting)
+    curve = bar_curve("long")
+    pair = System(MERCATOR, mercator_lagrangian()).in_coordinates(
+        MINIMAL, minimal_embedding(curve.twist, curve.latitude)
+    )
+    h = pair.hamiltonian()
+    assert counts == [0]
+    parameters = sorted(pair.L.free_symbols - {*MINIMAL.q, *MINIMAL.v}, key=str)
+    of_speeds = (*MINIMAL.q, *MINIMAL.v, *parameters)
+    energy_of = sp.lambdify(of_speeds, energy(pair.L, MINIMAL), cse=True)
+    momenta_of = sp.lambdify(of_speeds, list(sp.Matrix([pair.L]).jacobian(MINIMAL.v)), cse=True)
+    H_of = sp.lambdify((*h.q, *h.p, *parameters), h.H, cse=True)
+    rng = np.random.default_rng(5)
+    for _ in range(3):
+        q, v = rng.uniform(0.2, 1, (2, 3))
+        numbers = [{"a": 1.2, "b": 0.3, "k": 1.7, "G_1": 2.1, "G_2": -1.6}[str(s)] for s in parameters]
+        assert H_of(*q, *momenta_of(*q, *v, *numbers), *numbers) == pytest.approx(energy_of(*q, *v, *numbers), rel=1e-9)
+
+    c = coordinates("theta phi psi")
+    theta, (theta_v, phi_v, psi_v) = c.q[0], c.v
+    turning = (theta_v**2 + (phi_v * sp.sin(theta)) ** 2) / 2 + m * (psi_v + phi_v * sp.cos(theta)) ** 2 / 2
+    assert sp.count_ops(System(c, turning - g * sp.cos(theta)).hamiltonian().H) < 60 and counts[0] > 0
 
 
 def test_what_has_no_hamiltonian_is_refused():
