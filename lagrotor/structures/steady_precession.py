@@ -36,6 +36,7 @@ _CLOSED = 1e-11  # of axes and of rates over the structure's rate: an orbit is c
 _NULL = 1e-7  # of the largest: a direction in which the conditions say less has a family of orbits, and is left alone
 _AHEAD = 0.1  # of tilt, from one orbit to the next
 _LEAST = 1e-3  # such a step below which the family ends
+_EQUAL = 1e-6  # of a rate: modes as near as that have the same one
 _COARSE = 1e-10  # error of the motion of which Newton's steps take differences
 _NEWTON = 8  # steps to an orbit
 _MOST = 100_000  # evaluations of a period
@@ -130,26 +131,36 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
 
     Args:
         s: without friction, upright at rest.
-        mode: its number in `modes()`, from 0; one with a rate that does not grow.
-        tilt: the largest component of an axis' unit vector in the mode, between 0 and 1.
+        mode: its number in `modes()`, from 0; one with a rate of its own that neither grows nor decays.
+        tilt: the largest component of an axis' unit vector in the mode, between 0.001 and 1.
 
     Raises:
-        InputError: for a mode or tilt that there is not, with friction, and where no such orbit is reached.
+        InputError: for a mode or tilt that there is not, for one of several modes of the same rate, with friction, and where
+            no such orbit is reached.
     """
     where = "steady_precession"
     linear = modes(s)
     count, c = len(linear.rates), (motion := exact_motion(s)).c
     if isinstance(mode, bool) or not isinstance(mode, int | np.integer) or not 0 <= mode < count:
         raise InputError(f"{where}: mode = {mode!r} is not a number from 0 to {count - 1}, as modes() has them")
-    size = finite_number(tilt, f"{where}: tilt", "1")
+    size = finite_number(tilt, f"{where}: tilt", "parts of a unit vector")
     if not 0 < size < 1:
         raise InputError(f"{where}: tilt = {size:g} must lie between 0 and 1, the sine of a right angle")
+    if size < _STEP:
+        raise InputError(
+            f"{where}: tilt = {size:g} is below {_STEP:g}, the step of the differences: modes() tells as much"
+        )
     if c.decay.any() or c.friction.any() or c.damping.any():
         raise InputError(f"{where}: friction or a damper takes energy, and no motion returns: leave it out")
     rate, growth, shape = linear.rates[mode], linear.growth[mode], linear.shapes[mode]
-    if growth > 0 or rate == 0:
-        why = f"grows, {growth:.3g} 1/s" if growth > 0 else "has no rate"
+    if growth or rate == 0:
+        why = f"{'grows' if growth > 0 else 'decays'}, {abs(growth):.3g} 1/s" if growth else "has no rate"
         raise InputError(f"{where}: mode {mode} {why}: only an oscillation becomes a precession; take another mode")
+    if (np.abs(np.delete(linear.rates, mode) - rate) < _EQUAL * rate).any():
+        raise InputError(
+            f"{where}: other modes have the rate of mode {mode}, {rate:.6g} rad/s: any sum of them is a mode, and which of the "
+            "sums become precessions is not searched; change a spin"
+        )
     lead = int(np.abs(shape).argmax())
     shoot = _Shooting(motion, right_hand_side(motion), 3 * (lead // 2) + lead % 2)
     zeros = np.zeros((len(shape), 1))
@@ -177,7 +188,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
                     + (
                         f"its family ends or turns near {at:.3g}; take a smaller tilt"
                         if at
-                        else _why_none(linear.rates, mode)
+                        else "beside modes of a multiple of its rate there need be none; take another mode, or change a spin"
                     )
                 ) from None
     multipliers, errors = _multipliers(shoot, y, duration)
@@ -185,18 +196,6 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     most = float(np.log(np.abs(multipliers[outside]).max())) if outside.any() else 0.0
     axes, rates = y.reshape(2, -1, 3)
     return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, most, mismatch)
-
-
-def _why_none(rates: Array, mode: int) -> str:
-    """Which other rates are multiples of this one, where Lyapunov's theorem promises no orbit."""
-    ratios = np.delete(rates, mode) / rates[mode]
-    near = sorted(
-        {int(m) for m, ratio in zip(np.rint(ratios), ratios, strict=True) if abs(ratio - m) < 0.02 * max(m, 1)}
-    )
-    if not near:
-        return "take another mode, or a smaller tilt"
-    several = ", ".join(map(str, near))
-    return f"other modes have {several} times its rate, and what it becomes is no orbit of its own; change a spin"
 
 
 def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[np.complex128], Array]:

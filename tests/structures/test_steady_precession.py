@@ -11,7 +11,8 @@ from lagrotor.structures import example
 from lagrotor.structures.coefficients import coefficients
 
 TOP = Structure([(0, 0)], spins=12.0, gravity=9.81, load=0.2)
-CORNER = replace(example("corner"), spins=(26.8, 0.0, 26.8))
+EQUAL = replace(example("corner"), spins=(26.8, 0.0, 26.8))  # its rates are equal in pairs
+CORNER = replace(EQUAL, spins=(27.0, 3.0, 27.5))
 
 
 @pytest.mark.parametrize(("mode", "tilt"), [(0, 0.2), (1, 0.6)])
@@ -52,8 +53,8 @@ def test_at_small_tilts_the_multipliers_are_those_of_the_modes() -> None:
 
 
 def test_the_exact_motion_leaves_a_precession_as_its_multiplier_has_it() -> None:
-    """At a resonance of two rates the fast mode's precession feeds the slow ones: each turn by the largest multiplier."""
-    orbit = CORNER.steady_precession(2, 0.05)
+    """Near a resonance the fastest mode's precession feeds the others: each turn by the largest multiplier."""
+    orbit = CORNER.steady_precession(3, 0.05)
     growth, turns = np.exp(orbit.growth), 30
     assert orbit.growth > 0.1 and orbit.mismatch < 1e-9
     t = orbit.period * np.arange(turns + 1)
@@ -74,7 +75,10 @@ def test_where_there_is_none_it_is_refused() -> None:
         (replace(TOP, friction=(0.1,)), 0, 0.1, "friction"),
         (replace(TOP, spins=(1.0,)), 0, 0.1, "grows"),
         (Structure([(0, 0), (1, 0)], [(0, 1)], [10, -10]), 0, 0.1, "no rate"),
-        (replace(example("corner"), spins=(26.78, 0.0, 26.78)), 0, 0.1, "times its rate"),
+        (EQUAL, 2, 0.05, "have the rate of mode 2"),
+        (replace(CORNER, spins=(24.0, 0.0, 30.0)), 3, 0.05, "decays"),
+        (replace(CORNER, spins=(24.0, 0.0, 30.0)), 1, 0.05, "ends or turns near"),
+        (TOP, 0, 1e-4, "below 0.001"),
     ):
         with pytest.raises(InputError, match=says):
             structure.steady_precession(mode, tilt)
