@@ -230,7 +230,7 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
         frequency² = g² (3 s⁴/2 − d²) (d + kappa s²),
 
     to leading order where r0² and d are small alike: the relative error is of second order in r0, but where a bracket nearly
-    vanishes.
+    vanishes, and is large at short bars, growing with 1 + 1/k²: there take lagrotor.floquet.
 
     Args:
         scene: with opposite spins and a bar.
