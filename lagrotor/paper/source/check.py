@@ -269,7 +269,7 @@ class _Checker:
             return "undecided", f"the two sides differ by {difference}: it may be a condition"
         if related := next(self._related(own), None):
             return "undecided", f"{related} may be used"
-        return REFUTED, f"the two sides differ by {difference}; {slip}"
+        return REFUTED, f"{'as an identity, ' * first}the two sides differ by {difference}; {slip}"
 
     def _slip(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> str | None:
         """The one change with which the two sides agree."""

@@ -340,6 +340,12 @@ def test_a_single_equation_of_known_functions_is_an_identity(good: str, wrong: s
     assert verdicts(tmp_path, rf"\[ {wrong} \]") == [REFUTED]
 
 
+def test_what_is_judged_as_an_identity_says_so(tmp_path: Path) -> None:
+    (single,) = findings(tmp_path, r"\[ \cos^2 x = 1 + \sin^2 x \]")
+    (chain,) = findings(tmp_path, r"\[ y = \cos^2 x = 1 + \sin^2 x \]")
+    assert single.why.startswith("as an identity, ") and "identity" not in chain.why
+
+
 @pytest.mark.parametrize(
     "condition",
     [
