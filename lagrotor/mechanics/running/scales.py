@@ -26,6 +26,7 @@ _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a
 _PER_TURN = 50  # evaluations that the survey takes for a turn
 _STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
 _LOST = 1e-12  # of the largest velocity, below which another has no digit in the energy
+_ROUNDING = 1e-14  # of the largest place: under constraints a smaller one is rounding of the others
 _QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordinate: what moves less is at rest
 
 
@@ -163,13 +164,17 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
     speeds = np.maximum(largest[n:], least)
     if system.kinematics is None:
         places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))
-        speeds = np.where(speeds > 0, speeds, places * 2 * np.pi / turn)
     else:
         alone = [0 * u, u, *(0 * u + speed * e for speed, e in zip(speeds, np.eye(m), strict=True))]
         still, *v = (velocities_along(system, values, np.hstack([q, each]), times) for each in alone)
         places = np.maximum(largest[:n], np.abs(np.array(v) - still).max((0, 1)) * turn / (2 * np.pi))
-    places, speeds = _positive(places), _positive(speeds)
-    return np.concatenate([places, speeds])
+    rounding = 0.0
+    if system.multipliers:
+        rounding, places = _ROUNDING, _positive(places, _ROUNDING)
+    if system.kinematics is None:
+        through = places * 2 * np.pi / turn
+        speeds = np.where(speeds > rounding * through, speeds, through)
+    return np.concatenate([_positive(places), _positive(speeds)])
 
 
 def _positive(sizes: Array, least: float = 0.0) -> Array:

@@ -28,7 +28,7 @@ from lagrotor.mechanics.running.programs import (
 )
 from lagrotor.mechanics.running.scales import Scales, motion_scales
 from lagrotor.mechanics.running.singular import independence
-from lagrotor.mechanics.running.starts import consistent, state_vector
+from lagrotor.mechanics.running.starts import consistent, rounding_of_start, state_vector
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.arrays import check_times
@@ -37,7 +37,7 @@ from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
 from lagrotor.numerics.segment import StopError
 
-_OFF = 1e-7  # of a start from its constraints, in units of the state's size, beyond which it is refused
+_BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
 _PATIENCE = Patience(20_000, 1_600)
 _A_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
 _BETWEEN = 8  # intervals of the interpolation between two samples, in which dependent constraints are sought
@@ -131,7 +131,7 @@ def simulate_system(
                 f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it lies between 0 and 1"
             )
     if system.multipliers:
-        q, v = _on_constraints(system, values, q, v, times[0])
+        q, v = _on_constraints(system, values, np.concatenate([q, v]), times)
     check_pole("simulate", system, values, np.concatenate([q, v, [times[0]]]))
     check_inertia("simulate", system, values, np.concatenate([q, v, [times[0]]]))
     if h.smooth:
@@ -186,7 +186,7 @@ def _check_gaps(h: Switched, at: Moment) -> None:
         return
     values = h.evaluate(h.system, gaps, at)
     for gap, value, size in zip(gaps, values, h.sizes_of(h.system, gaps, at), strict=True):
-        if value < -_OFF * size:
+        if value < -_BELOW * size:
             raise InputError(
                 f"simulate: the gap {gap} is {value:.6g} at t = {at.t:g} s: start where it is not negative"
             )
@@ -220,14 +220,14 @@ def _up_to_its_end(run: SystemRun) -> SystemRun:
     return replace(kept, ending=replace(ending, at=at))
 
 
-def _on_constraints(system: Equations, values: Values, q0: Array, v0: Array, begin: float) -> tuple[Array, Array]:
+def _on_constraints(system: Equations, values: Values, start: Array, times: Array) -> tuple[Array, Array]:
     """The start, which must be on the constraints but for rounding."""
-    q, v = consistent("simulate", system, values, q0, v0, begin)
-    start = np.concatenate([q0, v0])
-    off = np.abs(np.concatenate([q, v]) - start).max()
-    if off > _OFF * (1 + np.abs(start).max()):
+    n = len(system.c.q)
+    q, v = consistent("simulate", system, values, start[:n], start[n:], times[0])
+    off = np.abs(np.concatenate([q, v]) - start)
+    if (off > rounding_of_start(system, values, start, times[0], times[-1] - times[0])).any():
         raise ConstraintError(
-            f"simulate: the start is off the constraints by {off:.3g}; the nearest state on them is q0 = {_as_text(q)}, "
+            f"simulate: the start is off the constraints by {off.max():.3g}; the nearest state on them is q0 = {_as_text(q)}, "
             f"v0 = {_as_text(v)} (system.consistent gives it)"
         )
     return q, v

@@ -11,6 +11,10 @@ from lagrotor.mechanics.running.programs import parameter_values, start_program
 from lagrotor.mechanics.small_turns import no_turn
 from lagrotor.numerics.arrays import real_array
 
+_OFF = 1e-7  # of 1 and the largest number of a start: how far it may be off its constraints
+_SMALL = 1e-5  # of the size of what is small, how far it may be off
+_SLOW = 1e-3  # of the way that the velocities cover: as large a place counts at least
+_LEAST = 1e-8  # a place that is smaller counts as this: it may be rounding of parameters of size one
 _LEAST_NORM = 1e-3  # of a quaternion, from which the nearest of norm 1 is reached
 
 
@@ -53,6 +57,27 @@ def consistent(
     mass = metric(mass, slope)
     particular = -np.linalg.pinv(slope) @ wanted
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
+
+
+def rounding_of_start(system: Equations, values: Values, start: Array, t: float, duration: float = 1.0) -> Array:
+    """How far each component of a start (q, u), (N + m,), may be off the constraints: 10⁻⁷ (1 + max |start|), and where that is
+    less, 10⁻⁵ of its size, in whatever unit of length.
+
+    The sizes of x_k are max_j √M_jj |x_j| / √M_kk: the mass metric compares metres with radians; for velocities of one's own it
+    is 1. Velocities are no smaller than what leads through the places in the duration, or in one second where that is shorter.
+    """
+    n, m, given, weight = len(system.c.q), len(system.speeds), start_program(system), np.ones(1)
+    if system.kinematics is None:
+        with np.errstate(all="ignore"):
+            M = np.array(given.function(*start, t, *parameter_values(given, values)), float)[: m * m].reshape(m, m)
+        weight = np.sqrt(np.nan_to_num(np.abs(M.diagonal()), posinf=0.0))
+    length, speed = (float((weight * np.abs(part)).max()) for part in (start[:n], start[n:]))
+    duration = min(duration, 1.0)
+    with np.errstate(divide="ignore", invalid="ignore"):  # what has no mass has no size: infinity
+        places = np.where(weight > 0, np.maximum(max(length, _SLOW * duration * speed) / weight, _LEAST), np.inf)
+        speeds = np.fmax(np.where(weight > 0, speed / weight, np.inf), places / duration)
+    sizes = np.append(np.broadcast_to(places, n), np.broadcast_to(speeds, m))
+    return np.asarray(np.minimum(_OFF * (1 + np.abs(start).max()), _SMALL * sizes))
 
 
 def metric(mass: Array, slope: Array) -> Array:

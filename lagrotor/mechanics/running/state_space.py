@@ -29,12 +29,12 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.mechanics.running.starts import consistent
+from lagrotor.mechanics.running.starts import consistent, rounding_of_start
 from lagrotor.mechanics.small_turns import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
 _OTHER = -4  # of the step: another one, which gives the same derivative where there is one
-_STEADY, _SAME, _OFF = 1e-8, 1e-7, 1e-7  # relative: accelerations left, a matrix that stays, a point on the constraints
+_STEADY, _SAME = 1e-8, 1e-7  # relative: accelerations left, a matrix that stays
 _ROUNDING = 1e-12  # of accelerations of free motion
 _DEPENDENT = 1e-10  # constraints whose normals are in a plane but for rounding
 _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.floor, sp.ceiling, sp.Mod, sp.Piecewise)
@@ -153,7 +153,7 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
     if system.multipliers:
         n = len(c.q)
         near = np.concatenate(consistent(where, system, values, start[:n], start[n:], time))
-        if np.abs(near - start).max() > _OFF * (1 + np.abs(start).max()):
+        if (np.abs(near - start) > rounding_of_start(system, values, start, time)).any():
             shown = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
             raise ConstraintError(
                 f"{where}: the point is off the constraints; the nearest on them is {shown or 'zero'}"

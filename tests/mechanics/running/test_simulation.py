@@ -17,6 +17,7 @@ from lagrotor.errors import ConstraintError, InputError, IntegrationError, Lagro
 from lagrotor.mechanics import System, SystemRun, coordinates, t
 from lagrotor.mechanics.running import programs, simulation
 from lagrotor.mechanics.running.first_integrals import defect_of
+from lagrotor.mechanics.running.starts import rounding_of_start
 
 m, l, g, k, R, Omega, w, A = sp.symbols("m l g k R Omega omega A", positive=True)
 VALUES = {m: 1.3, l: 0.8, g: 9.81, k: 0.2, R: 0.5, Omega: 6.0, w: 20.0, A: 0.1}
@@ -106,6 +107,81 @@ def test_a_start_off_the_constraints_is_refused_with_the_nearest_on_them() -> No
         rod().simulate(VALUES, (1.0, 0), (0.5, 1), [0, 1])
     q, v = rod().consistent(VALUES, (1.0, 0), (0.5, 1))
     assert rod().simulate(VALUES, q, v, [0, 1]).drift.max() < 1e-12
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_how_far_off_the_constraints_a_start_may_be_goes_by_the_size_of_the_motion(size: float) -> None:
+    values, times = {m: 1.0, g: 9.81, l: size}, [0, size**0.5]
+    with pytest.raises(ConstraintError, match="off the constraints"):
+        rod().simulate(values, (1.0001 * size, 0), (0, 0), times)
+    with pytest.raises(ConstraintError, match="off the constraints"):
+        rod().linearise({"x": 0, "y": -1.0001 * size}, values)
+    run = rod().simulate(values, ((1 + 1e-9) * size, 0), (0, 0), times)  # twin
+    assert run.q[0] == pytest.approx([size, 0], rel=1e-12, abs=1e-12 * size)
+    assert rod().linearise({"x": 0, "y": -(1 + 1e-9) * size}, values)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0])
+def test_metres_beside_radians_are_compared_by_the_mass_metric(size: float) -> None:
+    """A rod that hangs by one end, its place typed with a relative error: the angle is one in either unit of length."""
+    c = coordinates("x y theta")
+    x, y, theta = c.q
+    kinetic = m * (c.v[0] ** 2 + c.v[1] ** 2 + l**2 / 12 * c.v[2] ** 2) / 2
+    bar = System(c, kinetic - m * g * y, (x - l / 2 * sp.sin(theta), y + l / 2 * sp.cos(theta)))
+
+    def bound(scale: float) -> np.ndarray:
+        start = np.array([scale / 2 * np.sin(1.0), -scale / 2 * np.cos(1.0), 1.0, 0, 0, 0])
+        return rounding_of_start(bar, {m: 1.0, g: 9.81, l: scale}, start, 0.0)
+
+    assert (bound(size)[:2] < 1e-5 * size).all() and bound(size)[2] == pytest.approx(2e-7)
+    assert (bound(1.0)[:2] == 2e-7).all()  # twin
+
+
+@pytest.mark.parametrize(
+    "start", [(1, 1, 1e-3, 1e-3), (1, 1e-9, 1e-3, 0), (0.3, 0.5, 0, 0), (0.2, 0, 1, 5), (1e3, 2, 1e-3, 1e-4)]
+)
+def test_among_sizes_of_one_the_bound_is_that_of_the_largest_number(start: tuple[float, ...]) -> None:
+    """Also of a component, or a velocity, that is small: seven digits of a start are enough."""
+    values, state = {m: 1.0, g: 9.81, l: 1.0}, np.array(start)
+    assert (rounding_of_start(rod(), values, state, 0.0, 100.0) == 1e-7 * (1 + state.max())).all()
+    small = 1e-6 * state  # twin
+    assert (rounding_of_start(rod(), values, small, 0.0, 100.0) < 1e-7).all()
+
+
+@pytest.mark.parametrize("decimals", [5, 7])
+def test_a_start_typed_with_seven_decimals_is_taken_and_with_five_is_not(decimals: int) -> None:
+    angle, rate = 0.8765432, 1.234e-3
+    q, v = np.array([np.sin(angle), -np.cos(angle)]), rate * np.array([np.cos(angle), np.sin(angle)])
+    start, values = (q.round(decimals), v.round(9)), {m: 1.0, g: 9.81, l: 1.0}
+    if decimals == 7:
+        assert rod().simulate(values, *start, [0, 0.1]).drift.max() < 1e-12
+    else:
+        with pytest.raises(ConstraintError, match="off the constraints"):
+            rod().simulate(values, *start, [0, 0.1])
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_a_place_that_is_rounding_has_the_size_of_the_others(size: float) -> None:
+    """A pendulum that hangs at rest at x = sin(π) l: in units of 10⁻¹⁶ l a run has no end."""
+    values, times = {m: 1.0, g: 9.81, l: size}, [0, size**0.5]
+    run = rod().simulate(values, (np.sin(np.pi) * size, -size), (0, 0), times)
+    assert run.scales.sizes[:2] == pytest.approx([size, size]) and run.evaluations < 1000
+    assert run.q[-1] == pytest.approx([0, -size], abs=1e-14 * size)
+    swing = rod().simulate(values, (1e-9 * size, -size), (0, 0), times)  # twin: a motion of its own
+    assert swing.scales.sizes[0] < 1e-8 * size
+
+
+def test_a_component_of_rounding_is_not_taken_for_off_the_constraints() -> None:
+    (x, y), v = PLANE.q, PLANE.v
+    still = System(PLANE, m * (v[0] ** 2 + v[1] ** 2) / 2, (x + y - 1,))
+    run = still.simulate({m: 1.0}, (3e-17, 1 - 2e-16), (0, 0), [0, 1])
+    assert run.q[-1] == pytest.approx([0, 1], abs=1e-15)
+    with pytest.raises(ConstraintError, match="off the constraints"):  # twin
+        still.simulate({m: 1.0}, (3e-17, 1 - 1e-6), (0, 0), [0, 1])
+    bowl = System(PLANE, m * (v[0] ** 2 + v[1] ** 2) / 2 - m * g * y, (y - x**2,))  # at rest at the origin
+    assert bowl.simulate({m: 1.0, g: 9.81}, (0, 1e-16), (0, 0), [0, 1]).drift.max() < 1e-15
+    with pytest.raises(ConstraintError, match="off the constraints"):  # twin
+        bowl.simulate({m: 1.0, g: 9.81}, (0, 1e-6), (0, 0), [0, 1])
 
 
 def test_a_wire_that_turns_carries_its_bead_outward(engine: str) -> None:
