@@ -65,14 +65,19 @@ class Coefficients:
         return np.tile([0.0, 0.0, 1.0], (len(self.R), 1))
 
     @cached_property
-    def rate(self) -> float:
-        """The largest of the rates (rad/s) at which a single axis precesses, falls or swings; never zero."""
+    def pull(self) -> float:
+        """The largest of the rates (rad/s) at which a single axis falls or swings without spin; zero where nothing pulls."""
         pull = np.abs(self.gravity) * np.abs(self.S) + self.hinge
         stiff = np.zeros(len(self.R))
         np.add.at(stiff, self.brace_tip, self.stiffness * self.R[self.brace_tip] ** 2)
         joined = self.brace_to >= 0
         np.add.at(stiff, self.brace_to[joined], self.stiffness[joined] * self.R[self.brace_to[joined]] ** 2)
-        return float(max((np.abs(self.G) / self.A).max(), np.sqrt((pull + stiff) / self.A).max(), 1e-6))
+        return float(np.sqrt((pull + stiff) / self.A).max())
+
+    @cached_property
+    def rate(self) -> float:
+        """The largest of the rates (rad/s) at which a single axis precesses, falls or swings; never zero."""
+        return float(max((np.abs(self.G) / self.A).max(), self.pull, 1e-6))
 
 
 @lru_cache(maxsize=64)

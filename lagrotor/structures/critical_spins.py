@@ -59,9 +59,9 @@ def spin_threshold(linear: SmallMotion) -> float:
 
 
 def stiffness_in_masses(linear: SmallMotion) -> Array:
-    """K in the metric of M, in units of rate²."""
+    """K in the metric of M, in units of pull²: whatever the spins, what falls is not taken for neutral."""
     root = np.linalg.inv(np.linalg.cholesky(linear.mass))
-    return np.asarray(root @ linear.stiffness @ root.T / linear.rate**2)
+    return np.asarray(root @ linear.stiffness @ root.T / (linear.pull or linear.rate) ** 2)
 
 
 def _by_branches(linear: SmallMotion) -> float:

@@ -64,6 +64,8 @@ class Modes(Shown):
 class SmallMotion:
     """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the degrees of freedom q, u = basis q, basis (2 N, n).
 
+    pull: `Coefficients.pull`, beside whose square the stiffness over the mass is rounded; 0 where it is not known.
+
     Of waves at many wave numbers each has an axis more, and so have the roots: (n_q, n, n), (n_q, 2 n).
     """
 
@@ -73,6 +75,7 @@ class SmallMotion:
     stiffness: Matrix
     basis: Matrix
     rate: float
+    pull: float = 0.0
 
     @property
     def dof(self) -> int:
@@ -176,8 +179,16 @@ class SmallMotion:
         return W
 
     def _in_seconds(self, s: Matrix) -> Complex:
-        sizes = np.abs(np.linalg.eigvalsh(self.stiffness)) if self.dof else np.ones(1)
-        neutral = sizes.min(-1, keepdims=True) <= _DEPENDENT * sizes.max(-1, keepdims=True)  # else no root is zero
+        sizes, shapes = np.linalg.eigh(self.stiffness) if self.dof else (np.ones(1), np.eye(1))
+        sizes = np.abs(sizes)
+        none = sizes <= _DEPENDENT * sizes.max(-1, keepdims=True)
+        neutral = none.any(-1, keepdims=True)  # else no root is zero
+        if s.ndim == 1 and neutral[0] and not self._definite:
+            C, free = self.damping + self.gyroscopic, shapes[:, none]
+            turned = np.linalg.svd(_dagger(free) @ C @ free, compute_uv=False)
+            if turned[-1] > _DEPENDENT * np.abs(C).max():  # each neutral motion is a single root zero, and no other is
+                s, neutral = s + 0j, np.array([False])
+                s[np.argsort(np.abs(s))[: len(turned)]] = 0
         near = np.maximum(np.abs(s), np.where(neutral, 1.0, _SLOWEST))
         still = np.abs(s.real) < (np.where(neutral, _ZERO, _DAMPED) if self.damping.any() else _ZERO) * near
         return np.asarray(
@@ -212,7 +223,7 @@ def small_motion(s: Assembly) -> SmallMotion:
         )
     c = coefficients(s)
     rank, vectors = left_by(bar_rows(c))
-    return on_basis(matrices(c), vectors[:, int(rank) :], c.rate)
+    return replace(on_basis(matrices(c), vectors[:, int(rank) :], c.rate), pull=c.pull)
 
 
 def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:

@@ -41,6 +41,7 @@ PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
 _FARTHEST = 5  # times the push that is trusted: beyond, an axis tilts by ½ before anything grows
 _LEAST_TIMES = 20  # in which a push falls, if it does
 _MOST_TURNS = 10_000  # of the fastest mode, of an exact run
+_RESOLVED = 100  # times the rounding of the largest rate: what is slower has lost its digits
 _BOUNDED = "every small motion stays bounded"
 
 
@@ -74,8 +75,8 @@ class Standing(Shown):
           smaller ones as `largest_push` says;
         - "holds": its energy is least when upright, or no resonance through fourth order falls from such a push;
         - "to first order": it stands in the linear motion, and no more is known: something neither falls nor is pulled back,
-          friction acts, there are more degrees of freedom than are expanded, or the critical spins are so near that such
-          a push tilts it by more than 0.1.
+          friction acts, there are more degrees of freedom than are expanded, the spins are so fast that the slow precessions
+          are lost in rounding, or the critical spins are so near that such a push tilts it by more than 0.1.
         """
         linear = small_motion(self.structure)
         if not self.stands:
@@ -83,7 +84,7 @@ class Standing(Shown):
         if linear.dof and np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
             return "holds"
         rubs = linear.damping.any() or coefficients(self.structure).decay.any()
-        if rubs or linear.dof > MOST_DOF or not len(signed_rates(linear)):
+        if rubs or linear.dof > MOST_DOF or not len(signed_rates(linear)) or self._lost:
             return "to first order"
         try:
             found = self.resonance
@@ -104,6 +105,12 @@ class Standing(Shown):
         return trusted_push(self.structure) < self._reference
 
     @property
+    def _lost(self) -> bool:
+        """Whether rates of slow precessions are rounding beside the fast ones."""
+        rates = np.abs(signed_rates(small_motion(self.structure)))
+        return bool(rates.size and rates.min() < _RESOLVED * len(rates) * np.finfo(float).eps * rates.max())
+
+    @property
     def _reference(self) -> float:
         return PUSH * local_hamiltonian(self.structure).rate
 
@@ -118,7 +125,10 @@ class Standing(Shown):
             )
             if self._reference > _FARTHEST * trusted_push(self.structure):
                 return f"{words}; one of {self._reference:.3g} rad/s tilts it so far that its time is not known"
-            return f"{words}, one of {self._reference:.3g} rad/s in {self.resonance.least_time(self._reference):.3g} s or more"
+            return (
+                f"{words}, one of {self._reference:.3g} rad/s in {self.resonance.least_time(self._reference):.3g} s or more by "
+                "the normal form, which may be off by half: fall_time_error measures it"
+            )
         if self.kind == "holds" and not self.first_order.startswith(_BOUNDED):
             return (
                 f"{self.first_order}; no resonance through fourth order falls from a push of {self._reference:.3g} rad/s; "
@@ -129,6 +139,8 @@ class Standing(Shown):
                 f"{self.first_order}; so near the critical spins a push of {self._reference:.3g} rad/s tilts it too far for more "
                 "to be known"
             )
+        if self.kind == "to first order" and self.first_order.startswith("to first order") and self._lost:
+            return f"{self.first_order}; beside the fast rates of these spins slow ones are lost in rounding: no more is known"
         return self.first_order
 
     def _falls_by(self, of: Of) -> Resonance | None:
@@ -138,15 +150,21 @@ class Standing(Shown):
         )
 
     def window(self, push: float, of: Of = "rates") -> tuple[float, float] | None:
-        """The factors on all spins, about these, between which a push of that size may fall; None without a resonance."""
+        """The factors on all spins, about these, between which a push of that size may fall.
+
+        None where no resonance near these spins falls, whatever the push: a push beyond what the expansion is trusted (see
+        `largest_push`) may fall all the same.
+        """
         push, resonance = checked_push("window", push), self._falls_by(of)
         return window_of(self.structure, resonance, push) if resonance else None
 
     def fall_time(self, push: float | ArrayLike, of: Of = "rates") -> float:
-        """When it falls, s. A number: the least time of pushes of that size by the resonance's own terms, inf where none falls.
-        Rates (N, 2) of the axes: that of this push from upright, by the normal form of fourth order, inf where it does not fall
-        in 20 least times: an estimate, as far from the exact motion's as `fall_time_error` measures. of: "rates", rad/s, or
-        "tilts", as `largest_push` has them; tilts (N, 2) are x, y of the axes.
+        """When it falls, s: a least time for a number; for rates or tilts an estimate, which may be off by half and more.
+
+        A number: the least time of pushes of that size by the resonance's own terms, inf where none falls. Rates (N, 2) of the
+        axes: that of this push from upright, by the normal form of fourth order, inf where it does not fall in 20 least times:
+        as far from the exact motion's as `fall_time_error` measures. of: "rates", rad/s, or "tilts", as `largest_push` has them;
+        tilts (N, 2) are x, y of the axes.
 
         Raises InputError as `resonances` does, and for pushes whose tilts are beyond what the expansion is trusted.
         """
@@ -229,18 +247,27 @@ class Standing(Shown):
 def stands(s: Assembly) -> Standing:
     """Whether the linear motion about upright stays bounded, and what resonances do: see `Standing`.
 
-    Raises InputError where upright breaks a bar's length.
+    Raises InputError where upright breaks a bar's length, and where friction lets it fall more slowly than is resolved: with
+    friction on every axis what falls without spin falls at any (Kelvin, Tait and Chetaev).
     """
     linear, normal, factor = small_motion(s), modes(s), critical_spin(s)
-    growth, falls = linear.growth, linear.growth > 0
+    K = np.linalg.eigvalsh(stiffness_in_masses(linear))
+    growth = 0.0 if len(K) and K[0] > 1e-12 else linear.growth  # energy that is least when upright grows nowhere
+    rubbed = len(K) and K[0] < -1e-12 and np.linalg.eigvalsh(linear.damping)[0] > 0
+    if rubbed and growth < _RESOLVED * len(K) * np.finfo(float).eps * linear.rate:
+        raise InputError(
+            "stands: friction on every axis lets it fall at any spins (Kelvin, Tait and Chetaev), but beside these so slowly "
+            "that double precision cannot tell how fast: take slower spins, or more friction"
+        )
+    falls = growth > 0
     shape = normal.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
-    return Standing(not falls and not linear.drifts, growth, shape, factor, s, _why(linear, factor))
+    return Standing(not falls and not linear.drifts, growth, shape, factor, s, _why(linear, growth, factor))
 
 
-def _why(linear: SmallMotion, factor: float) -> str:
+def _why(linear: SmallMotion, growth: float, factor: float) -> str:
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     n, falling = linear.dof, int((K < -1e-12).sum())
-    if linear.growth == 0:
+    if growth == 0:
         if linear.drifts:
             return "nothing falls, but a motion that nothing holds goes on at its speed after a push"
         if not n:
@@ -253,7 +280,7 @@ def _why(linear: SmallMotion, factor: float) -> str:
         if not falling:
             return f"{_BOUNDED}: {held}"
         return f"to first order: the spins hold {falling} of {n} degrees of freedom"
-    first = f"{falling} of {n} degrees of freedom fall, the fastest e-fold in {1 / linear.growth:.3g} s; "
+    first = f"{falling} of {n} degrees of freedom fall, the fastest e-fold in {1 / growth:.3g} s; "
     if falling % 2:
         return first + "an odd number of them, which no spins hold"
     if linear.damping.any():

@@ -134,6 +134,46 @@ def test_friction_undoes_what_the_spins_hold() -> None:
     assert measured_growth(s, folds=0.2) == pytest.approx(found.growth, rel=1e-3)
 
 
+@pytest.mark.parametrize("balanced", [False, True])
+def test_at_any_fast_spins_what_falls_is_said(balanced: bool) -> None:
+    """With friction c each pair falls as c (g S/G)²; also beside a neutral rotor; where it is lost in rounding it is refused."""
+    count = 3 + balanced
+    joints, spins = [(0, 0), (1, 0), (2.1, 0.3), (5, 5)][:count], np.array([1, -0.5, 1, 1][:count])
+    s = Structure(
+        joints, [(0, 1), (1, 2)], spins, tuple(Rotor(length=x) for x in (1, 1.3, 0.8, 1)[:count]), gravity=9.81
+    )
+    if balanced:
+        s = replace(s, hinge=(0, 0, 0, 9.81 * coefficients(s).S[3]))
+    least = s.critical_spin()
+    for times in (1e2, 1e3, 1e5, 1e7):
+        fast = replace(s, spins=tuple(times * least * spins))
+        assert fast.stands() and fast.critical_spin() == pytest.approx(1 / times, rel=1e-6)
+        rubbed = replace(fast, friction=0.1)
+        if times > 1e4:
+            with pytest.raises(InputError, match="cannot tell how fast"):
+                rubbed.stands()
+        else:
+            found = rubbed.stands()
+            assert not found and found.kind == "never" and found.critical_spin == inf
+            slow, _ = small_motion(rubbed).without_inertia.waves  # of C u' + K u = 0, friction and all
+            assert found.growth == pytest.approx(slow.real.max(), rel=1e-3)
+    # What springs hold does not fall, however fast it spins.
+    assert replace(fast, friction=0.1, hinge=100.0).stands().kind == "holds"
+
+
+def test_beside_the_fastest_spins_no_resonance_is_made_of_rounding() -> None:
+    s = Structure(
+        [(0, 0), (1, 0), (2.1, 0.3)],
+        [(0, 1), (1, 2)],
+        [1, -0.5, 1],
+        tuple(Rotor(length=x) for x in (1, 1.3, 0.8)),
+        gravity=9.81,
+    )
+    found = replace(s, spins=tuple(2e7 * w for w in s.spins)).stands()
+    assert found.kind == "to first order" and "lost in rounding" in found.why
+    assert "rounding" not in replace(s, spins=tuple(2e4 * w for w in s.spins)).stands().why
+
+
 def test_springs_hold_without_spin() -> None:
     s = Structure(**PAIR, spins=[10, -10], gravity=9.81, hinge=10.0)
     assert s.stands() and s.critical_spin() == 0
