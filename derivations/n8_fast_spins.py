@@ -45,7 +45,7 @@ prove(
 
 # %% [markdown]
 # For any network $-\omega^2M-i\omega C+K$ has, from $(K-i\omega_0C)u=0$, the slow rate $\omega_0-\omega_0^2\,u^\dagger
-# Mu/|u^\dagger Cu|+\dots$, of which `left_out` is the second part. Fast precessions, at rates as $G/a$, are gone.
+# Mu/|u^\dagger Cu|+\dots$, of which the limit keeps the first part. Fast precessions, at rates as $G/a$, are gone.
 
 # %%
 network = Structure(

@@ -29,16 +29,16 @@ from lagrotor.theory.natural_frequency import natural_frequency
 # ## A charged particle
 #
 # With the spins eliminated the Lagrangian of t11 is exactly that of a particle in three dimensions with a mass $M(q)$ and a
-# vector potential $g(q)$, without any other force:
+# vector potential $g(q)$, the derivatives of $L$ by the velocities, without any other force:
 
 # %%
 (beta, h, alpha), v = LEANING.q, sp.Matrix(LEANING.v)
 M, g = leaning_field()
 prove(
-    leaning_lagrangian(),
-    (v.T * M * v)[0] / 2 + (g.T * v)[0],
+    leaning_lagrangian() - (v.T * M * v)[0] / 2 - (g.T * v)[0],
+    0,
     "mass and vector potential",
-    names="L",
+    names=r"L-\tfrac12\dot q\cdot M\dot q-g\cdot\dot q",
 )
 
 # %% [markdown]
@@ -67,10 +67,10 @@ f_1, f_2, f_3, root = sp.symbols("f_1 f_2 f_3 s")
 any_field = sp.Matrix([f_1, f_2, f_3])
 turn = sp.Matrix([[0, f_3, -f_2], [-f_3, 0, f_1], [f_2, -f_1, 0]])  # v × f
 prove(
-    (root * m - turn).det(),
-    root * (root**2 * m.det() + (any_field.T * m * any_field)[0]),
+    (root * m - turn).det() - root * (root**2 * m.det() + (any_field.T * m * any_field)[0]),
+    0,
     "the swing and its rate, Ω² = f·M f/det M",
-    names=r"\det(sM-f\times)",
+    names=r"\det(sM+f\times)-s\,(s^2\det M+f\cdot Mf)",
 )
 
 # %% [markdown]
@@ -90,8 +90,9 @@ prove(
 #
 # The swing's energy $J\Omega$ over its rate, $J$, is its adiabatic invariant. The centre $Q$ has the speed $u$ along the unit
 # vector $b=Mf/\sqrt{f\cdot Mf}$ of the field, and the Lagrangian $(g+ub)\cdot\dot Q-J\Omega-u^2/2$. With
-# $B=f+u\operatorname{curl}b$ its equations are $\dot Q\times B=\dot u\,b+J\nabla\Omega$ and $b\cdot\dot Q=u$; for any $b$, $B$
-# and $\nabla\Omega$ they are solved by
+# $B=f+u\operatorname{curl}b$ its equations are $\dot Q\times B=\dot u\,b+J\nabla\Omega$ and $b\cdot\dot Q=u$. For any $b$, $B$
+# and $\nabla\Omega$ they are solved by $\dot Q=(u\,B+J\,b\times\nabla\Omega)/b\cdot B$ and
+# $\dot u=-J\,B\cdot\nabla\Omega/b\cdot B$:
 
 # %%
 u, J = sp.symbols("u J")
@@ -99,7 +100,13 @@ along, B, slope = (sp.Matrix(sp.symbols(f"{name}_1:4")) for name in ("b", "B", "
 Q_v = (u * B + J * along.cross(slope)) / along.dot(B)
 u_v = -J * B.dot(slope) / along.dot(B)
 left = Q_v.cross(B) - u_v * along - J * slope
-prove((*left, along.dot(Q_v)), (0, 0, 0, u), "the motion of the centre", names=("E_1", "E_2", "E_3", r"b\cdot\dot Q"))
+component = r"(\dot Q\times B-\dot u\,b-J\nabla\Omega)"
+prove(
+    (*left, along.dot(Q_v)),
+    (0, 0, 0, u),
+    "the motion of the centre",
+    names=(*(rf"{component}_{j}" for j in (1, 2, 3)), r"b\cdot\dot Q"),
+)
 
 # %% [markdown]
 # The energy stays, and, as $\alpha$ is cyclic, so does $P=g_\alpha+ub_\alpha$. Both give the path of $(\beta,h)$ without

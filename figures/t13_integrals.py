@@ -114,7 +114,7 @@ def figure() -> Figure:
     plane.set_yticks(range(MOMENTA.size), [f"{p:g}".replace("-", "−") for p in MOMENTA])
     rows, columns = np.nonzero(np.isnan(d["exponents"]))
     plane.plot(columns, rows, "x", color=EXACT_COLOUR, label="ends with bar and axes in line")
-    plane.set(xlabel="amplitude $r_0$ [1]", ylabel="momentum P/G [1]", title="Exponent in 1/turn")
+    plane.set(xlabel="amplitude $r_0$ [1]", ylabel="momentum P/G [1]", title="Exponent [1/turn]")
     for (i, j), value in np.ndenumerate(d["exponents"]):
         if np.isfinite(value):
             plane.text(
@@ -126,6 +126,7 @@ def figure() -> Figure:
         for k in range(PHASES.size):
             points = d[name][d[name][:, 0] == k]
             panel.plot(points[:, 1], points[:, 2], ".", ms=3, color=colours[k])
+        panel.margins(0.04)
         panel.set(
             xlabel="mean x [1]",
             ylabel="half the twist [rad]",
@@ -136,6 +137,7 @@ def figure() -> Figure:
         d["horizons"][:, 0], d["horizons"][:, 1], "o", color=EXACT_COLOUR, mfc="none", label="horizon of auto"
     )
     horizons.plot(rate, np.log(TOL / 1e-14) / rate, color=CORRECTION_COLOUR, label="ln(tol/10⁻¹⁴) over the exponent")
-    horizons.set(xlabel="exponent in 1/turn [1]", ylabel="horizon in turns [1]", title="How long a run is known")
+    horizons.margins(0.04)
+    horizons.set(xlabel="exponent [1/turn]", ylabel="horizon [turns]", title="How long a run is known")
     picture.legend(loc="outside lower center", ncols=3)
     return picture
