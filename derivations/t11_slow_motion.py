@@ -58,7 +58,7 @@ prove(
     (link_constraint(first, second), mean_axis.dot(apart), apart.dot(apart)),
     (0, 0, 1),
     "the bar's constraint, and q a unit vector at right angles to n",
-    names=("g", r"n\cdot q", r"q\cdot q"),
+    names=(r"k(x_2-x_1)+1-r_1\cdot r_2", r"n\cdot q", r"q\cdot q"),
 )
 
 # %% [markdown]
@@ -103,8 +103,17 @@ exact = leaning_lagrangian()
 prove(exact.subs({G_1: 0, G_2: 0}), kinetic, "the kinetic energy, exact", names="T")
 
 # %% [markdown]
-# The spins act by forces $G_i\,r_i\times\dot r_i$. Of terms $A_\beta\dot\beta+A_h\dot h+A_\alpha\dot\alpha$ in a Lagrangian only
-# the curl acts; it must be $-\sum_i G_i\,r_i\cdot(\partial r_i/\partial u\times\partial r_i/\partial v)$ for each pair
+# The spins add $\Gamma=(G_1+G_2)\cos h\,(\dot\chi+\dot\alpha\sin\beta)+(G_1-G_2)\sin h\,(\dot\beta\cos\chi+
+# \dot\alpha\sin h/k)$:
+
+# %%
+spins = (G_1 + G_2) * sp.cos(h) * (chi_v + alpha_v * sp.sin(beta))
+spins += (G_1 - G_2) * sp.sin(h) * (beta_v * sp.cos(chi) + alpha_v * sp.sin(h) / k)
+prove(exact - kinetic - spins.subs(on_bar), 0, "the spins' terms, exact", names=r"L-T-\Gamma")
+
+# %% [markdown]
+# They act by forces $G_i\,r_i\times\dot r_i$. Of terms $A_\beta\dot\beta+A_h\dot h+A_\alpha\dot\alpha$ in a Lagrangian only
+# the curl acts; it must be $F_{uv}=-\sum_i G_i\,r_i\cdot(\partial r_i/\partial u\times\partial r_i/\partial v)$ for each pair
 # $u$, $v$ of coordinates:
 
 # %%
@@ -125,10 +134,13 @@ def flux(i: int, j: int) -> sp.Expr:
 
 upright = {alpha: 0}  # turning about the joint line is a symmetry
 prove(
-    tuple(curl(i, j).subs(upright) for i, j in ((0, 1), (0, 2), (1, 2))),
-    tuple(flux(i, j).subs(upright) for i, j in ((0, 1), (0, 2), (1, 2))),
+    tuple((curl(i, j) - flux(i, j)).subs(upright) for i, j in ((0, 1), (0, 2), (1, 2))),
+    (0, 0, 0),
     "the curl of the spins' terms, exact, for any two spins",
-    names=(r"A_{\beta h}", r"A_{\beta\alpha}", r"A_{h\alpha}"),
+    names=tuple(
+        rf"\partial_{{{u}}}A_{{{v}}}-\partial_{{{v}}}A_{{{u}}}-F_{{{u}{v}}}"
+        for u, v in ((r"\beta", "h"), (r"\beta ", r"\alpha"), ("h", r"\alpha"))
+    ),
 )
 
 # %% [markdown]
