@@ -111,7 +111,7 @@ def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
     G = [Recorded(tape, f"G_{i}") if f"G_{i}" in of_time else G for i, G in enumerate(c.G)]
     accelerations = structure_accelerations(c, r, v, G, recorded_numbers)
     leaves = {str(x): x for x in (*letters.q, *letters.v)} | of_time
-    stages, rates = _stages(tape, leaves, [x for axis in accelerations for x in axis])
+    stages, rates = _stages(tape, leaves, accelerations)
     arguments = (*letters.q, *letters.v, *((t,) if timed else ()))
     outputs = (*letters.v, *rates, *((sp.S.One,) if timed else ()))
     return Program(arguments, tuple(stages), outputs, shared=True), _held(c, letters)

@@ -18,6 +18,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
+from lagrotor.structures.exact.forces import pulls
 from lagrotor.structures.small_motion import Modes, SmallMotion, left_by, modes_of
 
 _STEP = 1e-3  # of the differences, whose error is its fourth power times 10⁻² or so
@@ -89,7 +90,7 @@ def constraint_tangents(motion: ExactMotion, r: Array) -> Array:
     rows = np.zeros((N + len(c.i), N, 3))
     rows[np.arange(N), np.arange(N)] = r
     each = N + np.arange(len(c.i))
-    rows[each, c.i], rows[each, c.j] = motion.pulls(r)
+    rows[each, c.i], rows[each, c.j] = pulls(c, r)
     rank, vectors = left_by(rows.reshape(len(rows), -1))
     return np.asarray(vectors[:, int(rank) :])
 

@@ -9,6 +9,7 @@ import pytest
 from lagrotor import Link, Structure
 from lagrotor.structures import exact_motion
 from lagrotor.structures.exact import compiled_motion
+from lagrotor.structures.exact.forces import pulls
 from lagrotor.structures.exact.saddle import saddle
 from lagrotor.structures.exact.written_out import eliminate_in_levels, structure_accelerations
 
@@ -63,7 +64,7 @@ def test_a_grid_is_solved_sparsely_and_to_the_same_numbers() -> None:
     found = motion.accelerations(0.0, r, v)
     # The same equations, dense: what the solution leaves of them.
     lam = motion.solution(0.0, r, v)[3 * L * L :]
-    pull_i, pull_j = motion.pulls(r)
+    pull_i, pull_j = pulls(motion.c, r)
     c = motion.c
     left = c.A[:, None] * found - motion.forces(0.0, r, v) + lam[: L * L, None] * r
     np.add.at(left, c.i, c.coupling[:, None] * found[c.j] + lam[L * L :, None] * pull_i)
@@ -71,7 +72,7 @@ def test_a_grid_is_solved_sparsely_and_to_the_same_numbers() -> None:
     assert np.abs(left).max() < 1e-9 * np.abs(found).max()
     still = 0 * r[None]
     assert np.isnan(
-        replace(motion.saddle).solve(still, motion.pulls(still), np.ones((1, len(bars) + 4 * L * L, 1)))
+        replace(motion.saddle).solve(still, pulls(motion.c, still), np.ones((1, len(bars) + 4 * L * L, 1)))
     ).all()
 
 

@@ -14,7 +14,7 @@ from lagrotor.numerics import estimated_run
 from lagrotor.structures import exact_motion, right_hand_side
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
-from tests.structures.oracle import by_lagrange
+from tests.structures.oracle import accelerations_by_energies, by_lagrange
 
 BARS = (Link(1, 0, 0), Link(1, 1, 1), Link(1, 0.3, 0.1))
 CORNER = {"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)]}
@@ -57,6 +57,27 @@ def test_under_load_it_is_what_lagranges_equations_say(name) -> None:
     run = s.simulate(np.linspace(0, 1, 11), **started(s), tol=1e-10)
     assert np.abs(run.axes - by_lagrange(s, run)).max() < 1e-11 + run.error
     assert run.error < 1e-10
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_at_any_state_it_is_what_energies_friction_and_constraints_say(name) -> None:
+    """Of axes above the ground, driven, one brace in guides. The twins: one number changed."""
+    s, N = replace(LOADED[name], spin_friction=0.4), len(LOADED[name].joints)
+    s = replace(s, braces=(*s.braces, Brace(0, (0.3, -1.0, 0.5), 2.0, 0.7, along=(0.6, 0.0, 0.8))))
+    push, ground, draw = np.arange(3.0 * N).reshape(N, 3), np.array([0.5, -0.3, 0.2]), np.random.default_rng(N)
+    r, v = draw.standard_normal((2, N, 3))
+    r = np.where([False, False, True], np.abs(r), r) / np.linalg.norm(r, axis=1, keepdims=True)
+    G = np.array([rotor.I3 * w * np.exp(-0.4 * 1.3 / rotor.I3) for rotor, w in zip(s.rotor, s.spins, strict=True)])
+    expected = accelerations_by_energies(s, r, v, G, 1.3 * push, 1.3 * ground)
+
+    def off(other: Structure) -> float:
+        found = exact_motion(other, lambda t: push * t, lambda t: ground * t).accelerations(1.3, r, v)
+        return np.abs(found - expected).max() / np.abs(expected).max()
+
+    assert off(s) < 1e-11
+    changed = dict.fromkeys(("friction", "hinge", "gravity", "load", "spins", "spin_friction"), 0.21)
+    for name, value in (changed | {"braces": s.braces[:-1]} | ({"link": Link(1, 0.31, 0.1)} if N > 1 else {})).items():
+        assert off(replace(s, **{name: value})) > 1e-4
 
 
 @pytest.mark.parametrize("name", LOADED)

@@ -6,6 +6,7 @@ from lagrotor.errors import ConstraintError, InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
+from lagrotor.structures.exact.forces import pulls
 
 _DENSE = 400  # unknowns up to which ranks are found by singular values
 _DEPENDENT = 1e-9  # of the largest: a smaller singular value (beyond _DENSE: pivot) is zero
@@ -66,7 +67,7 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
     if not B:
         return None
     across = tangents(r)
-    first, second = motion.pulls(r)
+    first, second = pulls(c, r)
     rows = np.concatenate([np.arange(B), np.arange(B)]).repeat(2)
     columns = (2 * np.concatenate([c.i, c.j])[:, None] + [0, 1]).ravel()
     scale = np.repeat(c.ell, 2)

@@ -12,7 +12,7 @@ and the bars at them. Of these unknowns all accelerations follow.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from itertools import count
 from threading import get_ident
@@ -35,6 +35,7 @@ from lagrotor.numerics.taylor import (
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Index, coefficients
 from lagrotor.structures.exact.exact_motion import ExactMotion, LineWatch
+from lagrotor.structures.exact.forces import brace_forces
 from lagrotor.structures.exact.saddle import in_band, narrow_order
 from lagrotor.structures.exact.written_out import eliminate_in_levels, structure_accelerations, system
 
@@ -66,7 +67,8 @@ def programs(length: int, names: tuple[str, ...], pushed: bool) -> Programs:
     )
     G, still = [heyoka.make_vars(f"g{i:03d}") for i in range(length)], [0.0] * 3
     c = _segment_parameters(length, names)
-    diagonal, off, right, masses = system(c, r, v, [0.0, *G, 0.0], heyoka, [still, *push, still] if pushed else ())
+    more = np.array([still, *push, still], dtype=object) if pushed else 0.0
+    diagonal, off, right, masses = system(c, r, v, [0.0, *G, 0.0], heyoka, more)
     first, unit, bar, last = 3, masses + 1, masses + N, masses + N + length
     for b, loose in ((bar, c.loose[1]), (last, c.loose[-1])):
         off |= {pair: (1.0 - loose) * entry for pair, entry in off.items() if pair[1] == b}
@@ -98,7 +100,8 @@ def _segment_parameters(length: int, names: tuple[str, ...]) -> Any:
     for name in _NAMES:
         beside = [0.0] * (name not in _SEEN)
         many = length + 2 * (name in _SEEN)
-        c[name] = [*beside, *(par[next(places)] if name in names else 0.0 for _ in range(many)), *beside]
+        numbers = [par[next(places)] if name in names else 0.0 for _ in range(many)]
+        c[name] = np.array([*beside, *numbers, *beside], dtype=object)
     feet = np.array([*zip(c["x"], c["y"], [0.0] * (length + 2), strict=True)], dtype=object)
     ends = np.arange(length + 1)
     c["coupling"] = c["coupling"][1:]
@@ -143,7 +146,7 @@ def right_hand_side_in_segments(motion: ExactMotion) -> RightHandSide:
         state, matrix, right = [y, momenta / rate], list[Any](), list[Any]()
         if pushed:
             r, v = y.reshape(2, N, 3)
-            state.append(motion.pushes(s / rate, r, v * rate).ravel() / rate**2)
+            state.append((brace_forces(c, r, v * rate) + motion.pushes(s / rate)).ravel() / rate**2)
         inputs = [np.concatenate(state)[group.take] for group in groups]
         for group, given in zip(groups, inputs, strict=True):
             entries, (p, q) = group.programs.forward(given, pars=group.pars), group.programs.entries
@@ -309,17 +312,10 @@ def _equations(bare: Assembly, forced: bool = False, shaken: bool = False) -> li
     N = len(c.R)
     names = heyoka.make_vars(*(f"{letter}{i:06d}" for letter in "rv" for i in range(3 * N)))
     rate = par[N]
-    r = [names[3 * i : 3 * i + 3] for i in range(N)]
-    v = [[rate * x for x in names[3 * (N + i) : 3 * (N + i) + 3]] for i in range(N)]
+    r, v = np.array(names, dtype=object).reshape(2, N, 3)
     G = [par[i] * heyoka.exp(-k * heyoka.time / rate) if k else par[i] for i, k in enumerate(c.decay.tolist())]
-    plain = replace(c, **{name: getattr(c, name).tolist() for name in ("R", "A", "S", "friction", "hinge", "coupling")})
-    pushes, shakes = N + 1, N + 1 + (3 * N if forced else 0)
-    more = [
-        [plain.R[i] * par[pushes + 3 * i + k] * forced - plain.S[i] * par[shakes + k] * shaken for k in range(3)]
-        for i in range(N)
-    ]
-
-    accelerations = structure_accelerations(plain, r, v, G, heyoka, heyoka_sum, more if forced or shaken else ())
-    return list(
-        zip(names, [*names[3 * N :], *(x / (rate * rate) for axis in accelerations for x in axis)], strict=True)
-    )
+    given = np.array([par[N + 1 + k] for k in range(3 * N * forced + 3 * shaken)], dtype=object)
+    more: Any = c.R[:, None] * given[: 3 * N].reshape(N, 3) if forced else 0.0
+    more = more - c.S[:, None] * given[-3:] if shaken else more
+    accelerations = structure_accelerations(c, r, rate * v, G, heyoka, heyoka_sum, more)
+    return list(zip(names, [*names[3 * N :], *(x / (rate * rate) for x in accelerations)], strict=True))

@@ -20,10 +20,10 @@ import numpy as np
 from lagrotor.numerics.segment import RightHandSide, StopError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, coefficients
+from lagrotor.structures.exact.forces import AFTER, NEXT, forces, pulls, right_side, stretches
 from lagrotor.structures.exact.saddle import Saddle, saddle
 
 Drive = Callable[[float], Array]
-NEXT, AFTER = [1, 2, 0], [2, 0, 1]  # of a cross product
 _ROWS = 1_000  # of the systems that are solved together
 
 
@@ -51,64 +51,26 @@ class ExactMotion:
 
     def solution(self, t: float, r: Array, v: Array) -> Array:
         """[r'' (3 N), multipliers of the axes (N) and of the bars (B)]: the pull of a bar on its tips is −lam times d, in N."""
-        c = self.c
-        swing = c.R[c.j, None] * v[c.j] - c.R[c.i, None] * v[c.i]
-        right = np.concatenate([self.forces(t, r, v).ravel(), -(v * v).sum(1), -(swing * swing).sum(1)])
-        return self.saddle.solve(r[None], self.pulls(r[None]), right[None, :, None])[0, :, 0]
-
-    def pulls(self, r: Array) -> tuple[Array, Array]:
-        """−R_i d and R_j d of the bars (…, B, 3), d from tip i to tip j: half the gradients of |d|²; r (…, N, 3)."""
-        c = self.c
-        d = c.feet[c.j] - c.feet[c.i] + c.R[c.j, None] * r[..., c.j, :] - c.R[c.i, None] * r[..., c.i, :]
-        return -c.R[c.i, None] * d, c.R[c.j, None] * d
+        right = right_side(self.c, self.forces(t, r, v), v)
+        return self.saddle.solve(r[None], pulls(self.c, r[None]), right[None, :, None])[0, :, 0]
 
     def forces(self, t: float, r: Array, v: Array) -> Array:
         """What acts on the axes besides the constraints, (N, 3), N m."""
         c = self.c
-        G = c.G * np.exp(-c.decay * t) if c.decay.any() else c.G
-        F = G[:, None] * (r[:, NEXT] * v[:, AFTER] - r[:, AFTER] * v[:, NEXT]) - c.friction[:, None] * v
-        F[:, 2] -= c.gravity * c.S
-        if c.hinge.any():
-            theta = np.arctan2(np.hypot(r[:, 0], r[:, 1]), r[:, 2])
-            F[:, 2] += c.hinge / np.sinc(theta / np.pi)
-        return F + self.pushes(t, r, v)
+        return forces(c, r, v, c.G * np.exp(-c.decay * t) if c.decay.any() else c.G) + self.pushes(t)
 
-    def pushes(self, t: float, r: Array, v: Array) -> Array:
-        """What braces, the ground's acceleration and the forces on the tips exert on the axes, (N, 3), N m."""
-        c = self.c
-        F = np.zeros_like(r)
-        if len(c.stiffness):
-            self._brace(F, r, v)
+    def pushes(self, t: float) -> Any:
+        """What the ground's acceleration and the forces on the tips exert on the axes, (N, 3) or zero, N m."""
+        F: Any = 0.0
         if self.ground is not None:
-            F -= c.S[:, None] * np.asarray(self.ground(t), dtype=float)
+            F = -self.c.S[:, None] * np.asarray(self.ground(t), dtype=float)
         if self.force is not None:
-            F += c.R[:, None] * np.asarray(self.force(t), dtype=float)
+            F = F + self.c.R[:, None] * np.asarray(self.force(t), dtype=float)
         return F
-
-    def _brace(self, F: Array, r: Array, v: Array) -> None:
-        c = self.c
-        swing = c.R[c.brace_tip, None] * v[c.brace_tip]
-        joined = c.brace_to >= 0
-        other = c.brace_to[joined]
-        swing[joined] -= c.R[other, None] * v[other]
-        along, stretch = self._stretches(r)
-        pull = c.stiffness * stretch + c.damping * (along * swing).sum(1)
-        np.add.at(F, c.brace_tip, -c.R[c.brace_tip, None] * pull[:, None] * along)
-        np.add.at(F, other, c.R[other, None] * (pull[:, None] * along)[joined])
-
-    def _stretches(self, r: Array) -> tuple[Array, Array]:
-        """Along which unit vectors the braces pull, (…, braces, 3), and by how much they are longer, m; r (…, N, 3)."""
-        c = self.c
-        tips = c.feet + c.R[:, None] * r
-        joined = (c.brace_to >= 0)[:, None]
-        d = tips[..., c.brace_tip, :] - np.where(joined, tips[..., c.brace_to, :], c.brace_point)
-        guided, length = np.any(c.brace_along, axis=1), np.linalg.norm(d, axis=-1)
-        along = np.where(guided[:, None], c.brace_along, d / np.where(guided, 1.0, length)[..., None])
-        return along, np.where(guided, (along * d).sum(-1), length) - c.brace_length
 
     def across(self, r: Array) -> Array:
         """The bars' R d × r with the axes at both ends, (2, …, B, 3): zero where a bar is in line with both; r (…, N, 3)."""
-        d = self.pulls(r)[1]
+        d = pulls(self.c, r)[1]
         ends = r[..., self.c.i, :], r[..., self.c.j, :]
         return np.stack([d[..., NEXT] * u[..., AFTER] - d[..., AFTER] * u[..., NEXT] for u in ends])
 
@@ -118,7 +80,7 @@ class ExactMotion:
         kinetic = (c.A * (v * v).sum(-1)).sum(-1) / 2 + (c.coupling * (v[:, c.i] * v[:, c.j]).sum(-1)).sum(-1)
         theta = np.arctan2(np.hypot(r[..., 0], r[..., 1]), r[..., 2])
         potential = c.gravity * r[..., 2] @ c.S + (c.hinge * theta**2).sum(-1) / 2
-        _, stretch = self._stretches(r)
+        _, stretch = stretches(c, r)
         return np.asarray(kinetic + potential + (c.stiffness * stretch**2).sum(-1) / 2)
 
     def axes_and_rates(self, states: Array) -> Array:
@@ -151,14 +113,14 @@ class ExactMotion:
         speed, theta = np.linalg.norm(v, axis=-1), np.arctan2(np.hypot(r[..., 0], r[..., 1]), r[..., 2])
         momentum = (c.A * speed).sum(-1) + (np.abs(c.coupling) * (speed[:, c.i] + speed[:, c.j])).sum(-1)
         weight = abs(c.gravity) * np.abs(c.S).sum() + (c.hinge * theta).sum(-1)
-        _, stretch = self._stretches(r)
+        _, stretch = stretches(c, r)
         pull = (c.stiffness * np.abs(stretch) * 2 * c.R[c.brace_tip]).sum(-1)
         return float((c.rate * momentum + weight + pull).max())
 
     def off(self, r: Array) -> Array:
         """How far the constraints are from zero, [|r|² − 1 (N), |d|² − ell² (B)], halved, (…, N + B); r (…, N, 3)."""
         c = self.c
-        d = self.pulls(r)[1] / c.R[c.j, None]
+        d = pulls(c, r)[1] / c.R[c.j, None]
         return np.concatenate([(r * r).sum(-1) - 1, (d * d).sum(-1) - c.ell**2], axis=-1) / 2
 
     def project(self, y: Array) -> Array:
@@ -166,7 +128,7 @@ class ExactMotion:
         c, N = self.c, len(self.c.R)
         states = np.atleast_2d(y.T)
         r, v = states.reshape(-1, 2, N, 3).swapaxes(0, 1)
-        first, second = self.pulls(r)
+        first, second = pulls(c, r)
         rates = (first * v[:, c.i]).sum(-1) + (second * v[:, c.j]).sum(-1)
         right = np.zeros((len(states), 4 * N + len(c.i), 2))
         right[:, 3 * N :, 0], right[:, 3 * N : 4 * N, 1], right[:, 4 * N :, 1] = -self.off(r), -(r * v).sum(-1), -rates
