@@ -161,6 +161,8 @@ def init_command(given: argparse.Namespace) -> int:
         print(f"changed since, to be confirmed again: {', '.join(made.changed)}")
     if made.gone:
         print(f"no longer in the source: {', '.join(made.gone)}")
+    if made.moved:
+        print(f"ids stay while numbers move: {', '.join(made.moved)}")
     if given.source:
         print(f"compare the readings with the print: lagrotor readings {made.folder}")
     print(f"go on with {made.folder / 'README.md'}, and with: lagrotor audit --paper {made.folder}")
@@ -182,7 +184,8 @@ def readings_command(given: argparse.Namespace) -> int:
         print(json.dumps([each.as_data() for each in found], indent=1, ensure_ascii=False))
         return 0
     for each in found:
-        print(wrap(f"{each.id}  {each.title}: {each.status}", 4))
+        moved = f", printed ({each.number}) now" if each.number else ""
+        print(wrap(f"{each.id}{moved}  {each.title}: {each.status}", 4))
         print(wrap(f"    print    {each.print}", 13))
         for text in each.said:
             sides = (from_latex(side) if "\\" in side else readable(side) for side in text.split(" = "))
@@ -239,7 +242,8 @@ def check_command(given: argparse.Namespace) -> int:
             f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: lagrotor init FOLDER --from FILE makes "
             "a paper of them, to be judged"
         )
-        say(", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or nothing, 0)
+        rest = "" if given.all or counts.keys() <= {*FOUND} else "; to see all: --all"
+        say((", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or nothing) + rest, 0)
     return 1 if any(each.verdict in WRONG for _, each in found) else 0
 
 

@@ -205,12 +205,17 @@ class Paper(Catalogue):
 
     def _would_be(self, verdict: Verdict) -> Verdict:
         """The verdict; of a reading that its author has not confirmed, what it would be, as evidence only."""
-        if verdict.verdict == "definition" or self.equation(verdict.id).is_confirmed:
+        entry = self.equation(verdict.id)
+        if verdict.verdict == "definition" or entry.is_confirmed:
             return verdict
-        said = (
-            f"it would be {verdict.verdict}: its reading is not confirmed; when you have compared it with the print: "
-            f"lagrotor readings {self.folder.name} --confirm {verdict.id}"
-        )
+        if entry.read == "gone":
+            said = "its source no longer has it"
+        else:
+            holding = {"holds": "hold", "holds-if": "hold under its premises", "holds-to-order": "hold to its order"}
+            said = (
+                f"it would {holding.get(verdict.verdict, f'be {verdict.verdict}')}: its reading is not confirmed; when you have "
+                f"compared it with the print: lagrotor readings {self.folder.name} --confirm {verdict.id}"
+            )
         return replace(verdict, verdict="undecided", correction_verdict=None, evidence=(said, *verdict.evidence))
 
     def _followed(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:

@@ -22,6 +22,11 @@ _SIGNS = {
     "nabla": "∇",
     "infty": "∞",
     "approx": " ≈ ",
+    "langle": "⟨",
+    "rangle": "⟩",
+    "pm": " ± ",
+    "to": " → ",
+    "dagger": "†",
 }
 _FONTS = ("text", "mathcal", "mathrm", "mathbf", "boldsymbol", "operatorname", "vec", "hat")
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
@@ -103,11 +108,29 @@ def _command(name: str, rest: deque[Token]) -> str:
             rest.popleft()
         return ""
     if name in ("begin", "end"):
-        _argument(rest)
-        return " "
+        return _matrix(rest) if _argument(rest).endswith("matrix") and name == "begin" else " "
+    if name == "mathrm" and [t.text for t, _ in zip(rest, range(3), strict=False)] == ["{", "d", "}"]:  # a differential
+        made = _argument(rest)
+        return made + (_argument(rest) if rest and rest[0].kind in ("text", "command") else "")
     if name in _FONTS:
         return f" {_argument(rest)}" if name in ("vec", "hat") else _argument(rest)
     return _SIGNS.get(name) or _LETTERS.get(name, name if name.isalpha() else " ")
+
+
+def _matrix(rest: deque[Token]) -> str:
+    r"""The rows of a matrix up to its end, as [a, b; c, d]."""
+    inner, depth = list[Token](), 1
+    while rest and depth:
+        token = rest.popleft()
+        depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0)
+        inner.append(
+            Token("text", {"&": ", ", r"\\": "; "}[token.text], 0)
+            if depth == 1 and token.text in ("&", r"\\")
+            else token
+        )
+    _argument(rest)
+    rows = re.sub(r" +([,;])", r"\1", _line(deque(inner[:-1]))).strip()
+    return f" [{rows}] "
 
 
 def _factor(text: str) -> str:

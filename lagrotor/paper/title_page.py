@@ -120,6 +120,10 @@ def title_page(folder: Path) -> TitlePage:
     """Reads `paper.toml`. Raises InputError where the folder has none, or it says what means nothing."""
     file = folder / "paper.toml"
     if not file.is_file():
+        if folder.is_file():
+            raise InputError(
+                f"{folder} is a file: give a paper's folder; `lagrotor init my-paper --from {folder.name}` makes one"
+            )
         raise InputError(
             f"{folder} is no paper: it has no paper.toml; `lagrotor init {folder.name or 'my-paper'}` makes one"
         )

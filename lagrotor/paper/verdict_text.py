@@ -34,7 +34,7 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     rows += [("domain", relation_text(relation)) for relation in verdict.domain]
     rows += [("dimensions", text) for text in dimension_texts(verdict)]
     rows += [("proved", theorem.text) for theorem in verdict.theorems]
-    rows += [("evidence", line) for line in verdict.evidence] if verdict.verdict == "measured" else []
+    rows += [("evidence", line) for line in verdict.evidence if verdict.verdict in ("measured", "undecided")]
     if verdict.reaches_result is not None:
         reach = (
             "a result of the paper falls with it" if verdict.reaches_result else "no result of the paper depends on it"

@@ -92,9 +92,11 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
 
 
 def note(verdict: Verdict) -> str:
-    """What a table says beside the verdict's word: why it is refuted, or the order and the condition in short."""
+    """What a table says beside the verdict's word: why it is refuted or undecided, or the order and the condition in short."""
     if verdict.verdict == "refuted":
         return verdict.statement.wrong
+    if verdict.verdict == "undecided" and verdict.evidence:
+        return verdict.evidence[0].partition(";")[0]
     parts = list(dict.fromkeys(premise.says for premise in verdict.premises))
     if verdict.order is not None and verdict.small is not None:
         parts.insert(0, f"agrees through order {verdict.order} in {verdict.small}")

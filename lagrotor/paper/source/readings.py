@@ -1,7 +1,7 @@
 """The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -17,7 +17,8 @@ class EquationReading:
 
     status: confirmed, unconfirmed, by hand, changed (the print has changed since), gone (the source no longer has it), aside
     (read, and nothing in it is compared), not read. said: its lines and what is kept aside, as text. guesses: what custom
-    settled; stopped, helps: where a reading stopped and what would help.
+    settled; stopped, helps: where a reading stopped and what would help. number: the printed one, where it is another than the
+    id, which stays.
     """
 
     id: str
@@ -28,6 +29,7 @@ class EquationReading:
     guesses: tuple[str, ...] = ()
     stopped: str = ""
     helps: str = ""
+    number: str = ""
 
     def as_data(self) -> dict[str, Any]:
         """As an object of JSON."""
@@ -39,7 +41,8 @@ def readings(paper: Catalogue) -> Iterator[EquationReading]:
     equations = paper.equations.values()
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
     for entry in equations:
-        yield _reading(entry, notation)
+        moved = entry.number and entry.read != "gone" and str(entry.number) != entry.id
+        yield replace(_reading(entry, notation), number=str(entry.number) if moved else "")
 
 
 def _reading(entry: Equation, notation: Notation) -> EquationReading:

@@ -22,6 +22,10 @@ from lagrotor.paper.title_page import toml
 
 # The worked example that a new folder begins with.
 _EXAMPLE = "papers/pendulum"
+_HOLDS = "It holds one worked equation, one claim and one figure of a pendulum; replace\nthem by your own."
+_HOLDS_SOURCE = (
+    "It holds the displayed equations of {name} as they were read:\nconfirm the readings, then derive the equations."
+)
 _NOT_COPIED = shutil.ignore_patterns("__pycache__", "report", ".*")
 _HEAD = (
     "# The displayed equations of {name}. Each reading is unconfirmed until `lagrotor readings` shows it to you and you\n"
@@ -34,7 +38,8 @@ _HEAD = (
 class Begun:
     """What was made: the folder, how many equations it has, of how many the print was read, and what is to be said of it.
 
-    changed, gone: ids of equations whose print has changed, and that the source no longer has.
+    changed, gone: ids of equations whose print has changed, and that the source no longer has. moved: those with another
+    number now, in words.
     """
 
     folder: Path
@@ -43,6 +48,7 @@ class Begun:
     notes: tuple[str, ...] = ()
     changed: tuple[str, ...] = ()
     gone: tuple[str, ...] = ()
+    moved: tuple[str, ...] = ()
 
 
 def begin_paper(folder: Path, source: Path | None = None) -> Begun:
@@ -83,9 +89,18 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     _write_about(folder, found, again)
     _write_symbols(folder, prints, again)
     if not again:
-        shutil.copyfile(beside(_EXAMPLE) / "README.md", folder / "README.md")
+        about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=source.name))
+        write_text(folder / "README.md", about)
     notes = (*faults, *found.notes, *differences)
-    return Begun(folder, len(prints), sum(each.read for each in prints), notes, tuple(changed), tuple(gone))
+    numbers = {row["id"]: row.get("number") for row in old.get("equation", [])}
+    moved = [
+        f"{row['id']} is ({row['number']})"
+        for row in rows
+        if row.get("number") not in (None, row["id"], numbers.get(row["id"], row.get("number")))
+    ]
+    return Begun(
+        folder, len(prints), sum(each.read for each in prints), notes, tuple(changed), tuple(gone), tuple(moved)
+    )
 
 
 def _numbered(found: Source, aux: Mapping[str, str], source: Path) -> tuple[Source, list[str]]:
@@ -176,7 +191,8 @@ def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed:
     row |= {"read": "unconfirmed" if lines else "", "guesses": list(made.guesses), "aside": list(made.aside)}
     if known is not None:
         same = known.get("latex") == each.latex
-        row |= {k: v for k, v in known.items() if k not in (*row, "line", "changed", "print") or k in ("id", "title")}
+        kept = ("id",) if known.get("title") == known.get("label") else ("id", "title")
+        row |= {k: v for k, v in known.items() if k not in (*row, "line", "changed", "print") or k in kept}
         if same and known.get("read") != "unconfirmed" and known.get("line"):
             row |= {k: v for k, v in known.items() if k in ("read", "print", "guesses", "aside", "reading")}
             row["read"] = known.get("read", "")
@@ -264,17 +280,23 @@ def _value(key: str, value: Any) -> str:
 
 
 def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
-    """Write `read = "confirmed"` and a hash of the print for these equations. Raises InputError for one without a reading."""
+    """Write `read = "confirmed"` and a hash of the print for these equations, named by id, label or (number); their ids.
+
+    Raises InputError for one without a reading.
+    """
     file = folder / "equations.toml"
     given = toml(file)
     rows = {row["id"]: row for row in given.get("equation", [])}
-    wanted = list(ids)
+    labels = {row["label"]: identifier for identifier, row in rows.items() if row.get("label")}
+    labels |= {f"({row['number']})": identifier for identifier, row in rows.items() if row.get("number")}
+    wanted = [each if each in rows else labels.get(each, each) for each in ids]
     for identifier in wanted:
         if identifier not in rows:
             raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
         if not rows[identifier].get("line"):
             raise InputError(
-                f"equation {identifier} has no reading to confirm: `lagrotor readings {folder}` says where it stopped"
+                f"equation {identifier} has no line to confirm: `lagrotor readings {folder}` says where its reading stopped, or "
+                "what was kept aside"
             )
     for identifier in wanted:
         row = rows[identifier]

@@ -11,7 +11,7 @@
     "3" = "energy"                          # q̇ ∂L/∂q̇ − L
     "4" = "momentum theta"                  # ∂L/∂θ̇
     "5" = "frequency at theta = 0"          # ω of small oscillations, of several: frequency 2 at …; frequency^2: ω²
-    "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ
+    "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ = 0, or a multiple of it
 
 The text is parsed by the reader of expressions; nothing in it runs. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
 §§1.4, 2.4, 2.7, 6.2.
@@ -27,6 +27,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
 from lagrotor.files import write_text
 from lagrotor.mechanics.lagrangian import (
@@ -42,6 +43,9 @@ from lagrotor.mechanics.lagrangian import (
 from lagrotor.mechanics.systems import System
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.letters import read
+from lagrotor.paper.source.formula import read_formula
+from lagrotor.paper.source.printed import paper_notation
+from lagrotor.paper.source.tree import in_catalogue, text_of
 
 _KEYS = ("coordinates", "L", "constraints", "derives")
 _KIND = re.compile(
@@ -59,6 +63,7 @@ class StatedSystem:
     derives: Mapping[str, str]
     names: Mapping[str, Any]
     where: str
+    paper: Catalogue
 
     def __getitem__(self, identifier: str) -> sp.Expr:
         if identifier not in self.derives:
@@ -76,7 +81,8 @@ class StatedSystem:
         if whole:
             return self.L if whole == "L" else energy(self.L, self.c)
         if kind:
-            return self._of_coordinate(kind, name or "")
+            derived = self._of_coordinate(kind, name or "")
+            return self._as_printed(identifier, derived) if kind == "motion" else derived
         square = self._squared_frequency(int(which or 1), point or "")
         return square if squared else sp.sqrt(square)
 
@@ -91,6 +97,35 @@ class StatedSystem:
             "acceleration": lambda: self.accelerations,
         }
         return rows[kind]()[place]
+
+    def _as_printed(self, identifier: str, motion: sp.Expr) -> sp.Expr:
+        """What motion = 0 makes of the left side of a print, left = right: right, where left − right is a multiple of motion."""
+        (line, *more), left = self.paper.lines(identifier), self._left_side(identifier)
+        if left is None or more or len(line.members) > 1:
+            if line.members[-1] != 0:
+                return motion  # F = m a, a name for it
+            raise InputError(
+                f"{self.where}: derives: {identifier} is printed as … = 0, and its left side is no single expression in the "
+                "coordinates: leave it out here"
+            )
+        missing = left - line.members[0]
+        parts = ((sp.diff(missing, a), sp.diff(motion, a)) for a in self.c.a)
+        factor = next((m / n for m, n in parts if decide_equal(m * n, sp.S.Zero).answer != "zero"), sp.S.One)
+        return left - factor * motion
+
+    def _left_side(self, identifier: str) -> sp.Expr | None:
+        """The left side of a print as an expression in the coordinates; None where it is none."""
+        entries = self.paper.equations
+        notation = paper_notation((e.latex for e in entries.values()), self.paper.about.notation, self.where)
+        reading = read_formula(entries[identifier].line[0]["quantity"], notation)
+        sides = [side.node for statement in reading.statements for side in statement.sides]
+        if len(sides) != 1 or not in_catalogue(sides[0]):
+            return None
+        try:
+            left = read(text_of(sides[0]), self.names, self.where)
+        except InputError:  # it has a letter of its own
+            return None
+        return left if left.has(*self.c.q, *self.c.v, *self.c.a) else None
 
     @cached_property
     def accelerations(self) -> sp.Matrix:
@@ -144,6 +179,7 @@ def stated_system(paper: Catalogue) -> StatedSystem:
         given.get("derives", {}),
         names,
         where,
+        paper,
     )
 
 

@@ -1,5 +1,6 @@
 """The tokens of a source and of the files that it takes in, one after the other, and the arguments read from them."""
 
+import os
 import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
@@ -49,11 +50,11 @@ class TokenStream:
         self.end += len(text) + 1
 
     def read_file(self, name: str, suffixes: tuple[str, ...] = (".tex", "")) -> bool:
-        """Take in a file beside the source; whether it is there."""
+        """Take in a file beside the source, or in a folder of TEXINPUTS; whether it is there."""
         if self.file is None or (self.bare and suffixes[0] != ".tex"):
             return False
         for suffix in suffixes:
-            for folder in (self.file.parent, self.file.parent.parent):
+            for folder in (self.file.parent, self.file.parent.parent, *_tex_inputs()):
                 path = folder / f"{name}{suffix}"
                 if not path.is_file() and path.parent.is_dir():  # as kpathsea finds it on every system
                     path = next(
@@ -226,3 +227,8 @@ class TokenStream:
         token = self.next()
         if token is not None and part.kind == "text" and token.kind == "text" and token.text.startswith(part.text):
             self.push(plain(token.text[len(part.text) :], token.at))
+
+
+def _tex_inputs() -> list[Path]:
+    """The folders in which TeX looks for files, as its user says."""
+    return [Path(each.rstrip("/")) for each in os.environ.get("TEXINPUTS", "").split(os.pathsep) if each.strip("/. ")]

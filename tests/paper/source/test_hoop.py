@@ -11,7 +11,7 @@ from lagrotor.errors import InputError
 from lagrotor.paper import Paper
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.source.start import begin_paper
+from lagrotor.paper.source.start import begin_paper, confirm
 from lagrotor.paper.source.stated_system import stated_system, write_derivation
 
 HOOP = beside("papers/hoop")
@@ -89,6 +89,46 @@ constraints = ["(x**2 + y**2 - R**2)/2"]
     s = {symbol.name: symbol for symbol in found.free_symbols}
     x, y, speed = s["x"], s["y"], s["x_dot"] ** 2 + s["y_dot"] ** 2
     assert (found - x * (s["g"] * y - speed) / (x**2 + y**2)).simplify() == 0
+
+
+# Prints of the motion of θ, which is m (R²θ̈ − …) = 0, and what the derivation makes of each.
+MOTIONS = [
+    (r"\ddot\theta + \frac{g}{R}\sin\theta - \Omega^2\sin\theta\cos\theta = 0", "holds"),
+    (r"m R^2 \ddot\theta = m R^2\Omega^2\sin\theta\cos\theta - m g R\sin\theta", "holds"),
+    (r"\ddot\theta - \frac{g}{R}\sin\theta - \Omega^2\sin\theta\cos\theta = 0", "refuted"),
+    (r"\dot\theta - \Omega^2\sin\theta\cos\theta = 0", "refuted"),
+    (r"Q = m R^2\ddot\theta + m g R\sin\theta - m R^2\Omega^2\sin\theta\cos\theta", "holds"),
+]
+
+
+@pytest.mark.parametrize(("latex", "answer"), MOTIONS)
+def test_an_equation_of_motion_may_be_printed_as_any_multiple(latex: str, answer: str, tmp_path: Path) -> None:
+    source, folder = tmp_path / "paper.tex", tmp_path / "mine"
+    source.write_text(
+        rf"\documentclass{{article}}\begin{{document}}\begin{{equation}} {latex} \end{{equation}}\end{{document}}"
+    )
+    begin_paper(folder, source)
+    text = (HOOP / "paper.toml").read_text(encoding="utf-8")
+    system = text[text.index("[system]") : text.index("[system.derives]")] + '[system.derives]\n"1" = "motion theta"\n'
+    (folder / "paper.toml").write_text(
+        (folder / "paper.toml").read_text(encoding="utf-8") + "\n" + system, encoding="utf-8"
+    )
+    names = (HOOP / "symbols.py").read_text(encoding="utf-8")
+    (folder / "symbols.py").write_text(
+        names + 'Q = GLOSSARY.letter("Q", "a force", "?", real=True)\n', encoding="utf-8"
+    )
+    confirm(folder, ["1"])
+    write_derivation(Catalogue(folder))
+    assert Paper(folder).audit("1").verdict == answer
+
+
+def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path) -> None:
+    edit(folder / "equations.toml", "members = [", 'members = ["0", ')
+    edit(folder / "paper.toml", '"1" = "L"', '"1" = "motion theta"')
+    text = (folder / "equations.toml").read_text(encoding="utf-8")
+    (folder / "equations.toml").write_text(text.replace('members = ["0", ', 'members = ["0"] # ', 1), encoding="utf-8")
+    with pytest.raises(InputError, match="no single expression in the coordinates"):
+        write_derivation(Catalogue(folder))
 
 
 @pytest.mark.parametrize(

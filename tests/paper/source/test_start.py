@@ -62,6 +62,32 @@ def test_what_is_confirmed_stays_and_what_has_changed_is_marked(source: Path) ->
     assert [row["latex"] for i, row in found.items() if i not in "123"] == ["q = 1"]
 
 
+def test_ids_stay_while_numbers_move_and_this_is_said(source: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = source.parent / "mine"
+    text = TEX.replace(
+        r"\begin{equation}\label{eq:T}", r"\begin{equation} q = 1 \end{equation} \begin{equation}\label{eq:T}"
+    )
+    source.write_text(text.replace(r"\label{eq:p}", r"\label{eq:momentum}"), encoding="utf-8")
+    assert begin_paper(folder, source).moved == ("1 is (2)", "2 is (3)", "3 is (4)")
+    assert main(["readings", str(folder)]) == 0
+    out = capsys.readouterr().out
+    assert "1, printed (2) now  eq:T: unconfirmed" in out and "2, printed (3) now  eq:momentum: unconfirmed" in out
+    assert begin_paper(folder, source).moved == (), "once"
+    assert confirm(folder, ["eq:T", "(3)"]) == ["1", "2"], "the numbers that are printed now"
+
+
+def test_the_folders_of_texinputs_are_looked_into(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "style").mkdir()
+    (tmp_path / "style" / "mine.sty").write_text(r"\newcommand{\kin}{\frac12 m v^2}", encoding="utf-8")
+    (tmp_path / "text").mkdir()
+    file = tmp_path / "text" / "paper.tex"
+    head = r"\documentclass{article}\usepackage{mine}\begin{document}"
+    file.write_text(head + r"\[ T = \kin \]\end{document}", encoding="utf-8")
+    assert begin_paper(tmp_path / "without", file).read == 0
+    monkeypatch.setenv("TEXINPUTS", f".:{tmp_path / 'style'}//:")
+    assert begin_paper(tmp_path / "with", file).read == 1
+
+
 def test_comments_stay_above_their_equation(source: Path) -> None:
     folder = source.parent / "mine"
     file = folder / "equations.toml"
