@@ -4,9 +4,9 @@ Nothing is interpreted here; every token is in one box.
 """
 
 import re
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from string import ascii_letters
 
 from lagrotor.paper.source.tokens import Token, tokenize
 
@@ -116,7 +116,7 @@ class Box:
     name: str
     at: int
     end: int
-    parts: list[list["Box"]] = field(default_factory=list)
+    parts: Sequence[list["Box"]] = ()
     style: str = ""
     marks: tuple[str, ...] = ()
     sub: "list[Box] | None" = None
@@ -126,9 +126,8 @@ class Box:
     upright: bool = False
 
 
-@lru_cache(maxsize=4096)  # once for the use of letters, once for the reading
 def boxes(latex: str) -> list[Box]:
-    """The boxes of a formula, not to be changed. Raises FormulaError at a token that has no place."""
+    """The boxes of a formula. Raises FormulaError at a token that has no place."""
     reader = _Reader(latex)
     found = reader.sequence(())
     if reader.place < len(reader.items):
@@ -141,7 +140,7 @@ def _items(latex: str) -> list[Token]:
     found: list[Token] = []
     for token in tokenize(latex):
         if token.kind == "text":
-            found += [Token("text", c, token.at + n) for n, c in enumerate(token.text) if not c.isspace()]
+            found += [Token("text", c, at) for at, c in enumerate(token.text, token.at) if not c.isspace()]
         else:
             found.append(token)
     return found
@@ -218,14 +217,17 @@ class _Reader:
                 return self.latex[start : item.at]
         return None
 
-    def sequence(self, ends: Iterable[str], style: str = "") -> list[Box]:
+    def sequence(self, ends: tuple[str, ...], style: str = "") -> list[Box]:
         """Boxes until one of the ends comes next."""
-        ends = tuple(ends)
         self.depth += 1
         if self.depth > _MOST:
             self.stop("is too deep", "write fewer brackets within brackets")
         found: list[Box] = []
         while (item := self.peek()) is not None and item.text not in ends:
+            if (made := _alone(item, style)) is not None:
+                self.place += 1
+                found.append(made)
+                continue
             if item.kind == "close" or item.text == r"\right" or (item.text in _CLOSE and item.text not in "]"):
                 break
             if item.kind == "command" and item.text[1:] in _SWITCHES and item.text[1:] in STYLES:
@@ -258,21 +260,16 @@ class _Reader:
         first = self.peek()
         braced = first is not None and first.kind == "open"
         made = self.single(style)
-        following = self.peek()
-        scripted = following is not None and following.kind == "script"
         before = found[-1] if found else None
-        if style == "upright" and before is not None and _joins(before, made) and before.end == made[0].at:
+        if before is not None and len(made) == 1 and before.end == made[0].at and _joins(before, made[0], style):
             before.name += made[0].name
             before.end = made[0].end
             return
-        numbers = before is not None and before.kind == "number" and len(made) == 1 and made[0].kind == "number"
-        if numbers and before is not None and before.end == made[0].at and before.sup is None and before.sub is None:
-            before.name += made[0].name
-            before.end = made[0].end
-            return
-        own = any(box.sub is not None or box.sup is not None or box.primes for box in made)
-        if scripted and made and (len(made) > 1 or (braced and own)):
-            made = [Box("group", "", made[0].at, self.end, [made])]
+        following = self.peek()
+        if following is not None and following.kind == "script" and made:
+            own = any(box.sub is not None or box.sup is not None or box.primes for box in made)
+            if len(made) > 1 or (braced and own):
+                made = [Box("group", "", made[0].at, self.end, [made])]
         found += made
 
     def comma_in_number(self, found: list[Box]) -> None:
@@ -332,6 +329,8 @@ class _Reader:
         """The next thing without its scripts; a group in braces gives all it holds."""
         item = self.take()
         text = item.text
+        if (made := _alone(item, style) or _letter(item, style)) is not None:
+            return [made]
         if item.kind == "open":
             self.place -= 1
             return self.group(style)
@@ -347,8 +346,6 @@ class _Reader:
             return [Box("dots", "dots", item.at, self.end)]
         if text.isdecimal() or (text == "." and (after := self.peek()) is not None and after.text.isdecimal()):
             return [self.number(item)]
-        if (name := _letter_of(text)) is not None:
-            return [self.letter(name, item, style)]
         if text in _OPEN:
             return [self.bracket(text, item)]
         if text == "|" and not self.angles and self.first_ahead(("|", r"\langle", r"\rangle", "=")) == r"\rangle":
@@ -356,8 +353,8 @@ class _Reader:
         if text == ":" and (after := self.peek()) is not None and after.text == "=":
             self.take()
             return [Box("relation", ":=", item.at, self.end)]
-        if text in _CHARACTERS:
-            return [Box(*_CHARACTERS[text], item.at, self.end)]
+        if text in _BESIDE:
+            return [Box(*_BESIDE[text], item.at, self.end)]
         self.place -= 1
         self.stop("is not known", "write it in LaTeX")
         return []
@@ -373,28 +370,11 @@ class _Reader:
                 break
         return Box("number", digits, item.at, self.end)
 
-    def letter(self, name: str, item: Token, style: str = "", upright: bool = False) -> Box:
-        return Box(
-            "letter",
-            name,
-            item.at,
-            self.end,
-            style="" if style == "upright" else style,
-            upright=upright or style == "upright",
-        )
-
     def command(self, item: Token, style: str) -> list[Box]:
         name = item.text[1:]
-        if item.text in GREEK or name in _MARKS:
-            return [self.letter(name, item, style)]
-        if (
-            name == "vert"
-            and not self.angles
-            and self.first_ahead((r"\vert", r"\langle", r"\rangle", "=")) == r"\rangle"
-        ):
-            return [self.ket(item)]
-        if name in _COMMANDS:
-            return [Box(*_COMMANDS[name], item.at, self.end)]
+        if name == "vert":
+            ket = not self.angles and self.first_ahead((r"\vert", r"\langle", r"\rangle", "=")) == r"\rangle"
+            return [self.ket(item) if ket else Box("bar", "|", item.at, self.end)]
         if name in _NOTHING:
             return self.nothing(name)
         if name in ACCENTS:
@@ -635,12 +615,12 @@ class _Reader:
         raise FormulaError(item.at, r"\pmod is not read", "keep it aside")
 
 
-def _joins(before: Box, made: list[Box]) -> bool:
-    """Whether an upright letter goes on with the word before it."""
-    alone = (
-        before.kind == "letter" and before.upright and before.sub is None and before.sup is None and not before.marks
-    )
-    return alone and len(made) == 1 and made[0].kind == "letter" and made[0].upright and len(made[0].name) == 1
+def _joins(before: Box, made: Box, style: str) -> bool:
+    """Whether an upright letter goes on with the word before it, or a number with the number."""
+    if before.kind != made.kind or before.sub is not None or before.sup is not None:
+        return False
+    word = made.kind == "letter" and made.upright and len(made.name) == 1 and before.upright and not before.marks
+    return made.kind == "number" or (style == "upright" and word)
 
 
 def _is_unit(word: str) -> bool:
@@ -653,27 +633,35 @@ def _is_unit(word: str) -> bool:
     )
 
 
-def _letter_of(text: str) -> str | None:
-    """The name of the letter that a character is."""
-    return text if text.isascii() and text.isalpha() else _UNICODE.get(text)
+def _alone(item: Token, style: str) -> Box | None:
+    """The box that a token is whatever stands beside it; None where others may belong to it."""
+    text = item.text
+    if (sign := _SIGNS.get(text)) is not None:
+        return Box(*sign, item.at, item.at + len(text))
+    return None if style == "upright" and len(text) == 1 else _letter(item, style)
+
+
+def _letter(item: Token, style: str) -> Box | None:
+    """The letter that a token is; None where it is none."""
+    name = _LETTERS.get(item.text)
+    if name is None:
+        return None
+    end, upright = item.at + len(item.text), style == "upright"
+    return Box("letter", name, item.at, end, style="" if upright else style, upright=upright)
 
 
 _SIMPLE = {
-    "partial": "partial", "nabla": "nabla", "infty": "infinity", "vert": "bar", "Vert": "bar", "%": "percent", "forall": "arrow",
+    "partial": "partial", "nabla": "nabla", "infty": "infinity", "%": "percent", "forall": "arrow",
     "exists": "arrow", "square": "square", "Box": "square", "uparrow": "letter",
     "downarrow": "letter", "triangle": "letter", "degree": "degree", "emptyset": "letter",
 }  # fmt: skip
 
 
-_MARKS = ("prime", "dagger", "top", "intercal", "hslash", "complement")
-# Characters and commands that are a box by themselves: (kind, name).
-_CHARACTERS: dict[str, tuple[str, str]] = {
-    **{text: ("operator", name) for text, name in _OPERATORS.items() if len(text) == 1},
-    **{text: ("relation", name) for text, name in RELATIONS.items() if not text.isalpha()},
-    **{text: ("comma", text) for text in ",;."},
-    **{":": ("operator", ":"), "!": ("operator", "!"), "|": ("bar", "|"), "~": ("thin", ""), " ": ("thin", "")},
-    **{"∂": ("partial", ""), "∇": ("nabla", ""), "∞": ("infinity", "")},
-}
+# Characters and commands that are a letter, with its name; those that are another box whatever stands beside them: (kind, name).
+_LETTERS = {letter: letter for letter in ascii_letters} | _UNICODE
+_LETTERS |= {command: command[1:] for command in GREEK}
+_LETTERS |= {rf"\{name}": name for name in ("prime", "dagger", "top", "intercal", "hslash", "complement")}
+_UPRIGHT_GREEK = ("Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Phi", "Psi", "Omega")
 _COMMANDS: dict[str, tuple[str, str]] = {
     **dict.fromkeys(_WIDE, ("wide", "")),
     **dict.fromkeys(_THIN, ("thin", "")),
@@ -683,12 +671,17 @@ _COMMANDS: dict[str, tuple[str, str]] = {
     **{name: ("big", name) for name in BIG},
     **{name: ("function", name) for name in FUNCTIONS},
     **{name: (kind, name) for name, kind in _SIMPLE.items()},
-    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "vert": ("bar", "|"), "dag": ("letter", "dagger")},
-    **{
-        f"Up{name.lower()}": ("letter", name)
-        for name in ["Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Phi", "Psi", "Omega"]
-    },
+    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "dag": ("letter", "dagger")},
+    **{f"Up{name.lower()}": ("letter", name) for name in _UPRIGHT_GREEK},
 }
+_SIGNS: dict[str, tuple[str, str]] = {
+    **{text: ("operator", name) for text, name in _OPERATORS.items() if len(text) == 1},
+    **{text: ("relation", name) for text, name in RELATIONS.items() if not text.isalpha()},
+    **{",": ("comma", ","), ";": ("comma", ";"), "!": ("operator", "!"), "~": ("thin", "")},
+    **{"∂": ("partial", ""), "∇": ("nabla", ""), "∞": ("infinity", "")},
+    **{rf"\{name}": sign for name, sign in _COMMANDS.items()},
+}
+_BESIDE = {"|": ("bar", "|"), ":": ("operator", ":"), ".": ("comma", ".")}  # what they are depends on what follows
 Form = Callable[[_Reader, Token, str], list[Box]]
 _FORMS: dict[str, Form] = {
     **dict.fromkeys(("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac"), _Reader._frac),

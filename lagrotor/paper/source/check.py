@@ -308,7 +308,7 @@ class _Checker:
                     for s in reading.statements
                 )
             else:
-                named = letters_printed(latex)
+                named = letters_printed(latex, self.notation)
                 related = bool(named) and named <= {letter.split("_")[0] for letter in letters}
             if related:
                 yield name
@@ -497,7 +497,7 @@ class _Checker:
             if first_use < place and user.equation.id != read.equation.id:
                 yield self._finding(user.equation, 0, None, BEFORE, f"{name} is given in ({read.equation.id})")
         if self.notation.exponential and "e" in self.notation.bare:
-            own = [(each, notation_of([each.latex])) for each, _ in self.readings]
+            own = [(each, notation_of([each.latex], Notation(made=self.notation.made))) for each, _ in self.readings]
             letter = [each for each, seen in own if "e" in seen.bare]  # none: e is a letter in the text alone
             places = [*letter, *(each for each, seen in own if seen.exponential), self.readings[0][0]]
             yield self._finding(places[0], 0, None, MEANINGS, "e is a letter and the base of exponentials")

@@ -7,7 +7,7 @@ is not read.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from lagrotor.paper.source.boxes import Box, FormulaError, boxes
+from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.open_meanings import mark_open_meanings
 from lagrotor.paper.source.read_expression import Grammar
 from lagrotor.paper.source.read_statements import PrintedStatement, read_statements
@@ -46,7 +46,7 @@ def read_formula(latex: str, notation: Notation | None = None, lead: str = "") -
     source = f"{lead} {latex}" if lead else latex
     reader = Grammar(source, notation or Notation())
     try:
-        row = boxes(source)
+        row = reader.notation.boxes(source)
         reader.lowered = frozenset(_lowered(row))
         statements = tuple(read_statements(reader, row))
         mark_open_meanings(reader, row, statements)

@@ -9,7 +9,6 @@ but on that of log.
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from itertools import pairwise
 
 from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box
@@ -37,6 +36,7 @@ from lagrotor.paper.source.usage import (
     simple_argument,
     stem_of,
     touch,
+    unprimed,
     upper_index,
 )
 
@@ -239,7 +239,7 @@ def _lowered(known: Notation, box: Box) -> Marks:
     elif any(b.kind in ("operator", "relation", "bracket") and b.name not in ("+", "-", "/") for b in below):
         yield "index", f"the index of {box.name} is part of the name", ""
     stem = stem_of(box)
-    alone = {stem, name_of(replace(box, sub=None, sup=None))} & (known.bare | known.called.keys() | known.applied)
+    alone = {stem, name_of(box)} & (known.bare | known.called.keys() | known.applied)
     differentiated = known.called.get(stem, set()) | known.varied.get(stem, set())
     component = (
         stem in known.arrows
@@ -285,7 +285,7 @@ def _before_bracket(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     if "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"):
         yield "order", f"{box.name} is a function of the bracket, and no order of magnitude", ""
     settles = f'functions = "{box.name}" or letters = "{box.name}"'
-    if {box.name, name_of(replace(box, primes=0, sup=None)), stem_of(box)} & (known.functions | known.letters):
+    if {box.name, unprimed(box), stem_of(box)} & (known.functions | known.letters):
         return
     if bracket.name == "[" and is_entry(reader, box, bracket):
         return  # marked where it is read
@@ -305,7 +305,7 @@ def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bo
     stem, listed = stem_of(box), any(b.kind == "comma" for b in content)
     if simple_argument(content) and _letters(*content) and not bracket.sup and (listed or len(content) == 1):
         numbers = listed and stem in known.factors and any(b.kind == "number" for b in content)  # gamma(1, beta)
-        other = known.called.get(name_of(replace(box, primes=0)), set()) - _letters(*content)
+        other = known.called.get(unprimed(box), set()) - _letters(*content)
         return None if numbers and not other else True
     if stem in known.applied:
         return None if stem in known.factors or bracket.sup else True

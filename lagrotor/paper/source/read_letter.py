@@ -1,14 +1,12 @@
 r"""Letters: as quantities, as functions before a bracket, and those that custom gives a meaning: e, i, d, \\Delta."""
 
-from dataclasses import replace
-
 from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_differential
 from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of
 from lagrotor.paper.source.rows import strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
-from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument, stem_of
+from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument, stem_of, unscripted
 
 _ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
 
@@ -115,10 +113,8 @@ def _may_call(row: list[Box], place: int) -> bool:
 def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
     """Whether a letter before a bracket is a function; None where that is open."""
     known, content = reader.notation, bracket.parts[0]
-    key = name_of(box, index_of(box) or ())
-    plain = name_of(
-        replace(box, primes=0, marks=tuple(m for m in box.marks if not m.endswith("dot"))), index_of(box) or ()
-    )
+    index = index_of(box) or ()
+    key, plain = name_of(box, index), unscripted(box, index)
     if {box.name, key, plain} & known.functions:
         return True
     if {box.name, key, plain} & known.letters or bracket.sub:

@@ -33,15 +33,21 @@ def all_boxes(row: list[Box]) -> list[Box]:
     found: list[Box] = []
     for box in row:
         found.append(box)
-        for part in (*box.parts, box.sub, box.sup):
-            if part:
-                found += all_boxes(part)
+        for part in box.parts:
+            found += all_boxes(part)
+        if box.sub:
+            found += all_boxes(box.sub)
+        if box.sup:
+            found += all_boxes(box.sup)
     return found
 
 
 def without_thin(row: list[Box]) -> list[Box]:
-    """Without thin spaces."""
-    return [box for box in row if box.kind != "thin"]
+    """Without thin spaces; the row itself, not to be changed, where it has none."""
+    for box in row:
+        if box.kind == "thin":
+            return [each for each in row if each.kind != "thin"]
+    return row
 
 
 def pair_bars(row: list[Box]) -> list[Box]:
@@ -77,6 +83,8 @@ def pair_bars(row: list[Box]) -> list[Box]:
 
 def _with_places(row: list[Box]) -> list[Box]:
     """A bar with an equation below it as the bracket that it closes, of what stands just before it."""
+    if all(box.kind != "bar" for box in row):
+        return row
     single = sum(box.kind == "bar" for box in row) == 1
     made: list[Box] = []
     for box in row:
@@ -95,6 +103,8 @@ def _with_places(row: list[Box]) -> list[Box]:
 
 def fold_derivatives(row: list[Box], plain: bool) -> list[Box]:
     """d^2x/dt^2 and ∂f/∂x as fractions; plain: whether an italic d is no letter of the paper."""
+    if all(box.name != "/" for box in row):
+        return row
     made: list[Box] = []
     place = 0
     while place < len(row):

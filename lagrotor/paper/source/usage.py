@@ -40,7 +40,8 @@ class Notation:
     modular, exponent, dot, other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed
     as vectors somewhere. equal: letters and what they are equal to. numeric: letters shown to be numbers, below a fraction
     bar, under a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above where no power can, as in
-    \\partial x^i and T^{ij}, or below \\partial; exponents: letters in powers; entries: x of x[n].
+    \\partial x^i and T^{ij}, or below \\partial; exponents: letters in powers; entries: x of x[n]. made: formula → its boxes,
+    or what stopped them.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -73,6 +74,21 @@ class Notation:
     equal: list[tuple[Box, list[Box]]] = field(default_factory=list)
     varied: dict[str, set[str]] = field(default_factory=dict)
     seen: set[str] = field(default_factory=set)
+    made: dict[str, list[Box] | FormulaError] = field(default_factory=dict)
+
+    def boxes(self, latex: str) -> list[Box]:
+        """The boxes of a formula, made once and not to be changed. Raises FormulaError at a token that has no place."""
+        if (made := self.made.get(latex)) is None:
+            try:
+                made = boxes(latex)
+            except FormulaError as stop:
+                made = stop
+            except RecursionError:
+                made = FormulaError(0, "the formula is nested too deeply", "write it in parts")
+            self.made[latex] = made
+        if isinstance(made, FormulaError):
+            raise made.with_traceback(None)
+        return made
 
     def is_function(self, box: Box) -> bool:
         """Whether the paper has a letter before an argument, or differentiates it."""
@@ -102,8 +118,8 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
         if "mod" in latex and any(name in latex for name in (r"\pmod", r"\bmod", r"\mod", "{mod")):
             found.seen.add("modular")
         try:
-            row = boxes(latex)
-        except (FormulaError, RecursionError):
+            row = found.boxes(latex)
+        except FormulaError:
             continue
         _look(row, found)
     if found.imaginary:
@@ -116,11 +132,11 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
     return found
 
 
-def letters_printed(latex: str) -> set[str]:
+def letters_printed(latex: str, known: Notation) -> set[str]:
     """The letters of a formula, whether it is read or not; none where it falls into no parts."""
     try:
-        return {unscripted(box) for box in all_boxes(boxes(latex)) if box.kind == "letter"}
-    except (FormulaError, RecursionError):
+        return {unscripted(box) for box in all_boxes(known.boxes(latex)) if box.kind == "letter"}
+    except FormulaError:
         return set()
 
 
@@ -133,12 +149,6 @@ def touch(first: Box, second: Box) -> bool:
     """Whether a letter touches the next, as in a name: capitals do in print, whatever spaces are typed."""
     letters = is_plain_letter(first) and second.kind == "letter"
     return letters and (first.end == second.at or (first.name.isupper() and second.name.isupper()))
-
-
-def unscripted(box: Box) -> str:
-    """A letter with its font and marks, without dots, scripts and primes."""
-    marks = tuple(mark for mark in box.marks if not mark.endswith("dot"))
-    return name_of(replace(box, primes=0, sub=None, sup=None, marks=marks))
 
 
 def is_plain_letter(box: Box) -> bool:
@@ -176,17 +186,37 @@ def upper_index(known: Notation, box: Box) -> list[str]:
 
 def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
     r"""theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__mu_nu for T^{\mu\nu}: a name that Python and sympy take."""
-    marks = [
-        mark for mark in box.marks if mark != "vec"
-    ]  # the innermost first: the rate of a mean is no mean of a rate
+    return _named(box, list(box.marks), box.primes, index, raised)
+
+
+def unscripted(box: Box, index: Iterable[str] = ()) -> str:
+    """A letter with its font and marks, without dots, scripts and primes; or with an index."""
+    return _named(box, [mark for mark in box.marks if not mark.endswith("dot")], 0, index)
+
+
+def unprimed(box: Box, index: Iterable[str] = ()) -> str:
+    """A letter with its font, marks, dots and an index."""
+    return _named(box, list(box.marks), 0, index)
+
+
+def _named(box: Box, marks: list[str], primes: int, index: Iterable[str], raised: Iterable[str] = ()) -> str:
+    name = {"lambda": "lamda"}.get(box.name, box.name) + box.style
     rates = 0
-    while marks and marks[-1].endswith("dot"):
-        rates += len(marks.pop()) - len("ot")
-    stem = {"lambda": "lamda"}.get(box.name, box.name) + box.style + "vec" * box.marks.count("vec") + "".join(marks)
-    stem += "prime" * box.primes
-    name = stem + "".join(f"__{part}" for part in raised) + "".join(f"_{part}" for part in index)
-    name += f"_{'d' * rates}ot" if rates else ""
-    return f"{name}_" if iskeyword(name) or name in CALLED else name
+    if marks:
+        vectors = marks.count("vec")
+        marks = [mark for mark in marks if mark != "vec"]  # the innermost first: the rate of a mean, no mean of a rate
+        while marks and marks[-1].endswith("dot"):
+            rates += len(marks.pop()) - len("ot")
+        name += "vec" * vectors + "".join(marks)
+    if primes:
+        name += "prime" * primes
+    for part in raised:
+        name += f"__{part}"
+    for part in index:
+        name += f"_{part}"
+    if rates:
+        name += f"_{'d' * rates}ot"
+    return f"{name}_" if name in CALLED or iskeyword(name) else name
 
 
 def is_printed_as_vector(box: Box) -> bool:
@@ -196,9 +226,11 @@ def is_printed_as_vector(box: Box) -> bool:
 
 def index_of(box: Box) -> list[str] | None:
     """The parts of an index, such as ["1"], ["cm"] or ["i", "j"]; None where it is no index of letters and numbers."""
+    if not box.sub:
+        return []
     found: list[str] = []
     alone = True  # a comma or a Greek letter ends a run of letters
-    for part in box.sub or ():
+    for part in box.sub:
         if part.kind == "comma" and part.name == ".":
             return None
         if part.kind in ("comma", "thin"):
@@ -377,8 +409,7 @@ def _look_at_number(box: Box, after: Box | None, found: Notation) -> None:
 
 def _names(box: Box) -> set[str]:
     """The name of a letter with its index, and without."""
-    plain = replace(box, primes=0, sup=None)
-    return {unscripted(box), name_of(plain, index_of(box) or ())} if box.kind == "letter" else set()
+    return {unscripted(box), unprimed(box, index_of(box) or ())} if box.kind == "letter" else set()
 
 
 def is_value(row: list[Box], known: Notation) -> bool:
@@ -415,7 +446,7 @@ def is_number(known: Notation, box: Box) -> bool:
     plain = not (
         box.upright or box.style in ("cal", "scr", "frak", "bb") or any(not m.endswith("dot") for m in box.marks)
     )
-    own = name_of(replace(box, primes=0, sup=None), index_of(box) or ()) if operators else unscripted(box)
+    own = unprimed(box, index_of(box) or ()) if operators else unscripted(box)
     return own in known.numeric or (plain and not operators and box.name[0].islower())
 
 
