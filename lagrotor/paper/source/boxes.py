@@ -432,7 +432,7 @@ class _Reader:
         )
         if word is not None:
             stripped = word.strip()
-            if name in ("text", "textbf") and word not in FUNCTIONS:
+            if name in ("text", "textbf") and word not in ("d", *FUNCTIONS):
                 self.plain()
                 return [Box("text", stripped, item.at, self.end)] if stripped else [Box("thin", "", item.at, self.end)]
             if re.fullmatch(r"[A-Za-z]{2,}", stripped):

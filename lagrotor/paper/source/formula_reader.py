@@ -23,6 +23,8 @@ class FormulaReader(ABC):
     integrating: int = 0
     exponents: int = 0
     lowered: frozenset[str] = frozenset()
+    alone: bool = False
+    reaching: bool = False
 
     def guess(self, key: str, what: str, settles: str = "") -> None:
         """Mark a reading: what custom takes, and the line of [notation] that settles it."""

@@ -14,7 +14,7 @@ from itertools import pairwise
 from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_letter import is_called, is_entry
-from lagrotor.paper.source.read_statements import PrintedStatement
+from lagrotor.paper.source.read_statements import PrintedStatement, is_set
 from lagrotor.paper.source.rows import (
     TENSOR,
     UNITS,
@@ -116,12 +116,24 @@ def _row(reader: FormulaReader, row: list[Box]) -> Marks:
             yield from _row(reader, without_thin(part)[1:] if derived else part)
             derived = False
         if box.kind == "big":
-            yield from _row(reader, [b for b in box.sub or () if b.kind != "relation"])
+            for part in _indices_below(box):
+                yield from _row(reader, part)
         if box.sup and power_in(box):
             yield from _row(reader, box.sup)
     yield from _apart(reader, row)
     yield from _names(reader, inner)
     yield from _matrices(inner)
+
+
+def _indices_below(box: Box) -> Iterator[list[Box]]:
+    """What stands below a sum but plain indices, 0 and x' of 0 < x' < 1; what a set or a pair ⟨ij⟩ lists, one by one."""
+    ends = [k for k, b in enumerate(box.sub or ()) if b.kind in ("relation", "comma")]
+    for first, last in pairwise([-1, *ends, len(box.sub or ())]):
+        part = without_thin((box.sub or [])[first + 1 : last])
+        if len(part) == 1 and part[0].name in (r"\langle", r"\{", r"\lbrace"):
+            part = [b for b in part[0].parts[0] if b.kind != "comma"]
+        if not all(is_plain_letter(b) for b in part):
+            yield part
 
 
 def _behind(row: list[Box], place: int) -> Box | None:
@@ -326,7 +338,8 @@ def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
 
 def _bracket(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     box, content = row[place], without_thin(row[place].parts[0])
-    if box.name in ("(", "[", r"\{", r"\lbrace"):
+    belongs = place and (row[place - 1].kind, row[place - 1].name) == ("relation", "in")
+    if box.name in ("(", "[", r"\{", r"\lbrace") and not (belongs and is_set(box)):
         yield from _enclosed(reader, box, row[place - 1] if place else None, content)
     if [b.name for b in box.sup or ()] == ["-", "1"]:
         if not all(is_number(reader.notation, b) for b in all_boxes(content) if b.kind == "letter"):

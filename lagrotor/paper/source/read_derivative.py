@@ -87,6 +87,9 @@ def _derivative(reader: FormulaReader, row: list[Box], place: int, mark: str) ->
     behind = place + 1
     if operand:
         node = reader.expression(operand)
+    elif _stands_alone(reader, row, behind):
+        orders = [each for variable, times in variables for each in (variable, number(times))]
+        return Call("operator_derivative", tuple(orders[:1] if order == 1 else orders)), behind
     else:
         node, behind = _operand(reader, row, behind, box)
     if len(variables) == 1 and mark != "partial":
@@ -99,7 +102,7 @@ def _derivative(reader: FormulaReader, row: list[Box], place: int, mark: str) ->
 
 
 def _order(reader: FormulaReader, box: Box) -> int:
-    if box.sup is None:
+    if not box.sup:
         return 1
     if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name.isdigit():
         return int(box.sup[0].name)
@@ -117,10 +120,18 @@ def _variables(reader: FormulaReader, under: list[Box], mark: str) -> list[tuple
             variable, times = reader.expression(target.parts[0]), _order(reader, target)
         else:
             marked = mark_of(reader, target) is not None
-            variable = letter_of(reader, target if marked else replace(target, sup=None))[0]
-            times = 1 if marked else _order(reader, target)
+            variable = letter_of(reader, target if marked and target.sup else replace(target, sup=None))[0]
+            times = 1 if marked and target.sup else _order(reader, target)
         found.append((variable, times))
         place += 2
+    return found
+
+
+def _stands_alone(reader: FormulaReader, row: list[Box], place: int) -> bool:
+    """Whether a derivative has nothing behind it that it acts on, as in P = -i d/dx: an operator."""
+    rest = strip(row[place:])
+    found = not reader.integrating and (not rest or rest[0].name in ("+", "-"))
+    reader.alone = reader.alone or found
     return found
 
 
@@ -131,6 +142,7 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
         raise FormulaError(box.at, "the derivative has nothing to act on", "write what is differentiated")
     if reader.integrating and (end := _differential_behind(row, place)):
         return _operand(reader, row[:end], place, box)
+    reader.reaching = True
     node, behind = reader.factor(rest, 0)
     remaining = without_thin(rest[behind:])
     if not remaining:
@@ -185,6 +197,8 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
     variable = letter_of(reader, box.sub[0])[0]
     if isinstance(variable, Letter) and variable.name in {*_INDICES} - (reader.notation.bare - reader.lowered):
         variable = Letter(f"x__{variable.name}")  # \partial_\mu is \partial/\partial x^\mu
+    if _stands_alone(reader, row, place + 1):
+        return Call("operator_derivative", (variable, number(order)) if order > 1 else (variable,)), place + 1
     node, behind = _operand(reader, row, place + 1, box)
     return Call("Derivative", (node, variable, *([number(order)] if order > 1 else []))), behind
 
@@ -199,6 +213,8 @@ def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
     if after.kind == "operator" and after.name in ("cdot", "times", "wedge") and box.sup is None:
         node, behind = _operand(reader, row, place + 2, box)
         return Call("divergence" if after.name == "cdot" else "curl", (node, *by)), behind
+    if (box.sup is None or _order(reader, box) == 2) and _stands_alone(reader, row, place + 1):
+        return Call("operator_laplacian" if box.sup else "operator_gradient", by), place + 1
     node, behind = _operand(reader, row, place + 1, box)
     if box.sup is not None:
         if _order(reader, box) != 2:
@@ -249,8 +265,23 @@ def read_advection(reader: FormulaReader, row: list[Box], place: int) -> tuple[N
     r"""(\vec v\cdot\nabla) of what follows."""
     content = without_thin(row[place].parts[0])
     along = reader.expression(content[:-2])
+    if _stands_alone(reader, row, place + 1):
+        return Call("operator_advection", (along,)), place + 1
     node, behind = _operand(reader, row, place + 1, row[place])
     return Call("advection", (node, along)), behind
+
+
+def read_along(reader: FormulaReader, vector: Node, row: list[Box]) -> Node | None:
+    r"""\vec v\cdot\nabla\vec u as (\vec v\cdot\nabla)\vec u; None where what follows the dot is no \nabla of a vector."""
+    if row[0].kind != "nabla" or row[0].sub or row[0].sup or len(row) < 2 or row[1].kind == "operator":
+        return None
+    rest = strip(row[1:])
+    node, behind = reader.factor(rest, 0)
+    if behind < len(rest) or not is_vector(node):
+        return None
+    reader.reaching = True
+    reader.guess("advection", "v · ∇u of a vector u is (v · ∇)u")
+    return Call("advection", (node, vector))
 
 
 def at_its_variable(reader: FormulaReader, row: list[Box], place: int, behind: int, node: Node) -> tuple[Node, int]:

@@ -20,6 +20,7 @@ from lagrotor.paper.source.read_derivative import (
     in_integral,
     is_differential,
     is_open_integral,
+    read_along,
     read_fraction,
     read_nabla,
     read_partial,
@@ -136,7 +137,8 @@ class Grammar(FormulaReader):
                 node, behind = at_its_variable(self, row, place, behind, node)
             factors.append(node)
             place = behind
-        if any(map(is_operator, factors)) and len(factors) > 1:
+        ends = isinstance(factors[-1], Call) and factors[-1].name.startswith("operator_")  # numbers times d/dx
+        if any(map(is_operator, factors[: -1 if ends else None])) and len(factors) > 1:
             return Call("matmul", tuple(factors))  # in this order
         vectors = [each for each in factors if is_vector(each)]
         if self.integrating and len(vectors) == 2 and factors[-1] is vectors[1] and is_differential(factors[-1]):
@@ -222,6 +224,10 @@ def _joined(
     sign = None
     if part and part[0].kind == "operator" and part[0].name in ("+", "-"):
         sign, part = part[0].name, part[1:]
+    if operator == "cdot" and made is not None and is_vector(made) and strip(part):
+        advection = read_along(reader, made, strip(part))
+        if advection is not None:
+            return advection
     right = reader.product(strip(part))
     if sign == "-":
         right = Call("negative", (right,))
@@ -244,7 +250,8 @@ def _is_one_divisor(reader: FormulaReader, part: list[Box]) -> bool:
 def _vector_product(made: Node, operator: str, right: Node, at: int, before: list[Box]) -> Node:
     """Two factors joined by a dot, a cross or a star, of vectors or of numbers."""
     left_vector, right_vector = is_vector(made), is_vector(right)
-    if any(b.kind == "nabla" and b.sup is None and c.kind == "operator" for b, c in pairwise(before)):
+    reaches = bool(before) and before[0].kind == "nabla" and isinstance(made, Call) and made.name == "advection"
+    if reaches or any(b.kind == "nabla" and b.sup is None and c.kind == "operator" for b, c in pairwise(before)):
         raise FormulaError(at, "how far ∇ reaches is open", "write brackets around what it acts on")
     if left_vector and right_vector:
         if operator not in ("cdot", "times"):

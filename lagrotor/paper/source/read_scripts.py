@@ -71,7 +71,10 @@ def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
 
 
 def _check_power(reader: FormulaReader, box: Box) -> None:
-    row, known = without_thin(box.sup or []), reader.notation
+    row, known, bound = without_thin(box.sup or []), reader.notation, {*reader.bound}
+    if len(row) == 1 and {row[0].name} & bound and {b.name for b in box.sub or ()} & bound - {row[0].name}:
+        why = f"whether {row[0].name} is an upper index or a power is open"  # \sum_{pq} h^p_q
+        raise FormulaError(row[0].at, why, "write brackets around the power")
     alike = [b.name for b in row if _is_plain(replace(b, primes=0)) and (b.name in _GREEK or b.name in _INDICES)]
     if alike and len(alike) == len(row) and not set(alike) & known.letters:
         tensor = {name for name in alike if name in TENSOR and name not in known.bare}

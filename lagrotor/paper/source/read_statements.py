@@ -9,6 +9,7 @@ from lagrotor.paper.source.read_integral import differential_degree
 from lagrotor.paper.source.read_scripts import letter_of
 from lagrotor.paper.source.rows import is_unit_like, strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_scalar, is_vector, walk
+from lagrotor.paper.source.usage import arguments
 
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
 _SETS = ("in", "->", "subset", "supset", "not in", "<->", "<-")  # relations of what need not be alike
@@ -42,6 +43,9 @@ def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatem
     found: list[PrintedStatement] = []
     for piece in _pieces(reader, strip(row)):
         found += _statements(reader, piece)
+    if reader.alone and reader.reaching:  # d/dx x - x d/dx = 1
+        why = "whether a derivative acts on what follows it or is an operator is open"
+        raise FormulaError(row[0].at, why, "write brackets around what it acts on, or let all operators act")
     return found
 
 
@@ -230,7 +234,11 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
         latex = reader.source[side[0].at : side[-1].end].strip()
         letter = not place and len(sides) == 2 and [(b.kind, b.sup) for b in side] == [("letter", None)]
         index = letter and side[0].name in ("i", "j")
-        read.append(Side(letter_of(reader, side[0])[0] if index else _side(reader, side), latex, side[0].at))
+        if place and relations[place - 1] in ("in", "not in"):
+            node = read_set(reader, side)
+        else:
+            node = letter_of(reader, side[0])[0] if index else _side(reader, side)
+        read.append(Side(node, latex, side[0].at))
     degrees = {differential_degree(side.node, side.at) for side in read if not is_printed_zero(side.node)}
     if len(degrees) > 1 and not any(relation in _SETS for relation in relations):
         why = "a differential stands on one side only"
@@ -269,6 +277,20 @@ def _side(reader: FormulaReader, row: list[Box]) -> Node:
             raise FormulaError(row[0].at, "words stand for a side", "give it a letter")
         return Letter(name)
     return reader.expression(row)
+
+
+def read_set(reader: FormulaReader, row: list[Box]) -> Node:
+    """A side of a relation between a member and a set: what is listed in curly brackets is a set there."""
+    inner = strip(row)
+    if len(inner) == 1 and is_set(inner[0]):
+        return Call("set", tuple(map(reader.expression, arguments(inner[0].parts[0]))))
+    return reader.expression(row)
+
+
+def is_set(box: Box) -> bool:
+    """Whether a box is a list in curly brackets."""
+    listed = box.kind == "bracket" and box.name in (r"\{", r"\lbrace") and not (box.sub or box.sup)
+    return listed and any(b.kind == "comma" for b in box.parts[0])
 
 
 def _kind(relations: list[str]) -> str:

@@ -6,6 +6,7 @@ from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_integral import read_integral
 from lagrotor.paper.source.read_scripts import letter_of
+from lagrotor.paper.source.read_statements import read_set
 from lagrotor.paper.source.rows import all_boxes, strip, without_thin
 from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node
 from lagrotor.paper.source.usage import arguments
@@ -109,7 +110,7 @@ def _where(reader: FormulaReader, parts: list[list[Box]]) -> list[Node]:
             pair = [letter_of(reader, b)[0] for b in part[0].parts[0] if b.kind == "letter"]
             conditions.append(Call("pairs", tuple(pair)))
         elif signs and all(part[k].name in CONDITIONS for k in signs):
-            sides = [reader.expression(part[a + 1 : b]) for a, b in pairwise([-1, *signs, len(part)])]
+            sides = [read_set(reader, part[a + 1 : b]) for a, b in pairwise([-1, *signs, len(part)])]
             conditions += [Call(CONDITIONS[part[k].name], two) for k, two in zip(signs, pairwise(sides), strict=True)]
         else:
             at = part[0].at if part else parts[0][0].at

@@ -41,7 +41,7 @@ Node: TypeAlias = Number | Letter | Call
 # Relations as calls, in the condition of a case or of a sum.
 CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
-_VECTORS = ("cross", "column", "matrix", "gradient", "curl")
+_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "operator_gradient")
 _CALLED = FUNCTIONS.keys() - {
     "rate",
     "diff",
@@ -121,6 +121,7 @@ def is_vector(node: Node) -> bool:
         "called",
         "delta",
         "Delta",
+        "at_constant",
     ):
         return is_vector(node.args[0])
     return node.name in (*_VECTORS, "matmul", "inverse") or node.name.split("_")[0].removesuffix("prime").endswith(
@@ -166,9 +167,9 @@ def is_scalar(node: Node) -> bool:
 
 
 def is_operator(node: Node) -> bool:
-    """Whether a node does not commute with what it is multiplied by: a ket, a bra, an operator with a dagger."""
+    """Whether a node does not commute with what it is multiplied by: a ket, a bra, a derivative, an operator with a dagger."""
     if isinstance(node, Call):
-        return node.name.split("_")[0] in ("ket", "bra") or (
+        return node.name.split("_")[0] in ("ket", "bra", "operator") or (
             node.name in ("power", "product", "matmul") and any(map(is_operator, node.args))
         )
     return isinstance(node, Letter) and "__dagger" in node.name

@@ -333,6 +333,8 @@ def _look(row: list[Box], found: Notation) -> None:
         marked = box.kind == "letter" and box.sup is not None and len(box.sup) == 1 and box.sup[0].kind == "bracket"
         if box.sup is not None and not marked and any(each.kind != "letter" or each.sub for each in box.sup):
             _look(box.sup, found)  # letters alone may be indices
+        if box.kind == "fraction" and [b.name for b in box.parts[1]] == ["i"] and box.parts[0][0].name == "hbar":
+            found.imaginary = True
         for part in box.parts:
             _look(part, found)
 

@@ -43,6 +43,20 @@ READ = {
     r"x = a,\qquad y = b \quad\text{where } z = c.": "x = a; y = b; z = c",
     r"\begin{aligned} a &= b\\ &\quad + c\\ &= d\end{aligned}": "a = b + c = d",
     r"\alpha = 30^\circ": "alpha = 30*pi/180",
+    r"P \equiv \frac{\hbar}{i}\frac{\partial}{\partial x}": "P = hbar/imaginary_unit*operator_derivative(x)",
+    r"H = -\frac{d^2}{dx^2} + V(x)": "H = -operator_derivative(x, 2) + V(x)",
+    r"\mathbf p = -i\hbar\nabla,\quad T = -\nabla^2":
+        "pbold = -imaginary_unit*hbar*operator_gradient(); T = -operator_laplacian()",
+    r"a = b\left(\frac{\partial}{\partial x} + c\right)": "a = b*(operator_derivative(x) + c)",
+    r"[x, \partial_x] = -1": "commutator(x, operator_derivative(x)) = -1",
+    r"\partial_x = \frac{\partial r}{\partial x}\partial_r": "operator_derivative(x) = Derivative(r, x)*operator_derivative(r)",
+    r"\frac{d}{dt} = \frac{\partial}{\partial t} + (\mathbf u\cdot\nabla)":
+        "operator_derivative(t) = operator_derivative(t) + operator_advection(ubold)",
+    r"\mathbf u\cdot\nabla\mathbf u = \mathbf a": "advection(ubold, ubold) = abold",
+    r"\left(\frac{d\mathbf B}{dt}\right)_I = \mathbf C + \mathbf D": "at_constant(Bbold_dot, I) = Cbold + Dbold",
+    r"\frac{\text{d}x}{\text{d}t} = \int f\,\text{d}x + x_\text{d}": "x_dot = Integral(f, x) + x_d",
+    r"\frac{\partial^{} r}{\partial u^{}} = 1": "Derivative(r, u) = 1",
+    r"Z = \sum_{s\in\{-1,1\}} f(s)": "Z = Sum(f(s), In(s, set(-1, 1)))",
     r"\left\{\begin{aligned} \dot x &= y\\ \dot y &= -x\end{aligned}\right.": "x_dot = y; y_dot = -x",
     r"H(q,p) = p\dot q - L(q,\dot q)": "H(q, p) = p*q_dot - L(q, q_dot)",
     r"\frac{dx/dt}{2} = \partial_x u": "x_dot/2 = Derivative(u, x)",
@@ -127,7 +141,12 @@ def test_what_is_read_is_what_is_printed(latex: str) -> None:
 
 # What may mean two things, and where the reading stops.
 OPEN = {
-    r"a = b\left(\frac{\partial}{\partial x} + c\right)": "the derivative has nothing to act on",
+    r"\frac{d}{dx} x - x\frac{d}{dx} = 1": "whether a derivative acts on what follows it or is an operator",
+    r"\nabla = \frac{\partial}{\partial x}\mathbf{i}": "whether a derivative acts on what follows it or is an operator",
+    r"a = \frac{\partial}{\partial t}\times\mathbf B": "the derivative has nothing to act on",
+    r"\mathbf a = \mathbf u\cdot\nabla f\mathbf v": "∇ of a vector is not read",
+    r"a = \mathbf u\cdot\nabla\mathbf v\cdot\mathbf w": "how far ∇ reaches",
+    r"E = \sum_{pq} h^p_q a_p": "whether p is an upper index or a power",
     r"a = \mathbf e\cdot\mathbf H\cdot\mathbf p": "which · comes first",
     r"a = s^2[R]": "whether s[…] is a functional",
     r"\partial_i f = x^i y^{i + 1}": "whether i is an upper index or a power",

@@ -302,3 +302,13 @@ def test_a_letter_before_brackets_alone_is_shown_to_be_no_factor() -> None:
     latex = "a = b_k y(n - k)"
     assert guesses(latex)
     assert not guesses(latex, "y b = 2")
+
+
+@pytest.mark.parametrize(
+    "latex", [r"H = \sum_{\langle ij\rangle} s_i s_j", r"Z = \sum_{s\in\{0,1\}} e^{-\beta s}", r"s \in \{0,1\}"]
+)
+def test_pairs_and_sets_are_no_means_brackets_or_names(latex: str) -> None:
+    assert [mark.partition(" ([")[0] for mark in guesses(latex)] in (
+        ["what sum runs over is as it is written"],
+        [r"\in is read as in"],
+    )
