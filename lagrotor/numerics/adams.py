@@ -21,11 +21,13 @@ def adams_order(error: float) -> int:
 
 
 @lru_cache(maxsize=8)
-def adams_weights(q: int) -> tuple[Array, Array, Array]:
+def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
     """Weights of an Adams pair of q nodes, from the Lagrange polynomials l_j of q equal steps, exact before rounding.
 
-    A (q,): integrals from the last node to the one after it (Adams–Bashforth); B (q,): from the last but one to the last
-    (Adams–Moulton); P (q, q + 1): the integral of l_j from the middle node q // 2 as a polynomial in steps from there.
+    A: integrals from the last node to the one after it (Adams–Bashforth); B: from the last but one to the last
+    (Adams–Moulton), both (2, q): rounded, and what rounding left. Without that all steps of all runs err alike, which no
+    comparison of two runs shows. S (q, q): from the first node to each; P (q, q + 1): the integral of l_j from the middle node
+    q // 2 as a polynomial in steps from there.
     """
     middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
@@ -41,9 +43,13 @@ def adams_weights(q: int) -> tuple[Array, Array, Array]:
     def at(row: list[Fraction], x: int) -> Fraction:
         return sum((c * x**n for n, c in enumerate(row)), Fraction(0))
 
-    A = [float(at(row, last + 1) - at(row, last)) for row in rows]
-    B = [float(at(row, last) - at(row, last - 1)) for row in rows]
-    return np.array(A), np.array(B), np.array([[float(c) for c in row] for row in rows])
+    def in_two(weights: list[Fraction]) -> Array:
+        return np.array([[float(w) for w in weights], [float(w - Fraction(float(w))) for w in weights]])
+
+    A = in_two([at(row, last + 1) - at(row, last) for row in rows])
+    B = in_two([at(row, last) - at(row, last - 1) for row in rows])
+    S = [[at(row, node) - at(row, nodes[0]) for row in rows] for node in nodes]
+    return A, B, np.array(S, float), np.array(rows, float)
 
 
 @dataclass(frozen=True)
@@ -62,7 +68,7 @@ class _Piece:
     def read(self, times: Array) -> Array:
         """States (m, d) at times within the piece, by the polynomial of the pair itself."""
         q = self.q
-        _, _, P = adams_weights(q)
+        P = adams_weights(q)[3]
         steps = (times - self.t) / self.h
         middle = np.clip(np.floor(steps).astype(int), q // 2, len(self.states) - q + q // 2)
         weights = np.vander(steps - middle, q + 1, increasing=True) @ P.T
@@ -77,7 +83,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     Wanner, III.1).
     """
     rhs = segment.rhs
-    A, B, _ = adams_weights(q)
+    A, B, _, _ = adams_weights(q)
     states, velocities, off = np.empty((3, steps + 1, len(y)))
     evaluations, settled = _first_nodes(segment, q, y, t, h, states[:q], velocities[:q])
     if not settled:
@@ -85,21 +91,23 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
 
     # What rounding alone leaves of predictor less corrector, over h, in the component that moves fastest for its size.
     fastest = (np.abs(velocities[:q]).max(axis=0) / (1 + np.abs(states[q - 1]))).max()
-    noise = 4 * np.finfo(float).eps * (np.abs(A).sum() * fastest + 1 / h)
+    noise = 4 * np.finfo(float).eps * (np.abs(A[0]).sum() * fastest + 1 / h)
     limit = max(limit, noise)
-    hA, hB, last, n = h * A, h * B, states[q - 1], q
+    last, n = states[q - 1], q
     while n <= steps:
         block = range(n, min(n + (_BLOCK if n > q else 2 * q), steps + 1))
         for n in block:
-            predicted = last + hA.dot(velocities[n - q : n])
+            mean, rest = A.dot(velocities[n - q : n])
+            predicted = last + h * (mean + rest)
             velocities[n] = rhs(t + n * h, predicted)
-            states[n] = last = last + hB.dot(velocities[n - q + 1 : n + 1])
+            mean, rest = B.dot(velocities[n - q + 1 : n + 1])
+            states[n] = last = last + h * (mean + rest)
             off[n] = last - predicted
             velocities[n] = rhs(t + n * h, last)
         evaluations += 2 * len(block)
         # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
         worst = (np.abs(off[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
-        change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
+        change = min(max(0.3, (limit / max(worst, noise) / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
         near = segment.time_to_singular and any(segment.clear(y) < h for y in states[block.start - q : n + 1])
         if near or not worst <= limit:
             change = min(change, 0.5) if near else change
@@ -117,9 +125,7 @@ def _first_nodes(
     segment: Segment, q: int, y: Array, t: float, h: float, states: Array, velocities: Array
 ) -> tuple[int, bool]:
     """The first q nodes together: their integral equation is swept until nothing moves. Evaluations, and whether it does."""
-    P = adams_weights(q)[2]
-    from_middle = np.vander(np.arange(q) - q // 2, q + 1, increasing=True) @ P.T
-    S, size = h * (from_middle - from_middle[0]), 1 + np.abs(y).max()
+    S, size = h * adams_weights(q)[2], 1 + np.abs(y).max()
     states[:], velocities[:] = y, segment.rhs(t, y)
     evaluations = 1
     for sweep in range(_SWEEPS):
