@@ -280,17 +280,26 @@ def estimated_errors(
     return np.maximum(safety * apart, least) + ROUNDING.value * (START.value + turns)
 
 
-def errors_up_to(t: Array, errors: Array, turn: Array) -> Array:
-    """The largest errors (…, n) up to each of the times t (n,), of motions that turn in the times `turn` (…).
+def errors_up_to(t: Array, errors: Array, turn: float) -> Array:
+    """The largest errors (n,) up to each of the times t (n,), of a motion that turns in the time `turn`.
 
-    Two runs that part swing through each other: after the start, as much is known as to the end of the swing.
+    Runs that part swing through each other: as much is known as to the end of a swing. Errors of a motion grow by powers of the
+    time or by e^(λt), so that their logarithm is concave: where two runs come as near as later ones part faster, it is by chance,
+    and the least such curve above all that is measured is taken.
     """
-    if not len(t):
-        return errors
-    grown = np.maximum.accumulate(errors, axis=-1)
-    swing = np.searchsorted(t, t[1:] + SWING.value * turn[..., None], side="right") - 1
-    grown[..., 1:] = np.take_along_axis(grown, swing, axis=-1)
-    return grown
+    grown = np.maximum.accumulate(errors)
+    grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * turn, side="right") - 1]
+    if not (grown[0] > 0 and np.isfinite(grown).all()):
+        return grown
+    at, logs, corners = t.tolist(), np.log(grown).tolist(), list[int]()
+    for k in range(len(at)):
+        while len(corners) > 1:
+            i, j = corners[-2:]
+            if (logs[j] - logs[i]) * (at[k] - at[i]) > (logs[k] - logs[i]) * (at[j] - at[i]):
+                break
+            corners.pop()
+        corners.append(k)
+    return np.maximum(grown, np.exp(np.interp(t, t[corners], np.take(logs, corners))))
 
 
 def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
@@ -450,7 +459,7 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     errors = estimated_errors(
         counts * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
-    grown = errors_up_to(t, np.where(between, 0.0, errors), np.array(evolution.turn))
+    grown = errors_up_to(t, np.where(between, 0.0, errors), evolution.turn)
     known = max(float(grown[-1]) / counts, tight.local, farther)
     errors = np.where(between, np.maximum(errors, grown), grown)
     # Once one of the two has stopped, the pair is refused even if it conserves what it must.

@@ -9,7 +9,7 @@ import pytest
 
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.numerics import estimated_run
-from lagrotor.numerics.estimated_run import UNKNOWN, EstimatedRun, Evolution, Patience, estimate_run
+from lagrotor.numerics.estimated_run import UNKNOWN, EstimatedRun, Evolution, Patience, errors_up_to, estimate_run
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import Array, StopError, Stretch
 
@@ -65,7 +65,9 @@ def test_the_error_is_safety_times_the_difference_and_what_rounding_adds() -> No
     watched = np.union1d(T, np.linspace(0, 10, 65))
     later = np.append(0.0, watched[np.searchsorted(watched, T[1:] + SWING, side="right") - 1])
     apart = SAFETY * 0.1 * (loose - tight) * later
-    assert run.errors == pytest.approx(np.maximum(apart, LEAST * tight) + rounding(later), rel=1e-6)
+    least = np.maximum(apart, LEAST * tight) + rounding(later)
+    assert (run.errors >= least * (1 - 1e-6)).all() and (run.errors <= least * 1.05).all()  # `later` is a staircase
+    assert run.errors[-1] == pytest.approx(least[-1], rel=1e-6)
     assert run.ending.kind == "end" and run.horizon == np.inf and run.local == tight
     assert run.evaluations == made.spent == 200
     true = np.abs(run.states[:, 0] - 1)
@@ -90,6 +92,25 @@ def test_two_runs_that_swing_through_each_other_are_no_better_known_where_they_m
     whole, inside = times, (times > 0) & (times < 10 - turn)
     assert (errors(SWING)[inside] >= whole[inside]).all()
     assert not (errors(0.0)[inside] >= whole[inside]).all()  # the twin
+
+
+def test_two_runs_that_part_slowly_by_chance_are_no_better_known_there() -> None:
+    """Errors that grow like t and like t²: their difference is no larger at 7 than at 3, and zero between."""
+    t = np.linspace(0.0, 40.0, 401)
+    better, looser = 1e-9 * t, 1e-9 * (t + t * (6 - t) / 5)
+    told = errors_up_to(t, 1e-15 + SAFETY * np.abs(looser - better), 1.0)
+    assert (told >= better).all()
+    assert (np.maximum.accumulate(SAFETY * np.abs(looser - better)) < better)[1:].any()  # the twin
+    assert (np.diff(np.log(told), 2) < 1e-12).all()
+
+
+@pytest.mark.parametrize("power", [0, 0.5, 1, 3])
+@pytest.mark.parametrize("rate", [0, 0.3])
+def test_errors_that_grow_as_those_of_a_motion_are_told_as_they_are(power: float, rate: float) -> None:
+    t = np.linspace(0.0, 40.0, 401)
+    errors = 1e-9 * (1e-3 + t) ** power * np.exp(rate * t)
+    assert errors_up_to(t, errors, 0.0) == pytest.approx(errors, rel=1e-12)
+    assert errors_up_to(t, np.where(t > 0, errors, 0.0), 0.0)[1:] == pytest.approx(errors[1:], rel=1e-12)
 
 
 def test_below_what_is_resolved_safety_counts_twice() -> None:
