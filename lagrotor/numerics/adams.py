@@ -107,7 +107,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
         evaluations += 2 * len(block)
         # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
         worst = (np.abs(off[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
-        change = min(max(0.3, (limit / max(worst, noise) / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
+        change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
         near = segment.time_to_singular and any(segment.clear(y) < h for y in states[block.start - q : n + 1])
         if near or not worst <= limit:
             change = min(change, 0.5) if near else change
