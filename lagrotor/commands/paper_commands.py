@@ -172,6 +172,7 @@ def init_command(given: argparse.Namespace) -> int:
 def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
     from lagrotor.paper.readable import from_latex, readable
+    from lagrotor.paper.source.formula import EVERY
     from lagrotor.paper.source.readings import readings
     from lagrotor.paper.source.start import confirm
 
@@ -179,7 +180,8 @@ def readings_command(given: argparse.Namespace) -> int:
     if given.confirm:
         done = confirm(paper.folder, given.confirm)
         return say(f"confirmed: {', '.join(done)}", 0)
-    found = list(readings(paper))
+    with progress(-(-len(paper.equations) // EVERY)) as step:
+        found = list(readings(paper, step))
     if given.json:
         print(json.dumps([each.as_data() for each in found], indent=1, ensure_ascii=False))
         return 0
@@ -214,6 +216,7 @@ def derive_command(given: argparse.Namespace) -> int:
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.readable import readable
     from lagrotor.paper.source.check import FAULT, FOUND, WRONG, check_source
+    from lagrotor.paper.source.formula import EVERY
     from lagrotor.paper.source.markup import read_source
     from lagrotor.paper.source.usage import declared_notation
     from lagrotor.paper.title_page import toml
@@ -226,7 +229,8 @@ def check_command(given: argparse.Namespace) -> int:
             say(f"{file}: {note}", 0)
         beside = Path(file).parent / "paper.toml"
         said = declared_notation(toml(beside).get("notation", {}), str(beside)) if beside.is_file() else None
-        found += [(file, each) for each in check_source(source, said)]
+        with progress(2 * -(-len(source.equations) // EVERY)) as step:
+            found += [(file, each) for each in check_source(source, said, step)]
     if given.json:
         several = len(given.sources) > 1
         rows = [each.as_data() | ({"file": str(source)} if several else {}) for source, each in found]

@@ -8,7 +8,7 @@ these, the difference is decided, and one change of sign, factor or power makes 
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -23,7 +23,7 @@ from lagrotor.algebra.work import at_most
 from lagrotor.errors import LagrotorError, WorkError
 from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
-from lagrotor.paper.source.formula import Reading, read_formula
+from lagrotor.paper.source.formula import Reading, read_formula, with_progress
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
 from lagrotor.paper.source.tree import (
     KNOWN,
@@ -102,17 +102,25 @@ class _Read:
     statement: PrintedStatement
 
 
-def check_source(source: Source, said: Notation | None = None) -> list[StepFinding]:
-    """The findings on the displayed equations of a source; said: its [notation]."""
+def check_source(
+    source: Source, said: Notation | None = None, progress: Callable[[str], None] | None = None
+) -> list[StepFinding]:
+    """The findings on the displayed equations of a source; said: its [notation].
+
+    progress: called with what is done next, before each `EVERY` displays are read, and before they are checked.
+    """
     notation = notation_of([*(each.latex for each in source.equations), *source.inline], said)
-    readings = [(each, read_formula(each.latex, notation, each.lead)) for each in source.equations]
+    readings = [
+        (each, read_formula(each.latex, notation, each.lead))
+        for each in with_progress("read", source.equations, progress)
+    ]
     checker = _Checker(source, readings, notation)
     order = {each.id: place for place, each in enumerate(source.equations)}
     main = source.equations[0].place[0] if source.equations else ""
     faults = [
         StepFinding("", 0, n, FAULT, said, file if main not in ("", file) else "") for file, n, said in source.faults
     ]
-    return faults + sorted(checker.findings(), key=lambda found: (order[found.equation], found.step))
+    return faults + sorted(checker.findings(progress), key=lambda found: (order[found.equation], found.step))
 
 
 class _Checker:
@@ -126,9 +134,9 @@ class _Checker:
             _Read(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
         ]
 
-    def findings(self) -> Iterator[StepFinding]:
+    def findings(self, progress: Callable[[str], None] | None = None) -> Iterator[StepFinding]:
         """Every finding."""
-        for place, (each, reading) in enumerate(self.readings):
+        for place, (each, reading) in enumerate(with_progress("check", self.readings, progress)):
             self.place = place
             if not reading.whole:
                 what, helps = reading.stop or ("", "")

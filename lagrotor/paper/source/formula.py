@@ -4,8 +4,9 @@ What the print leaves open and custom settles, the reading takes by custom and s
 is not read.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.open_meanings import mark_open_meanings
@@ -13,6 +14,9 @@ from lagrotor.paper.source.read_expression import Grammar
 from lagrotor.paper.source.read_statements import PrintedStatement, read_statements
 from lagrotor.paper.source.rows import all_boxes
 from lagrotor.paper.source.usage import Notation
+
+EVERY = 500  # equations whose reading is said together
+_T = TypeVar("_T")
 
 
 @dataclass(frozen=True)
@@ -57,3 +61,11 @@ def read_formula(latex: str, notation: Notation | None = None, lead: str = "") -
     if not statements:
         return Reading(stop=("there is no formula", "keep it aside"))
     return Reading(statements, tuple(dict.fromkeys(reader.guesses)))
+
+
+def with_progress(what: str, rows: Sequence[_T], progress: Callable[[str], None] | None) -> Iterator[_T]:
+    """The rows; before each `EVERY` of them it is said what is done with them. Fewer go by without a word."""
+    for place, row in enumerate(rows):
+        if progress and place % EVERY == 0 and len(rows) > EVERY:
+            progress(f"{what} equations {place + 1:,} to {min(place + EVERY, len(rows)):,}")
+        yield row

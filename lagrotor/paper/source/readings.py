@@ -1,12 +1,13 @@
 """The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
+from lagrotor.paper.source.formula import with_progress
 from lagrotor.paper.source.printed import paper_notation, read_print
 from lagrotor.paper.source.usage import Notation
 
@@ -36,11 +37,14 @@ class EquationReading:
         return asdict(self)
 
 
-def readings(paper: Catalogue) -> Iterator[EquationReading]:
-    """The reading of every equation, in the paper's order. Raises InputError for a [notation] that means nothing."""
-    equations = paper.equations.values()
+def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) -> Iterator[EquationReading]:
+    """The reading of every equation, in the paper's order. Raises InputError for a [notation] that means nothing.
+
+    progress: called with what is done next, before each `EVERY` equations.
+    """
+    equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
-    for entry in equations:
+    for entry in with_progress("read", equations, progress):
         moved = entry.number and entry.read != "gone" and str(entry.number) != entry.id
         yield replace(_reading(entry, notation), number=str(entry.number) if moved else "")
 

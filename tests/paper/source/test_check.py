@@ -255,6 +255,17 @@ def test_with_definitions_put_in_only_what_agrees_at_a_point_is_decided_exactly(
     assert verdicts(tmp_path, r"\[ u = x + y \] \[ b = p u + v = p x + p y + v \]") == [HOLDS] and len(decisions) == 3
 
 
+def test_a_long_source_is_read_and_checked_with_progress(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "long.tex"
+    file.write_text("".join(rf"\[ a_{{{n}}} = b^{n} \] " for n in range(501)), encoding="utf-8")
+    assert main(["check", str(file)]) == 0
+    lines = [line.partition(" s  ")[2] for line in capsys.readouterr().err.splitlines()]
+    ranges = "equations 1 to 500", "equations 501 to 501"
+    assert [line for line in lines if line] == [f"{what} {each}" for what in ("read", "check") for each in ranges]
+    file.write_text(r"\[ a = b \]", encoding="utf-8")
+    assert main(["check", str(file)]) == 0 and "equations 1" not in capsys.readouterr().err
+
+
 def test_each_display_falls_into_parts_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Counted, not timed: a source of 5 MB has 30,000 displays, and each was parsed for its letters and for its reading."""
     shown = [rf"a_{n} = \frac{{b^{n}}}{{e}}\left(c + e^{{d}}\right)" for n in range(20)]
