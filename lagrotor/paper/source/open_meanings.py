@@ -157,7 +157,11 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
     elif box.kind == "bracket" and box.name in ("(", "[", r"\{"):
         held = without_thin(box.parts[0])
         applied = [stem_of(b) for b in held if b.kind == "letter"]
-        if after.kind == "bracket" and applied and set(applied) <= known.applied | known.differentiated:
+        if (
+            after.kind == "bracket"
+            and applied
+            and all(s in known.applied or s in known.differentiated for s in applied)
+        ):
             yield "bracket", "the brackets side by side are factors, and none is an argument", ""
     else:
         held = without_thin(box.parts[0]) if box.kind == "fraction" and not derivative_mark(box) else []
@@ -185,6 +189,27 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         return  # a unit behind its number
     if after is not None and bracketed:
         yield from _before_bracket(reader, row, place)
+    if box.primes or box.marks or box.style or box.upright:
+        yield from _adorned(known, box, after, bracketed)
+    if not (box.name.isalnum() and (len(box.name) == 1 or f"\\{box.name}" in GREEK or box.upright)):
+        yield "sign", f"{box.name} is a letter", ""
+    if _is_laplacian(box, after):
+        yield "laplacian", f"{box.name} is a letter, and no Laplacian", ""
+    then = _behind(row, place + 1)
+    differs = box.name == "d" and not box.sub and after is not None and after.kind == "letter"
+    if differs and then is not None and then.kind in _FACTORS and then.name != "d":
+        yield "differential", "the differential is of the letter that follows it alone", ""
+    said = box.name in known.letters or box.name in known.numbers or box.name in known.functions
+    if not (box.sub or box.marks or box.style or said):
+        yield from _constant(reader, box, after)
+    if box.sub:
+        yield from _lowered(known, box)
+    if box.sup:
+        yield from _raised(reader, box)
+
+
+def _adorned(known: Notation, box: Box, after: Box | None, bracketed: bool) -> Marks:
+    """What primes, marks and fonts may mean."""
     open_ = (
         ("prime", box.primes and (stem_of(box) not in known.primed or bracketed), "with a prime is a name, and no derivative"),
         ("bar", "bar" in box.marks and (known.seen & {"complex", "ket", "operators"} or box.name[0].isupper()),
@@ -193,24 +218,10 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         ("dot", "times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
         ("differential", box.name == "d" and box.style and not box.sub and after is not None, "is a factor, and no differential"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
-        ("sign", not (box.name.isalnum() and (len(box.name) == 1 or f"\\{box.name}" in GREEK or box.upright)), "is a letter"),
         ("unit", box.upright and (len(box.name) == 1 or box.name in UNITS) and box.name not in ("d", "e", "i", "O"),
          "is no unit or operator"),
-        ("laplacian", _is_laplacian(box, after), "is a letter, and no Laplacian"),
     )  # fmt: skip
-    for key, is_open, what in open_:
-        if is_open:
-            yield key, f"{box.name} {what}", ""
-    then = _behind(row, place + 1)
-    differs = box.name == "d" and not box.sub and after is not None and after.kind == "letter"
-    if differs and then is not None and then.kind in _FACTORS and then.name != "d":
-        yield "differential", "the differential is of the letter that follows it alone", ""
-    if not (box.sub or box.marks or box.style) and box.name not in known.letters | known.numbers | known.functions:
-        yield from _constant(reader, box, after)
-    if box.sub:
-        yield from _lowered(known, box)
-    if box.sup:
-        yield from _raised(reader, box)
+    yield from ((key, f"{box.name} {what}", "") for key, is_open, what in open_ if is_open)
 
 
 def _is_laplacian(box: Box, after: Box | None) -> bool:
@@ -251,7 +262,7 @@ def _lowered(known: Notation, box: Box) -> Marks:
     elif any(b.kind in ("operator", "relation", "bracket") and b.name not in ("+", "-", "/") for b in below):
         yield "index", f"the index of {box.name} is part of the name", ""
     stem = stem_of(box)
-    alone = {stem, name_of(box)} & (known.bare | known.called.keys() | known.applied)
+    alone = any({stem, name_of(box)} & shown for shown in (known.bare, known.called.keys(), known.applied))
     differentiated = known.called.get(stem, set()) | known.varied.get(stem, set())
     component = (
         stem in known.arrows
@@ -297,7 +308,7 @@ def _before_bracket(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     if "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"):
         yield "order", f"{box.name} is a function of the bracket, and no order of magnitude", ""
     settles = f'functions = "{box.name}" or letters = "{box.name}"'
-    if {box.name, unprimed(box), stem_of(box)} & (known.functions | known.letters):
+    if any({box.name, unprimed(box), stem_of(box)} & said for said in (known.functions, known.letters)):
         return
     if bracket.name == "[" and is_entry(reader, box, bracket):
         return  # marked where it is read
@@ -328,9 +339,9 @@ def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
     """Whether the paper has a letter as a number among factors, and never before an argument or differentiated."""
     stem = stem_of(box)
     held = _letters(*content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}  # E(\\phi(E))
-    variable = held & {"t", "tau", *set().union(*known.called.values(), ())}
-    free = stem not in known.applied | known.differentiated and not variable and box.name not in _FUNCTIONS
-    return free and stem in known.factors and is_number(known, box)
+    free = not known.is_function(box) and box.name not in _FUNCTIONS and stem in known.factors
+    variable = held & {"t", "tau"} or any(held & letters for letters in known.called.values())
+    return free and not variable and is_number(known, box)
 
 
 # ---- brackets and signs
@@ -383,7 +394,7 @@ def _magnitude(reader: FormulaReader, content: list[Box]) -> Marks:
         if len(content) == 1 and content[0].kind == "letter" and not is_printed_as_vector(content[0])
         else None
     )
-    shown = only is None or stem_of(only) in known.factors | known.numeric
+    shown = only is None or stem_of(only) in known.factors or stem_of(only) in known.numeric
     if any(b.kind == "comma" for b in content) or not (shown and all(is_number(known, b) for b in letters)):
         yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
 
@@ -467,7 +478,7 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
             for b in beside
         )
         letters = [c for b in beside for c in all_boxes([b]) if c.kind == "letter"]
-        plain = known.arrows and not known.raised | known.upper  # vectors are marked, and these are none
+        plain = known.arrows and not (known.raised or known.upper)  # vectors are marked, and these are none
         if not (
             numbers or vectors or (plain and all(is_number(known, c) and c.name not in known.arrows for c in letters))
         ):
@@ -584,6 +595,32 @@ _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
 
 def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
     """Factors that are set apart by a space, and units in italics."""
+    if any(box.kind == "thin" for box in row):
+        yield from _spaces(reader, row)
+    side: list[Box] = []
+    for box in [*without_thin(row), Box("relation", "", 0, 0)]:
+        if box.kind not in _PARTS:
+            side.append(box)
+            continue
+        if len(side) < 2 or side[0].kind != "number":
+            side = []
+            continue
+        if side[-1].kind == "fraction" and side[-2].kind == "number":  # 9.81 m/s^2
+            side[-1:] = [b for part in side[-1].parts for b in part]
+        if [b.kind for b in side[:3]] == ["number", "operator", "number"] and side[1].name == "-" and len(side) < 5:
+            yield "range", "the numbers are taken from each other, and are no ends of a range", ""
+        letters = [b for b in side if b.kind == "letter"]
+        plain = all(b.kind in ("number", "letter") or b.name in ("/", "times", "cdot") for b in side)
+        if letters and plain and not any(b.sub or b.upright for b in letters):
+            names = [b.name for b in letters]
+            joined = "".join(" " * (a.end != b.at) + b.name for a, b in pairwise([*letters[:1], *letters])).split()
+            spaced = reader.source[side[0].end :].lstrip().startswith(r"\,") and all(len(name) == 1 for name in names)
+            if spaced or {*names[names[:1] == ["mu"] :]} - {"Omega"} <= UNITS or {*joined} <= UNITS:
+                yield "unit", f"{letters[0].name} behind the number is a letter, and no unit", ""
+        side = []
+
+
+def _spaces(reader: FormulaReader, row: list[Box]) -> Marks:
     for place, box in enumerate(row[1:-1], 1):
         sides = row[place - 1].kind, row[place + 1].kind
         wide = box.kind == "thin" and reader.source[box.at : box.end] not in (r"\,", r"\!")
@@ -603,26 +640,6 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
     condition = next((k for k, b in enumerate(between) if b.name in _BOUNDS and b.kind == "relation"), 0)
     if "=" in names and {*names} & _BOUNDS and any(b.kind == "thin" for b in strip(between[1:condition])):
         yield "spaces", "what a space parts are factors, and no condition", ""
-    side: list[Box] = []
-    for box in [*without_thin(row), Box("relation", "", 0, 0)]:
-        if box.kind not in _PARTS:
-            side.append(box)
-            continue
-        if len(side) > 1 and side[-1].kind == "fraction" and side[-2].kind == "number":  # 9.81 m/s^2
-            side[-1:] = [b for part in side[-1].parts for b in part]
-        if [b.kind for b in side[:3]] == ["number", "operator", "number"] and side[1].name == "-" and len(side) < 5:
-            yield "range", "the numbers are taken from each other, and are no ends of a range", ""
-        letters = [b for b in side if b.kind == "letter"]
-        plain = all(b.kind in ("number", "letter") or b.name in ("/", "times", "cdot") for b in side)
-        plain = plain and not any(b.sub or b.upright for b in letters)
-        names = [b.name for b in letters]
-        joined = "".join(" " * (a.end != b.at) + b.name for a, b in pairwise([*letters[:1], *letters])).split()
-        spaced = side[:1] and side[0].kind == "number" and reader.source[side[0].end :].lstrip().startswith(r"\,")
-        spaced = spaced and all(len(name) == 1 for name in names)
-        named = {*names[names[:1] == ["mu"] :]} <= UNITS | {"Omega"} or {*joined} <= UNITS or spaced
-        if letters and plain and side[0].kind == "number" and named:
-            yield "unit", f"{letters[0].name} behind the number is a letter, and no unit", ""
-        side = []
 
 
 def _names(reader: FormulaReader, row: list[Box]) -> Marks:

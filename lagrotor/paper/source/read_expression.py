@@ -296,8 +296,8 @@ def _count(reader: FormulaReader, part: list[Box]) -> int:
 def _is_contracted(row: list[Box], upper: set[str]) -> bool:
     """Whether an index stands up and down in a product, and is summed over."""
     held = [box for box in row if box.kind in ("letter", "partial", "nabla")]
-    up, down = ({each.name for box in held for each in (box.sup if high else box.sub) or ()} for high in (True, False))
-    return bool(up & down & {*TENSOR, *upper})
+    up = {each.name for box in held if box.sup for each in box.sup if each.name in TENSOR or each.name in upper}
+    return bool(up) and any(each.name in up for box in held if box.sub for each in box.sub)
 
 
 def _matrices(factors: list[Node], row: list[Box]) -> Node:

@@ -92,7 +92,8 @@ class Notation:
 
     def is_function(self, box: Box) -> bool:
         """Whether the paper has a letter before an argument, or differentiates it."""
-        return stem_of(box) in self.applied | self.differentiated or bool({box.name} & self.functions)
+        stem = stem_of(box)
+        return stem in self.applied or stem in self.differentiated or box.name in self.functions
 
     @property
     def pi_is_letter(self) -> bool:
@@ -438,7 +439,9 @@ def is_number(known: Notation, box: Box) -> bool:
     are numbers by custom, but in a paper that has operators.
     """
     stem = stem_of(box)
-    if {box.name, stem} & (known.letters | known.numbers) or (box.name in _NUMBERS and not box.marks):
+    if (box.name in _NUMBERS and not box.marks) or any(
+        {box.name, stem} & said for said in (known.letters, known.numbers)
+    ):
         return True
     if stem in known.matrices:
         return False
@@ -509,14 +512,15 @@ def _look_at_derivative(fraction: Box, after: Box | None, found: Notation) -> No
 
 
 def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notation) -> None:
-    stem, sup = stem_of(box), without_thin(box.sup or [])
+    stem, sup = stem_of(box), without_thin(box.sup) if box.sup else []
     if is_printed_as_vector(box):
         found.arrows.add(box.name)
     if "hat" in box.marks and box.name.isupper() and not is_printed_as_vector(box):
         found.seen.add("operators")
-    if any(mark.endswith("dot") for mark in box.marks):
+    dotted = bool(box.marks) and any(mark.endswith("dot") for mark in box.marks)
+    if dotted:
         found.seen.add("dot")
-    if box.primes or any(mark.endswith("dot") for mark in box.marks):
+    if box.primes or dotted:
         found.differentiated.add(stem)
     if box.primes > 1:
         found.twice.add(stem)
