@@ -229,8 +229,8 @@ def check_command(given: argparse.Namespace) -> int:
             say(f"{file}: {note}", 0)
         beside = Path(file).parent / "paper.toml"
         said = declared_notation(toml(beside).get("notation", {}), str(beside)) if beside.is_file() else None
-        with progress(2 * -(-len(source.equations) // EVERY)) as step:
-            found += [(file, each) for each in check_source(source, said, step)]
+        with progress(2 * -(-len(source.equations) // EVERY)) as begins:
+            found += [(file, each) for each in check_source(source, said, begins)]
     if given.json:
         several = len(given.sources) > 1
         rows = [each.as_data() | ({"file": str(source)} if several else {}) for source, each in found]
