@@ -6,7 +6,7 @@
 # which a shock carries $x$ anywhere, and whether $x$ ever turns back.
 #
 # **Assumptions.** Opposite spins, $G_1=G=-G_2$; the angle between the axes and their swing are small, the lean along the joint
-# line is not. Leading order, whose error is of second order in the angle.
+# line is not. Leading order, whose error is of second order in the angle; the slow frequency to the next order, too.
 #
 # **Notation.** $n$ the mean axis, which leans by $\beta$ along the joint line and is turned by $\alpha$ about it; $h$ half the
 # angle between the axes; $a$, $b$ the inertias with the bar's share, $\sigma=(a+b)/(a-b)$, $k=\ell/R$; $P$ the momentum about
@@ -28,10 +28,16 @@ from lagrotor.pair import leaning_frame, leaning_lagrangian, link_constraint
 from lagrotor.pair.notation import G_1, G_2, HALF, LEAN, LEANING, SWING, G, P, a, b, k, r0, sigma
 from lagrotor.paper import Formula, Remark, prove
 from lagrotor.theory import (
+    SWING_LETTERS,
     averaged_hamiltonian,
     growth_squared,
+    next_average,
+    next_brackets,
+    oscillating_hamiltonian,
+    over_swing,
     quartic_lagrangian,
     quartic_routhian,
+    shift_coefficient,
     slow_frequency,
     slow_motion,
     slow_rates,
@@ -342,6 +348,113 @@ prove(
 # %% [markdown]
 # A push in one sense, $-\kappa s^2<d<\sqrt{3/2}\,s^2$, holds the precession of any bar; in the other it does not.
 #
+# ## The next order
+#
+# With $a+b=1$, $1/\sigma=r^2$ and $\Omega_0=1$ the Hamiltonian is $H=I+H_4+H_5+H_6+\dots$ of the centre $(\beta_s,2r\eta)$ and of
+# the swing's phase and action $(\Phi,I)$, $I=r^2s^2$, all of it at $\beta=\beta_s+\delta$, $\delta=r\,s\cos\Phi$. What $H_4$
+# lacks of its mean moves the centre and the action by $\chi$, $\partial\chi/\partial\Phi=H_4-\langle H_4\rangle$, and leaves of
+# sixth order
+#
+# $$\Big\langle H_6+\delta\,\partial_\beta H_5+\tfrac12\delta^2\,\partial_\beta^2H_4\Big\rangle
+# -\tfrac12\,\frac{\partial}{\partial I}\big\langle(H_4-\langle H_4\rangle)^2\big\rangle.$$
+#
+# The bracket of $H_4$ with $\chi$ in the centre is of seventh order, and so is that of $H_4$ with $H_5$; the mean of $H_5$ is
+# zero. `next_average` holds the sum, $W_6$ in the units of $W$, at any lean; its parts in $s$ alone move nothing.
+
+# %%
+H_4, H_5, _ = oscillating_hamiltonian()
+tangent, _, _, p_push, sine, cosine = SWING_LETTERS
+root = sp.Symbol("r", positive=True)
+in_units = [(P, p_push * G / k), *shape.items(), (G, 1 / sp.sqrt(sigma))]
+prove(
+    over_swing(H_4).as_expr().subs({root: 1 / sp.sqrt(sigma), tangent: sp.sin(LEAN) / sp.cos(LEAN)}),
+    mean.subs(in_units),
+    "the mean of fourth order in these units",
+    names=r"\langle H_4\rangle",
+)
+
+# %%
+prove(over_swing(H_5).as_expr(), 0, "the fifth has none", names=r"\langle H_5\rangle")
+
+# %% [markdown]
+# Beside the paired precession of amplitude $r_0$, $\beta_s=\eta=0$. It does not turn, $\partial(W+W_6)/\partial p=0$:
+
+# %%
+both = W.subs(P, G * p_push / k).subs(shape) + next_average()
+at_rest = both.diff(p_push).subs(still)
+own = SWING**2 - (k**2 - 1) / (2 * k**2) * SWING**4
+prove(
+    sp.series(at_rest.subs(p_push, own), SWING, 0, 6).removeO(),
+    0,
+    "its own momentum, to the next order p = s² − (k² − 1) s⁴/(2 k²)",
+    names=r"\partial_p(W+W_6)",
+)
+
+# %% [markdown]
+# Its largest lean, at $\Phi=0$, is $\arcsin r_0=r s-(H_4-\langle H_4\rangle)/(2rs)+\partial_\eta\chi/(2r)$:
+
+# %%
+wave = {sine: sp.sin(Phi), cosine: sp.cos(Phi), tangent: 0}
+uneven = sp.expand((H_4 - over_swing(H_4)).as_expr())
+slope = sp.expand(uneven.diff(HALF).subs({**wave, HALF: 0}))
+chi_eta = sp.integrate(slope, Phi)
+chi_eta = (chi_eta - sp.integrate(chi_eta, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi)).subs(Phi, 0)
+farther = (uneven.subs({sine: 0, cosine: 1, tangent: 0, HALF: 0}) / SWING - chi_eta) / (2 * root)
+prove(
+    sp.expand(farther).subs(root, 1 / sp.sqrt(sigma)),
+    SWING * sp.sqrt(sigma) / 48 * ((23 / sigma - 13 + 3 / (k**2 * sigma)) * SWING**2 - 36 * p_push / (k**2 * sigma)),
+    "by how much r s is more than the largest lean",
+    names="r s-\\arcsin r_0",
+)
+
+# %% [markdown]
+# So $r^2s^2=r_0^2+\tfrac13r_0^4+2r_0\,(rs-\arcsin r_0)$, and $p$ is that of no push, which has another $s$, and $d$. In the slow
+# frequency's brackets, with $s_0^2=\sigma r_0^2$ and $d$ of one order:
+
+# %%
+square, small = sp.Symbol("s_2", positive=True), sp.Symbol("epsilon", positive=True)  # s_0², and what counts orders
+
+
+def swing_squared(p_now: sp.Expr) -> sp.Expr:
+    """s² of the amplitude r_0, to the next order."""
+    r_0 = root * sp.sqrt(square)
+    more = farther.subs({p_push: p_now, SWING: sp.sqrt(square)})
+    return sp.expand((r_0**2 + r_0**4 / 3 + 2 * r_0 * more) / root**2)
+
+
+counted = {square: small * square, push: small * push}
+p_all = sp.expand(own.subs(SWING, sp.sqrt(swing_squared(square))) + push)
+orbit = {p_push: p_all.subs(counted), SWING: sp.sqrt(swing_squared(square + push).subs(counted))}
+brackets = []
+for q, unit in ((LEAN, -2), (HALF, -sp.Rational(1, 2))):
+    curvature = both.diff(q, 2).subs(still).subs(sigma, 1 / root**2)
+    series = sp.series(sp.expand(curvature.subs(orbit, simultaneous=True)), small, 0, 4).removeO()
+    brackets.append([sp.expand(unit * series.coeff(small, n).subs(root, 1 / sp.sqrt(sigma))) for n in (1, 2, 3)])
+F_6, L_4 = next_brackets(square, push, sigma, k**2)
+heavy = (sigma - 1) * k**2 / 2
+prove(
+    (brackets[0][1], brackets[0][2], brackets[1][0], brackets[1][1]),
+    (sp.Rational(3, 2) * square**2 - push**2, F_6, push + heavy * square, L_4),
+    "the brackets, leading and next order",
+    names=("F_4", "F_6", "L_2", "L_4"),
+)
+
+# %% [markdown]
+# Without a push the product is, per radian of the phase, the next order of the growth that t5 derives from the orbit itself:
+
+# %%
+F, L = sp.Rational(3, 2) * square**2 + F_6, heavy * square + L_4
+per_radian = 1 - 2 * shift_coefficient(sigma, k, 1) * r0**2
+both_orders = -F * L * per_radian / (4 * k**4 * sigma)
+from_orbit = growth_squared(8).expressions[0]
+prove(
+    sp.expand(both_orders.subs(push, 0).subs(square, sigma * r0**2)).coeff(r0, 8),
+    sp.expand(from_orbit).coeff(r0, 8),
+    "the growth of t5 in r_0⁸",
+    names=r"[r_0^8]\,\lambda^2",
+)
+
+# %% [markdown]
 # ## Measured on exact runs
 #
 # Parameters used nowhere else.
@@ -378,37 +491,36 @@ Remark(
 )
 
 # %%
-AMPLITUDES = (0.04, 0.055, 0.075)
+AMPLITUDES = (0.05, 0.07, 0.1)
 
 
 def apart_from(link: Link, share: float, change: float = 0.0) -> list[float]:
-    """Relative distance of the law's frequency² from the exact multipliers', for d = share s²; `change` of the 3/2 as a twin."""
+    """Relative distance of the law's frequency² from the exact multipliers', for d = share s²; by `change` r0² more as a twin."""
     distances = []
     for amplitude in AMPLITUDES:
         scene = Scene((SPIN, -SPIN), link=link)
         momentum = share * scene.sigma * amplitude**2 * scene.momenta[0] / scene.k
-        orbit = floquet(scene, amplitude, momentum)
-        exact = (orbit.turning**2 - orbit.growth**2) * (orbit.frequency / (2 * np.pi)) ** 2
-        law = (slow_frequency(scene, amplitude, momentum) ** 2).real * (1.5 + change - share**2) / (1.5 - share**2)
+        exact = (floquet(scene, amplitude, momentum).slow_frequency ** 2).real
+        law = (slow_frequency(scene, amplitude, momentum) ** 2).real * (1 + change * amplitude**2)
         distances.append(abs(law / exact - 1))
     return distances
 
 
 CASES = {
     "heavy bar, no push": (Link(1.25, 0.9, 0.05), 0.0),
-    "heavy bar, pushed": (Link(1.25, 0.9, 0.05), -0.45),
+    "heavy bar, pushed": (Link(1.25, 0.9, 0.05), 0.3),
     "light bar, pushed": (Link(0.85, 0.01, 0.1), 0.6),
 }
 orders = {name: measured_order(AMPLITUDES, apart_from(*case)) for name, case in CASES.items()}
-failing = measured_order(AMPLITUDES, apart_from(*CASES["heavy bar, pushed"], 0.1))
-assert all(abs(order - 2) < 0.1 for order in orders.values()), orders
-assert failing < 0.5
+failing = measured_order(AMPLITUDES, apart_from(*CASES["heavy bar, pushed"], 1.0))
+assert all(abs(order - 4) < 0.1 for order in orders.values()), orders
+assert failing < 2.5
 Remark(
     "The slow frequency under a push",
     "Against Floquet multipliers of exact orbits that close up to a turn about the joint line: the relative error of its square "
     "falls as the amplitude to the "
     + ", ".join(f"{order:.2f} ({name})" for name, order in orders.items())
-    + f"; with 1.6 s⁴ for 3/2 s⁴ it does not fall ({failing:.2f}).",
+    + f"; with another coefficient of the next order to the {failing:.2f}.",
 )
 
 # %%

@@ -88,7 +88,7 @@ CAPTION = (
     "bar of 12 kg, beyond the threshold from which x turns back; the curves of the same value at large lean are not reached. "
     "Right: square of the slow frequency beside the paired "
     f"precession of r₀ = {R0}, massless bar, against a push d = k P/G about the joint line, in units of g² s⁶; exact multipliers "
-    f"are off by at most {_apart:.2f} of the largest. Negative: a neighbour grows."
+    f"are off by at most {1e4 * _apart:.1f}×10⁻⁴ of the largest. Negative: a neighbour grows."
 )
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lagrotor.models.model import conservation_defect as conservation_defect
     from lagrotor.models.orbits.continuation import OrbitFamily as OrbitFamily
     from lagrotor.models.orbits.continuation import trace_family as trace_family
+    from lagrotor.models.orbits.floquet import slow_frequency_error as slow_frequency_error
     from lagrotor.models.orbits.periodic_orbit import fourier_orbit as fourier_orbit
     from lagrotor.models.orbits.periodic_orbit import parting as parting
     from lagrotor.models.orbits.shooting import UprightOrbit as UprightOrbit

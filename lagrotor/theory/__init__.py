@@ -6,11 +6,16 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.theory.averaged_motion import SlowMotion as SlowMotion
+    from lagrotor.theory.averaged_motion import next_brackets as next_brackets
     from lagrotor.theory.averaged_motion import slow_frequency as slow_frequency
     from lagrotor.theory.averaged_motion import slow_motion as slow_motion
     from lagrotor.theory.averaged_motion import time_to_reach as time_to_reach
     from lagrotor.theory.averaged_motion import turns_back as turns_back
+    from lagrotor.theory.averaging import SWING_LETTERS as SWING_LETTERS
     from lagrotor.theory.averaging import averaged_hamiltonian as averaged_hamiltonian
+    from lagrotor.theory.averaging import next_average as next_average
+    from lagrotor.theory.averaging import oscillating_hamiltonian as oscillating_hamiltonian
+    from lagrotor.theory.averaging import over_swing as over_swing
     from lagrotor.theory.averaging import quartic_lagrangian as quartic_lagrangian
     from lagrotor.theory.averaging import quartic_routhian as quartic_routhian
     from lagrotor.theory.averaging import slow_rates as slow_rates

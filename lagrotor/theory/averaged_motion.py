@@ -16,7 +16,7 @@ if (sigma − 1) k² > 3 + sqrt(3/2); for less, x grows until bar and axes come 
 from dataclasses import dataclass
 from functools import cached_property
 from math import acos, asin, copysign, cos, hypot, inf, pi, sqrt, tan
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from lagrotor.theory.shock_response import shock_response
 
 # (|eta| + s)/(k cos beta), the sine of the bar's tilt, beyond which no expansion in it is made.
 FARTHEST_TILT = 0.5
+LARGEST_SHARE = 0.5  # of the leading order, that the next one may be
 
 
 class _Leg(NamedTuple):
@@ -222,35 +223,62 @@ def turns_back(scene: Scene) -> bool:
     return slow_motion(scene).farthest < pi / 2
 
 
+def next_brackets(s2: Any, d: Any, sigma: Any, k2: Any) -> tuple[Any, Any]:
+    """(F_6, L_4) of `slow_frequency`, of numbers or symbols.
+
+    Args:
+        s2: s² = sigma r0².
+        d: the push.
+        sigma: shape of the bar.
+        k2: k².
+    """
+    cubic = (3 / sigma + 10 - 8 * sigma) * k2 - 12, 8 * k2 / sigma + 14, (4 / sigma + 2) * k2 + 8
+    square = (8 / sigma + 15 - 54 * sigma + 31 * sigma**2) * k2 + 6 / sigma - 21 + 51 * sigma
+    F_6 = s2 * (cubic[0] * s2**2 - cubic[1] * d * s2 - cubic[2] * d**2) / (4 * k2)
+    L_4 = ((k2 / sigma - k2 + 4) * d**2 - 4 * (k2 / sigma - 2) * d * s2) / (4 * k2) - square * s2**2 / 48
+    return F_6, L_4
+
+
 def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
     """Slow angular frequency (rad/s) of the motion beside the paired precession of amplitude r0: imaginary where it grows.
 
     With s² = sigma r0², d = k momentum/G, kappa = (sigma − 1) k²/2 and g = G/(2 (a + b) k²),
 
-        frequency² = g² (3 s⁴/2 − d²) (d + kappa s²),
+        frequency² = g² F L,    F = 3 s⁴/2 − d² + F_6,    L = d + kappa s² + L_4,
 
-    to leading order where r0² and d are small alike: the relative error is of second order in r0, but where a bracket nearly
-    vanishes, and is large at short bars, growing with 1 + 1/k²: there take lagrotor.floquet.
+        4 k² F_6 = s² ((3 k²/sigma + 10 k² − 8 k² sigma − 12) s⁴ − (8 k²/sigma + 14) d s² − (4 k²/sigma + 2 k² + 8) d²),
+
+        48 k² L_4 = 12 (k²/sigma − k² + 4) d² − 48 (k²/sigma − 2) d s²
+                    − (8 k⁴/sigma + 15 k⁴ − 54 k⁴ sigma + 31 k⁴ sigma² + 6 k²/sigma − 21 k² + 51 k² sigma) s⁴.
+
+    The relative error of a bracket is of fourth order in r0 where r0² and d are small alike; that of the frequency, which
+    `lagrotor.models.slow_frequency_error` measures, is large where a bracket nearly vanishes.
 
     Args:
         scene: with opposite spins and a bar.
-        momentum: P about the joint line beyond the paired precession's own sigma G r0²/k (kg m²/s): a push, by which the pair
-            turns.
+        momentum: P about the joint line beyond the own one of the paired precession of this r0 (kg m²/s): a push, by which the
+            pair turns.
 
     Raises:
         InputError: unless the spins are opposite and there is a bar.
-        DomainError: unless |r0| <= 0.4 and |d| <= 0.16.
+        DomainError: where F_6 and L_4 are more than half of what F and L are with all their leading terms positive, and s² for
+            kappa s² where that is larger.
     """
     amplitude = amplitude_of(r0, "slow_frequency")
     push = finite_number(momentum, "slow_frequency: momentum", "kg m²/s")
     if not isinstance(scene, Scene) or scene.link is None or sum(scene.spins) != 0 or scene.spins[0] == 0:
         raise InputError(f"slow_frequency: {scene!r} needs a bar and opposite spins")
-    if not abs(amplitude) <= LARGEST_SWING.value:
-        raise DomainError(f"slow_frequency: r0 = {r0:g} is beyond {LARGEST_SWING.value:g}; use lagrotor.floquet")
-    swing = sqrt(scene.sigma) * abs(amplitude)
-    one = _motion(scene, 0.0, 0.0, swing, 0.0)
-    push *= scene.k / scene.momenta[0]
-    if not abs(push) <= LARGEST_SWING.value**2:
-        raise DomainError(f"slow_frequency: k momentum/G = {push:.3g} is beyond {LARGEST_SWING.value**2:g}")
-    squared = (1.5 * swing**4 - push**2) * (push + one.weight * swing**2)
+    sigma, k2 = scene.sigma, scene.k**2
+    s2, d = sigma * amplitude**2, push * scene.k / scene.momenta[0]
+    one = _motion(scene, 0.0, 0.0, sqrt(s2), 0.0)
+    F_6, L_4 = next_brackets(s2, d, sigma, k2)
+    sizes = 1.5 * s2**2 + d**2, abs(d) + max(1.0, abs(one.weight)) * s2
+    share = max((abs(n) / size for n, size in zip((F_6, L_4), sizes, strict=True) if n), default=0.0)
+    if not share <= LARGEST_SHARE:
+        raise DomainError(
+            f"slow_frequency: r0 = {r0:g} with k momentum/G = {d:.3g} is beyond the law's range: at k = {scene.k:.3g}, "
+            f"sigma = {sigma:.3g} the next order is {share:.2g} of the leading one, more than {LARGEST_SHARE:g}; use "
+            "lagrotor.floquet"
+        )
+    squared = (1.5 * s2**2 - d**2 + F_6) * (d + one.weight * s2 + L_4)
     return abs(one.rate) * complex(squared) ** 0.5

@@ -269,7 +269,7 @@ PAST = [
     ("t10", "the paper's A is not: it swings as the square of the amplitude",
      lambda d: abs(d["power of A's swing"] - 2) < 0.1 and d["A"].min() > 1e-3, ("A", lambda swings: swings**1.5)),
     ("t11", "an exact run stays by its curve, and exact multipliers by the law", lambda d:
-     d["largest distance from the curve"] < 0.15 and d["largest relative distance of the frequency squared"] < 0.15,
+     d["largest distance from the curve"] < 0.15 and d["largest relative distance of the frequency squared"] < 1e-3,
      ("half", wider(1.3))),
     ("t12", "exact orbits lie on both laws", lambda d:
      d["largest distance, shift"] < 0.02 and d["largest distance, drift"] < 0.02, ("exact shift", wider(1.05))),

@@ -77,8 +77,11 @@ def extrapolated_step(rate: Callable[[Any], Any], y: Any, first: Any, step: Any)
     return table[-1]
 
 
-def exact_orbits(found: Sequence[Found], amplitudes: Sequence[float], steps: int = 40) -> Orbits:
-    """The orbits of those amplitudes, from the found ones; half the steps leave 10⁻¹¹ of mu + 1/mu near a family's end."""
+def exact_orbits(found: Sequence[Found], amplitudes: Sequence[float], steps: int = 40, turning: bool = False) -> Orbits:
+    """The orbits of those amplitudes, from the found ones; half the steps leave 10⁻¹¹ of mu + 1/mu near a family's end.
+
+    turning: of the found ones' rates of turning about the joint line at Phi = 0, up to which they close.
+    """
     kinds: dict[Any, list[int]] = {}
     for i, (scene, _) in enumerate(found):
         kinds.setdefault(MODEL.kind(scene, False)[0], []).append(i)
@@ -86,13 +89,14 @@ def exact_orbits(found: Sequence[Found], amplitudes: Sequence[float], steps: int
     for kind, alike in kinds.items():
         for begin in range(0, len(alike), TOGETHER):
             those = alike[begin : begin + TOGETHER]
-            parts.append(_of_one_kind(kind, [found[i] for i in those], radii[those], steps))
+            parts.append(_of_one_kind(kind, [found[i] for i in those], radii[those], steps, turning))
             places += those
     order = np.argsort(places)
     return Orbits(*(np.concatenate(part)[order] for part in zip(*parts, strict=True)))
 
 
-def _of_one_kind(kind: tuple[Any, ...], found: Sequence[Found], amplitudes: Any, steps: int) -> Orbits:
+def _of_one_kind(kind: tuple[Any, ...], found: Sequence[Found], amplitudes: Any, steps: int, turning: bool) -> Orbits:
+    rows, free = ([0, 4], [4]) if turning else ([0, 2, 4], [4, 5])
     n, rate = len(found), rate_of(kind)
     parameters = np.array([MODEL.kind(scene, False)[1] for scene, _ in found], Long).T
     z = np.array([MODEL.start(scene)[[0, 4, 5]] for scene, _ in found], Long)
@@ -105,15 +109,12 @@ def _of_one_kind(kind: tuple[Any, ...], found: Sequence[Found], amplitudes: Any,
             y = states[-1]
             states.append(extrapolated_step(lambda y: rate(y, parameters), y, rate(y, parameters), time / steps))
         end, slope = states[-1][:6].T, states[-1][6:].reshape(6, 6, n).transpose(2, 0, 1)
-        rows = [0, 2, 4]
-        moved = np.stack(
-            [*slope[:, rows][:, :, [4, 5]].transpose(2, 0, 1), rate(states[-1], parameters)[rows].T], axis=2
-        )
+        moved = np.stack([*slope[:, rows][:, :, free].transpose(2, 0, 1), rate(states[-1], parameters)[rows].T], axis=2)
         step = -np.linalg.solve(moved.astype(float), end[:, rows, None].astype(float))[..., 0]
-        if np.abs(step / np.stack([z[:, 1], time, time], axis=1)).max() < SMALL:
+        if np.abs(step / np.stack([z[:, 1], *[time] * len(free)], axis=1)).max() < SMALL:
             break
-        z[:, 1:] += step[:, :2]
-        time = time + step[:, 2]
+        z[:, 1 : len(rows)] += step[:, :-1]
+        time = time + step[:, -1]
     else:
         raise AssertionError("Newton's method does not end")
     half, known = np.zeros_like(slope), slope.astype(float)

@@ -62,6 +62,7 @@ MUTANTS = [
     ("t11_slow_motion", "return -sum((spin * r.dot", "return sum((spin * r.dot"),
     ("t11_slow_motion", "sp.Rational(3, 8) * SWING**4) / c - kappa", "sp.Rational(1, 8) * SWING**4) / c - kappa"),
     ("t11_slow_motion", "threshold = 1 + 2 / att**2 + sp.sqrt", "threshold = 1 + 1 / att**2 + sp.sqrt"),
+    pytest.param("t11_slow_motion", "own = SWING**2 - (k**2", "own = SWING**2 + (k**2", marks=pytest.mark.slow),
     ("t12_unequal_spins", "law -= share**2", "law += share**2"),
     (
         "t12_unequal_spins",

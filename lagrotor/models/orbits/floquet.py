@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
 from lagrotor.models.minimal import MODEL, scene_at
-from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
+from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import close_arc, flow
 from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
+from lagrotor.theory.averaged_motion import slow_frequency
 
 Array = NDArray[np.float64]
 # Bound of the trace's error, relative to the size of the monodromy; held by tests/theory/test_paired_stability.py.
@@ -61,6 +62,13 @@ class Floquet(Shown):
         }
 
     @property
+    def slow_frequency(self) -> complex:
+        """Of the motion beside the orbit (rad/s), imaginary where it grows; real up to half the orbit's, known to
+        exponent_error · |frequency| / 2 pi."""
+        angle = self.turning or pi * (self.pair_sum < -2)
+        return abs(self.frequency) / (2 * pi) * complex(angle, self.growth)
+
+    @property
     def exponent_error(self) -> float:
         """Bound of the error of growth and turning, rad a turn: d log mu = d(mu + 1/mu) / |mu − 1/mu|, or the root of twice the
         sum's where the kind is unresolved and both are given as zero."""
@@ -85,6 +93,22 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     return floquet_of(_pushed(orbit, momentum) if momentum else orbit)
 
 
+def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> float:
+    """How far (rad/s, in the complex plane) `slow_frequency` is from the exact orbit's, whose error is added.
+
+    Args:
+        scene: as in `slow_frequency`.
+        r0: amplitude.
+        momentum: as there, kg m²/s.
+
+    Raises:
+        InputError: as `slow_frequency`.
+        DomainError: likewise, and where no orbit is found.
+    """
+    law, orbit = slow_frequency(scene, r0, momentum), floquet(scene, r0, momentum)
+    return abs(law - orbit.slow_frequency) + orbit.exponent_error * abs(orbit.frequency) / (2 * pi)
+
+
 def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
     """The orbit of the same amplitude with more momentum about the joint line: chi' at the start and the quarter's time,
     by Newton's method, for U = chi' = 0 at its end. At the start P = 2 (a + b) (1 − x²) alpha'."""
@@ -92,7 +116,10 @@ def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
     inertia = 2 * sum(scene.inertias) * (1 - scene.axes[0][0] ** 2)
     start = start + np.array([0, 0, 0, 0, 0, momentum / inertia])
     turn = 2 * pi / abs(orbit.frequency)
-    start, time = close_arc(flow(scene), start, [4], turn / 4, [0, 4], np.zeros(2), 10 * turn)
+    try:
+        start, time = close_arc(flow(scene), start, [4], turn / 4, [0, 4], np.zeros(2), turn / 2)
+    except FAILURES:  # an arc of Newton's method ends where bar and axes come into line
+        time = 0.0
     if time:
         return replace(orbit, scene=scene_at(scene, start), frequency=copysign(pi / 2 / time, orbit.frequency))
     raise DomainError(f"floquet: no orbit with a momentum of {momentum:g} kg m²/s is found; take a smaller one")
