@@ -31,10 +31,10 @@ class Throughput:
     against: str
 
 
-def displaced_family(n: int, r0: float = 0.204) -> list[Scene]:
-    """n opposite pairs displaced from the paired precession: its start at `r0` scaled from a quarter to one and a half."""
+def displaced_family(n: int) -> list[Scene]:
+    """n opposite pairs displaced from the paired precession: its start at r₀ = 0.204 scaled from a quarter to one and a half."""
     scene = Scene((10.0, -10.0))
-    return scenes_from_states(scene, np.linspace(0.25, 1.5, n)[:, None] * MODEL.start(exact_orbit(scene, r0).scene))
+    return scenes_from_states(scene, np.linspace(0.25, 1.5, n)[:, None] * MODEL.start(exact_orbit(scene, 0.204).scene))
 
 
 def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughput]:

@@ -43,44 +43,39 @@ def solve_constrained(M: Array, h: Array, G: Array, gamma: Array, Q: Array) -> t
 
 
 _ROUNDING = 4 * float(np.finfo(float).eps)
+_SHORT, _STEPS = 1e-14, 20  # of Newton's method: a step that is none, and when it is given up
 
 
 def project_position(
-    g_fun: Callable[[Array], Array],
-    G_fun: Callable[[Array], Array],
-    q: Array,
-    mass: Array | None = None,
-    tol: float = 1e-14,
-    max_steps: int = 20,
+    g_fun: Callable[[Array], Array], G_fun: Callable[[Array], Array], q: Array, mass: Array | None = None
 ) -> Array:
     """The configuration with g = 0 reached from q by Newton's method along M⁻¹ Gᵀ: q ← q − M⁻¹ Gᵀ S⁻¹ g.
 
-    To first order in the distance it is the nearest one in the mass metric.
+    To first order in the distance it is the nearest one in the mass metric. The steps end when one is shorter than
+    10⁻¹⁴ (1 + |q|), a length in q, whatever the units of g, or when g is below the rounding of its terms, 4 eps |G| |q|: beside
+    dependent constraints that rounding alone moves q by more.
 
     Args:
         g_fun: q → g, (k,).
         G_fun: q → G, (k, n).
         q: where it begins, (n,).
         mass: M, (n, n); 1 when none is given.
-        tol: the steps end when one is shorter than tol (1 + |q|), a length in q, whatever the units of g, or when g is below
-            the rounding of its terms, 4 eps |G| |q|: beside dependent constraints that rounding alone moves q by more than tol.
-        max_steps: after which it is given up.
 
     Raises:
-        ConstraintError: with the residual left after max_steps.
+        ConstraintError: with the residual left after 20 steps.
         SingularError: where the rows of G are dependent.
     """
     start, q = q, np.array(q, dtype=float)
-    for _ in range(max_steps):
+    for _ in range(_STEPS):
         G, g = G_fun(q), g_fun(q)
         W, S = _normals("project_position", G, mass)
         step = W @ np.linalg.solve(S, g)
         below_rounding = bool((np.abs(g) <= _ROUNDING * (np.abs(G) @ np.abs(q))).all())
         q = q - step
-        if below_rounding or np.linalg.norm(step) <= tol * (1 + np.linalg.norm(q)):
+        if below_rounding or np.linalg.norm(step) <= _SHORT * (1 + np.linalg.norm(q)):
             return q
     raise ConstraintError(
-        f"project_position: |g| = {np.linalg.norm(g_fun(q)):.3g} left after {max_steps} steps from q = {start}: "
+        f"project_position: |g| = {np.linalg.norm(g_fun(q)):.3g} left after {_STEPS} steps from q = {start}: "
         "Newton's method has not reached the constraints; start nearer to them"
     )
 

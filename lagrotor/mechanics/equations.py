@@ -84,11 +84,10 @@ class Equations:
                 f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
                 "coordinate; give 0 where no force acts"
             )
-        acting = (*self.constraints, *self.rolling, self.dissipation, *self.forces)
-        no_coordinate("System: a force or a constraint", acting, (*self.c.q, *self.c.v, *self.c.a))
+        no_coordinate("System: a force or a constraint", self.acting, (*self.c.q, *self.c.v, *self.c.a))
         check_names("System", *self._letters)
         self._check_symbols()
-        self._check_reactions(acting)
+        self._check_reactions()
         if not self.bodies:
             object.__setattr__(self, "lagrangian", self.L)  # now; an energy of bodies is written out when it is needed
         _ = self.kinematics
@@ -179,12 +178,17 @@ class Equations:
             )
         check_friction("System", self.dissipation, self.c)
 
-    def _check_reactions(self, acting: Sequence[sp.Expr]) -> None:
+    @property
+    def acting(self) -> tuple[sp.Expr, ...]:
+        """Constraints, rolling, friction and forces."""
+        return (*self.constraints, *self.rolling, self.dissipation, *self.forces)
+
+    def _check_reactions(self) -> None:
         """Raise InputError for a reaction of no constraint, or one that stands elsewhere than in forces and dissipation."""
         names = self.multiplier_names
         places = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
         elsewhere = self.letters.union(*(e.free_symbols for e in places))
-        for s in sorted(set().union(elsewhere, *(e.free_symbols for e in acting)), key=str):
+        for s in sorted(set().union(elsewhere, *(e.free_symbols for e in self.acting)), key=str):
             name = str(s)[len("reaction(") : -1] if str(s).startswith("reaction(") else None
             if name is not None and (s in elsewhere or name not in names):
                 what = "stands in forces and dissipation alone" if name in names else "is of none of the constraints"
@@ -200,16 +204,8 @@ class Equations:
     @property
     def _letters(self) -> tuple[Any, ...]:
         """What shares the letters of the system."""
-        acting = (self.constraints, self.rolling, self.dissipation, self.forces)
-        return (
-            self.c.q,
-            self.c.v,
-            self.c.a,
-            t,
-            acting,
-            self.velocities,
-            self.letters if self.bodies else (),
-        )
+        moving = self.c.q, self.c.v, self.c.a, t
+        return *moving, self.acting, self.velocities, self.letters if self.bodies else ()
 
     @cached_property
     def letters(self) -> set[sp.Symbol]:
@@ -304,8 +300,7 @@ class Equations:
         forces have that: the multipliers in `motion` and `power`."""
         names = [name.replace(" ", "_") for name in self.multiplier_names]
         names = names if len({*names}) == len(names) else list(self.multiplier_names)
-        acting = (*self.constraints, *self.rolling, self.dissipation, *self.forces)
-        letters = self.letters.union(self.c.q, self.c.v, self.c.a, *(e.free_symbols for e in acting))
+        letters = self.letters.union(self.c.q, self.c.v, self.c.a, *(e.free_symbols for e in self.acting))
         stem = "Lambda" if {f"lambda_{name}" for name in names} & {str(s) for s in letters} else "lambda"
         plain = (sp.Symbol(f"{stem}_{name}", real=True) for name in names)
         return tuple(own if own in letters else s for own, s in zip(self.reactions, plain, strict=True))

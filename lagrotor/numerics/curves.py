@@ -96,7 +96,7 @@ def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
     return Harmonics(rate, parts[0], parts[1], parts[2::2] - 1j * parts[3::2], columns - table @ parts)
 
 
-def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: float = 1.3, count: int = 2) -> Harmonics:
+def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: float = 1.3) -> Harmonics:
     """The fit that leaves least.
 
     Its rate is sought on a grid, five cells to a turn of the phase over the whole run; then within the best cell and its
@@ -108,12 +108,11 @@ def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: flo
         guess: of the rate, rad/s.
         low: times the guess, from which it is sought.
         high: times the guess, to which.
-        count: of harmonics.
     """
     from scipy.optimize import minimize_scalar
 
     def left(rate: float) -> float:
-        return harmonics_at(t, x, rate, count).left
+        return harmonics_at(t, x, rate).left
 
     step = 2 * np.pi / (t[-1] - t[0]) / 5  # a fifth of what takes the phase once round over the run
     grid = np.append(np.arange(low * guess, high * guess, step), high * guess)
@@ -121,4 +120,4 @@ def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: flo
     minimum = minimize_scalar(
         left, bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-7 * guess}
     )
-    return harmonics_at(t, x, float(minimum.x), count)
+    return harmonics_at(t, x, float(minimum.x))

@@ -50,17 +50,9 @@ class GeneratedFunction:
         return Path(str(sys.modules[self.derive.__module__].__file__)).with_name("generated.txt")
 
 
-_ALL: list[GeneratedFunction] = []
-
-
 def generated(kept: Iterable[tuple[Any, ...]]) -> Callable[[Callable[..., str]], GeneratedFunction]:
     """Mark a function that returns the source of another; `kept` as in `GeneratedFunction`."""
-
-    def mark(derive: Callable[..., str]) -> GeneratedFunction:
-        _ALL.append(GeneratedFunction(derive, tuple(kept)))
-        return _ALL[-1]
-
-    return mark
+    return lambda derive: GeneratedFunction(derive, tuple(kept))
 
 
 def function_of(source: str) -> Callable[..., Any]:
@@ -69,18 +61,6 @@ def function_of(source: str) -> Callable[..., Any]:
     exec(source, names)
     function: Callable[..., Any] = list(names.values())[-1]
     return function
-
-
-def files() -> dict[Path, str]:
-    """What is kept by the modules that are imported, derived anew: file → text, with the version of sympy that printed it."""
-    from sympy import __version__
-
-    blocks: dict[Path, str] = {}
-    for one in sorted(_ALL, key=lambda one: one.name()):
-        for given in one.kept:
-            block = f"# %% {one.name(*given)}\n{one.derive(*given)}\n\n"
-            blocks[one.file] = blocks.get(one.file, f"# sympy {__version__}\n\n") + block
-    return blocks
 
 
 @cache

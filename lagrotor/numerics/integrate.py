@@ -93,7 +93,7 @@ def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver 
                 problem.time_to_singular,
             )
             try:
-                part = (solver or _by_fastest)(segment, pulsed, tol)
+                part = (solver or by_fastest)(segment, pulsed, tol)
             except StopError as stop:
                 spent += stop.evaluations
                 reached = stop.reached or Stretch(np.empty((0, len(y))), y, 0)
@@ -135,7 +135,7 @@ class _Progress:
         return StopError(at, stop.reason, self.whole(), cause=stop.cause)
 
 
-def _by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
+def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     """A segment by the solver that is fastest at this tolerance; where that stops, DOP853 goes on for a while.
 
     The other one is tried again once DOP853 has taken as many evaluations as the last trial lost, and if it would take more than

@@ -23,15 +23,16 @@ def lsoda(segment: Segment, error: float) -> Stretch:
     if segment.project is None:
         return _lsoda(segment, error)
     parts, spent, left, y, longest_cut = [np.empty((0, len(segment.start)))], 0, segment.left, segment.start, np.inf
+
+    def stopped(reason: str, cause: Cause = "stopped") -> StopError:
+        return StopError(left, reason, _on_constraints(segment, parts, y, spent), cause=cause)
+
     while left < segment.right:
         if spent > segment.budget:
-            raise StopError(
-                left, f"{spent} evaluations spent", _on_constraints(segment, parts, y, spent), cause="budget"
-            )
+            raise stopped(f"{spent} evaluations spent", "budget")
         cut = min(5 / (replace(segment, left=left, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
         if cut < _LEAST_CUT * (segment.right - segment.left):
-            reason = "the next step might pass a singular position"
-            raise StopError(left, reason, _on_constraints(segment, parts, y, spent))
+            raise stopped("the next step might pass a singular position")
         right = left + cut if left + 1.5 * cut < segment.right else segment.right
         # A state with constraints moves no more than a fifth in a step, so that none leaps over where they fail.
         longest = min(segment.longest, cut / 25)
@@ -40,16 +41,14 @@ def lsoda(segment: Segment, error: float) -> Stretch:
             part, run = _up_to_singular(part, min(segment.budget - spent, _BUDGET_OF_A_PART), error)
             end, spent = segment.project(run.end), spent + run.evaluations + 1
             drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
-        except StopError as stopped:
-            drifted, spent = np.inf, spent + stopped.evaluations
+        except StopError as stop:
+            drifted, spent = np.inf, spent + stop.evaluations
             if cut < longest_cut / 2 or spent > segment.budget:
-                reached = _on_constraints(segment, parts, y, spent)
-                raise StopError(left, stopped.reason, reached, cause=stopped.cause) from None
+                raise stopped(stop.reason, stop.cause) from None
         if not drifted <= _DRIFT * error:  # what has grown so far would not be brought back to where it left
             longest_cut = cut / 8
             if longest_cut < 1e-6 * (segment.right - segment.left):
-                reason = "the constraints drift faster than they can be kept"
-                raise StopError(left, reason, _on_constraints(segment, parts, y, spent))
+                raise stopped("the constraints drift faster than they can be kept")
             continue
         parts.append(run.states)
         y, left, longest_cut = end, part.right, 1.5 * longest_cut

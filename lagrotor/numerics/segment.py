@@ -1,8 +1,8 @@
 """A segment of a run without an edge of a pulse inside, as a solver is given it, and the states that it returns."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +66,42 @@ WAYS_OUT = {
     "event": "",
     "stopped": "no step can be taken from there with this tolerance; end the run before, or take another tol",
 }
+
+
+def in_units(segment: Segment, scale: Array) -> Segment:
+    """The segment for the state z, y = scale z."""
+    project = segment.project
+    onto = None if project is None else lambda z: (project((z.T * scale).T).T / scale).T
+    return replace(segment, rhs=scaled_rhs(segment.rhs, scale), start=segment.start / scale, project=onto)
+
+
+def scaled_rhs(bare: RightHandSide, scale: Array) -> RightHandSide:
+    """The right-hand side for the state z, y = scale z."""
+    if (scale == 1).all():
+        return bare
+
+    def rate(s: float, z: Array) -> Any:
+        return (np.asarray(bare(s, z * scale)) / scale).tolist()
+
+    if inner := getattr(bare, "bare", None):
+        rate.bare = scaled_rhs(inner, scale)  # type: ignore[attr-defined]
+    return rate
+
+
+def by_units(solve: SegmentSolver, scale: Array) -> SegmentSolver:
+    """The solver, given each component of a segment's state over its scale (d,)."""
+
+    def to_units(part: Stretch) -> Stretch:
+        return replace(part, states=part.states * scale, end=part.end * scale)
+
+    def scaled(segment: Segment, pulsed: bool, local: float) -> Stretch:
+        try:
+            return to_units(solve(in_units(segment, scale), pulsed, local))
+        except StopError as stop:
+            stop.reached = stop.reached and to_units(stop.reached)
+            raise
+
+    return scaled
 
 
 def states_on_constraints(project: Projection | None, states: Array) -> Array:

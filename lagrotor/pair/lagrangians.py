@@ -90,9 +90,9 @@ def ansatz_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
     return first + _rotor_energy(inertia, theta_2, theta_2_v, -phi_v, -psi_v)
 
 
-def ansatz_integrals(inertia: sp.Expr = J) -> tuple[sp.Expr, sp.Expr]:
+def ansatz_integrals() -> tuple[sp.Expr, sp.Expr]:
     """(A, B) = (dL/dphi', dL/dpsi') of the ansatz Lagrangian (5.12, 5.13): exact for it, not for the pair with its bar."""
-    p = momenta(ansatz_lagrangian(inertia), ANSATZ)
+    p = momenta(ansatz_lagrangian(), ANSATZ)
     return p[2], p[3]
 
 

@@ -61,18 +61,18 @@ def arc(centre: ArrayLike, u: Array, v: Array, radius: float, begin: float, end:
     return np.asarray(centre, dtype=float) + radius * (np.cos(a) * u + np.sin(a) * v)
 
 
-def arc_between(u: Array, v: Array, radius: float, centre: ArrayLike = (0.0, 0.0, 0.0), n: int = 31) -> Array:
-    """Points (n, 3) of the arc of `radius` (m) about `centre` from the direction u to the direction v, unit vectors."""
+def arc_between(u: Array, v: Array, radius: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
+    """Points (31, 3) of the arc of `radius` (m) about `centre` from the direction u to the direction v, unit vectors."""
     angle = float(np.arccos(np.clip(u @ v, -1, 1)))
     across = v - (u @ v) * u
-    return arc(centre, u, across / np.linalg.norm(across), radius, 0.0, angle, n)
+    return arc(centre, u, across / np.linalg.norm(across), radius, 0.0, angle, 31)
 
 
 def draw_wheel(
-    axes: Axes, camera: Camera, rotation: Array, centre: Array, size: tuple[float, float], colour: str, spokes: int = 8
+    axes: Axes, camera: Camera, rotation: Array, centre: Array, size: tuple[float, float], colour: str
 ) -> None:
-    """A wheel of (radius, axle) in m carried by a body's rotation and centre, one spoke marked."""
-    points, segments = wheel(*size, spokes, 8)
+    """A wheel of eight spokes and (radius, axle) in m carried by a body's rotation and centre, one spoke marked."""
+    points, segments = wheel(*size, 8, 8)
     placed = place_points(points, rotation, centre)
     ends = camera(placed)[segments]
     near = camera.depth(placed)[segments].mean(1) >= camera.depth(centre)

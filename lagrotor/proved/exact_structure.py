@@ -1,7 +1,7 @@
 """A structure's equations of motion with exact numbers: what `written_out` writes for floats, recorded as stages."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from operator import add, mul, neg, sub, truediv
 from typing import Any
 
@@ -16,7 +16,8 @@ from lagrotor.numerics.recorded_numbers import Recorded, Term
 from lagrotor.proved.balls import rational
 from lagrotor.proved.statements import as_upright
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Coefficients, coefficients
+from lagrotor.structures.coefficients import Coefficients, coefficients_in
+from lagrotor.structures.exact.forces import off_constraints, rates_of_constraints
 from lagrotor.structures.exact.written_out import structure_accelerations
 
 _OPERATIONS: dict[str, Callable[..., sp.Expr]] = {
@@ -40,42 +41,12 @@ _numbers: Callable[[Any], Any] = np.vectorize(exact_number, otypes=[object])
 
 def exact_coefficients(s: Assembly) -> Coefficients:
     """`coefficients` in rationals. A brace's length is that of its ends, as a root."""
-    c = coefficients(s)
-    if c.hinge.any():
+    if any(s.hinge):
         raise InputError("proved: a hinge's moment θ/sin θ has no rigorous series here; leave the hinges out")
     if any(brace.along for brace in s.braces):
         raise InputError("proved: braces in guides are not taken: leave `along` out")
-    R, M, load = (
-        _numbers(x) if len(x) else c.R for x in ([r.length for r in s.rotor], [r.mass for r in s.rotor], s.load)
-    )
-    I1, I3 = (_numbers([getattr(r, name) for r in s.rotor]) for name in ("I1", "I3"))
-    A, S = I1 + M * R**2 / 4 + load * R**2, M * R / 2 + load * R
-    bars = [(int(i), int(j)) for i, j in zip(c.i, c.j, strict=True)]
-    lengths = [_bar(s, *bar) for bar in s.bars]
-    coupling = []
-    for (i, j), ell, link in zip(bars, lengths, s.link, strict=True):
-        m, K = exact_number(link.mass), exact_number(link.inertia) / ell**2
-        for end in (i, j):
-            A[end] += R[end] ** 2 * (m / 4 + K)
-            S[end] += R[end] * m / 2
-        coupling.append(R[i] * R[j] * (m / 4 - K))
-    return replace(
-        c,
-        R=R,
-        A=A,
-        S=S,
-        G=I3 * _numbers(s.spins),
-        decay=_numbers(s.spin_friction) / I3,
-        friction=_numbers(s.friction),
-        gravity=exact_number(s.gravity),
-        feet=_numbers(c.feet),
-        ell=np.array(lengths, dtype=object),
-        coupling=np.array(coupling, dtype=object),
-        brace_point=_numbers(c.brace_point) if len(c.brace_point) else c.brace_point,
-        brace_length=np.array([_length(c, k) for k in range(len(c.stiffness))], dtype=object),
-        stiffness=_numbers(c.stiffness) if len(c.stiffness) else c.stiffness,
-        damping=_numbers(c.damping) if len(c.damping) else c.damping,
-    )
+    ell = np.array([_bar(s, *bar) for bar in s.bars], dtype=object)
+    return coefficients_in(s, _numbers, ell, np.frompyfunc(sp.sqrt, 1, 1))
 
 
 def _bar(s: Assembly, i: int, j: int, ell: float) -> sp.Expr:
@@ -84,15 +55,6 @@ def _bar(s: Assembly, i: int, j: int, ell: float) -> sp.Expr:
         return exact_number(ell)
     ends = [[*map(exact_number, (*s.joints[k], s.rotor[k].length))] for k in (i, j)]
     return sp.sqrt(sum((x - y) ** 2 for x, y in zip(*ends, strict=True)))
-
-
-def _length(c: Coefficients, k: int) -> sp.Expr:
-    i, j = int(c.brace_tip[k]), int(c.brace_to[k])
-    start = [*map(exact_number, c.feet[i])]
-    start[2] += exact_number(c.R[i])
-    other = [*map(exact_number, c.brace_point[k])] if j < 0 else [*map(exact_number, c.feet[j])]
-    other[2] += exact_number(c.R[j]) if j >= 0 else 0
-    return sp.sqrt(sum((x - y) ** 2 for x, y in zip(start, other, strict=True)))
 
 
 def structure_coordinates(s: Assembly) -> Coordinates:
@@ -135,12 +97,5 @@ def _stages(
 
 
 def _held(c: Coefficients, letters: Coordinates) -> tuple[sp.Expr, ...]:
-    q, v = ([sp.Matrix(part[3 * i : 3 * i + 3]) for i in range(len(c.R))] for part in (letters.q, letters.v))
-    places = [(r.dot(r) - 1) / 2 for r in q]
-    rates = [r.dot(w) for r, w in zip(q, v, strict=True)]
-    for i, j, ell in zip(c.i.tolist(), c.j.tolist(), c.ell, strict=True):
-        d = sp.Matrix(c.feet[j]) - sp.Matrix(c.feet[i]) + c.R[j] * q[j] - c.R[i] * q[i]
-        swing = c.R[j] * v[j] - c.R[i] * v[i]
-        places.append((d.dot(d) - ell**2) / 2)
-        rates.append(d.dot(swing))
-    return (*places, *rates)
+    r, v = (np.array(part, dtype=object).reshape(-1, 3) for part in (letters.q, letters.v))
+    return (*off_constraints(c, r), *rates_of_constraints(c, r, v))

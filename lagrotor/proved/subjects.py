@@ -51,13 +51,13 @@ def of_structure(s: Assembly) -> Subject:
 
 def of_system(system: Equations, arguments: Sequence[str]) -> Subject:
     """The Lagrangian and what else acts, in words; letters: those that are in the words alone."""
-    acting = (*system.constraints, *system.rolling, *system.forces)
-    letters = set().union(*(map(str, e.free_symbols) for e in (system.L, system.dissipation, *acting)))
+    terms = system.L, *system.acting
+    letters = set().union(*(map(str, e.free_symbols) for e in terms))
     data: dict[str, Any] = {
         name: [str(e) for e in getattr(system, name)] for name in ("constraints", "rolling", "forces")
     }
     data |= {"L": str(system.L), "dissipation": str(system.dissipation), "letters": sorted(letters - {*arguments})}
-    known = _readable((system.L, system.dissipation, *acting), [*arguments, *data["letters"]])
+    known = _readable(terms, [*arguments, *data["letters"]])
     return {"Lagrangian": data} if known else None
 
 

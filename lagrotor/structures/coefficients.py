@@ -8,8 +8,10 @@ With r_i the unit vector of axis i and X_i = p_i + R_i r_i its tip, the kinetic 
 and the weight is sum_i g S_i z_i with S_i = M_i R_i/2 + load_i R_i + sum_bars m R_i/2.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,41 +85,46 @@ class Coefficients:
 @lru_cache(maxsize=64)
 def coefficients(s: Assembly) -> Coefficients:
     """The arrays of a structure."""
-    R = np.array([rotor.length for rotor in s.rotor])
-    load = np.array(s.load)
-    A = np.array([rotor.J for rotor in s.rotor]) + load * R**2
-    S = np.array([rotor.mass for rotor in s.rotor]) * R / 2 + load * R
-    I3 = np.array([rotor.I3 for rotor in s.rotor])
+    return coefficients_in(s, np.array, np.array([bar[2] for bar in s.bars], dtype=float), np.sqrt)
+
+
+def coefficients_in(
+    s: Assembly, numbers: Callable[[Any], Any], ell: Array, root: Callable[[Array], Array]
+) -> Coefficients:
+    """The same in numbers of any kind, but for hinges and guides. numbers: floats → an array; ell: the bars' lengths."""
+    M, R, I1, I3 = (numbers([getattr(rotor, name) for rotor in s.rotor]) for name in ("mass", "length", "I1", "I3"))
+    load = numbers(s.load)
+    A, S = I1 + M * R**2 / 4 + load * R**2, M * R / 2 + load * R
     i, j = (np.array([bar[end] for bar in s.bars], dtype=np.intp) for end in (0, 1))
-    ell = np.array([bar[2] for bar in s.bars], dtype=float)
-    m, K = (np.array([getattr(link, name) for link in s.link], dtype=float) for name in ("mass", "inertia"))
+    m, K = (numbers([float(getattr(link, name)) for link in s.link]) for name in ("mass", "inertia"))
     for end in (i, j):
         np.add.at(A, end, R[end] ** 2 * (m / 4 + K / ell**2))
         np.add.at(S, end, R[end] * m / 2)
     to = np.array([b.to if isinstance(b.to, int) else -1 for b in s.braces], dtype=np.intp)
-    point = np.array([s.upright_tip(b.to) if isinstance(b.to, int) else b.to for b in s.braces]).reshape(-1, 3)
-    tip = np.array([b.tip for b in s.braces], dtype=np.intp)
-    away = np.array([s.upright_tip(b.tip) for b in s.braces]).reshape(-1, 3) - point
-    along = np.array([b.along or (0.0, 0.0, 0.0) for b in s.braces]).reshape(-1, 3)
+    point, tip = (
+        numbers(np.array([s.upright_tip(x) if isinstance(x, int) else x for x in ends], dtype=float).reshape(-1, 3))
+        for ends in ([b.to for b in s.braces], [b.tip for b in s.braces])
+    )
+    along, away = np.array([b.along or (0.0, 0.0, 0.0) for b in s.braces]).reshape(-1, 3), tip - point
     return Coefficients(
         R=R,
         A=A,
         S=S,
-        G=I3 * np.array(s.spins),
-        decay=np.array(s.spin_friction) / I3,
-        friction=np.array(s.friction),
+        G=I3 * numbers(s.spins),
+        decay=numbers(s.spin_friction) / I3,
+        friction=numbers(s.friction),
         hinge=np.array(s.hinge),
-        gravity=s.gravity,
-        feet=np.column_stack([np.array(s.joints), np.zeros(len(R))]),
+        gravity=numbers([s.gravity]).tolist()[0],
+        feet=numbers([(*joint, 0.0) for joint in s.joints]),
         i=i,
         j=j,
         ell=ell,
         coupling=R[i] * R[j] * (m / 4 - K / ell**2),
-        brace_tip=tip,
+        brace_tip=np.array([b.tip for b in s.braces], dtype=np.intp),
         brace_to=to,
         brace_point=point,
-        brace_length=np.where(along.any(1), (along * away).sum(1), np.linalg.norm(away, axis=1)),
+        brace_length=np.where(along.any(1), (along * away).sum(1), root((away * away).sum(1))),
         brace_along=along,
-        stiffness=np.array([b.stiffness for b in s.braces], dtype=float),
-        damping=np.array([b.damping for b in s.braces], dtype=float),
+        stiffness=numbers([float(b.stiffness) for b in s.braces]),
+        damping=numbers([float(b.damping) for b in s.braces]),
     )

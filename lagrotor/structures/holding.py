@@ -42,16 +42,8 @@ _DETUNINGS = (0.0, 1e-3, 1e-2, 0.1)  # of the largest rate: what is nearer is ke
 
 
 def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
-    """The time (s) before which no push of that size grows to more than sqrt(2) times its size in the normal modes.
-
-    An estimate from the first terms that the normal form leaves and that are not zero, and from the first of what its coordinates
-    and the normal modes differ by. inf where the structure may turn about the vertical through each joint, as a free top, and for
-    staying near where the energy is least upright, of more than 8 degrees of freedom for pushes that are small enough; 0 where it
-    does not stand to first order or the push is beyond what the expansion is trusted. push, of: as `largest_push` has them.
-
-    Raises:
-        InputError: friction acts on what spins hold, or there are more than 8 degrees of freedom.
-    """
+    """`Standing.hold_time`: from the first terms that the normal form leaves and that are not zero, and the first of what its
+    coordinates and the normal modes differ by."""
     check_kind_of_push(of)
     push, linear = checked_push("hold_time", push), small_motion(s)
     if linear.growth > 0 or linear.drifts:

@@ -18,7 +18,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.exact.forces import pulls
+from lagrotor.structures.exact.forces import off_constraints, pulls
 from lagrotor.structures.small_motion import Modes, SmallMotion, left_by, modes_of
 
 _STEP = 1e-3  # of the differences, whose error is its fourth power times 10⁻² or so
@@ -64,7 +64,7 @@ def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
     r = finite_array("modes_about: axes", axes, (N, 3))
     off = max(
         float(np.abs(motion.accelerations(0.0, r, 0 * r)).max()) / motion.c.rate**2,
-        float((np.abs(motion.off(r)) / np.append(np.ones(N), motion.c.ell**2)).max()),
+        float((np.abs(off_constraints(motion.c, r)) / np.append(np.ones(N), motion.c.ell**2)).max()),
     )
     if not off < 10 * _AT_REST:
         raise InputError(

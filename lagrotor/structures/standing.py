@@ -224,10 +224,12 @@ class Standing(Shown):
         return abs(fine - time) + abs(fine - coarse) if max(coarse, fine) < inf else inf
 
     def hold_time(self, push: float, of: Of = "rates") -> float:
-        """The time (s) before which no push of that size grows to sqrt(2) times its size: see `structures.holding`.
+        """The time (s) before which no push of that size grows to sqrt(2) times its size in the normal modes: an estimate, see
+        `structures.holding`.
 
-        In the normal modes. inf for a free top, and for staying near where the energy is least upright; 0 where it does not
-        stand or the push is beyond what the expansion is trusted; an estimate elsewhere.
+        inf where the structure may turn about the vertical through each joint, as a free top, and for staying near where the
+        energy is least upright, of more than 8 degrees of freedom for pushes that are small enough; 0 where it does not stand
+        or the push is beyond what the expansion is trusted. push, of: as `largest_push` has them.
 
         Raises InputError with friction, and for more than 8 degrees of freedom.
         """

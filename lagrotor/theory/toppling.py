@@ -40,10 +40,10 @@ def twisted_lagrangian() -> sp.Expr:
     return mercator_lagrangian().xreplace(rates).xreplace(where)
 
 
-def uniform_toppling(rate: sp.Expr = nu) -> dict[sp.Symbol, sp.Expr]:
-    """The state of uniform toppling: U = Delta = 0 and at rest, alpha' = rate, no acceleration."""
+def uniform_toppling() -> dict[sp.Symbol, sp.Expr]:
+    """The state of uniform toppling: U = Delta = 0 and at rest, alpha' = nu, no acceleration."""
     still: dict[sp.Symbol, sp.Expr] = dict.fromkeys((*TWISTED.q, *TWISTED.v, *TWISTED.a), sp.Integer(0))
-    return still | {TWISTED.v[2]: rate}
+    return still | {TWISTED.v[2]: nu}
 
 
 def toppling_residual() -> tuple[sp.Expr, ...]:

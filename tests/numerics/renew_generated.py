@@ -1,15 +1,25 @@
 """Derive again every function that is kept as source, and write the files `generated.txt`:
 `python -m tests.numerics.renew_generated`."""
 
+import sys
 from importlib import import_module
 from pathlib import Path
 
+from sympy import __version__
+
 from lagrotor.files import write_text
-from lagrotor.numerics import generated
+from lagrotor.numerics.generated import GeneratedFunction
+
+
+def kept_functions() -> list[GeneratedFunction]:
+    """Those of the modules that are imported, by name."""
+    modules = [vars(module).values() for name, module in [*sys.modules.items()] if name.startswith("lagrotor.")]
+    every = {id(one): one for values in modules for one in values if isinstance(one, GeneratedFunction)}
+    return sorted(every.values(), key=GeneratedFunction.name)
 
 
 def derived_files() -> dict[Path, str]:
-    """Every `generated.txt` of the package, derived anew."""
+    """Every `generated.txt` of the package, derived anew, with the version of sympy that printed it."""
     for name in (
         "models.simulate",
         "models.orbits.precession",
@@ -17,7 +27,12 @@ def derived_files() -> dict[Path, str]:
         "report.interactive.interactive",
     ):
         import_module(f"lagrotor.{name}")
-    return generated.files()
+    blocks: dict[Path, str] = {}
+    for one in kept_functions():
+        for given in one.kept:
+            block = f"# %% {one.name(*given)}\n{one.derive(*given)}\n\n"
+            blocks[one.file] = blocks.get(one.file, f"# sympy {__version__}\n\n") + block
+    return blocks
 
 
 if __name__ == "__main__":

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from lagrotor.numerics import Program, generated, program_source
+from lagrotor.numerics import Program, program_source
 from lagrotor.numerics.generated import GeneratedFunction, function_of
-from tests.numerics.renew_generated import derived_files
+from tests.numerics.renew_generated import derived_files, kept_functions
 
 x, y = sp.symbols("x y", real=True)
 DERIVED: list[int] = []
@@ -62,7 +62,7 @@ def test_of_each_kind_one_that_is_kept_is_what_is_derived() -> None:
     """All of them in the slow suite; those of the interactive model against Python in tests/report/interactive."""
     for name in MODELS:
         import_module(f"lagrotor.{name}")
-    kinds = [one for one in generated._ALL if "interactive" not in one.name()]
+    kinds = [one for one in kept_functions() if "interactive" not in one.name()]
     assert len(kinds) > 10
     for one in kinds:
         given = one.kept[len(one.kept) // 2]

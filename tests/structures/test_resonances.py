@@ -21,6 +21,7 @@ from lagrotor.structures import (
     normal_form_of,
     resonant_factors,
 )
+from lagrotor.structures.exact.forces import off_constraints
 from lagrotor.structures.resonances import _new_coordinates, _outweighs, trusted_push
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
@@ -77,7 +78,7 @@ def exact_accelerations(s: Structure, q, v):
         for _ in range(60):
             xy = u.reshape(-1, 2)
             r = np.column_stack([xy, np.sqrt(1 - (xy**2).sum(1))])
-            u = u + back @ (motion.off(r)[len(r) :] / motion.c.ell)
+            u = u + back @ (off_constraints(motion.c, r)[len(r) :] / motion.c.ell)
         return r
 
     step = 1e-5

@@ -76,18 +76,18 @@ def amplitude_limits(quick: bool) -> list[Limit]:
     return rows
 
 
-def off_opposite(share: float, r0: float = 0.1, turns: float = 1.0) -> float:
-    """Distance from the periodic orbit after `turns` when spin 2 is −(1 − share) times spin 1."""
+def off_opposite(share: float, r0: float = 0.1) -> float:
+    """Distance from the periodic orbit after a turn when spin 2 is −(1 − share) times spin 1."""
     first, *_ = PAIR.spins
-    apart = _within_turns((first, -first * (1 - share)), r0, turns) - _within_turns(PAIR.spins, r0, turns)
+    apart = _within_a_turn((first, -first * (1 - share)), r0) - _within_a_turn(PAIR.spins, r0)
     return float(np.linalg.norm(apart, axis=-1).max())
 
 
 @lru_cache(maxsize=8)
-def _within_turns(spins: tuple[float, float], r0: float, turns: float) -> Array:
-    """The axes (2, 24, 3) within `turns` of the periodic orbit of r0, started on it with these spins."""
+def _within_a_turn(spins: tuple[float, float], r0: float) -> Array:
+    """The axes (2, 24, 3) within a turn of the periodic orbit of r0, started on it with these spins."""
     orbit = _orbit(PAIR, r0)
-    times = turns * _PHASES[1:] / abs(orbit.frequency)
+    times = _PHASES[1:] / abs(orbit.frequency)
     return _axes(replace(orbit.scene, spins=spins), times, 1e-12)
 
 

@@ -29,14 +29,7 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, t}
-    acting = (
-        *system.constraints,
-        *system.rolling,
-        system.dissipation,
-        *system.forces,
-        *others,
-        *(e for _, e in system.velocities),
-    )
+    acting = (*system.acting, *others, *(e for _, e in system.velocities))
     every = system.letters.union(*(getattr(e, "free_symbols", ()) for e in acting))
     letters = {str(s): s for s in every if s not in moving}
     values = {

@@ -14,12 +14,7 @@ from lagrotor.algebra import decide_zero, derivative
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import longer, put_in
 from lagrotor.mechanics.running.flow import Array, Values
-from lagrotor.mechanics.running.programs import (
-    Generated,
-    depends_on_time,
-    energy_program,
-    function_program,
-)
+from lagrotor.mechanics.running.programs import Generated, depends_on_time, energy_program, function_program
 from lagrotor.mechanics.symmetry import cyclic_coordinates
 
 _WRITTEN = 600  # operations of a Lagrangian up to which its cyclic coordinates are sought

@@ -14,8 +14,8 @@ from lagrotor.mechanics.running.singular import singular_position
 from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
-from lagrotor.numerics.integrate import Engine, Problem, check_engine, integrate
-from lagrotor.numerics.segment import Integrate, Projection, StopError, Stretch
+from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
+from lagrotor.numerics.segment import Integrate, StopError, Stretch, by_units
 from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_rhs, taylor_solver
 
 Array = NDArray[np.float64]
@@ -67,29 +67,6 @@ def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]
     return project
 
 
-def scaled_rhs(bare: Rhs, scale: Array) -> Rhs:
-    """The right-hand side for the state z, y = scale z."""
-    if (scale == 1).all():
-        return bare
-
-    def rate(s: float, z: Array) -> Any:
-        return (np.asarray(bare(s, z * scale)) / scale).tolist()
-
-    if inner := getattr(bare, "bare", None):
-        rate.bare = scaled_rhs(inner, scale)  # type: ignore[attr-defined]
-    return rate
-
-
-def to_units(stretch: Stretch, scale: Array) -> Stretch:
-    """A motion of z as one of y = scale z."""
-    return replace(stretch, states=stretch.states * scale, end=stretch.end * scale)
-
-
-def scaled_projection(project: Projection | None, scale: Array) -> Projection | None:
-    """The projection of a state z, or states (d, n), y = scale z."""
-    return None if project is None else lambda z: (project((z.T * scale).T).T / scale).T
-
-
 def powers_of_two(sizes: Array) -> Array:
     """The sizes as powers of two, which rounds nothing; ones, where all are about as large as one."""
     scale = np.exp2(np.rint(np.log2(sizes)))
@@ -122,24 +99,20 @@ def smooth_motion(
     def by_core(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
         for stiff ones may be off by the same."""
-        rate = 2 * np.pi / turn
-        bare, spent = scaled_rhs(program.rhs(*parameters), scale), 0
-        problem = Problem(bare, start / scale, budget, project=scaled_projection(project, scale), typical_rate=rate)
+        rate, spent = 2 * np.pi / turn, 0
+        problem = Problem(program.rhs(*parameters), start, budget, project=project, typical_rate=rate)
+        if companion and stiff and local >= CROSSOVER.value:
+            by_dop853 = by_units(lambda segment, _, tol: dop853(segment, tol / 20), scale)
+            try:
+                return integrate(replace(problem, budget=budget / 2), times, local, by_dop853)
+            except StopError as stop:
+                if stop.cause != "budget":
+                    raise
+                spent = stop.evaluations
         try:
-            if companion and stiff and local >= CROSSOVER.value:
-                half = replace(problem, budget=budget / 2)
-                try:
-                    stretch = integrate(half, times, local, lambda segment, _, tol: dop853(segment, tol / 20))
-                    return to_units(stretch, scale)
-                except StopError as stop:
-                    if stop.cause != "budget":
-                        raise
-                    spent = stop.evaluations
-                    problem = replace(problem, budget=budget - spent)
-            stretch = to_units(integrate(problem, times, local), scale)
+            stretch = integrate(replace(problem, budget=budget - spent), times, local, by_units(by_fastest, scale))
             return replace(stretch, evaluations=spent + stretch.evaluations)
         except StopError as stop:
-            stop.reached = None if stop.reached is None else to_units(stop.reached, scale)
             stop.evaluations += spent
             raise
 

@@ -133,15 +133,8 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
 
     Raises InputError for a function without a value, a value that is none, and one that the system does not have.
     """
-    parts = [
-        system.L if system.bodies else system.lagrangian,
-        *system.constraints,
-        *system.rolling,
-        system.dissipation,
-        *system.forces,
-        *(e for _, e in system.velocities),
-        *others,
-    ]
+    energy = system.L if system.bodies else system.lagrangian
+    parts = [energy, *system.acting, *(e for _, e in system.velocities), *others]
     applied = unknown_functions(parts)
     known = {str(f.func): f.func for f in applied}
     if not isinstance(values, Mapping):
@@ -190,7 +183,7 @@ def inputs_as_letters(where: str, system: Kind, inputs: Sequence[Any]) -> tuple[
     if other := [u for u in functions if u.args != (t,)]:
         raise InputError(f"{where}: the input {other[0]} must be a function of t alone, F(t), or a letter")
     names = {str(u.func): sp.Symbol(str(u.func), real=True) for u in functions}
-    acting = (system.L, *system.constraints, *system.rolling, system.dissipation, *system.forces)
+    acting = (system.L, *system.acting)
     if twice := names.keys() & {str(s) for e in acting for s in e.free_symbols}:
         raise InputError(f"{where}: {min(twice)} is a letter and a function: rename one")
 

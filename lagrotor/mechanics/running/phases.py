@@ -8,7 +8,7 @@ own steps, as zeros of smooth functions, so none depends on the times at which a
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import sympy as sp
@@ -16,7 +16,7 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
-from lagrotor.mechanics.running.flow import Array, projection_of, scaled_projection, scaled_rhs
+from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.function_values import Piece, in_pieces
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -31,7 +31,7 @@ from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.calibrated import COMPANION_FIRST, MOST_EVENTS
 from lagrotor.numerics.dop853 import dop853_steps
 from lagrotor.numerics.estimated_run import start_beside
-from lagrotor.numerics.segment import Segment, StopError, Stretch
+from lagrotor.numerics.segment import Segment, StopError, Stretch, in_units
 from lagrotor.numerics.zeros import zeros_between
 
 _BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start
@@ -53,17 +53,12 @@ class ContactMode(NamedTuple):
     pieces: tuple[int, ...] = ()
     ended: int = 0
 
-    def with_sign(self, i: int, sign: int) -> "ContactMode":
-        """The mode with another sign of surface i."""
-        return self._replace(signs=(*self.signs[:i], sign, *self.signs[i + 1 :]))
-
-    def with_gap(self, i: int, closed: bool) -> "ContactMode":
-        """The mode with the gap of impact i closed or open."""
-        return self._replace(closed=(*self.closed[:i], int(closed), *self.closed[i + 1 :]))
-
-    def with_piece(self, i: int, piece: int) -> "ContactMode":
-        """The mode with spline i on another piece."""
-        return self._replace(pieces=(*self.pieces[:i], piece, *self.pieces[i + 1 :]))
+    def put(self, part: Literal["signs", "closed", "pieces"], i: int, value: int) -> "ContactMode":
+        """The mode with another value of one component."""
+        values: list[int] = [*getattr(self, part)]
+        values[i] = int(value)
+        changed: dict[str, Any] = {part: tuple(values)}
+        return self._replace(**changed)
 
 
 class Moment(NamedTuple):
@@ -375,8 +370,8 @@ def _smooth(
     y = y if project is None else project(y)
     watch = phase.condition_program.along(numbers)
 
-    rhs = scaled_rhs(phase.motion.rhs(*parameter_values(phase.motion, numbers)), scale)
-    segment = Segment(rhs, y / scale, 0.0, times[-1], times, budget=budget, project=scaled_projection(project, scale))
+    rhs = phase.motion.rhs(*parameter_values(phase.motion, numbers))
+    segment = in_units(Segment(rhs, y, 0.0, times[-1], times, budget=budget, project=project), scale)
     parts, done, solver = [np.empty((0, len(y)))], 0, None
     try:
         for solver in dop853_steps(segment, local / SAFETY, first):
@@ -461,9 +456,9 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     kind, i = hit.kind, hit.i
     mode, v = at.mode, at.y[h.n : h.size]
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
-        mode = mode.with_sign(i, -mode.signs[i])  # a reaction is reversed
+        mode = mode.put("signs", i, -mode.signs[i])  # a reaction is reversed
     elif kind == "surface":
-        mode = mode.with_sign(i, _sign_beyond(h, at, i))
+        mode = mode.put("signs", i, _sign_beyond(h, at, i))
     elif kind == "pull":
         raise StopError(
             at.t,
@@ -471,23 +466,23 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
             "that holds on both sides rubs by |reaction(…)|",
         )
     elif kind in ("above", "below"):
-        mode = mode.with_sign(i, -1 if kind == "above" else 1)
+        mode = mode.put("signs", i, -1 if kind == "above" else 1)
     elif kind == "reaction":
-        mode = mode.with_gap(i, False)
+        mode = mode.put("closed", i, False)
     elif kind in ("knot below", "knot above"):
         spline, piece = h.splines[i], mode.pieces[i] + (1 if kind == "knot above" else -1)
         assert spline.value.knots is not None
         if not 0 <= piece < len(spline.value.knots) - 1:
             w = float(h.evaluate(h.system, [spline.argument], at)[0])
             raise StopError(at.t, f"the end of the table of {spline.value.name}: {_outside(spline, w)}")
-        return at._replace(mode=mode.with_piece(i, piece))
+        return at._replace(mode=mode.put("pieces", i, piece))
     elif kind == "gap":
         e = float(h.evaluate(h.system, [h.impacts[i].restitution], at)[0])
         if gone is not None:
             e = 0.0
             h.accumulations[i] = at.t + gone
         v, gentle = _rebound(h, at, i, e)
-        mode = mode.with_gap(i, e == 0 or gentle)
+        mode = mode.put("closed", i, e == 0 or gentle)
     else:
         event = h.events[i]
         assert isinstance(event, Event)
@@ -505,7 +500,7 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
 def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
     """The velocities after an impact: M Δv = Gᵀ Λ, the approach reversed and multiplied by e, all else held; and whether
     there was no velocity of approach."""
-    mode = at.mode.with_gap(i, True)
+    mode = at.mode.put("closed", i, True)
     n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
     numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
     G, M = rows_at(system, numbers, state), mass_at(system, numbers, state)
@@ -546,7 +541,7 @@ def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, f
     """The first or second rate of w above and below its surface."""
 
     def rate(sign: int) -> float:
-        mode, e = at.mode.with_sign(i, sign), h.surfaces[i].argument
+        mode, e = at.mode.put("signs", i, sign), h.surfaces[i].argument
         system = h.phase(mode).system
         for _ in range(order):
             e = total_derivative(e, system.c)
@@ -562,9 +557,9 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
         arguments = [s.argument for s in h.surfaces]
         w, noise = h.evaluate(h.system, arguments, at), _NOISE * h.sizes_of(h.system, arguments, at)
         for i in map(int, np.flatnonzero(np.abs(w) > noise)):
-            mode = mode.with_sign(i, int(np.sign(w[i])))
+            mode = mode.put("signs", i, int(np.sign(w[i])))
         for i in map(int, np.flatnonzero(np.abs(w) <= noise)):
-            mode = mode.with_sign(i, _sign_beyond(h, at._replace(mode=mode), i))
+            mode = mode.put("signs", i, _sign_beyond(h, at._replace(mode=mode), i))
     for _ in range(2 * (len(mode.signs) + len(mode.closed)) + 1):
         phase = h.phase(mode)
         reactions = [each for each in phase.conditions if each[0] in ("above", "below", "reaction")]
@@ -577,7 +572,9 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
         if values[worst] >= -_NOISE * (size + float(h.sizes_of(phase.system, expressions, here)[worst])):
             break
         kind, i, _ = reactions[worst]
-        mode = mode.with_gap(i, False) if kind == "reaction" else mode.with_sign(i, -1 if kind == "above" else 1)
+        mode = (
+            mode.put("closed", i, False) if kind == "reaction" else mode.put("signs", i, -1 if kind == "above" else 1)
+        )
     return mode
 
 

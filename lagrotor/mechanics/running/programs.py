@@ -243,8 +243,7 @@ def _is_plain(name: str) -> bool:
 
 def depends_on_time(system: Equations) -> bool:
     """Whether t is in the Lagrangian, a force, the friction, a constraint or a velocity of one's own."""
-    own = [e for _, e in system.velocities]
-    expressions = (system.dissipation, *system.forces, *system.constraints, *system.rolling, *own)
+    expressions = (*system.acting, *(e for _, e in system.velocities))
     return t in system.letters or any(t in e.free_symbols for e in expressions)
 
 

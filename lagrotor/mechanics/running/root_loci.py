@@ -112,8 +112,7 @@ def _rates(
     turn = None if period is None else expression(f"{where}: period", period)
     of_period = {str(s) for s in turn.free_symbols} if turn is not None else set()
     period_values = {s: x for s, x in values.items() if str(s) in of_period}
-    acting = (*system.constraints, *system.rolling, system.dissipation, *system.forces)
-    letters = system.letters.union(*(e.free_symbols for e in acting))
+    letters = system.letters.union(*(e.free_symbols for e in system.acting))
     own = {*names} & {*map(str, letters)}  # the others are letters of the motion alone
     if (
         strangers := {*names}

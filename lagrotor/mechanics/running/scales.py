@@ -8,19 +8,11 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.flow import (
-    Array,
-    Rhs,
-    Values,
-    projection_of,
-    scaled_projection,
-    scaled_rhs,
-    to_units,
-)
+from lagrotor.mechanics.running.flow import Array, Rhs, Values, projection_of
 from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values, velocities_along
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch
+from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
 _PER_TURN = 50  # evaluations that the survey takes for a turn
@@ -102,20 +94,11 @@ def _coarsely(
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         since = times - times[0]
-        segment = Segment(
-            scaled_rhs(bare, scale),
-            start / scale,
-            0.0,
-            span,
-            since[1:],
-            budget=budget,
-            project=scaled_projection(project, scale),
-        )
+        segment = Segment(bare, start, 0.0, span, since[1:], budget=budget, project=project)
         try:
-            return to_units(solver(segment, local), scale)
+            return by_units(lambda part, _, tol: solver(part, tol), scale)(segment, False, local)
         except StopError as stop:
-            reached = None if stop.reached is None else to_units(stop.reached, scale)
-            raise StopError(float(times[0]) + stop.at, stop.reason, reached, cause=stop.cause) from None
+            raise StopError(float(times[0]) + stop.at, stop.reason, stop.reached, cause=stop.cause) from None
 
     return motion
 

@@ -20,12 +20,7 @@ from lagrotor.mechanics.running.function_values import FunctionValue, event_with
 from lagrotor.mechanics.running.lyapunov import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
-from lagrotor.mechanics.running.programs import (
-    depends_on_time,
-    function_program,
-    parameter_values,
-    rows_program,
-)
+from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
 from lagrotor.mechanics.running.scales import Scales, motion_scales
 from lagrotor.mechanics.running.singular import independence
 from lagrotor.mechanics.running.starts import consistent, rounding_of_start, state_vector

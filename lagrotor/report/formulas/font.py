@@ -40,7 +40,7 @@ def font_face() -> str:
     return f'{face}\nmath {{ font-family: "{FONT_FAMILY}", math; }}'
 
 
-def subset(source: Path, target: Path = FILE) -> None:
+def subset(source: Path) -> None:
     """Write the subset of a whole STIX Two Math, with its tall brackets, roots and script forms, as WOFF2."""
     from fontTools.subset import Options, Subsetter
     from fontTools.ttLib import TTFont
@@ -57,7 +57,7 @@ def subset(source: Path, target: Path = FILE) -> None:
             record.string = FONT_FAMILY if record.nameID in (1, 4) else FONT_FAMILY.replace(" ", "")
     font["CFF "].cff.fontNames = [FONT_FAMILY.replace(" ", "")]
     font.flavor = "woff2"
-    font.save(target)
+    font.save(FILE)
 
 
 if __name__ == "__main__":

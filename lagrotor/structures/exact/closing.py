@@ -6,7 +6,7 @@ from lagrotor.errors import ConstraintError, InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.exact.forces import pulls
+from lagrotor.structures.exact.forces import off_constraints, pulls
 
 _DENSE = 400  # unknowns up to which ranks are found by singular values
 _DEPENDENT = 1e-9  # of the largest: a smaller singular value (beyond _DENSE: pivot) is zero
@@ -45,7 +45,7 @@ def close_bars(motion: ExactMotion, r: Array) -> Array:
     unit = np.append(np.ones(len(r)), np.full(len(motion.c.ell), area))
     with np.errstate(all="ignore"):
         for _ in range(50):
-            far = np.abs(motion.off(y[: r.size].reshape(r.shape)) / unit).max()
+            far = np.abs(off_constraints(motion.c, y[: r.size].reshape(r.shape)) / unit).max()
             if far < 1e-15:
                 break
             step = motion.project(y) - y

@@ -20,7 +20,16 @@ import numpy as np
 from lagrotor.numerics.segment import RightHandSide, StopError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, coefficients
-from lagrotor.structures.exact.forces import AFTER, NEXT, forces, pulls, right_side, stretches
+from lagrotor.structures.exact.forces import (
+    along_bars,
+    cross_product,
+    forces,
+    off_constraints,
+    pulls,
+    rates_of_constraints,
+    right_side,
+    stretches,
+)
 from lagrotor.structures.exact.saddle import Saddle, saddle
 
 Drive = Callable[[float], Array]
@@ -69,10 +78,9 @@ class ExactMotion:
         return F
 
     def across(self, r: Array) -> Array:
-        """The bars' R d × r with the axes at both ends, (2, …, B, 3): zero where a bar is in line with both; r (…, N, 3)."""
-        d = pulls(self.c, r)[1]
-        ends = r[..., self.c.i, :], r[..., self.c.j, :]
-        return np.stack([d[..., NEXT] * u[..., AFTER] - d[..., AFTER] * u[..., NEXT] for u in ends])
+        """The bars' d × r with the axes at both ends, (2, …, B, 3): zero where a bar is in line with both; r (…, N, 3)."""
+        d = along_bars(self.c, r)
+        return np.stack([cross_product(d, r[..., end, :]) for end in (self.c.i, self.c.j)])
 
     def energy(self, r: Array, v: Array) -> Array:
         """T + V of states r, v (n, N, 3), (n,), in J, the spins' own energy left out."""
@@ -101,7 +109,7 @@ class ExactMotion:
         c = self.c
         r, v = self.axes_and_rates(states) * np.array([1.0, c.rate])[:, None, None, None]
         R = np.maximum(c.R[c.i], c.R[c.j])
-        off = (self.off(r) / np.append(np.ones(len(c.R)), R * np.maximum(R, c.ell))).ravel()
+        off = (off_constraints(c, r) / np.append(np.ones(len(c.R)), R * np.maximum(R, c.ell))).ravel()
         if not conserved:
             return off
         energy = self.energy(r, v)
@@ -117,21 +125,14 @@ class ExactMotion:
         pull = (c.stiffness * np.abs(stretch) * 2 * c.R[c.brace_tip]).sum(-1)
         return float((c.rate * momentum + weight + pull).max())
 
-    def off(self, r: Array) -> Array:
-        """How far the constraints are from zero, [|r|² − 1 (N), |d|² − ell² (B)], halved, (…, N + B); r (…, N, 3)."""
-        c = self.c
-        d = pulls(c, r)[1] / c.R[c.j, None]
-        return np.concatenate([(r * r).sum(-1) - 1, (d * d).sum(-1) - c.ell**2], axis=-1) / 2
-
     def project(self, y: Array) -> Array:
         """One Newton step onto the constraints and their rates in the metric of the masses: states (6 N,) or (6 N, n)."""
         c, N = self.c, len(self.c.R)
         states = np.atleast_2d(y.T)
         r, v = states.reshape(-1, 2, N, 3).swapaxes(0, 1)
         first, second = pulls(c, r)
-        rates = (first * v[:, c.i]).sum(-1) + (second * v[:, c.j]).sum(-1)
         right = np.zeros((len(states), 4 * N + len(c.i), 2))
-        right[:, 3 * N :, 0], right[:, 3 * N : 4 * N, 1], right[:, 4 * N :, 1] = -self.off(r), -(r * v).sum(-1), -rates
+        right[:, 3 * N :, 0], right[:, 3 * N :, 1] = -off_constraints(c, r), -rates_of_constraints(c, r, v)
         at_once = max(_ROWS // right.shape[1], 1)
         moved = [
             self.saddle.solve(r[part], (first[part], second[part]), right[part])[:, : 3 * N]
@@ -159,7 +160,7 @@ _EVERY = 3  # evaluation of a right-hand side is looked at
 def bar_in_line(motion: ExactMotion, y: Array) -> str:
     """The words of a state at which a solver stopped as a bar had come into line with both its axes; none where none has."""
     c = motion.c
-    across = np.linalg.norm(motion.across(motion.axes_and_rates(y[None])[0, 0]), axis=-1) / (c.R[c.j] * c.ell)
+    across = np.linalg.norm(motion.across(motion.axes_and_rates(y[None])[0, 0]), axis=-1) / c.ell
     bars = np.flatnonzero((across < _IN_LINE).all(axis=0))
     return f"bar {bars[0]} comes into line with both its axes" if len(bars) else ""
 

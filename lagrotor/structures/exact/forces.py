@@ -11,14 +11,19 @@ import numpy as np
 
 from lagrotor.structures.coefficients import Array, Coefficients
 
-NEXT, AFTER = [1, 2, 0], [2, 0, 1]  # of a cross product
+_NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
 _TERMS = 17  # of the series of the arc sine, which leave 4e-14 where an axis hangs down, 1e-16 below 2 rad
 Root = Callable[[Array], Array]
 
 
+def cross_product(a: Array, b: Array) -> Array:
+    """a × b, (…, 3)."""
+    return a[..., _NEXT] * b[..., _AFTER] - a[..., _AFTER] * b[..., _NEXT]
+
+
 def forces(c: Coefficients, r: Array, v: Array, G: Array, root: Root = np.sqrt) -> Array:
     """What spins, friction, weight, hinges and braces exert on the axes, (N, 3), N m."""
-    F = G[:, None] * (r[:, NEXT] * v[:, AFTER] - r[:, AFTER] * v[:, NEXT])
+    F = G[:, None] * cross_product(r, v)
     if c.friction.any():
         F = F - c.friction[:, None] * v
     if c.gravity:
@@ -68,14 +73,34 @@ def _angle_by_sine(r: Array, root: Root) -> Any:
     return series / (half * quarter * root((1.0 + quarter) / 2.0))
 
 
+def along_bars(c: Coefficients, r: Array) -> Array:
+    """d from tip i to tip j of the bars, m, (…, B, 3); r (…, N, 3)."""
+    return c.feet[c.j] - c.feet[c.i] + _swing(c, r)
+
+
+def _swing(c: Coefficients, v: Array) -> Array:
+    """d' of the bars."""
+    return c.R[c.j, None] * v[..., c.j, :] - c.R[c.i, None] * v[..., c.i, :]
+
+
 def pulls(c: Coefficients, r: Array) -> tuple[Array, Array]:
-    """−R_i d and R_j d of the bars (…, B, 3), d from tip i to tip j: half the gradients of |d|²; r (…, N, 3)."""
-    one, other = c.R[c.i, None], c.R[c.j, None]
-    d = c.feet[c.j] - c.feet[c.i] + (other * r[..., c.j, :] - one * r[..., c.i, :])
-    return -one * d, other * d
+    """−R_i d and R_j d of the bars (…, B, 3): half the gradients of |d|²; r (…, N, 3)."""
+    d = along_bars(c, r)
+    return -c.R[c.i, None] * d, c.R[c.j, None] * d
+
+
+def off_constraints(c: Coefficients, r: Array) -> Array:
+    """How far the constraints are from zero, [|r|² − 1 (N), |d|² − ell² (B)], halved, (…, N + B); r (…, N, 3)."""
+    d = along_bars(c, r)
+    return np.concatenate([(r * r).sum(-1) - 1, (d * d).sum(-1) - c.ell**2], axis=-1) / 2
+
+
+def rates_of_constraints(c: Coefficients, r: Array, v: Array) -> Array:
+    """Their rates, [r · r', d · d'], (…, N + B)."""
+    return np.concatenate([(r * v).sum(-1), (along_bars(c, r) * _swing(c, v)).sum(-1)], axis=-1)
 
 
 def right_side(c: Coefficients, F: Array, v: Array) -> Array:
     """Of the equations for [r'' (3 N), multipliers of the axes (N) and of the bars (B)], with F (N, 3) on the axes."""
-    swing = c.R[c.j, None] * v[c.j] - c.R[c.i, None] * v[c.i]
+    swing = _swing(c, v)
     return np.concatenate([F.ravel(), -(v * v).sum(1), -(swing * swing).sum(1)])

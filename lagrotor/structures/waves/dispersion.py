@@ -15,6 +15,7 @@ from lagrotor.structures.waves.cell import Cell
 
 _SAME = 1e-9  # of the largest rate: a difference below it is none
 _TOGETHER = 64  # wave numbers whose matrices are held at once
+_SMALL = 1e-3  # rad a cell: the largest wave number of long waves
 _TURN = 10**14  # parts of a full turn: wave numbers as near as one are the same
 
 
@@ -163,17 +164,13 @@ def _slopes(b: Bloch, q: Array, k: int, rates: Array, shapes: Complex) -> Array:
     return np.asarray(np.where(sound, -moved / np.where(sound, norm, 1), 0).real)
 
 
-def long_wave_speeds(p: Cell, direction: ArrayLike = (1.0,), small: float = 1e-3) -> Array:
-    """Speeds dω/d|k| (m/s) at q → 0 of the bands that begin there at rate zero in proportion to q; k . step = q. Fourth order.
-
-    Args:
-        p: the pattern.
-        direction: of q, (d,).
-        small: the largest q at which the bands are read, rad a cell.
+def long_wave_speeds(p: Cell, direction: ArrayLike = (1.0,)) -> Array:
+    """Speeds dω/d|k| (m/s) at q → 0 along a direction (d,) of the bands of p that begin there at rate zero in proportion to q;
+    k . step = q. Fourth order in q, of which 10⁻³ rad a cell is the largest.
     """
     along = np.asarray(direction, dtype=float)
     along = along / np.abs(along).max()
     k = np.linalg.norm(np.linalg.lstsq(np.array(p.steps), along, rcond=None)[0])
-    half, whole = dispersion(p, np.array([[small / 2], [small]]) * along).rates
+    half, whole = dispersion(p, np.array([[_SMALL / 2], [_SMALL]]) * along).rates
     linear = (half > 0) & (np.abs(whole / np.where(half > 0, 2 * half, 1) - 1) < 1e-3)
-    return np.asarray((8 * half - whole)[linear] / (3 * small * k))
+    return np.asarray((8 * half - whole)[linear] / (3 * _SMALL * k))

@@ -146,10 +146,9 @@ class NonlinearWave(Shown):
     """A wave u = Re(a shape e^{iθ}) + a² (mean + Re(harmonic e^{2iθ})) + O(a³) of cell n, θ = q . n − (rate + shift a²) t.
 
     a: the largest tilt (its sine) of an axis in the first part. rate in rad/s, shift in rad/s; what is left out of the rate is of
-    fourth order in a. shape, mean, harmonic (N, 2); trusted: the largest a that is taken, at which mean and harmonic are a fifth
-    of the first part, or ⅕. detuning: how far the nearest wave of 2 q is from 2 × rate, rad/s, inf where there is none.
-    energy_sign: −1 of a wave with less energy than rest. tips: x and y of each axis, polynomials in z, z̄ and b with the multiples
-    of θ that these carry; forced: b/z².
+    fourth order in a. shape, mean, harmonic (N, 2). detuning: how far the nearest wave of 2 q is from 2 × rate, rad/s, inf where
+    there is none. energy_sign: −1 of a wave with less energy than rest. tips: x and y of each axis, polynomials in z, z̄ and b
+    with the multiples of θ that these carry; forced: b/z².
     """
 
     pattern: Cell

@@ -57,13 +57,13 @@ def deviations(run: Trajectory) -> tuple[float, float, float]:
     )
 
 
-def _drift_of_b(spins: Spins, I2_over_I1: float, seconds: float = 0.5) -> float:
+def _drift_of_b(spins: Spins, I2_over_I1: float) -> float:
     """Largest change of B = G_1 − G_2 over |G_1| + |G_2| in the paper's program, which does not presume it, on the orbit."""
     scene, _ = precession_scene(spins, PAPER_R0, HEAVY_LINK)
     system = paper_system(scene, STIFFNESS, DAMPING)
     system.inverse_inertia[0, 1, 1] /= I2_over_I1
     B = []
-    for _ in range(round(seconds / STEP)):
+    for _ in range(round(0.5 / STEP)):  # half a second
         B.append(system.L[0] @ system.R[0][:, 2] - system.L[1] @ system.R[1][:, 2])
         system.compute_forces()
         system.step(STEP)
