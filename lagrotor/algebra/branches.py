@@ -10,7 +10,6 @@ import sympy as sp
 from lagrotor.algebra.proving import Proof, proof_of_zero
 from lagrotor.algebra.refutation import sample
 from lagrotor.algebra.signs import Region, conditions, is_nonnegative, is_positive
-from lagrotor.algebra.work import factored
 from lagrotor.errors import NotExactError
 
 _MOST_CONDITIONS, _MOST_SIGNS = 8, 3
@@ -105,7 +104,7 @@ def _sided(e: sp.Expr, strict: bool) -> sp.Basic:
 
 def _simplest(e: sp.Expr, where: Region) -> list[sp.Expr]:
     """The factors of an e >= 0 that are not known to be positive, each taken to be so."""
-    factors = [f for f in sp.Mul.make_args(factored(e)) if not is_positive(f, where)]
+    factors = [f for f in sp.Mul.make_args(sp.factor(e)) if not is_positive(f, where)]
     factors = [_exponent(f) for f in factors]
     odd = [f for f in factors if not (f.is_Pow and f.exp.is_Integer and f.exp % 2 == 0)]
     return odd or factors

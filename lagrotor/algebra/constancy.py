@@ -10,7 +10,6 @@ from lagrotor.algebra.algebraic_numbers import is_zero, sum_of_logarithms_is_zer
 from lagrotor.algebra.differentiation import derivative
 from lagrotor.algebra.enclosures import enclosed_at
 from lagrotor.algebra.signs import ANY, NONNEGATIVE, Region, is_nonnegative, is_positive, is_real, signs
-from lagrotor.algebra.work import factored
 from lagrotor.errors import NotExactError
 
 _ENTIRE = (sp.sin, sp.cos, sp.sinh, sp.cosh, sp.exp, sp.erf, sp.erfc)
@@ -51,9 +50,9 @@ def _is_function_continuous(e: sp.Expr, u: sp.Expr, where: Region) -> bool:
     if isinstance(e, sp.coth | sp.csch | sp.acot):
         return 0 not in (signs(u, where) or ANY)
     if isinstance(e, sp.asin | sp.acos):
-        return is_nonnegative(factored(1 - u**2), where)
+        return is_nonnegative(sp.factor(1 - u**2), where)
     if isinstance(e, sp.atanh):
-        return is_positive(factored(1 - u**2), where)
+        return is_positive(sp.factor(1 - u**2), where)
     return isinstance(e, sp.acosh) and is_nonnegative(u - 1, where)
 
 

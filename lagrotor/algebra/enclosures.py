@@ -19,7 +19,6 @@ from mpmath.ctx_iv import ivmpc
 from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra.special_enclosures import SPECIAL
-from lagrotor.algebra.work import spend
 from lagrotor.errors import NotExactError
 
 Point: TypeAlias = dict[sp.Expr, sp.Expr]
@@ -44,7 +43,6 @@ def enclosed_at(expression: sp.Expr, point: Point, precision: int = _DIGITS) -> 
 
     Raises NotExactError where none is known.
     """
-    spend(expression)
     with digits(precision):
         return PointEnclosure(point).value(expression)
 

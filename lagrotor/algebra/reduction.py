@@ -17,7 +17,6 @@ from lagrotor.algebra.algebraic_numbers import is_zero
 from lagrotor.algebra.generators import survey
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Reader, find_roots, reader
-from lagrotor.algebra.work import spend
 from lagrotor.errors import NotExactError
 
 # letter -> (q, B): letter**q = B, where B holds only letters with earlier relations.
@@ -29,7 +28,6 @@ def vanishes(expression: sp.Expr, relations: Relations, numbers: Mapping[sp.Symb
 
     Raises NotExactError outside the class, beyond the bound on the work, and where a divisor vanishes.
     """
-    spend(expression, squared=True)
     found = survey(expression, *relations, *(value for _, value in relations.values()))
     roots = find_roots(found)
     if roots.unsigned:

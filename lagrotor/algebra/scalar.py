@@ -56,3 +56,21 @@ def _sizes(expression: sp.Basic) -> dict[sp.Basic, tuple[int, int]]:
 def parts(expression: sp.Expr) -> int:
     """How many nodes the tree of an expression has, equal ones counted as often as they occur."""
     return _sizes(expression)[expression][0]
+
+
+def degree(expression: sp.Expr) -> int:
+    """A bound on its degree in its letters and functions, as a quotient, and on those of their arguments."""
+    degrees: dict[sp.Basic, int] = {}
+    largest = 0
+    for node in sp.postorder_traversal(expression):
+        each = [degrees[part] for part in node.args]
+        if node.is_Add:
+            degrees[node] = max(each)
+        elif node.is_Mul:
+            degrees[node] = sum(each)
+        elif node.is_Pow and node.exp.is_Rational:
+            degrees[node] = degrees[node.base] * int(sp.ceiling(abs(node.exp)))
+        else:
+            degrees[node] = int(not getattr(node, "is_number", True))
+        largest = max(largest, degrees[node])
+    return largest

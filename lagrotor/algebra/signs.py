@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 import sympy as sp
 
-from lagrotor.algebra.work import factored, kept, spend, spend_on_products
+from lagrotor.algebra.work import kept
 from lagrotor.errors import InputError
 
 Signs: TypeAlias = frozenset[int]
@@ -109,7 +109,6 @@ class _Signs:
         circles = self.circles
         self.open.add(e)
         try:
-            spend(e)
             found = self._sought(e)
         finally:
             self.open.remove(e)
@@ -168,7 +167,7 @@ class _Signs:
         if (bound := self._monotone(e) or self._by_squares(e)) is not None:
             return bound
         if len(e.args) <= _FACTORED:
-            factors = factored(e)
+            factors = sp.factor(e)
             if not factors.is_Add:
                 return self.of(factors)
         return ANY
@@ -184,7 +183,7 @@ class _Signs:
         if isinstance(e, sp.cosh | sp.sech):
             return POSITIVE
         if isinstance(e, sp.asin | sp.acos | sp.atanh):
-            if not (self.of(factored(1 - u**2)) or ANY) <= NONNEGATIVE:
+            if not (self.of(sp.factor(1 - u**2)) or ANY) <= NONNEGATIVE:
                 return None
             return NONNEGATIVE if isinstance(e, sp.acos) else found
         if isinstance(e, sp.acosh):
@@ -230,7 +229,6 @@ class _Signs:
         """a − b of roots, neither negative, has the sign of a² − b²."""
         for a, b in permutations(e.args) if len(e.args) == 2 and e.has(sp.Pow) else ():
             if (self.of(a) or ANY) <= NONNEGATIVE and (self.of(-b) or ANY) <= NONNEGATIVE:
-                spend_on_products(a**2 - b**2)
                 square = sp.expand(a**2 - b**2)
                 return self.of(square) if sp.count_ops(square) < sp.count_ops(e) else None
         return None
@@ -322,8 +320,6 @@ def _between(u: sp.Expr, low: Any, high: Any) -> list[sp.Expr]:
 
 def _primitive(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """A number and the rest of which e is the product, sums multiplied out."""
-    if e.is_Mul:
-        spend_on_products(e)
     content, rest = (sp.expand_mul(e) if e.is_Mul else e).as_content_primitive()
     number, rest = rest.as_independent(*rest.free_symbols, as_Add=False) if rest.free_symbols else (sp.S.One, rest)
     return content * number, rest

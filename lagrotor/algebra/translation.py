@@ -22,10 +22,9 @@ from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra.enclosures import jet_of
 from lagrotor.algebra.reduction import vanishes
-from lagrotor.algebra.scalar import parts
+from lagrotor.algebra.scalar import degree, parts
 from lagrotor.algebra.signs import NONNEGATIVE, POSITIVE, Region, is_nonnegative, is_positive, is_real, signs
 from lagrotor.algebra.special_functions import RULES
-from lagrotor.algebra.work import spend, spend_on_products
 from lagrotor.errors import NotExactError, TooLargeError
 
 # Of a polynomial whose factors are sought; parts of an expression that is brought over one denominator for it.
@@ -96,7 +95,6 @@ class Translation:
 
     def of(self, e: sp.Expr) -> sp.Expr:
         if e not in self.known:
-            spend(e)
             self.known[e] = self._sought(e)
         return self.known[e]
 
@@ -487,9 +485,8 @@ class Translation:
     def _polynomial(self, side: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]] | None:
         put = {value: letter**q for letter, (q, value) in self.relations.items() if value.is_Symbol}
         side = side.xreplace(put)
-        if side.has(sp.I) or not _is_small(side):
+        if side.has(sp.I) or degree(side) > _MOST_DEGREE:
             return None
-        spend_on_products(side, factored=True)
         side = self._without_powers(sp.expand(side))
         if side.is_Rational:
             return side, []
@@ -587,21 +584,6 @@ def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
             if base == cosine + side * sp.I * sp.sin(u):
                 return side * u
     return None
-
-
-def _is_small(e: sp.Expr) -> bool:
-    """Whether a polynomial is of low degree."""
-
-    def degree(node: sp.Expr) -> int:
-        if node.is_Add:
-            return max(map(degree, node.args))
-        if node.is_Mul:
-            return sum(map(degree, node.args))
-        if node.is_Pow and node.exp.is_Integer:
-            return int(abs(node.exp)) * degree(node.base)
-        return 0 if node.is_number else 1
-
-    return degree(e) <= _MOST_DEGREE
 
 
 def _sum(a: tuple[sp.Expr, sp.Expr], b: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:

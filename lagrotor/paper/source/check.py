@@ -19,6 +19,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import agreement_order, decide_equal
+from lagrotor.algebra.scalar import degree
 from lagrotor.algebra.work import at_most
 from lagrotor.errors import LagrotorError, WorkError
 from lagrotor.paper.source.dimensions import FormulaDimensions
@@ -45,9 +46,10 @@ HOLDS, REFUTED, UNITS, MEANINGS, BEFORE, FAULT = (
 )  # fmt: skip
 FOUND = (REFUTED, UNITS, MEANINGS, BEFORE, FAULT)
 WRONG = (REFUTED, UNITS, FAULT)
-# Terms of which each is tried with the other sign, to say what is wrong; operations of what is brought over one denominator;
-# work, in parts looked at, beyond which a step is not decided.
-_MOST_TERMS, _MOST_OPERATIONS, _MOST_WORK = 12, 2000, 200_000
+# Terms of which each is tried with the other sign, to say what is wrong; the degree and the calls of functions, a few seconds,
+# beyond which a step is not decided.
+_MOST_TERMS, _MOST_DEGREE, _MOST_CALLS = 12, 1000, 3_000_000
+_LARGE = "undecided", "the difference is too large"
 _LARGEST = 1e300  # of numbers that are compared
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
@@ -148,7 +150,8 @@ class _Checker:
                 continue
             for number, statement in enumerate(reading.statements):
                 yield from self._steps(each, statement if number else self._continued(each, statement), reading)
-            yield from self._against_cited(each, reading)
+            if (judged := _bounded(self._against_cited, each, reading)) is not None:
+                yield self._finding(each, 0, None, *judged)
             if not _guess(reading):
                 made = [_Read(each, s) for s in reading.statements if s.kind == "equation"]
                 self.before += made
@@ -177,7 +180,7 @@ class _Checker:
                 continue
             if relation not in ("=", ":=") or (step == 1 and not self._identity(left.node, right.node)):
                 continue
-            verdict, why = self._step(left.node, right.node, first=step == 1)
+            verdict, why = _bounded(self._step, left.node, right.node, step == 1)
             if (guess := _guess(reading)) and verdict in (HOLDS, REFUTED):
                 verdict, why = "undecided", f"{why}; but it is a guess that {guess}"
             if step > 1 or verdict in (HOLDS, REFUTED):
@@ -209,18 +212,18 @@ class _Checker:
             a, b = sympy_expression(left, self.opaque), sympy_expression(right, self.opaque)
         except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
             return "undecided", f"the two sides cannot be compared: {error}"
-        answer = decided(a, b)
+        if a != b and _is_large(a, b):
+            return _LARGE
+        answer = decided(a, b) if _may_agree(a, b) else "nonzero"
         if answer == "zero":
             return HOLDS, f"{text_of(left)} = {text_of(right)} is an identity"
         given, used = self._put_in(a, b)
-        put = decided(*given) if used and _may_agree(*given) else answer
-        if put == "zero":
+        if _is_large(*given):
+            given, used = (a, b), []
+        if used and _agree(*given):
             return HOLDS, f"with {', '.join(used)}"
-        if put == "too large":
-            answer = put
-        if answer in ("undecided", "too large"):
-            why = "is too large" if answer == "too large" else "is outside what is decided exactly"
-            return "undecided", f"the difference {why}"
+        if answer == "undecided":
+            return "undecided", "the difference is outside what is decided exactly"
         if answer == "shape":
             return "undecided", "one side is printed as a vector, the other as a number"
         verdict, why = self._refuted(left, right, a, b, first)
@@ -232,6 +235,8 @@ class _Checker:
             and (slip := self._slip_from(given[0], b, right))
         ):
             return REFUTED, f"with {', '.join(used)} the two sides differ; {slip}"
+        if verdict == REFUTED and decided(a, b) != "nonzero":
+            return "undecided", "the difference is outside what is decided exactly"
         return verdict, why
 
     def _are_near(self, used: list[str]) -> bool:
@@ -333,7 +338,7 @@ class _Checker:
     def _says_nothing(self, statement: PrintedStatement) -> bool:
         """Whether an equation is an identity, which relates no letters."""
         sides = [_expression_of(side.node, self.opaque) for side in statement.sides]
-        return None not in sides and all(decided(a, b) == "zero" for a, b in pairwise(sides))
+        return None not in sides and all(_agree(a, b) for a, b in pairwise(sides))
 
     def _put_in(self, a: Any, b: Any) -> tuple[tuple[Any, Any], list[str]]:
         """Both sides with the definitions before put in, and the equations that were used."""
@@ -373,7 +378,7 @@ class _Checker:
             a, b = sympy_expression(left.node, self.opaque), sympy_expression(right.node, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
                 return
-            term = agreement_order(a, b, small, power - 1)
+            term = at_most(_MOST_CALLS, agreement_order, a, b, small, power - 1)
         except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
             yield self._finding(each, step, right, "undecided", "the series cannot be compared")
             return
@@ -390,14 +395,14 @@ class _Checker:
 
     # ---- equations and what they cite
 
-    def _against_cited(self, each: Displayed, reading: Reading) -> Iterator[StepFinding]:
+    def _against_cited(self, each: Displayed, reading: Reading) -> tuple[str, str] | None:
         """An equation against two that the text before it names, where the one is a definition in the other."""
         if len(each.cites) < 2 or len(reading.statements) != 1:
-            return
+            return None
         named = [read for label in each.cites for read in self.labelled[label]]
         new = self._difference(reading.statements[0])
         if new is None:
-            return
+            return None
         for definition in named:
             first = definition.statement.sides[0].node
             if not isinstance(first, Letter) or len(definition.statement.sides) != 2:
@@ -415,17 +420,16 @@ class _Checker:
                     continue
                 put = old.subs(symbol, value)
                 names = f"({definition.equation.id}) in ({other.equation.id})"
-                if put.free_symbols != new.free_symbols or sp.count_ops(put - new) > _MOST_OPERATIONS:
+                if put.free_symbols != new.free_symbols or _is_large(put, new):
                     continue
                 if guess := _guess(reading):
-                    yield self._finding(each, 0, None, "undecided", f"it cites {names}; but it is a guess that {guess}")
-                elif _proportional(put, new):
-                    yield self._finding(each, 0, None, HOLDS, f"it is {names}")
-                elif (terms := _changed(put, new)) is not None:
-                    yield self._finding(each, 0, None, REFUTED, f"{names} gives it with {terms[1]} for {terms[0]}")
-                else:
-                    yield self._finding(each, 0, None, "undecided", f"it is not {names} alone")
-                return
+                    return "undecided", f"it cites {names}; but it is a guess that {guess}"
+                if _proportional(put, new):
+                    return HOLDS, f"it is {names}"
+                if (terms := _changed(put, new)) is not None:
+                    return REFUTED, f"{names} gives it with {terms[1]} for {terms[0]}"
+                return "undecided", f"it is not {names} alone"
+        return None
 
     def _difference(self, statement: PrintedStatement) -> sp.Expr | None:
         if statement.kind != "equation" or len(statement.sides) != 2:
@@ -479,6 +483,11 @@ class _Checker:
                     if each.kind == "equation" and not _guess(reading):
                         yield section, [side.node for side in each.sides], None
 
+    def _differ(self, one: _Read, other: _Read) -> bool:
+        """Whether two definitions differ, as they are and with those before put in."""
+        a, b = (sympy_expression(each.statement.sides[1].node, self.opaque) for each in (one, other))
+        return decided(a, b) == "nonzero" and decided(*self._put_in(a, b)[0]) == "nonzero"
+
     def _letters(self) -> Iterator[StepFinding]:
         """Letters that are defined twice, used before they are given, or have two meanings."""
         definitions: dict[str, tuple[int, _Read]] = {}
@@ -488,8 +497,7 @@ class _Checker:
                 continue
             if first.name in definitions:
                 _, other = definitions[first.name]
-                a, b = (sympy_expression(r.statement.sides[1].node, self.opaque) for r in (other, read))
-                if decided(a, b) == "nonzero" and decided(*self._put_in(a, b)[0]) == "nonzero":
+                if _bounded(self._differ, other, read) is True:
                     yield self._finding(
                         read.equation, 0, None, MEANINGS, f"{first.name} is defined in ({other.equation.id}) otherwise"
                     )
@@ -625,8 +633,26 @@ def _may_agree(a: Any, b: Any) -> bool:
     return True
 
 
+def _bounded(work: Callable[..., Any], *arguments: Any) -> Any:
+    """What it gives; that it is too large beyond the bound on the work of a step."""
+    try:
+        return at_most(_MOST_CALLS, work, *arguments)
+    except (WorkError, RecursionError):
+        return _LARGE
+
+
+def _is_large(*sides: Any) -> bool:
+    """Whether a degree is beyond what sums of polynomials are multiplied out to."""
+    entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
+    return any(degree(e) > _MOST_DEGREE for e in entries)
+
+
+def _agree(a: Any, b: Any) -> bool:
+    return _may_agree(a, b) and decided(a, b) == "zero"
+
+
 def decided(a: Any, b: Any) -> str:
-    """zero, nonzero, undecided or too large; shape where one side is a vector and the other is not."""
+    """zero, nonzero or undecided; shape where one side is a vector and the other is not."""
     matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
     if any(matrices) and not all(matrices):
         return "zero" if not any(matrices) else "shape" if sp.S.Zero not in (a, b) else _all(a if matrices[0] else b)
@@ -637,19 +663,14 @@ def decided(a: Any, b: Any) -> str:
 
 def _all(matrix: sp.MatrixBase) -> str:
     answers = {_single(entry, sp.S.Zero) for entry in matrix}
-    return next(each for each in ("nonzero", "too large", "undecided", "zero") if each in answers)
+    return next(each for each in ("nonzero", "undecided", "zero") if each in answers)
 
 
 def _single(a: Any, b: Any) -> str:
     if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
         return "undecided"
-    if sp.count_ops(a - b) > _MOST_OPERATIONS:
-        return "too large"
     try:
-        with at_most(_MOST_WORK):
-            found = decide_equal(a, b)
-    except WorkError:
-        return "too large"
+        found = decide_equal(a, b)
     except (LagrotorError, TypeError, ValueError, ArithmeticError):
         return "undecided"
     return "undecided" if found.partly else found.answer
