@@ -6,7 +6,7 @@ from lagrotor.paper.source.definitions import DEFINITIONS
 from lagrotor.paper.source.environments import ENVIRONMENTS
 from lagrotor.paper.source.expansion import Expander, Primitive
 from lagrotor.paper.source.source_files import FILES
-from lagrotor.paper.source.tokens import Token
+from lagrotor.paper.source.tokens import Token, plain
 
 
 def _ignored(expander: Expander, token: Token) -> bool:
@@ -15,6 +15,16 @@ def _ignored(expander: Expander, token: Token) -> bool:
 
 def _ensured(expander: Expander, token: Token) -> bool:
     expander.push(expander.argument())
+    return True
+
+
+def _style(expander: Expander, token: Token) -> bool:
+    r"""\tikzset{…} and \tikzstyle{name} = […]: what keys hold, {\begin{…}} too, is set in parts, in a picture."""
+    expander.argument()
+    expander.skip_spaces()
+    if token.text == r"\tikzstyle" and (sign := expander.next()) is not None:
+        expander.push(plain(sign.text.removeprefix("="), sign.at) if sign.text.startswith("=") else [sign])
+        expander.optional()
     return True
 
 
@@ -29,5 +39,6 @@ PRIMITIVES: dict[str, Primitive] = {
     **FILES,
     **COUNTING,
     **dict.fromkeys(_WITHOUT_EFFECT, _ignored),
+    **dict.fromkeys((r"\tikzset", r"\tikzstyle", r"\pgfkeys", r"\pgfplotsset"), _style),
     r"\ensuremath": _ensured,
 }

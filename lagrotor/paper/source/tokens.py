@@ -8,7 +8,8 @@ _VERBATIM = r"verbatim\*?|Verbatim\*?|BVerbatim|lstlisting|minted|comment|fileco
 _DEFINED = r"(?:\[[^][\n]*\]|\{[^{}\n]*\})*[\s%]*\}[\s%]*\{"  # in the definition of another environment
 _TOKEN = re.compile(
     rf"(?P<raw>\\begin\{{(?P<name>{_VERBATIM})\}}(?!{_DEFINED}).*?\\end\{{(?P=name)\}}"
-    r"|\\(?:verb|lstinline)\*?(?P<mark>[^A-Za-z\s*{])[^\n]*?(?P=mark)|\\(?:url|href|path|nolinkurl)\s*\{[^{}\n]*\})"
+    r"|\\(?:verb\*?|lstinline(?:\[[^][\n]*\])?)(?P<mark>[^A-Za-z\s*{[])[^\n]*?(?P=mark)"
+    r"|\\(?:url|href|path|nolinkurl)\s*\{[^{}\n]*\})"
     r"|(?P<comment>%[^\n]*(?:\n[ \t]*)?)"
     r"|(?P<command>\\(?:[A-Za-z@]+|.|\n))"
     r"|(?P<open>\{)|(?P<close>\})|(?P<math>\$\$?)|(?P<align>&)|(?P<script>[\^_])|(?P<param>\#\#?\d?)"
@@ -16,6 +17,13 @@ _TOKEN = re.compile(
     re.DOTALL,
 )
 _SHORT = re.compile(r"\\DefineShortVerb\*?\s*\{\\([^A-Za-z\s])\}")
+_NAMED = re.compile(
+    r"\\(?:re)?newcommand\*?\s*(?:\{\s*)?(\\[A-Za-z]+)\s*\}?\s*\{\s*\\(?:verb\*?|lstinline)(?:\[[^][\n]*\])?\s*\}"
+)
+
+
+def _blank(span: re.Match[str]) -> str:
+    return " " * len(span[0])
 
 
 class Token(NamedTuple):
@@ -31,7 +39,12 @@ def tokenize(text: str, base: int = 0) -> list[Token]:
     found = []
     if (short := _SHORT.search(text)) is not None:  # \DefineShortVerb{\|}: what is between two bars is no LaTeX
         mark = re.escape(short[1])
-        text = re.sub(rf"(?<!\\)(?<!\\verb){mark}[^{mark}\n]*{mark}", lambda span: " " * len(span[0]), text)
+        text = re.sub(rf"(?<!\\)(?<!\\verb){mark}[^{mark}\n]*{mark}", _blank, text)
+    for verbatim in _NAMED.finditer(
+        text
+    ):  # \newcommand{\code}{\lstinline[…]}: between two equal marks after it neither
+        shown = rf"{re.escape(verbatim[1])}([^A-Za-z\s*{{}}\[])[^\n]*?\1"
+        text = text[: verbatim.end()] + re.sub(shown, _blank, text[verbatim.end() :])
     for match in _TOKEN.finditer(text):
         kind = match.lastgroup or "text"
         if kind in ("name", "mark"):
