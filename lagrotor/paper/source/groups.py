@@ -37,6 +37,7 @@ class Macros(dict[str, Macro | None]):
         super().__init__(known)
         self.groups: list[tuple[str, int]] = []
         self.faults: dict[tuple[int, str, str], None] = {}
+        self.passed = 0  # { that the end of an environment has closed
         self._before: list[dict[str, Macro | None]] = []  # of each open group, what its definitions hide; None: nothing
 
     def __setitem__(self, name: str, macro: Macro | None) -> None:
@@ -96,6 +97,9 @@ class Macros(dict[str, Macro | None]):
         while place >= 0 and self.groups[place][0] in within:
             place -= 1
         if place < 0 or self.groups[place][0] != opening:
+            if token.text == "}" and self.passed:  # one slip, one fault
+                self.passed -= 1
+                return None
             return self.fault(token.at, token.text, f"{token.text} closes no {opening}")
         self.close_to(place + 1)
         self.close_to(place, say=False)
@@ -112,5 +116,6 @@ class Macros(dict[str, Macro | None]):
             begun = rf"ends \begin{{{self.groups[inner][0]}}}" if inner >= 0 else "ends nothing that has begun"
             self.fault(at, r"\end", rf"\end{{{name}}} {begun}")
             place = inner
+        self.passed += sum(mark == "{" for mark, _ in self.groups[place + 1 :])
         self.close_to(place + 1)
         return place if place >= 0 else len(self.groups)

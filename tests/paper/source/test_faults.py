@@ -67,6 +67,7 @@ def test_what_is_not_ended_is_said_and_what_follows_is_read(body: str, tmp_path:
         "\\lstnewenvironment{c}[1][]{\\lstset{#1}}{} \\begin{c}[a=b]\n} \\begin{equation}\n\\end{c}",
         "\\newcommand{\\code}{\\lstinline[a=b]} \\code.{%a. \\code|}| \\lstinline[a=b]|{%|",
         "\\tikzstyle{a b}= [c, begin={\\begin{varwidth}{5em}}, end={\\end{varwidth}}] \\tikzset{a={\\begin{center}}}",
+        r"\resizebox{1cm}{!}{\begin{tikzpicture} \onslide<1>{ \node {a}; \end{tikzpicture} } }",
         "\\begin{shown}\n} $ \\begin{equation} \n\\end{shown} \\code|{%| \\code{a % b}",
         r"\expandafter\def\expandafter\baz\eatone##1{(#1)} \ifundef{\begin}{a}{b}",
     ],
