@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from lagrotor.numerics import estimated_run
+from tests import told_over_true
 from tests.mechanics.running.references import EXTENDED
 from tests.told_over_true import ROUNDED, structures, systems
 
@@ -19,11 +20,21 @@ def test_an_error_is_told_at_all_times_and_would_be_seen_if_not(monkeypatch: pyt
     assert any(row.under > 1 for row in systems(1202, 3, dense=True))
 
 
+def test_two_runs_that_are_near_by_chance_are_no_better_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A pendulum whose two runs part no farther from 15 to 60 s, while the error grows tenfold."""
+    monkeypatch.setattr(told_over_true, "least_evaluations", lambda *_: np.nan)
+    (row,) = systems(9132, 1, dense=True)
+    assert row.under < 1
+    monkeypatch.setattr(estimated_run, "errors_up_to", lambda t, errors, turn: np.maximum.accumulate(errors))  # twin
+    (row,) = systems(9132, 1, dense=True)
+    assert row.under > 2
+
+
 @pytest.mark.slow
 def test_what_is_told_of_random_runs_is_safe_and_as_tight_as_the_ratio_of_their_tolerances() -> None:
     rows = [*systems(0, 180, dense=True), *structures(100, 25, dense=True)]
     assert not any(row.silent for row in rows)
-    assert sum(row.under > 1 for row in rows) <= len(rows) / 40 and max(row.under for row in rows) < 10
+    assert sum(row.under > 1 for row in rows) <= len(rows) / 100 and max(row.under for row in rows) < 3
     assert np.median([row.told / row.true for row in rows if row.true > ROUNDED]) < 15
     # One is 10.4: an orbit that comes near to its centre (kepler 37), at a tolerance of 10⁻⁶.
     assert sorted(row.evaluations / row.plain for row in rows if row.plain > 0)[-2] < 10
