@@ -313,7 +313,8 @@ prove(
 
 # %% [markdown]
 # $3+\sqrt{3/2}=4.22$ for a short pulse, $A_w=1$: a bar as long as an axis, its mass in its middle
-# ($K=0$, $(\sigma-1)k^2=mR^2/2J$), must weigh more than $8.4\,J/R^2$.
+# ($K=0$, $(\sigma-1)k^2=mR^2/2J$), must weigh more than $8.4\,J/R^2$. The next order, below, moves the threshold: `turns_back`
+# refuses where it decides.
 #
 # ## Beside the paired precession
 #

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from lagrotor.models.mean_motion import mean_error as mean_error
     from lagrotor.models.mean_motion import mean_over as mean_over
     from lagrotor.models.mean_motion import run_after as run_after
+    from lagrotor.models.mean_motion import time_to_reach_error as time_to_reach_error
     from lagrotor.models.mean_motion import time_to_wander as time_to_wander
     from lagrotor.models.mean_motion import turning_rate as turning_rate
     from lagrotor.models.mean_motion import wandering_rate as wandering_rate

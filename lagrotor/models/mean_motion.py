@@ -13,13 +13,16 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.models.simulate import simulate
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
+from lagrotor.theory.averaged_motion import time_to_reach
 from lagrotor.theory.drift_after_shock import cancelling_force
+from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.shock_response import shock_response
 
 Array = NDArray[np.float64]
 _SAMPLES = 32  # a turn of the swing
 _AT_ENDS = 185.51  # 2 sqrt(pi)/(e Z), Z = 0.0070298584
 _ROUNDED = 1e-15
+_LONGEST, _MOST = 3, 10_000  # times what the averaged motion takes, of an exact run; swings that it lasts
 
 
 def mean_over(t: Array, values: Array) -> float:
@@ -127,6 +130,33 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     Raises:
         DomainError: when it does not within `longest`.
     """
+    time = _time_to_wander(scene, bound, longest)
+    if time == np.inf:
+        raise DomainError(f"the bound {bound:g} is not reached within {longest:g} s")
+    return time
+
+
+def time_to_reach_error(scene: Scene, x: float) -> float:
+    """How far (s) `time_to_reach` is from the time at which the exact mean over six swings (`time_to_wander`) gets there.
+
+    A sample of that run, 1/32 swing, is added. inf where either does not get there, the exact one within 3 times as long.
+
+    Raises:
+        InputError: as `time_to_reach`.
+        DomainError: likewise, where x is reached within the first swings, and where the exact run is longer than 10⁴ swings.
+    """
+    law, turn = time_to_reach(scene, x), 2 * np.pi / natural_rate(scene)
+    swings = _LONGEST * law / turn
+    if _MOST < swings < np.inf:
+        raise DomainError(
+            f"time_to_reach_error: the exact run takes up to {swings:.2g} swings, more than {_MOST}: the averaged motion gives "
+            f"{law:.4g} s; take a larger shock or a smaller x"
+        )
+    return float(abs(_time_to_wander(scene, x, _LONGEST * law) - law)) + turn / _SAMPLES if law < np.inf else np.inf
+
+
+def _time_to_wander(scene: Scene, bound: float, longest: float) -> float:
+    """As `time_to_wander`; inf where it is not reached."""
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:
         raise InputError("time_to_wander: the scene needs a shock and a spin")
@@ -140,7 +170,7 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     centre = t[0] + (np.arange(len(mean)) + (len(u) - 1) / 2) * (t[1] - t[0])
     beyond = np.abs(mean) >= bound
     if not beyond.any():
-        raise DomainError(f"the bound {bound:g} is not reached within {longest:g} s")
+        return np.inf
     i = int(np.argmax(beyond))
     if i == 0:
         raise DomainError(f"the bound {bound:g} is reached within the first swings: take a larger one")

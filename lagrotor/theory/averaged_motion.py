@@ -10,10 +10,11 @@ W is conserved and quadratic in eta², so that its curves, the phase portrait, a
     beta' = 4 g eta D/c,    t = ∫ c dbeta / (4 g eta D),
 
 with D of either sign, the branch. beta turns where D or eta vanishes. After a shock along x alone that leaves s = eta it does so
-if (sigma − 1) k² > 3 + sqrt(3/2); for less, x grows until bar and axes come into line.
+if (sigma − 1) k² > 3 + sqrt(3/2); for less, x grows until bar and axes come into line. The next order, W_6 (`next_average`),
+moves this threshold, for heavy bars by a good part already at small shocks.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import acos, asin, copysign, cos, hypot, inf, pi, sqrt, tan
 from typing import Any, NamedTuple
@@ -21,6 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lagrotor.errors import DomainError, InputError
+from lagrotor.numerics.generated import generated
 from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.calibrated_factors import LARGEST_SWING
@@ -30,6 +32,41 @@ from lagrotor.theory.shock_response import shock_response
 # (|eta| + s)/(k cos beta), the sine of the bar's tilt, beyond which no expansion in it is made.
 FARTHEST_TILT = 0.5
 LARGEST_SHARE = 0.5  # of the leading order, that the next one may be
+_LEANS, _TRIES = 300, 30  # of a curve that is followed; steps of Newton's method at each
+
+
+@generated(((),))
+def _next_order() -> str:
+    """(eta², tan² beta_s, s, p, sigma, k) → W_6 and its derivative by eta²."""
+    import sympy as sp
+
+    from lagrotor.numerics.codegen import Program
+    from lagrotor.numerics.printers import program_source
+    from lagrotor.pair.notation import HALF, LEAN, SWING, k, sigma
+    from lagrotor.theory.averaging import SWING_LETTERS, next_average
+
+    square, steep = sp.symbols("square steep", positive=True)
+    average = next_average().subs({HALF: sp.sqrt(square), sp.tan(LEAN): sp.sqrt(steep)})
+    return program_source(
+        Program((square, steep, SWING, SWING_LETTERS[3], sigma, k), (), (average, average.diff(square)))
+    )
+
+
+@generated(((),))
+def _uneven_action() -> str:
+    """(eta, s, p, sin Phi, sigma, k) → (H_4 − <H_4>)/I upright: by what share of itself s² is more in the mean."""
+    import sympy as sp
+
+    from lagrotor.numerics.codegen import Program
+    from lagrotor.numerics.printers import program_source
+    from lagrotor.pair.notation import HALF, SWING, k, sigma
+    from lagrotor.theory.averaging import SWING_LETTERS, oscillating_hamiltonian, over_swing
+
+    tangent, _, _, push, sine, cosine = SWING_LETTERS
+    H_4, root = oscillating_hamiltonian()[0], sp.Symbol("r", positive=True)
+    uneven = (H_4 - over_swing(H_4)).as_expr().subs({tangent: 0, cosine: sp.sqrt(1 - sine**2)}) / (root * SWING) ** 2
+    share = sp.expand(sp.expand(uneven).subs(root, 1 / sp.sqrt(sigma)))
+    return program_source(Program((HALF, SWING, push, sine, sigma, k), (), (share,)))
 
 
 class _Leg(NamedTuple):
@@ -49,6 +86,7 @@ class SlowMotion:
         weight: kappa = (sigma − 1) k²/2.
         ratio: k.
         rate: g = G/(2 (a + b) k²), rad/s.
+        phase: sin Phi of the swing at the start.
     """
 
     lean: float
@@ -58,6 +96,7 @@ class SlowMotion:
     weight: float
     ratio: float
     rate: float
+    phase: float = 0.0
 
     @cached_property
     def invariant(self) -> float:
@@ -128,6 +167,50 @@ class SlowMotion:
         """The largest |beta| of the motion (rad), pi/2 where it does not turn back."""
         return max(leg.end for leg in self.legs)
 
+    def tilt(self, lean: float, half: float) -> float:
+        """The largest sine of the bar's tilt in a swing about a centre."""
+        return (abs(half) + self.swing) / (self.ratio * cos(lean))
+
+    def turns(self, share: float) -> bool:
+        """Whether |beta| turns back on the curve of W + share W_6, its s² that of the mean to the same share.
+
+        False where, before, the bar tilts by more than 30 degrees, or the next order's part of the slope by eta² is more than
+        half of the leading one's with all its terms positive.
+        """
+        p, sigma, average = self.momentum, 1 + 2 * self.weight / self.ratio**2, _next_order()
+        s2, least = self.swing**2, 1e-9 * (self.swing**2 + self.half**2 + abs(p))
+        if share and s2:
+            s2 *= max(0.0, 1 + share * _uneven_action()(self.half, self.swing, p, self.phase, sigma, self.ratio)[0])
+
+        def level(y: float, c: float) -> tuple[float, float, bool]:
+            """W + share W_6, its derivative by y = eta², and whether the next order is small in it."""
+            inner = y + (s2 - p) / 2
+            more, steeper = average(y, 1 / c - 1, sqrt(s2), p, sigma, self.ratio)
+            leading = (inner**2 - 3 * s2**2 / 8) / c - self.weight * s2 * y
+            slopes, steeper = (2 * inner / c, self.weight * s2), share * steeper
+            small = abs(steeper) <= LARGEST_SHARE * (abs(slopes[0]) + abs(slopes[1]))
+            return leading + share * more, slopes[0] - slopes[1] + steeper, small
+
+        wanted, *_ = level(self.half**2, cos(self.lean) ** 2)
+        begin, _, branch = self.legs[-1]
+        y = max(self.half_squared(begin, branch), 0.0)
+        for lean in np.linspace(begin, pi / 2, _LEANS, endpoint=False)[1:]:
+            for _ in range(_TRIES):
+                here, slope, small = level(y, cos(lean) ** 2)
+                step = (wanted - here) / slope if slope else inf
+                if not abs(step) < 1e12 * least:
+                    break
+                y += step
+                if abs(step) <= least:
+                    break
+            if not small:
+                return False
+            if not (abs(step) <= least and y > 0 and slope * branch > 0):
+                return True
+            if self.tilt(lean, sqrt(y)) > FARTHEST_TILT:
+                return False
+        return False
+
     def time_to(self, lean: float) -> float:
         """Time (s) until |beta| grows to `lean` (rad); inf where it does not get there."""
         if abs(self.lean) >= lean:
@@ -175,7 +258,8 @@ def slow_motion(scene: Scene) -> SlowMotion:
             f"{2 * LARGEST_SWING.value:g}: it is not small; take a smaller one, or run it with lagrotor.simulate"
         )
     p_y = float(response.impulse[1] + response.impulse[2])
-    return _motion(scene, float(response.displacement[0]), apart, swing, -p_y)
+    phase = half(response.cosine) / swing if swing else 0.0
+    return replace(_motion(scene, float(response.displacement[0]), apart, swing, -p_y), phase=phase)
 
 
 def _motion(scene: Scene, lean: float, half: float, swing: float, momentum: float) -> SlowMotion:
@@ -186,19 +270,22 @@ def _motion(scene: Scene, lean: float, half: float, swing: float, momentum: floa
 def time_to_reach(scene: Scene, x: float) -> float:
     """Time (s) from the peak of the scene's shock until the mean |x| of opposite spins reaches `x`; inf where it turns back.
 
-    By quadrature over the averaged motion, to leading order in the shock at any x: the relative error is of second order in it.
+    By quadrature over the averaged motion, to leading order in the shock at any x: the relative error is of second order in it,
+    and `lagrotor.models.time_to_reach_error` measures it.
 
     Raises:
         InputError: as `slow_motion`.
-        DomainError: as `slow_motion`, unless 0 < x < 1, and where the bar comes to tilt by more than 30 degrees before,
-            sin = (|eta| + s)/(k sqrt(1 − x²)).
+        DomainError: as `slow_motion`, unless 0 < x < 1, where the bar comes to tilt by more than 30 degrees before,
+            sin = (|eta| + s)/(k sqrt(1 − x²)), and where x turns back before but `turns_back` refuses to say so.
     """
     if not 0 < finite_number(x, "time_to_reach: x", "1") < 1:
         raise DomainError(f"time_to_reach: x = {x:g} must lie between 0 and 1")
     motion, lean = slow_motion(scene), asin(x)
-    if lean <= motion.farthest:
+    if lean > motion.farthest:
+        turns_back(scene)  # which refuses where the next order decides
+    else:
         half = sqrt(max(motion.half_squared(lean, motion.legs[-1].branch), 0.0))
-        tilt = (max(half, abs(motion.half)) + motion.swing) / (motion.ratio * cos(lean))
+        tilt = motion.tilt(lean, max(half, abs(motion.half)))
         if tilt > FARTHEST_TILT:
             raise DomainError(
                 f"time_to_reach: at x = {x:g} the bar tilts by {np.degrees(asin(min(1.0, tilt))):.0f}°, more than 30°: take a "
@@ -210,17 +297,31 @@ def time_to_reach(scene: Scene, x: float) -> float:
 def turns_back(scene: Scene) -> bool:
     """Whether the mean x of opposite spins stays bounded after the scene's shock: it turns back, again and again.
 
-    Of the averaged motion. After a shock along x, which leaves eta = p_x/(2 G) and s = A |eta|, it does beyond a threshold:
+    Of the averaged motion. To leading order it does after a shock along x, which leaves eta = p_x/(2 G) and s = A |eta|, beyond a
+    threshold that the next order moves:
 
         (sigma − 1) k² > 1 + 2/A² + sqrt(3/2),
 
-    3 + sqrt(3/2) for a short pulse. Below it x grows until bar and axes come into line.
+    3 + sqrt(3/2) for a short pulse. Below it x grows, at least until the bar tilts by 30 degrees, the end of the expansion.
 
     Raises:
         InputError: as `slow_motion`.
-        DomainError: likewise.
+        DomainError: as `slow_motion`, where the bar tilts by more than 30 degrees before x turns back or from the start, and
+            beside the threshold, where W, W + W_6 and W + 2 W_6 decide differently.
     """
-    return slow_motion(scene).farthest < pi / 2
+    motion = slow_motion(scene)
+    answers = {motion.turns(share) for share in (0.0, 1.0, 2.0)}
+    if motion.tilt(motion.lean, motion.half) > FARTHEST_TILT or (answers == {False} and motion.farthest < pi / 2):
+        raise DomainError(
+            "turns_back: the bar tilts by more than 30° from the start or before x turns back: take a smaller shock, or run it "
+            "with lagrotor.simulate"
+        )
+    if len(answers) > 1:
+        raise DomainError(
+            "turns_back: so near the threshold the next order of the averaged motion decides: take a smaller shock, or run it "
+            "with lagrotor.simulate"
+        )
+    return answers.pop()
 
 
 def next_brackets(s2: Any, d: Any, sigma: Any, k2: Any) -> tuple[Any, Any]:

@@ -23,6 +23,7 @@ def derived_files() -> dict[Path, str]:
     for name in (
         "models.simulate",
         "models.orbits.precession",
+        "theory.averaged_motion",
         "theory.charged_particle",
         "report.interactive.interactive",
     ):

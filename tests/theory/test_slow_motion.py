@@ -9,12 +9,12 @@ from scipy.integrate import solve_ivp
 
 from lagrotor import Link, Scene, Shock, floquet, natural_rate, shock_response
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models import exact_orbit, slow_frequency_error, time_to_wander
+from lagrotor.models import exact_orbit, slow_frequency_error, time_to_reach_error, time_to_wander
 from lagrotor.models.orbits.floquet import _pushed
 from lagrotor.numerics import measured_order
 from lagrotor.theory import SlowMotion, slow_frequency, slow_motion, slow_rates, time_to_reach, turns_back
 from tests.models.orbits_at_once import ENOUGH, exact_orbits
-from tests.theory.random_pairs import held, random_pair
+from tests.theory.random_pairs import exact_axes, held, random_pair, shocked
 
 
 def random_motion(rng: np.random.Generator) -> SlowMotion:
@@ -75,17 +75,72 @@ def test_x_is_reached_in_time(link: Link, spin: float) -> None:
     assert time_to_wander(scene, 0.3, 1.5 * law) == pytest.approx(law, rel=0.15)
 
 
+def shocked_pair(rng):
+    """Opposite spins of natural rate 1, a bar 0.4 to 2.5 axes long, massless or up to 60 kg, a shock, and an x to be reached."""
+    one = random_pair(rng, "opposite")
+    length, mass = one.link.length, rng.choice([0, 1]) * np.exp(rng.uniform(np.log(0.01), np.log(60)))
+    one = replace(one, link=Link(length, mass, mass * length**2 * rng.choice([0.0, rng.uniform(0, 0.3)])))
+    one = replace(one, spins=tuple(w / natural_rate(one) for w in one.spins))
+    return shocked(rng, one, 0.1, 0.5), rng.uniform(0.15, 0.9)
+
+
+@pytest.mark.parametrize(
+    ("seed", "count"), [(1, 1), *(pytest.param(seed, 1_000, marks=pytest.mark.slow) for seed in range(2, 12))]
+)
+def test_the_time_to_reach_tells_its_error(seed: int, count: int) -> None:
+    """Against exact runs side by side, averaged over six swings."""
+    rng, scenes, pairs, turn = np.random.default_rng(seed), [], [], 2 * pi
+    while len(scenes) < count:
+        scene, x = shocked_pair(rng)
+        try:
+            law = time_to_reach(scene, x)
+            if 8 * turn < law < 60 * turn:  # beyond the first swings, and not for hours
+                scenes.append((scene, x, law, time_to_reach_error(scene, x)))
+        except DomainError:  # not small, or the bar tilts too far
+            continue
+    times = [np.r_[0, np.arange(s.shock.end, s.shock.at + 3 * law + 8 * turn, turn / 32)] for s, _, law, _ in scenes]
+    u = (np.arange(192) + 0.5) / 192
+    weight = np.exp(-1 / (u * (1 - u)))
+    for (scene, x, law, error), t, seen in zip(scenes, times, exact_axes([s for s, *_ in scenes], times), strict=True):
+        mean = np.abs(np.convolve(seen[0][:, 1:, 0].mean(0), weight / weight.sum(), "valid"))
+        there = t[1] + (np.argmax(mean >= x) + 95.5) * turn / 32 - scene.shock.at if mean.max() >= x else inf
+        pairs.append((min(abs(there - law), 1e9), min(error, 1e9)))
+    held(pairs, 0, count, 0)
+    assert max(off / error for off, error in pairs) > 0.5  # twin: half of it is no bound
+
+
+def with_threshold(side: float, k: float, force: float, width: float) -> Scene:
+    """A heavy bar for which (sigma − 1) k² is `side` times 1 + 2/A² + sqrt(3/2), and a shock along x."""
+    heavy = Scene((10, -10), link=Link(k, 1.0, 0.0), shock=Shock((force, 0, 0), 2.0, width))
+    for _ in range(40):  # the width's A depends on the bar
+        A = np.exp(-((natural_rate(heavy) * width) ** 2) / 4)
+        shape = side * (1 + 2 / A**2 + sqrt(1.5)) / k**2
+        heavy = replace(heavy, link=Link(k, 2 * heavy.rotor.J * shape, 0.0))
+    return heavy
+
+
 def test_beyond_the_threshold_x_turns_back() -> None:
-    """(sigma − 1) k² > 1 + 2/A² + sqrt(3/2), at any size of the shock and any k."""
-    for k, force, width in ((1.0, 4.0, 1e-3), (0.7, 20.0, 0.05), (1.6, 3.0, 0.3)):
+    """At any k and width; to leading order at any size of the shock."""
+    for k, force, width in ((1.0, 4.0, 1e-3), (0.7, 2.0, 0.01), (1.6, 0.3, 0.3)):
         for side in (0.99, 1.01):
-            heavy = Scene((10, -10), link=Link(k, 1.0, 0.0), shock=Shock((force, 0, 0), 2.0, width))
-            for _ in range(40):  # the width's A depends on the bar
-                A = np.exp(-((natural_rate(heavy) * width) ** 2) / 4)
-                shape = side * (1 + 2 / A**2 + sqrt(1.5)) / k**2
-                heavy = replace(heavy, link=Link(k, 2 * heavy.rotor.J * shape, 0.0))
+            heavy = with_threshold(side, k, force, width)
             assert turns_back(heavy) is (side > 1)
             assert time_to_reach(heavy, 0.5) < inf if side < 1 else slow_motion(heavy).time_to(1.5) == inf
+            larger = replace(heavy, shock=Shock((5 * force, 0, 0), 2.0, width))
+            assert (slow_motion(larger).farthest < pi / 2) is (side > 1)
+
+
+def test_where_the_next_order_decides_whether_x_turns_back_nothing_is_said() -> None:
+    """A seventh beyond the threshold the exact motion goes on past the farthest x of the leading order."""
+    heavy = with_threshold(1.15, 1.0, 38.0, 0.05)
+    motion = slow_motion(heavy)
+    assert np.sin(motion.farthest) < 0.3
+    assert time_to_wander(heavy, 0.6, 110) > 0
+    assert [motion.turns(share) for share in (0.0, 1.0)] == [True, False]
+    with pytest.raises(DomainError, match="the next order of the averaged motion decides"):
+        turns_back(heavy)
+    with pytest.raises(DomainError, match="tilts by more than 30° from the start"):
+        turns_back(Scene((10, -10), link=Link(0.3), shock=Shock((35, 0, 0), 1.0, 0.05)))
 
 
 def pushed_orbit(rng):
