@@ -53,7 +53,7 @@ def read_formula(latex: str, notation: Notation | None = None, lead: str = "") -
         row = reader.notation.boxes(source)
         reader.lowered = frozenset(_lowered(row))
         statements = tuple(read_statements(reader, row))
-        mark_open_meanings(reader, row, statements)
+        mark_open_meanings(reader, row)
     except FormulaError as stop:
         return Reading(stop=(stop.what, stop.help))
     except RecursionError:

@@ -8,16 +8,17 @@ but on that of log.
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_letter import is_called, is_entry
-from lagrotor.paper.source.read_statements import PrintedStatement, is_set
+from lagrotor.paper.source.read_statements import is_set
 from lagrotor.paper.source.rows import (
     TENSOR,
     UNITS,
+    VARIABLES,
     all_boxes,
     derivative_mark,
     has_differential_above,
@@ -25,7 +26,6 @@ from lagrotor.paper.source.rows import (
     strip,
     without_thin,
 )
-from lagrotor.paper.source.tree import Letter, is_printed_zero, is_vector, walk
 from lagrotor.paper.source.usage import (
     Notation,
     is_number,
@@ -43,48 +43,25 @@ from lagrotor.paper.source.usage import (
 # Names that are mostly functions: before a bracket they are no factors.
 _FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
 _FUNCTIONS = frozenset(_FUNCTION_NAMES.split())
-# What is evident by itself; what it holds is looked at.
+# What is evident by itself, or marked where it is read; what it holds is looked at.
 _EVIDENT = ("root", "infinity", "comma", "wide", "thin", "dots", "row", "rows", "group", "percent", "degree", "unit", "binomial",
-            "cases")  # fmt: skip
+            "cases", "accent", "matrix", "nabla", "partial", "fraction", "function", "number", "arrow")  # fmt: skip
 _FACTORS = ("letter", "bracket", "fraction", "root", "accent", "function", "big", "nabla", "partial", "matrix", "group")
 _RELATIONS = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
 _BOUNDS = frozenset(("<", ">", "<=", ">="))
 _JOINING = "where with and for if when so then thus hence since but while also let in mit wobei und für wenn pour si avec où et"
 _WORDS = frozenset(_JOINING.split())
-_NOT_OF_NUMBERS_WORDS = "det tr Tr diag rank dim arg Re Im max min sup inf ker deg gcd"
-_NOT_OF_NUMBERS = frozenset(_NOT_OF_NUMBERS_WORDS.split())
 _INDICES = frozenset("abcdefghijklmnopqrsuvwIJKMN") | {name[1:] for name in GREEK if name[1].islower()}
-_VARIABLES = frozenset(["x", "y", "z", "t", "r", "s", "xi", "eta", "theta", "phi", "varphi", "rho", "u", "v"])
 # Capitals that are amplitudes before a sine.
 _AMPLITUDES = "ABCFINQRVWXYZ"
 _PARTS = ("relation", "comma", "wide", "text", "arrow")
 Marks = Iterator[tuple[str, str, str]]
 
 
-def mark_open_meanings(reader: FormulaReader, row: list[Box], statements: tuple[PrintedStatement, ...]) -> None:
-    """Add to the guesses of a reading what is not evident."""
-    for key, what, settles in (*_statements(statements), *_lists(row), *_row(reader, row), *_repeated(row)):
+def mark_open_meanings(reader: FormulaReader, row: list[Box]) -> None:
+    """Add to the guesses of a reading what is not evident of signs beside each other; the rest is marked where it is read."""
+    for key, what, settles in (*_lists(row), *_row(reader, row), *_repeated(row)):
         reader.guess(key, what, settles)
-
-
-def _statements(statements: Iterable[PrintedStatement]) -> Marks:
-    held = list(statements)
-    if any(a.node == b.node for each in held for a, b in pairwise(each.sides)):
-        yield "same", "two signs that differ in print are the same, as a dot and a rate", ""
-    kinds = [each.kind for each in held]
-    if len(held) > 1 and "expression" in kinds:
-        yield "list", "what has no relation beside what has one is a statement of its own", ""
-    if "equation" in kinds and "inequality" in kinds:
-        yield "condition", "an inequality beside an equation is a statement, and no condition of it", ""
-    for each in held:
-        nodes = [side.node for side in each.sides]
-        sides = [
-            node for node in nodes if not is_printed_zero(node) and (is_vector(node) or not isinstance(node, Letter))
-        ]
-        if len({is_vector(node) for node in sides}) > 1 and each.kind in ("equation", "approximation"):
-            yield "matrix", "what is printed as a vector and what is none are equal, and neither is a matrix", ""
-        if each.kind == "range" and any(isinstance(node, Letter) for side in nodes[1:] for node in walk(side)):
-            yield "list", "what the comma parts are values, and no components or arguments", ""
 
 
 def _lists(row: list[Box]) -> Marks:
@@ -270,7 +247,7 @@ def _lowered(known: Notation, box: Box) -> Marks:
         and not is_printed_as_vector(box)
         and f"{box.name}_t" not in known.spelled
     ) or (box.name == "e" and is_printed_as_vector(box))
-    if names and (({*names} <= set("xyzt") and not component) or (alone and {*names} <= _VARIABLES | differentiated)):
+    if names and (({*names} <= set("xyzt") and not component) or (alone and {*names} <= VARIABLES | differentiated)):
         yield "index", f"the index of {box.name} is part of the name, and no derivative", ""
 
 
@@ -430,43 +407,6 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Marks:
             yield "label", "letters side by side in a ket are a product, and no list of labels", ""
 
 
-def _number(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    box, after = row[place], _behind(row, place)
-    term = (
-        after is not None and after.kind == "letter" and bool(box.sup) and "1" in (box.name, (box.sup or [box])[0].name)
-    )
-    if term or (box.sup and [b.name for b in box.sup] == ["1"]):  # 1^1 S_0
-        yield "power", f"{box.name} has a power, and is no sign of a term", ""
-    if len(row[place].name) > 1 and row[place].name.isdecimal() and row[place].name[0] == "0":
-        yield "digits", f"{row[place].name} is a number, and no row of digits", ""
-
-
-def _fraction(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    box = row[place]
-    mark = derivative_mark(box)
-    if mark and any(b.kind == "letter" and b.sup and power_in(b) for b in without_thin(box.parts[0])[1:2]):
-        yield "derivative", "the power above is differentiated, and is none of the differential", ""
-    if mark:
-        under = {b.name for b in all_boxes(without_thin(box.parts[1])) if b.kind == "letter"}
-        alone = len(without_thin(box.parts[0])) == 1
-        then = _behind(row, place) if alone else None
-        if then is not None and then.kind == "bracket" and then.name == ".":
-            yield "at", "what is differentiated is taken at a place, and the derivative is not taken there", ""
-        yield from _taken_at(row if alone else without_thin(box.parts[0]), place + 1 if alone else 1, under)
-    if mark in ("D", "delta"):
-        yield "derivative", f"the fraction with {mark} is a derivative like any other", ""
-    if mark == "d" and "times" in reader.notation.seen and [b.name for b in box.parts[1]][1:] == ["t"]:
-        yield "dot", "the derivative by t is the rate that a dot has", ""
-
-
-def _taken_at(row: list[Box], place: int, variables: set[str]) -> Marks:
-    """A derivative of a function whose arguments do not hold what it differentiates by: it is taken there."""
-    if place + 1 < len(row) and row[place].kind == "letter" and row[place + 1].kind == "bracket":
-        inside = _letters(*row[place + 1].parts[0])
-        if any(b.kind == "comma" for b in row[place + 1].parts[0]) and not variables & inside:
-            yield "at", f"the value of {row[place].name} is differentiated, and the derivative is not taken there", ""
-
-
 def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     box, known = row[place], reader.notation
     before, after = (row[place - 1] if place else None), _behind(row, place)
@@ -504,31 +444,12 @@ def _relation(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "relation", "< and > are relations, and no angle brackets", ""
 
 
-def _arrow(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    if row[place].name != "forall":
-        yield "relation", f"{row[place].name} joins two statements, and both are meant", ""
-
-
 def _text(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     box, before = row[place], row[place - 1] if place else None
     if before is not None and before.kind == "number" and is_unit_like(box.name):
         return
     if box.name.split(" ")[0].strip(",.;:").lower() not in _WORDS or re.search(r"[$\[\]*=+\\]", box.name):
         yield "words", f"the words {box.name} join statements, and are no factor or function", ""
-
-
-def _function(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    box, after, end = row[place], _behind(row, place), _behind(row, place + 1)
-    single = after is not None and after.kind in ("letter", "number")
-    ends = end is None or end.kind in ("relation", "operator", "comma", "wide")
-    bracketed = after is not None and after.kind == "bracket"
-    if (box.name in _NOT_OF_NUMBERS or box.name not in FUNCTIONS) and not (bracketed or (single and ends)):
-        yield "words", f"{box.name} acts on all that follows it", ""
-
-
-def _accent(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    if row[place].name not in ("dot", "ddot"):
-        yield "bar", f"the {row[place].name} over several signs is no conjugate or segment", ""
 
 
 def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
@@ -561,32 +482,8 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "integral", f"\\{box.name} is an integral over what is written below it", ""
 
 
-def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    box = row[place]
-    if box.name not in ("pmatrix", "bmatrix", "vmatrix"):
-        yield "array", f"the {box.name} is a matrix, and no table or symbol", ""
-    elif box.name == "pmatrix" and [len(line.parts) for line in box.parts[0]] in ([3, 3], [1, 1]):
-        yield "array", "the brackets hold a matrix, and no 3j symbol or binomial", ""
-
-
-def _nabla(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    if row[place].sub:
-        yield "index", "the index of \\nabla is what it differentiates by", ""
-    if row[place].sup and "hessian" in reader.notation.seen:
-        yield "laplacian", "\\nabla^2 is the Laplacian, and no matrix of second derivatives", ""
-
-
-def _partial(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    below = row[place].sub or []
-    yield from _taken_at(row, place + 1, {b.name for b in below})
-    if below and not (len(below) == 1 and below[0].name in _VARIABLES - {"rho"}):
-        yield "index", "the index of ∂ is what it differentiates by", ""
-
-
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
-    "number": _number, "letter": _letter, "bracket": _bracket, "fraction": _fraction, "operator": _operator,
-    "relation": _relation, "arrow": _arrow, "text": _text, "function": _function, "accent": _accent, "big": _big,
-    "matrix": _matrix, "bar": _bar, "nabla": _nabla, "partial": _partial,
+    "letter": _letter, "bracket": _bracket, "operator": _operator, "relation": _relation, "text": _text, "big": _big, "bar": _bar,
 }  # fmt: skip
 
 

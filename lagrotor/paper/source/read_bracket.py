@@ -192,6 +192,8 @@ def read_accent(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if box.sub is not None:
         raise FormulaError(box.at, "an index follows what is no letter", "write it on the letter")
     inner = reader.expression(box.parts[0])
+    if box.name not in ("dot", "ddot"):
+        reader.guess("bar", f"the {box.name} over several signs is no conjugate or segment")
     if box.name == "dot":
         return power_of(reader, Call("rate", (inner,)), box), place + 1
     if box.name == "ddot":
@@ -211,6 +213,10 @@ def read_matrix(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     lines = [[reader.expression(cell) for cell in line.parts] for line in box.parts[0]]
     if not lines or len({len(line) for line in lines}) != 1:
         raise FormulaError(box.at, "the rows of a matrix have different lengths", "write every entry")
+    if box.name not in ("pmatrix", "bmatrix", "vmatrix"):
+        reader.guess("array", f"the {box.name} is a matrix, and no table or symbol")
+    elif box.name == "pmatrix" and [len(line) for line in lines] in ([3, 3], [1, 1]):
+        reader.guess("array", "the brackets hold a matrix, and no 3j symbol or binomial")
     if box.name in ("vmatrix",):
         made = Call("det", tuple(Call("row", tuple(line)) for line in lines))
         return power_of(reader, made, box), place + 1

@@ -9,6 +9,8 @@ from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_scripts import letter_of, mark_of, power_of
 from lagrotor.paper.source.rows import (
     TENSOR,
+    VARIABLES,
+    all_boxes,
     derivative_mark,
     has_differential_above,
     is_d,
@@ -17,7 +19,7 @@ from lagrotor.paper.source.rows import (
     without_thin,
 )
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number, walk
-from lagrotor.paper.source.usage import arguments, simple_argument
+from lagrotor.paper.source.usage import arguments, power_in, simple_argument
 
 _INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a", "b")
 
@@ -85,6 +87,7 @@ def _derivative(reader: FormulaReader, row: list[Box], place: int, mark: str) ->
         raise FormulaError(box.at, "the orders of the derivative differ", "write the same order above and below")
     operand = over[1:]
     behind = place + 1
+    _mark_derivative(reader, box, mark, operand, without_thin(row[behind:]))
     if operand:
         node = reader.expression(operand)
     elif _stands_alone(reader, row, behind):
@@ -99,6 +102,29 @@ def _derivative(reader: FormulaReader, row: list[Box], place: int, mark: str) ->
         for variable, times in variables:
             made = Call("Derivative", (made, variable, *([number(times)] if times > 1 else [])))
     return (power_of(reader, made, box) if operand else made), behind
+
+
+def _mark_derivative(reader: FormulaReader, box: Box, mark: str, operand: list[Box], rest: list[Box]) -> None:
+    if operand and operand[0].kind == "letter" and operand[0].sup and power_in(operand[0]):
+        reader.guess("derivative", "the power above is differentiated, and is none of the differential")
+    if not operand and rest and rest[0].kind == "bracket" and rest[0].name == ".":
+        reader.guess("at", "what is differentiated is taken at a place, and the derivative is not taken there")
+    _mark_arguments(reader, operand or rest, box.parts[1])
+    if mark in ("D", "delta"):
+        reader.guess("derivative", f"the fraction with {mark} is a derivative like any other")
+    if mark == "d" and "times" in reader.notation.seen and [b.name for b in box.parts[1]][1:] == ["t"]:
+        reader.guess("dot", "the derivative by t is the rate that a dot has")
+
+
+def _mark_arguments(reader: FormulaReader, operand: list[Box], variables: list[Box]) -> None:
+    """Mark a derivative of a function whose arguments do not hold what it differentiates by: it is taken there."""
+    if len(operand) > 1 and operand[0].kind == "letter" and operand[1].kind == "bracket":
+        held, by = (
+            {b.name for b in all_boxes(part) if b.kind == "letter"} for part in (operand[1].parts[0], variables)
+        )
+        if any(b.kind == "comma" for b in operand[1].parts[0]) and not held & by:
+            what = f"the value of {operand[0].name} is differentiated, and the derivative is not taken there"
+            reader.guess("at", what)
 
 
 def _order(reader: FormulaReader, box: Box) -> int:
@@ -193,6 +219,9 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         raise FormulaError(box.at, why, "write \\partial_x or \\frac{\\partial f}{\\partial x}")
     if len(box.sub) != 1 or box.sub[0].kind != "letter":
         raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
+    _mark_arguments(reader, without_thin(row[place + 1 :]), box.sub)
+    if box.sub[0].name not in VARIABLES - {"rho"}:
+        reader.guess("index", "the index of ∂ is what it differentiates by")
     order = _order(reader, box)
     variable = letter_of(reader, box.sub[0])[0]
     if isinstance(variable, Letter) and variable.name in {*_INDICES} - (reader.notation.bare - reader.lowered):
@@ -208,6 +237,10 @@ def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
     box = row[place]
     if box.sub is not None and (len(box.sub) != 1 or box.sub[0].kind != "letter"):
         raise FormulaError(box.at, "what ∇ differentiates by is not clear", "write one letter below")
+    if box.sub:
+        reader.guess("index", "the index of \\nabla is what it differentiates by")
+    if box.sup and "hessian" in reader.notation.seen:
+        reader.guess("laplacian", "\\nabla^2 is the Laplacian, and no matrix of second derivatives")
     by = (letter_of(reader, box.sub[0])[0],) if box.sub else ()
     after = row[place + 1] if place + 1 < len(row) else box
     if after.kind == "operator" and after.name in ("cdot", "times", "wedge") and box.sup is None:
@@ -265,6 +298,8 @@ def read_advection(reader: FormulaReader, row: list[Box], place: int) -> tuple[N
     r"""(\vec v\cdot\nabla) of what follows."""
     content = without_thin(row[place].parts[0])
     along = reader.expression(content[:-2])
+    if content[-1].sub or content[-1].sup:
+        raise FormulaError(content[-1].at, "∇ has an index or a power", "write the derivatives")
     if _stands_alone(reader, row, place + 1):
         return Call("operator_advection", (along,)), place + 1
     node, behind = _operand(reader, row, place + 1, row[place])

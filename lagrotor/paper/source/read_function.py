@@ -11,6 +11,7 @@ from lagrotor.paper.source.tree import Call, Node, number
 from lagrotor.paper.source.usage import arguments
 
 _ANGLES = ("theta", "phi", "varphi", "psi", "alpha", "beta", "vartheta", "gamma", "chi")
+_NOT_OF_NUMBERS = "det tr Tr diag rank dim arg Re Im max min sup inf ker deg gcd"
 _ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
 
 
@@ -19,6 +20,11 @@ def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     name = FUNCTIONS.get(box.name, box.name)
     if name in ("max", "min", "sup", "inf") and box.sub is not None:
         raise FormulaError(box.at, f"{box.name} over a set is not read", "write its value")
+    after, end = [*(b for b in row[place + 1 :] if b.kind != "thin"), box, box][:2]
+    bracketed = after.kind == "bracket" and after.name not in ("|", r"\|")
+    alone = after.kind in ("letter", "number") and (end is box or end.kind == "operator")
+    if (box.name in _NOT_OF_NUMBERS.split() or box.name not in FUNCTIONS) and not (bracketed or alone):
+        reader.guess("words", f"{box.name} acts on all that follows it")
     inner, behind = _argument(reader, row, place)
     if behind < len(row) and row[behind].name == "!":
         if name not in ("log", "log10"):

@@ -16,6 +16,12 @@ _UNIT = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s,·]|\\[,.%]|-?\d+|[{}]")
 def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box, behind = row[place], place + 1
     text = box.name
+    after = next((b for b in row[behind:] if b.kind != "thin"), box)
+    above = [b.name for b in box.sup or ()]
+    if above == ["1"] or (above and after.kind == "letter" and "1" in (text, above[0])):  # 1^1 S_0
+        reader.guess("power", f"{text} has a power, and is no sign of a term")
+    if len(text) > 1 and text.isdecimal() and text[0] == "0":
+        reader.guess("digits", f"{text} is a number, and no row of digits")
     while (
         behind + 1 < len(row)
         and row[behind].kind == "thin"

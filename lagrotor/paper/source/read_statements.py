@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
@@ -46,7 +47,25 @@ def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatem
     if reader.alone and reader.reaching:  # d/dx x - x d/dx = 1
         why = "whether a derivative acts on what follows it or is an operator is open"
         raise FormulaError(row[0].at, why, "write brackets around what it acts on, or let all operators act")
+    kinds = {each.kind for each in found}
+    if len(found) > 1 and "expression" in kinds:
+        reader.guess("list", "what has no relation beside what has one is a statement of its own")
+    if {"equation", "inequality"} <= kinds:
+        reader.guess("condition", "an inequality beside an equation is a statement, and no condition of it")
+    for each in found:
+        _mark_sides(reader, each)
     return found
+
+
+def _mark_sides(reader: FormulaReader, statement: PrintedStatement) -> None:
+    nodes = [side.node for side in statement.sides]
+    if any(a == b for a, b in pairwise(nodes)):
+        reader.guess("same", "two signs that differ in print are the same, as a dot and a rate")
+    compared = [n for n in nodes if not is_printed_zero(n) and (is_vector(n) or not isinstance(n, Letter))]
+    if len(set(map(is_vector, compared))) > 1 and statement.kind in ("equation", "approximation"):
+        reader.guess("matrix", "what is printed as a vector and what is none are equal, and neither is a matrix")
+    if statement.kind == "range" and any(isinstance(n, Letter) for node in nodes[1:] for n in walk(node)):
+        reader.guess("list", "what the comma parts are values, and no components or arguments")
 
 
 def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
@@ -54,6 +73,8 @@ def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
     if len(row) == 1 and row[0].kind == "group":
         return _pieces(reader, strip(row[0].parts[0]))
     lines = _system(row[0]) if row else None
+    if lines and any(box.name == "array" for box in (row[0], *(b for part in row[0].parts for b in part))):
+        reader.guess("array", "the lines of the array are statements, and no table")
     beside = strip(row[1:])
     if lines is None or (beside and row[1].kind not in ("wide", "comma", "thin", "text", "bracket")):
         return [row]
@@ -159,6 +180,8 @@ def _is_condition(row: list[Box], place: int) -> bool:
 
 def _check_words(reader: FormulaReader, box: Box, following: Box | None) -> None:
     """Words that deny what they join are not read, nor functions by name; of "or" it is taken that both are stated."""
+    if box.kind == "arrow" and box.name != "forall":
+        reader.guess("relation", f"{box.name} joins two statements, and both are meant")
     joined = following is not None and following.kind == "bracket" and following.at == box.end
     if joined and box.name.isalpha() and reader.source[box.end - 2].isalpha() and not _CONDITION.match(box.name):
         why = f"whether {box.name} acts on what follows is open"

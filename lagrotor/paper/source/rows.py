@@ -9,6 +9,7 @@ _NAMES = (
     "div rot curl Id id tr Tr diag span rank const cst sgn ord deg eff tot kin pot"
 )
 _WORDS = frozenset(_NAMES.split())
+VARIABLES = frozenset(["x", "y", "z", "t", "r", "s", "xi", "eta", "theta", "phi", "varphi", "rho", "u", "v"])
 TENSOR = ("mu", "nu", "rho", "sigma", "kappa", "lambda", "tau")
 _UNIT_NAMES = (
     "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr pc kHz MHz GHz THz kPa "

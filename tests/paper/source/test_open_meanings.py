@@ -88,6 +88,12 @@ SETTLED = [
     (r"(\tilde\Delta - h)f = g", [], "no Laplacian"),
     ("J = A_{x,yx} - A_{y,xx}", [], "the comma in the index of A"),
     (r"\kappa = \frac{dz^2}{dt}", [], "the power above is differentiated"),
+    (r"\kappa = dz^2/dt", [], "the power above is differentiated"),
+    (r"\left\{\begin{array}{l} a = b\\ c = d\end{array}\right.", [], "the lines of the array are statements"),
+    (r"\mathrm{d}f(a, b)/\mathrm{d}t = c", [], "the derivative is not taken there"),
+    (r"r = \max|\lambda|", [], "max acts on all"),
+    ("a = 001", [], "no row of digits"),
+    (r"(\mathbf v\cdot\nabla_k)\mathbf u = \mathbf a", [], "has an index or a power"),
     (r"M\begin{pmatrix} a\\ b\end{pmatrix} = v", [], "M is a factor"),
     (r"u_{tt} = c u_{xx} + u", [], "the index of u is"),
     ("u_t + u u_x = 0", [], "the index of u is"),
@@ -159,6 +165,10 @@ def test_what_has_a_rival_is_marked_until_the_paper_settles_it(latex: str, paper
     assert any(words in each for each in said), said
     if paper:
         assert not guesses(latex, *paper)
+
+
+def test_digits_in_groups_are_one_number() -> None:
+    assert not guesses(r"12! = 479\,001\,600")
 
 
 @pytest.mark.parametrize(
