@@ -4,7 +4,7 @@
 # **Objective.** One row for each of the subjects of the theory past the paper: what the paper has, what holds and to
 # which order, a comparison with the exact model, and the figure.
 #
-# **Assumptions.** Those of the scripts t1 to t15 and n6 to n8, from which every formula and every number is taken.
+# **Assumptions.** Those of the scripts t1 to t15 and n6 to n9, from which every formula and every number is taken.
 
 # %%
 import sympy as sp
@@ -33,6 +33,7 @@ t15 = PAPER.scripts.run("derivations", "t15_return_maps")
 n6 = PAPER.scripts.run("derivations", "n6_resonances")
 n7 = PAPER.scripts.run("derivations", "n7_nonlinear_waves")
 n8 = PAPER.scripts.run("derivations", "n8_fast_spins")
+n9 = PAPER.scripts.run("derivations", "n9_precessions")
 Omega_0, energy, wander, growth, power, reached, shift, turned = (
     sp.Symbol(name) for name in ("Omega_0", "E_gain", r"\dot{X}", "s", "lambda", "rho", r"\omega-\omega_0", "tau")
 )
@@ -260,6 +261,20 @@ rows = (
         f"−{-n8['powers'][1]:.2f}; the gap of hanging gyroscopes on a honeycomb from {n8['low']:.4f} to {n8['high']:.4f} rad/s, "
         f"with inertia from {n8['with_inertia'][0]:.4f} to {n8['with_inertia'][1]:.4f}",
         FigureLink("n8"),
+    ),
+    (
+        "precessions of structures",
+        "none",
+        (
+            "each mode of a rate of its own goes on at finite tilt τ as a periodic motion: known, Lyapunov (1907). Its rate, "
+            "with p the axis' tilt over √I and b what is forced besides:",
+            equal(Omega, n9["law"]),
+            "and its multipliers, until two modes whose rates nearly add up to its own are fed; new for rotors and bars",
+        ),
+        "orders of what the law leaves, of the rate and of the multipliers: "
+        + "; ".join(f"{orders[1]:.2f} and {orders[3]:.2f} ({name})" for name, orders in n9["measured"].items())
+        + f"; a triangle's fastest is stable up to a tilt of {n9['said'].edge:.4f}, exact {n9['seen']:.4f}",
+        FigureLink("n9"),
     ),
 )
 

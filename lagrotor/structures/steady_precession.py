@@ -24,7 +24,7 @@ from lagrotor.numerics.segment import RightHandSide
 from lagrotor.pair.quantities import finite_number
 from lagrotor.shown import Shown, scientific
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Array
+from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
 from lagrotor.structures.exact.written_out import right_hand_side
@@ -139,10 +139,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
             no such orbit is reached.
     """
     where = "steady_precession"
-    linear = modes(s)
-    count, c = len(linear.rates), (motion := exact_motion(s)).c
-    if isinstance(mode, bool) or not isinstance(mode, int | np.integer) or not 0 <= mode < count:
-        raise InputError(f"{where}: mode = {mode!r} is not a number from 0 to {count - 1}, as modes() has them")
+    rate, shape = oscillation(s, mode, where)
     size = finite_number(tilt, f"{where}: tilt", "parts of a unit vector")
     if not 0 < size < 1:
         raise InputError(f"{where}: tilt = {size:g} must lie between 0 and 1, the sine of a right angle")
@@ -150,17 +147,8 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
         raise InputError(
             f"{where}: tilt = {size:g} is below {_STEP:g}, the step of the differences: modes() tells as much"
         )
-    if c.decay.any() or c.friction.any() or c.damping.any():
-        raise InputError(f"{where}: friction or a damper takes energy, and no motion returns: leave it out")
-    rate, growth, shape = linear.rates[mode], linear.growth[mode], linear.shapes[mode]
-    if growth or rate == 0:
-        why = f"{'grows' if growth > 0 else 'decays'}, {abs(growth):.3g} 1/s" if growth else "has no rate"
-        raise InputError(f"{where}: mode {mode} {why}: only an oscillation becomes a precession; take another mode")
-    if (np.abs(np.delete(linear.rates, mode) - rate) < _EQUAL * rate).any():
-        raise InputError(
-            f"{where}: other modes have the rate of mode {mode}, {rate:.6g} rad/s: any sum of them is a mode, and which of the "
-            "sums become precessions is not searched; change a spin"
-        )
+    motion = exact_motion(s)
+    c = motion.c
     lead = int(np.abs(shape).argmax())
     shoot = _Shooting(motion, right_hand_side(motion), 3 * (lead // 2) + lead % 2)
     zeros = np.zeros((len(shape), 1))
@@ -198,6 +186,26 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, most, mismatch)
 
 
+def oscillation(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
+    """The rate and shape of a mode that becomes a precession. Raises InputError for another."""
+    linear, c = modes(s), coefficients(s)
+    count = len(linear.rates)
+    if isinstance(mode, bool) or not isinstance(mode, int | np.integer) or not 0 <= mode < count:
+        raise InputError(f"{where}: mode = {mode!r} is not a number from 0 to {count - 1}, as modes() has them")
+    if c.decay.any() or c.friction.any() or c.damping.any():
+        raise InputError(f"{where}: friction or a damper takes energy, and no motion returns: leave it out")
+    rate, growth = float(linear.rates[mode]), linear.growth[mode]
+    if growth or rate == 0:
+        why = f"{'grows' if growth > 0 else 'decays'}, {abs(growth):.3g} 1/s" if growth else "has no rate"
+        raise InputError(f"{where}: mode {mode} {why}: only an oscillation becomes a precession; take another mode")
+    if (np.abs(np.delete(linear.rates, mode) - rate) < _EQUAL * rate).any():
+        raise InputError(
+            f"{where}: other modes have the rate of mode {mode}, {rate:.6g} rad/s: any sum of them is a mode, and which of the "
+            "sums become precessions is not searched; change a spin"
+        )
+    return rate, linear.shapes[mode]
+
+
 def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[np.complex128], Array]:
     """All multipliers and their errors, (2n,): from differences by a step and by twice as long ones."""
     shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # of differences by a step and by two
@@ -205,11 +213,12 @@ def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[n
     slopes = shoot.slopes(y, duration, weights, TIGHTEST)
     forms, start = [np.linalg.lstsq(*part)[0] for part in slopes], slopes[0, 0]
     along = np.linalg.lstsq(start, np.asarray(shoot.rhs(0.0, y)))[0]
-    beside = y[None] + np.concatenate([_STEP * start.T, -_STEP * start.T])
-    energy = shoot.motion.energy(
-        *(shoot.motion.axes_and_rates(beside) * np.array([1.0, shoot.motion.c.rate])[:, None, None, None])
-    )
-    across = np.linalg.svd(np.stack([along / np.linalg.norm(along), -np.subtract(*np.split(energy, 2))]))[2][2:].T
+    beside = np.concatenate([y[None] + k * _STEP * start.T for k in (1, -1, 2, -2)])
+    axes, rates = shoot.motion.axes_and_rates(beside)
+    energy = np.split(shoot.motion.energy(axes, shoot.motion.c.rate * rates), 4)
+    gained = np.tensordot([8, -8, -1, 1], energy, 1)
+    both = np.stack([along / np.linalg.norm(along), gained / np.linalg.norm(gained)])
+    across = np.linalg.svd(both)[2][2:].T
     inner, other = (across.T @ form @ across for form in forms)
     values, right = np.linalg.eig(inner)
     conditions = np.linalg.norm(np.linalg.pinv(right), axis=1) * np.linalg.norm(right, axis=0)

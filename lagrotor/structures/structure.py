@@ -8,6 +8,7 @@ from lagrotor.structures import (
     characteristic,
     critical_spins,
     leaning,
+    precession_law,
     resonances,
     response,
     small_motion,
@@ -61,6 +62,7 @@ class Structure(Assembly):
     rest_near = leaning.rest_near
     modes_about = leaning.modes_about
     steady_precession = steady_precession.steady_precession
+    precession_law = precession_law.precession_law
     stands = standing.stands
     critical_spin = critical_spins.critical_spin
     spin_intervals = resonances.spin_intervals

@@ -37,13 +37,15 @@ Row = list[Polynomial]
 class LocalHamiltonian:
     """H/(inertia rate²) = parts[0] + f parts[1] + f² parts[2] with all spins multiplied by f, in q and p/(inertia rate).
 
-    q = basisᵀ u, with the basis (2N, n) of `small_motion`; mass (n, n): of p = mass q'/rate at upright. rate in rad/s.
+    q = basisᵀ u, with the basis (2N, n) of `small_motion`; mass (n, n): of p = mass q'/rate at upright. rate in rad/s. axes: x, y
+    and z of each, in q.
     """
 
     parts: tuple[Polynomial, Polynomial, Polynomial]
     basis: Array
     mass: Array
     rate: float
+    axes: list[Row]
 
     def at_spins(self, factor: float) -> Polynomial:
         """The Hamiltonian with all spins multiplied."""
@@ -96,7 +98,7 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
         total([a[i].product(by_p[i], order) for i in range(n)]).times(-1.0),
         total([a[i].product(by_a[i], order) for i in range(n)]).times(0.5),
     )
-    return LocalHamiltonian(parts, linear.basis, linear.mass / inertia, rate)
+    return LocalHamiltonian(parts, linear.basis, linear.mass / inertia, rate, axes)
 
 
 def on_bars(

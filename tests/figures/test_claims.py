@@ -347,6 +347,13 @@ PAST = [
     ("n8", "the gap closes at 90°, where the Chern numbers change their sign", lambda d: d["gap at 90° (rad/s)"] < 1e-4
      < 0.1 < d["gap at 120° (rad/s)"] and (d["number above 90°"], d["number below 90°"]) == (-1, 1),
      ("numbers", lambda numbers: numbers[::-1])),
+    ("n9", "exact orbits turn as the normal form says", lambda d: d["shift, largest share off at the least tilts"] < 0.1,
+     ("said, triangle, slowest", wider(1.2))),
+    ("n9", "none grows below the edge, beyond it as the normal form says", lambda d: d["growth, largest distance"] < 3e-3
+     and ((d["exact"] > 0) == (np.array([0.07, 0.078, 0.085, 0.1, 0.13, 0.16]) > d["edge"])).all(), ("exact", wider(1.2))),
+    ("n9", "exact runs stay below the edge and leave beyond it as the multiplier says", lambda d: d[
+        "below: largest over first"] < 5 and abs(d["beyond: run over multiplier"] - 1) < 0.1
+     and d["beyond: largest"] < 1 < d["heavy: largest"], ("off, triangle, below", lambda off: off * np.exp(np.arange(len(off))))),
 ]  # fmt: skip
 
 CLAIMS = [(str(key), *row) for key, *row in SETUP + THEORY + PAST]
@@ -382,11 +389,21 @@ PLOTS = {  # key → panels, entries of the legend
         "b1": (1, 12),
         "b2": (4, 8),
     },
-    **{"n1": (2, 7), "n2": (2, 8), "n3": (4, 8), "n4": (2, 6), "n5": (2, 3), "n6": (2, 6), "n7": (2, 5), "n8": (2, 5)},
+    **{
+        "n1": (2, 7),
+        "n2": (2, 8),
+        "n3": (4, 8),
+        "n4": (2, 6),
+        "n5": (2, 3),
+        "n6": (2, 6),
+        "n7": (2, 5),
+        "n8": (2, 5),
+        "n9": (3, 8),
+    },
 }
 # Drawn from hundreds of exact orbits or runs; from the waves of wide strips; from every method at every tolerance. What t4
-# and n4 claim is held by a few orbits and runs in theory/test_paired_series and structures/test_damped.
-LONG = ("t4", "t5", "t13", "n4", "n5", "b1", "m1")
+# n4 and n9 claim is held by a few orbits and runs in theory/test_paired_series, structures/test_damped and test_precession_law.
+LONG = ("t4", "t5", "t13", "n4", "n5", "n9", "b1", "m1")
 
 
 def marked(rows):

@@ -8,7 +8,9 @@ from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 AFTER_RUNS = pytest.mark.slow  # the step stands after exact runs of the script
 STEMS = [
-    pytest.param(stem, marks=AFTER_RUNS) if stem == "n5_chern" else stem  # its numbers are held in test_chern
+    pytest.param(stem, marks=AFTER_RUNS)
+    if stem in ("n5_chern", "n9_precessions")
+    else stem  # held in tests of their own
     for stem in PAPER.scripts.names("derivations", "n")
 ]
 # A sign, a factor or a term; each must stop the script.
@@ -57,6 +59,9 @@ MUTANTS = [
     ("n8_fast_spins", "in_limit * (1 - epsilon)", "in_limit * (1 + epsilon)"),
     ("n8_fast_spins", "turn = sp.cos(2 * theta) + i", "turn = sp.cos(2 * theta) - i"),
     ("n8_fast_spins", "sp.sqrt(kappa * (kappa + 3 * k)) / G", "sp.sqrt(kappa * (kappa + 2 * k)) / G"),
+    ("n9_precessions", "amplitude = tau - b * tau**2", "amplitude = tau + b * tau**2"),
+    ("n9_precessions", "(pull / (A * rate)) ** 2", "(pull / (2 * A * rate)) ** 2"),
+    ("n9_precessions", "[-i * added.diff(u_bar), i *", "[-i * added.diff(u_bar), -i *"),
     ("n1_standing", "(lam + 2 * k) * (lam**2 + G_1", "(lam + k) * (lam**2 + G_1"),
     ("n1_standing", "G / 2 * (y * x_v - x * y_v)", "G * (y * x_v - x * y_v)"),
     ("n1_standing", "g = w / (beta - 2 * a * w)", "g = w / (beta + 2 * a * w)"),

@@ -74,6 +74,7 @@ def test_the_table_of_the_theory_needs_every_script_it_takes_a_value_from() -> N
         "n6",
         "n7",
         "n8",
+        "n9",
     }
     assert {"measured", "edges"} <= reach.values_taken("t5_floquet", PAPER)
     assert "values" not in reach.values_taken("t5_floquet", PAPER)  # twin: a name that nobody takes

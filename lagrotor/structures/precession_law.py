@@ -1,0 +1,183 @@
+"""How fast a mode's precession turns at small tilts, and whether it is stable: by the normal form of fourth order.
+
+With the actions I_k of the normal coordinates z_k the Hamiltonian is H = sum_k ω_k I_k + ½ sum_kl A_kl I_k I_l + …, and mode j by
+itself keeps to its plane where no multiple of ω_j is another rate (Lyapunov 1907; of equal rates Weinstein 1973, Moser 1976):
+
+    Ω = ω_j + A_jj I_j + O(I_j²),    multipliers exp(±2πi (ω_k + A_jk I_j)/Ω).
+
+The axis that moves most tilts by a + b a², a = 2 |its part in the mode| √I_j, b from what is forced at 0 and at 2Ω, so that
+
+    Ω = ω_j + ω_j2 (tilt² − 2 b tilt³) + O(tilt⁴).
+
+Where m|ω_j| is near |ω_k + ω_l|, rates with the signs of their energies, the terms c z_j^m z̄_k z̄_l, or with z̄_j, are kept. They
+couple the two, and multipliers leave the circle where |c| I_j^(m/2), twice that if k = l, exceeds half of what the rates at I_j
+miss the resonance by.
+"""
+
+from dataclasses import dataclass
+from math import inf, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrotor.errors import InputError
+from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, linear_form
+from lagrotor.pair.quantities import finite_number
+from lagrotor.shown import Shown
+from lagrotor.structures.assembly import Assembly
+from lagrotor.structures.coefficients import Array
+from lagrotor.structures.resonances import MOST_DOF, normal_form_of, signed_rates
+from lagrotor.structures.small_motion import small_motion
+from lagrotor.structures.steady_precession import oscillation
+from lagrotor.structures.upright_hamiltonian import local_hamiltonian
+
+_NEAR = 0.1  # of the largest rate: detunings up to which terms of two other modes are kept
+_NOTHING = 1e-9  # of the largest coefficient: a smaller one is zero
+_LARGEST = 0.5  # tilt, and share of the mode that its harmonics drive of others, to which the expansion is trusted
+_PARTS = 100  # of the reach, between which the edge of stability is sought
+_ROUNDING = 1e-9  # of a multiplier's modulus
+_EXACT = 1e-6  # of the rate: what is detuned less is in resonance
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PrecessionLaw(Shown):
+    """Of the precession of a mode: Ω = rate + shift (tilt² − 2 skew tilt³) + O(tilt⁴), in rad/s.
+
+    others (n − 1,): the other rates, rad/s, negative of modes of negative energy; sign: of its own. reach: the tilt to which
+    it is trusted, 0.5 or where harmonics drive other modes to half of it. action: I_j/a² in the unit of `beside`, the terms in
+    z_j, z̄_j and the other z, z̄ that are of second degree in these, rad/s.
+    """
+
+    rate: float
+    shift: float
+    skew: float
+    others: Array
+    reach: float
+    sign: int
+    action: float
+    beside: Polynomial
+
+    def rate_at(self, tilt: float) -> float:
+        """Ω in rad/s at a tilt as that of `steady_precession`."""
+        return self.rate + self.shift * self._square(tilt)
+
+    def multipliers_at(self, tilt: float) -> NDArray[np.complex128]:
+        """The multipliers beside two ones, (2n − 2,), through the square of the tilt."""
+        from scipy.linalg import expm
+
+        Omega, root, half = self.sign * self.rate_at(tilt), (self._square(tilt) * self.action) ** 0.5, len(self.others)
+        own, each = self.beside.exponents[:, :2], self.beside.exponents[:, 2:]
+        nu = _frame(self.beside)[0] * Omega  # z_k = ζ_k exp(−iν_k t): the terms of ζ do not depend on time
+        turning = 1j * np.append(nu, -nu)
+        Q = np.zeros((2 * half, 2 * half), complex)
+        for c, e in zip(self.beside.coefficients * root ** own.sum(1), each, strict=True):
+            k, l = (i for i, m in enumerate(e) for _ in range(m))
+            Q[k, l] += c
+            Q[l, k] += c
+        slopes = np.vstack([-1j * Q[half:], 1j * Q[:half]]) + np.diag(turning)
+        period = 2 * pi / abs(Omega)
+        return np.asarray(np.linalg.eigvals(np.exp(-turning * period)[:, None] * expm(slopes * period)))
+
+    def growth_at(self, tilt: float) -> float:
+        """The log of the largest modulus of a multiplier, per turn."""
+        most = float(np.log(np.abs(self.multipliers_at(tilt)).max(initial=1.0)))
+        return most if most > _ROUNDING else 0.0
+
+    @property
+    def edge(self) -> float:
+        """The least tilt at which a multiplier leaves the circle, inf where none does within reach."""
+        tilts = np.linspace(0, self.reach, _PARTS + 1)
+        grows = next((k for k in range(1, _PARTS + 1) if self.growth_at(tilts[k])), None)
+        if grows is None:
+            return inf
+        low, high = tilts[grows - 1 : grows + 1]
+        while high - low > 1e-6 * self.reach:
+            middle = (low + high) / 2
+            low, high = (low, middle) if self.growth_at(middle) else (middle, high)
+        return float(high)
+
+    def summary(self) -> dict[str, str]:
+        """The law in numbers and the edge of stability, name → words."""
+        return {
+            "rate [rad/s]": f"{self.rate:.8g} + ({self.shift:.6g}) (tilt² − 2 ({self.skew:.4g}) tilt³)",
+            "stable": f"up to a tilt of {min(self.edge, self.reach):.4g}" + (" at least" if self.edge == inf else ""),
+        }
+
+    def _square(self, tilt: float) -> float:
+        """a², from the tilt."""
+        tilt = finite_number(tilt, "precession_law: tilt", "parts of a unit vector")
+        if not 0 <= tilt <= self.reach * (1 + _ROUNDING):
+            raise InputError(
+                f"precession_law: tilt = {tilt:g} must lie between 0 and {self.reach:.4g}, to which the expansion is trusted: "
+                "take steady_precession(mode, tilt)"
+            )
+        return tilt**2 * (1 - 2 * self.skew * tilt)
+
+
+def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
+    """The law of the precessions that `steady_precession` finds, of a mode of `modes()`, at small tilts.
+
+    What it leaves is small beside the terms it has where the mode's harmonics are well away from other rates.
+
+    Raises:
+        InputError: as `steady_precession`, for more than 8 degrees of freedom, where another mode grows or has no rate, and where
+            a multiple of the mode's rate is the rate of another that it drives.
+    """
+    where = "precession_law"
+    rate, shape = oscillation(s, mode, where)
+    rates, n = signed_rates(small_motion(s)), small_motion(s).dof
+    if n > MOST_DOF:
+        raise InputError(f"{where}: {n} degrees of freedom: at most {MOST_DOF} are expanded")
+    if len(rates) < n:
+        raise InputError(
+            f"{where}: another mode grows or has no rate, and only oscillations are expanded: take steady_precession(mode, tilt)"
+        )
+    h, detuning = local_hamiltonian(s), inf
+    while True:
+        form = normal_form_of(s, 1.0, min(detuning, _NEAR * rate / h.rate))
+        signed = np.real(form.frequencies)
+        j = int(np.abs(np.abs(signed) * h.rate - rate).argmin())
+        others = np.delete(np.arange(n), j)
+        series = form.series.where(np.abs(form.series.coefficients) > _NOTHING * np.abs(form.series.coefficients).max())
+        series = Polynomial(series.exponents[:, [j, n + j, *others, *(n + others)]], h.rate * series.coefficients)
+        degree = series.exponents[:, 2:].sum(1)
+        own, pushed, beside = (series.where(degree == d) for d in range(3))
+        spoils = pushed if len(pushed.coefficients) else beside if _frame(beside)[1] > _NOTHING else None
+        if spoils is None:
+            break
+        gaps = np.abs(_steps(spoils.exponents[:, :2]) @ signed[[j]] + _steps(spoils.exponents[:, 2:]) @ signed[others])
+        if (detuning := 0.999 * float(gaps.max())) < _EXACT * abs(signed[j]):
+            raise InputError(
+                f"{where}: a multiple of the rate of mode {mode}, {rate:.6g} rad/s, is the rate of another mode, which it "
+                "drives: change a spin"
+            )
+    lead = int(np.abs(shape).argmax())
+    part = 2 * h.basis[lead] @ form.vectors[:n, j]
+    action, sign = 1 / abs(part) ** 2, 1 if signed[j] > 0 else -1
+    at = np.zeros(2 * n, complex)
+    at[[j, n + j]] = 1 / part, 1 / part.conjugate()  # of a = 1, where the axis tilts most
+    tilt = h.axes[lead // 2][lead % 2].through(2)
+    tilt = Polynomial(tilt.exponents, tilt.coefficients + 0j).substitute(
+        [linear_form(row) for row in form.vectors[:n]], 2
+    )
+    skew = float(np.real(lie_transform(tilt, form.generators[0], form.weights, 2).part(2).at(at)))
+    reach = _LARGEST / max(1.0, 2 * abs(skew))
+    for degree, generator in enumerate(form.generators, 3):
+        driven = max((abs(generator.derivative(k).at(at)) for k in (*others, *(n + others))), default=0.0) / action**0.5
+        reach = min(reach, (_LARGEST / max(driven, _NOTHING)) ** (1 / (degree - 2)))
+    shift = 2 * sign * action * float(np.real(own.terms.get((2, 2, *(0,) * (2 * n - 2)), 0.0)))
+    return PrecessionLaw(rate, shift, skew, h.rate * signed[others], reach, sign, action, beside)
+
+
+def _steps(exponents: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Powers of the z less those of the z̄."""
+    half = exponents.shape[1] // 2
+    return exponents[:, :half] - exponents[:, half:]
+
+
+def _frame(beside: Polynomial) -> tuple[Array, float]:
+    """ν_k/Ω with which all terms of mode j and two others stand still, and by how much they do not."""
+    steps = _steps(beside.exponents[:, 2:]).astype(float)
+    own = -_steps(beside.exponents[:, :2])[:, 0]
+    nu: Array = np.linalg.pinv(steps) @ own
+    return nu, float(np.abs(steps @ nu - own).max(initial=0.0))
