@@ -28,7 +28,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.resonances import MOST_DOF, normal_form_of, signed_rates
 from lagrotor.structures.small_motion import small_motion
-from lagrotor.structures.steady_precession import oscillation
+from lagrotor.structures.steady_precession import precessing_mode
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 _NEAR = 0.1  # of the largest rate: detunings up to which terms of two other modes are kept
@@ -124,7 +124,7 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
             a multiple of the mode's rate is the rate of another that it drives.
     """
     where = "precession_law"
-    rate, shape = oscillation(s, mode, where)
+    rate, shape = precessing_mode(s, mode, where)
     rates, n = signed_rates(small_motion(s)), small_motion(s).dof
     if n > MOST_DOF:
         raise InputError(f"{where}: {n} degrees of freedom: at most {MOST_DOF} are expanded")

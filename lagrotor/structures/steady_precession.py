@@ -139,7 +139,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
             no such orbit is reached.
     """
     where = "steady_precession"
-    rate, shape = oscillation(s, mode, where)
+    rate, shape = precessing_mode(s, mode, where)
     size = finite_number(tilt, f"{where}: tilt", "parts of a unit vector")
     if not 0 < size < 1:
         raise InputError(f"{where}: tilt = {size:g} must lie between 0 and 1, the sine of a right angle")
@@ -186,7 +186,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, most, mismatch)
 
 
-def oscillation(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
+def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
     """The rate and shape of a mode that becomes a precession. Raises InputError for another."""
     linear, c = modes(s), coefficients(s)
     count = len(linear.rates)
