@@ -173,7 +173,7 @@ def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
     from lagrotor.paper.readable import from_latex, readable
     from lagrotor.paper.source.formula import EVERY
-    from lagrotor.paper.source.readings import readings
+    from lagrotor.paper.source.readings import as_printed, readings
     from lagrotor.paper.source.start import confirm
 
     paper = Catalogue(given.folder)
@@ -190,8 +190,8 @@ def readings_command(given: argparse.Namespace) -> int:
         print(wrap(f"{each.id}{moved}  {each.title}: {each.status}", 4))
         print(wrap(f"    print    {each.print}", 13))
         for text in each.said:
-            sides = (from_latex(side) if "\\" in side else readable(side) for side in text.split(" = "))
-            shown = " = ".join(sides)
+            sides = as_printed(text, each.print).split(" = ")
+            shown = " = ".join(from_latex(side) if "\\" in side else readable(side) for side in sides)
             print(wrap(f"    read     {shown}", 13))
         for guess in each.guesses:
             print(wrap(f"    guessed  {guess}", 13))

@@ -64,7 +64,7 @@ def from_latex(source: str) -> str:
     r"""LaTeX of a quantity in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any rate)} is Ω₀² (any rate)."""
     tokens = (Token(t.kind, c, t.at) for t in tokenize(source) for c in (t.text if t.kind == "text" else (t.text,)))
     text = re.sub(r"(?<=[²³])(?=[A-Za-zΑ-ω])", " ", _line(deque(tokens)))
-    text = " ".join(text.split()).replace("( ", "(").replace(" )", ")")
+    text = " ".join(text.split()).replace("( ", "(").replace(" )", ")").replace("⟨ ", "⟨").replace(" ⟩", "⟩")
     return re.sub(r"(^|\()- ", r"\1−", text).replace(" - ", " − ")
 
 
@@ -81,6 +81,8 @@ def _piece(token: Token, rest: deque[Token]) -> str:
         return _line(rest)
     if token.kind == "script":
         inner = _argument(rest).strip()
+        if not inner:
+            return ""
         if inner.isdigit():
             return inner.translate(_LOW if token.text == "_" else _HIGH)
         return "ᵀ" if (token.text, inner) == ("^", "T") else f"{token.text}{_factor(inner)}"
@@ -95,7 +97,8 @@ def _argument(rest: deque[Token]) -> str:
 
 def _command(name: str, rest: deque[Token]) -> str:
     if name in ("frac", "dfrac", "tfrac"):
-        return f"{_factor(_argument(rest))}/{_factor(_argument(rest))} "
+        over, under = _factor(_argument(rest)), _factor(_argument(rest))
+        return f"{' ' * (over[0] == 'd')}{over}/{under} "
     if name == "partial":
         return f"∂{_argument(rest)}"
     if name == "sqrt":
@@ -110,7 +113,7 @@ def _command(name: str, rest: deque[Token]) -> str:
     if name in ("begin", "end"):
         return _matrix(rest) if _argument(rest).endswith("matrix") and name == "begin" else " "
     if name == "mathrm" and [t.text for t, _ in zip(rest, range(3), strict=False)] == ["{", "d", "}"]:  # a differential
-        made = _argument(rest)
+        made = f" {_argument(rest)}"
         return made + (_argument(rest) if rest and rest[0].kind in ("text", "command") else "")
     if name in _FONTS:
         return f" {_argument(rest)}" if name in ("vec", "hat") else _argument(rest)

@@ -22,6 +22,7 @@ from lagrotor.paper.verdict_text import in_words
         (r"\frac{\partial L}{\partial\dot\theta}", "∂L/∂θ̇"),
         (r"\left\langle\dot x^2\right\rangle \pm\mathrm{d} t", "⟨x\u0307²⟩ ± dt"),
         (r"\frac{\mathrm{d}}{\mathrm{d} t} p_x", "d/dt p_x"),
+        (r"m\frac{\mathrm{d} v}{\mathrm{d} t^{}}", "m dv/dt"),
         (r"\begin{pmatrix} a & b \\ c & \cos\theta \end{pmatrix} x", "[a, b; c, cos θ] x"),
         (r"\tfrac12 m \ddot{x}_{12}", "1/2 m x\u0308₁₂"),
         (r"\left.\int_0^T \mathbf{F}\,\mathrm{d}t\right|_{\text{(path)}}", "∫₀ᵀ F dt|_(path)"),

@@ -3,12 +3,14 @@ r"""Conditions: \if… \else \fi, \ifthenelse, \IfValueTF, \@ifnextchar; what ca
 import re
 from collections.abc import Iterable
 
+from lagrotor.paper.source.definitions import next_name
 from lagrotor.paper.source.expansion import NO_VALUE, Expander, Package, Primitive
 from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
 
 _TRUE = ("iftrue", "ifmmode", "ifpdf", "ifPDFTeX")
 _FALSE = ("iffalse", "ifdraft", "ifluatex", "ifxetex", "ifLuaTeX", "ifXeTeX")
 _UNKNOWN = ("ifdim", "if", "ifcat", "ifodd", "ifdefined", "ifcsname", "ifvmode", "ifhmode", "ifinner", "ifcase")
+_LEVELS = ("part", "section", "subsection", "subsubsection", "appendix")
 _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
 
 
@@ -20,8 +22,11 @@ def _condition(expander: Expander, token: Token) -> bool:
     elif name == "ifnum":
         holds = _compared(expander)
     elif name == "ifx":
-        first, second = expander.next(), expander.next()
+        by_name = (after := expander.peek()) is not None and after.text == r"\csname"
+        first, second = next_name(expander), next_name(expander)
         holds = first is not None and second is not None and _same(expander, first, second)
+        if by_name and first is not None and second is not None and second.text == r"\relax":
+            holds = holds or not _is_known(expander, first.text)  # \csname gives \relax where nothing is defined
     else:
         holds = name in _TRUE
         if name in _UNKNOWN:
@@ -68,6 +73,15 @@ def _same(expander: Expander, first: Token, second: Token) -> bool:
     if a is not None and b is not None:
         return [t[:2] for t in a.body] == [t[:2] for t in b.body]
     return a is None and b is None and first.text == second.text
+
+
+def _is_known(expander: Expander, name: str) -> bool:
+    """Whether a command is defined by the source, or by LaTeX as far as this is known."""
+    if name == r"\chapter":
+        return expander.counters.chapters
+    package = name.removeprefix(r"\ver@").removesuffix(".sty")
+    defined = (expander.macros, expander.own, expander.packages, expander.primitives)
+    return package in expander.loaded or any(name in each for each in defined) or name[1:] in _LEVELS
 
 
 def _skip_to(expander: Expander, ends: tuple[str, ...], condition: Token) -> None:

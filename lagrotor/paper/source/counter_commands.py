@@ -42,6 +42,19 @@ def _shown(expander: Expander, token: Token) -> bool:
     return True
 
 
+def _numbered(expander: Expander, token: Token) -> bool:
+    r"""\@arabic\c@equation and \number\value{section} as classes write them."""
+    following = expander.peek()
+    counted = following is not None and (following.text.startswith(r"\c@") or following.text in (r"\value", "{"))
+    if not counted:
+        return False
+    given = expander.argument()
+    by_name = latex_of(given).strip() == r"\value"
+    value = expander.counters.values.get(expander.name(), 0) if by_name else expander.number(given)
+    expander.push(plain(Counters.style(value, token.text.lstrip("\\@").replace("number", "arabic")), token.at))
+    return True
+
+
 def _value(expander: Expander, token: Token) -> bool:
     expander.push(plain(str(expander.counters.values.get(expander.name(), 0)), token.at))
     return True
@@ -56,5 +69,6 @@ COUNTING: dict[str, Primitive] = {
         _counted,
     ),
     **dict.fromkeys((r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph"), _shown),
+    **dict.fromkeys((r"\@arabic", r"\@roman", r"\@Roman", r"\@alph", r"\@Alph", r"\number"), _numbered),
     r"\value": _value,
 }  # fmt: skip

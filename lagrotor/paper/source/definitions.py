@@ -34,7 +34,7 @@ def _document_command(expander: Expander, token: Token) -> bool:
 
 
 def _def(expander: Expander, token: Token) -> bool:
-    target = _target(expander)
+    target = next_name(expander)
     head: list[Token] = []
     while (part := expander.next()) is not None and part.kind != "open":
         head.append(part)
@@ -52,10 +52,10 @@ def _def(expander: Expander, token: Token) -> bool:
 
 
 def _let(expander: Expander, token: Token) -> bool:
-    target, source = _target(expander), _target(expander)
+    target, source = next_name(expander), next_name(expander)
     if source is not None and source.kind == "text" and source.text.startswith("="):
         expander.push(plain(source.text[1:].lstrip(), source.at))
-        source = _target(expander)
+        source = next_name(expander)
     if source is not None and source.kind == "text" and len(source.text) > 1:
         expander.push([Token("text", source.text[1:], source.at + 1)])
         source = Token("text", source.text[0], source.at)
@@ -74,12 +74,12 @@ def _let(expander: Expander, token: Token) -> bool:
 
 def _named(expander: Expander, token: Token) -> bool:
     expander.push([token])
-    made = _target(expander)
+    made = next_name(expander)
     expander.push([made] if made else [])
     return True
 
 
-def _target(expander: Expander) -> Token | None:
+def next_name(expander: Expander) -> Token | None:
     r"""The command that is defined next, \csname … \endcsname too."""
     expander.skip_spaces()
     while (token := expander.next()) is not None and token.text == r"\expandafter":

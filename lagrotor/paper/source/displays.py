@@ -1,7 +1,7 @@
 r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -101,18 +101,22 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
     """The displayed equations of a LaTeX source. Raises InputError for a macro without end."""
     found = Source(title)
     try:
-        walker = _Walker(text, file, found)
-        walker.read()
-        if bare := not walker.body and r"\begin{document}" in text:  # lost in what a package beside the source does
+        for bare in (
+            (),
+            (".cls",),
+            STYLES,
+        ):  # without the class, without packages: lost in what one beside the source does
             found = Source(title)
             walker = _Walker(text, file, found, bare=bare)
             walker.read()
+            if walker.body or r"\begin{document}" not in text:
+                break
         if walker.only_cited:  # what has a number is known at the end
             found = Source(title)
             _Walker(text, file, found, walker.referred, bare).read()
         if found.faults and not bare and any(name.endswith(STYLES) for _, name, *_ in walker.expander.starts):
             other = Source(title)  # without the packages beside it: a fault that they have a part in is not said
-            _Walker(text, file, other, bare=True).read()
+            _Walker(text, file, other, bare=STYLES).read()
             found.faults = [each for each in found.faults if each in other.faults]
     except RecursionError:
         raise InputError(f"{file or 'the source'}: environments are nested too deeply: write them in parts") from None
@@ -123,7 +127,7 @@ class _Walker:
     """Walks through the expanded tokens and keeps the counters that LaTeX keeps."""
 
     def __init__(
-        self, text: str, file: Path | None, found: Source, numbered: set[str] | None = None, bare: bool = False
+        self, text: str, file: Path | None, found: Source, numbered: set[str] | None = None, bare: Collection[str] = ()
     ) -> None:
         whole = r"\documentclass" in text
         self.expander = Expander(text, file, PRIMITIVES, packages.commands((), everything=not whole), bare)
@@ -611,6 +615,7 @@ def _without_columns(tokens: list[Token], kind: str) -> str:
     """The tokens of a row as LaTeX without the & of the row itself; every second one parts two equations of align."""
     depth = braces = columns = 0
     kept: list[Token] = []
+    words: list[Token] | None = None  # the second column of numcases is text, in which $ begins a formula
     for token in tokens:
         depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0)
         braces += {"open": 1, "close": -1}.get(token.kind, 0)
@@ -618,11 +623,20 @@ def _without_columns(tokens: list[Token], kind: str) -> str:
             columns += 1
             parts = "cases" in kind or (columns % 2 == 0 and kind in _PAIRS)
             kept += [Token("command", r"\quad", token.at)] if parts else [Token("text", " ", token.at)]
+            words = [] if "cases" in kind else None
         elif token.kind == "math" and "cases" in kind:
-            continue
+            kept += _text(words or [])
+            words = [] if words is None else None
         else:
-            kept.append(token)
+            (kept if words is None else words).append(token)
+    kept += _text(words or [])
     return " ".join(latex_of(kept).split())
+
+
+def _text(words: list[Token]) -> list[Token]:
+    r"""Words of a column of text, as \text{…}."""
+    plain = all(t.kind == "text" for t in words) and any(c.isalpha() for t in words for c in t.text)
+    return [Token("command", r"\text", 0), Token("open", "{", 0), *words, Token("close", "}", 0)] if plain else words
 
 
 def _letters(count: int) -> str:

@@ -5,7 +5,7 @@ Nothing is executed: definitions are lists of tokens, and their expansion is bou
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 
 from lagrotor.errors import InputError
@@ -36,7 +36,7 @@ class Expander(TokenStream):
         file: Path | None,
         primitives: Mapping[str, Primitive],
         packages: Mapping[str, Package] | None = None,
-        bare: bool = False,
+        bare: Collection[str] = (),
     ) -> None:
         super().__init__(text, file, bare)
         self.primitives, self.packages = primitives, packages or {}

@@ -1,7 +1,10 @@
 """The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
 
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
+from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -50,7 +53,7 @@ def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) ->
 
 
 def _reading(entry: Equation, notation: Notation) -> EquationReading:
-    said = tuple(" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in entry.line)
+    said = _said(entry.line)
     if entry.read == "gone":
         return EquationReading(entry.id, entry.title, entry.latex, "gone", said)
     if entry.line:
@@ -59,7 +62,7 @@ def _reading(entry: Equation, notation: Notation) -> EquationReading:
         guesses = entry.guesses
         if guesses and status == "unconfirmed":  # what [notation] says since then
             made = read_print(entry.latex, notation, entry.lead)
-            now = tuple(" = ".join([row["quantity"], *row["members"]]) for row in made.lines)
+            now = _said(made.lines)
             guesses = made.guesses if now == said else (*guesses, "[notation] reads it otherwise now: repeat init")
         return EquationReading(entry.id, entry.title, entry.latex, status, (*said, *entry.aside), guesses)
     made = read_print(entry.latex, notation, entry.lead)
@@ -67,9 +70,26 @@ def _reading(entry: Equation, notation: Notation) -> EquationReading:
         stopped, helps = made.stop
         return EquationReading(entry.id, entry.title, entry.latex, "not read", stopped=stopped, helps=helps)
     if made.lines:
-        lines = tuple(" = ".join([row["quantity"], *row["members"]]) for row in made.lines)
-        return EquationReading(entry.id, entry.title, entry.latex, "unread so far", lines, made.guesses)
+        return EquationReading(entry.id, entry.title, entry.latex, "unread so far", _said(made.lines), made.guesses)
     return EquationReading(entry.id, entry.title, entry.latex, "aside", made.aside, made.guesses)
+
+
+def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
+    """Printed lines as text, with the order that each claims."""
+    claimed = (f" + O({row['small']}**{row.get('order', 0) + 1})" if row.get("small") else "" for row in lines)
+    texts = (" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in lines)
+    return tuple(map("".join, zip(texts, claimed, strict=True)))
+
+
+def as_printed(text: str, printed: str) -> str:
+    """A reading in which decimals stand as in the print, and units without their prefix: 981/100*unit_m is 9.81*m."""
+
+    def decimal(match: re.Match[str]) -> str:
+        number = Fraction(match[0])
+        digits = str(Decimal(number.numerator) / number.denominator)
+        return digits if digits in printed.replace("{,}", "").replace(",", ".") else match[0]
+
+    return re.sub(r"(?<![\w.])\d+/\d+(?![\w.])", decimal, text).replace("unit_", "")
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 import os
 import re
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from itertools import chain
 from pathlib import Path
 
@@ -22,8 +22,8 @@ _NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
 class TokenStream:
     """Tokens as they stand, by `next()`; what is put before them, by `push()`; what is open in them, `macros`."""
 
-    def __init__(self, text: str, file: Path | None = None, bare: bool = False) -> None:
-        self.file, self.bare = file, bare  # bare: without the packages beside the source
+    def __init__(self, text: str, file: Path | None = None, bare: Collection[str] = ()) -> None:
+        self.file, self.bare = file, bare  # bare: suffixes of files beside the source that are not read
         self.macros = Macros({r"\empty": Macro(()), r"\@empty": Macro(())})
         self.files = 0
         self.in_vain = 0  # tokens looked at for the end of an argument that did not come
@@ -51,7 +51,7 @@ class TokenStream:
 
     def read_file(self, name: str, suffixes: tuple[str, ...] = (".tex", "")) -> bool:
         """Take in a file beside the source, or in a folder of TEXINPUTS; whether it is there."""
-        if self.file is None or (self.bare and suffixes[0] != ".tex"):
+        if self.file is None or suffixes[0] in self.bare:
             return False
         for suffix in suffixes:
             for folder in (self.file.parent, self.file.parent.parent, *_tex_inputs()):

@@ -124,6 +124,49 @@ def test_a_class_that_looks_at_what_comes_next_keeps_the_numbers(star: str, numb
     assert equations_of(tmp_path, body, own_cls=OWN) == [(number, "a = b")]
 
 
+# A class that does something at each environment for which it has a command of this name, as classes of journals do.
+HOOKS = r"""\LoadClass{article}\let\Begin=\begin\def\IfUnDef#1{\expandafter\ifx\csname#1\endcsname\relax}
+\def\begin#1{\IfUnDef{AfterBeg#1}\let\now=\Begin\else\Begin{#1}\csname AfterBeg#1\endcsname\def\now##1{}\fi\now{#1}}
+\expandafter\def\csname AfterBegcenter\endcsname{\setcounter{equation}{5}}"""
+
+
+def test_a_name_that_nothing_defines_is_relax(tmp_path: Path) -> None:
+    display = r"\begin{equation} a = b \end{equation}"
+    body = rf"{display}\begin{{center}}{display}\end{{center}}"
+    assert equations_of(tmp_path, body, own_cls=HOOKS) == [("1", "a = b"), ("6", "a = b")]
+
+
+def test_what_a_class_hides_is_read_without_it_and_with_the_packages(tmp_path: Path) -> None:
+    (tmp_path / "side.sty").write_text(r"\newcommand{\vect}[1]{\mathbf{#1}}", encoding="utf-8")
+    own = r"\LoadClass{article}\def\begin#1{\lost{#1}}"
+    assert equations_of(tmp_path, "", own_cls=own) == []
+    text = (
+        r"\documentclass{own}\usepackage{side}\begin{document}\begin{equation} \vect a = b \end{equation}\end{document}"
+    )
+    (tmp_path / "paper.tex").write_text(text, encoding="utf-8")
+    assert [each.latex for each in read_source(tmp_path / "paper.tex").equations] == [r"\mathbf{a} = b"]
+
+
+def test_the_second_column_of_numcases_is_text(tmp_path: Path) -> None:
+    body = r"\begin{numcases}{f = } 1 & $x<0$\\ 2 & otherwise, $c$ large\\ 3 & \end{numcases}"
+    prints = [latex for _, latex in equations_of(tmp_path, body, side_sty="")]
+    assert prints == [r"f =  1 \quad x<0", r"f =  2 \quad\text{ otherwise, }c\text{ large}", r"f =  3 \quad"]
+
+
+@pytest.mark.parametrize(
+    ("printed", "number"),
+    [
+        (r"\@arabic\c@equation", "1"),
+        (r"\@Roman{\c@section}.\@alph\c@equation", "II.a"),
+        (r"\number\value{section}", "2"),
+    ],
+)
+def test_a_class_may_print_numbers_as_latex_does_inside(printed: str, number: str, tmp_path: Path) -> None:
+    own = rf"\LoadClass{{article}}\def\theequation{{{printed}}}"
+    body = r"\section{A}\section{B}\begin{equation} a = b \end{equation}"
+    assert equations_of(tmp_path, body, own_cls=own) == [(number, "a = b")]
+
+
 @pytest.mark.parametrize("end", ["\n\n", r"\par "])
 def test_an_argument_that_is_not_closed_ends_with_its_paragraph(end: str, tmp_path: Path) -> None:
     text = rf"\def\aside#1;{{}} \aside open{end}\begin{{equation}} a = b \end{{equation}} then; \[ c\aside x; = d \]"

@@ -76,6 +76,17 @@ def test_ids_stay_while_numbers_move_and_this_is_said(source: Path, capsys: pyte
     assert confirm(folder, ["eq:T", "(3)"]) == ["1", "2"], "the numbers that are printed now"
 
 
+def test_readings_are_shown_with_orders_decimals_and_units(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source = tmp_path / "paper.tex"
+    rows = (r"g = 9.81\,\mathrm{m/s^2}", r"y = \frac{1}{2} x + 0{,}5 x^2 + O(x^3)")
+    body = "".join(rf"\begin{{equation}} {row} \end{{equation}}" for row in rows)
+    source.write_text(rf"\documentclass{{article}}\begin{{document}}{body}\end{{document}}", encoding="utf-8")
+    begin_paper(tmp_path / "mine", source)
+    assert main(["readings", str(tmp_path / "mine")]) == 0
+    out = capsys.readouterr().out
+    assert "g = 9.81·m·s^(−2)" in out and "O(x³)" in out and "1/2·x" in out
+
+
 def test_the_folders_of_texinputs_are_looked_into(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "style").mkdir()
     (tmp_path / "style" / "mine.sty").write_text(r"\newcommand{\kin}{\frac12 m v^2}", encoding="utf-8")
