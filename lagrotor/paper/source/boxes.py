@@ -659,7 +659,7 @@ _SIMPLE = {
 
 # Characters and commands that are a letter, with its name; those that are another box whatever stands beside them: (kind, name).
 _LETTERS = {letter: letter for letter in ascii_letters} | _UNICODE
-_LETTERS |= {command: command[1:] for command in GREEK}
+_LETTERS |= {command: re.sub(r"var(?=[A-Z])", "", command[1:]) for command in GREEK}  # \varDelta is an italic \Delta
 _LETTERS |= {rf"\{name}": name for name in ("prime", "dagger", "top", "intercal", "hslash", "complement")}
 _UPRIGHT_GREEK = ("Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Phi", "Psi", "Omega")
 _COMMANDS: dict[str, tuple[str, str]] = {

@@ -647,7 +647,15 @@ def _letters(count: int) -> str:
 def _plain_number(text: str) -> str:
     """A number without dollar signs, braces and brackets around it: $3'$ is 3'."""
     text = re.sub(r"\\(?:ensuremath|text|mathrm|textbf|textit|rm|bf|it)(?![A-Za-z])|[${}]", "", text)
-    text = text.replace(r"\ast", "*").replace(r"\star", "*").replace(r"^\prime", "'").replace(r"\prime", "'").strip()
+    text = (
+        text.replace(r"\ast", "*")
+        .replace(r"\star", "*")
+        .replace(r"\ddagger", "‡")
+        .replace(r"\dagger", "†")
+        .replace(r"^\prime", "'")
+        .replace(r"\prime", "'")
+        .strip()
+    )
     return re.sub(r"^\((.*)\)$", r"\1", text).strip()
 
 

@@ -254,7 +254,7 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             relations.pop()
             continue
         _check_side(side)
-        latex = reader.source[side[0].at : side[-1].end].strip()
+        latex = _balanced(reader.source, side[0].at, side[-1].end)
         letter = not place and len(sides) == 2 and [(b.kind, b.sup) for b in side] == [("letter", None)]
         index = letter and side[0].name in ("i", "j")
         if place and relations[place - 1] in ("in", "not in"):
@@ -277,6 +277,22 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
         if order is not None:
             read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
+
+
+def _balanced(source: str, at: int, end: int) -> str:
+    r"""LaTeX of a side with the braces and the switch of a font that enclose its ends: {\bf k}_1, not k}_1."""
+    if switch := re.search(r"\{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)\s*$", source[:at]):
+        at = switch.start()
+    bare = re.sub(r"\\.", "  ", source)
+    depth = least = 0
+    for sign in bare[at:end]:
+        depth += (sign == "{") - (sign == "}")
+        least = min(least, depth)
+    for _ in range(-least):
+        at = bare.rfind("{", 0, at)
+    for _ in range(depth - least):
+        end = bare.find("}", end) + 1 or end
+    return source[at:end].strip()
 
 
 def _check_side(side: list[Box]) -> None:

@@ -77,8 +77,9 @@ def _class(expander: Expander, token: Token) -> bool:
         return True
     if expander.files > 1 and expander.document_class and token.text == r"\documentclass":
         return True  # a file taken in that could stand by itself: its own preamble is read as it comes
-    beside = expander.read_file(name, (".cls",))
-    if not beside and name not in _DISTRIBUTED and not name.startswith("\\"):  # \LoadClass{\@revtex@cls}
+    distributed = name in _DISTRIBUTED  # its own copy beside the source says nothing that is not known
+    beside = not distributed and expander.read_file(name, (".cls",))
+    if not beside and not distributed and not name.startswith("\\"):  # \LoadClass{\@revtex@cls}
         expander.missing.setdefault(f"{name}.cls", expander.line(token.at)[1])
     if not beside or token.text == r"\LoadClass":
         expander.document_class = name

@@ -147,6 +147,12 @@ def test_what_a_class_hides_is_read_without_it_and_with_the_packages(tmp_path: P
     assert [each.latex for each in read_source(tmp_path / "paper.tex").equations] == [r"\mathbf{a} = b"]
 
 
+@pytest.mark.parametrize(("tag", "number"), [(r"$\dagger$", "†"), (r"$\ddagger$", "‡"), (r"$\ast$", "*")])
+def test_signs_of_a_tag_are_signs(tag: str, number: str, tmp_path: Path) -> None:
+    body = rf"\begin{{equation}} a = b \tag{{{tag}}} \end{{equation}}"
+    assert equations_of(tmp_path, body, side_sty="") == [(number, "a = b")]
+
+
 def test_the_second_column_of_numcases_is_text(tmp_path: Path) -> None:
     body = r"\begin{numcases}{f = } 1 & $x<0$\\ 2 & otherwise, $c$ large\\ 3 & \end{numcases}"
     prints = [latex for _, latex in equations_of(tmp_path, body, side_sty="")]

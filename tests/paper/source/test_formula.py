@@ -43,6 +43,7 @@ READ = {
     r"x = a,\qquad y = b \quad\text{where } z = c.": "x = a; y = b; z = c",
     r"\begin{aligned} a &= b\\ &\quad + c\\ &= d\end{aligned}": "a = b + c = d",
     r"\alpha = 30^\circ": "alpha = 30*pi/180",
+    r"a = \varDelta x + \varGamma": "a = Delta_x + Gamma",
     r"P \equiv \frac{\hbar}{i}\frac{\partial}{\partial x}": "P = hbar/imaginary_unit*operator_derivative(x)",
     r"H = -\frac{d^2}{dx^2} + V(x)": "H = -operator_derivative(x, 2) + V(x)",
     r"\mathbf p = -i\hbar\nabla,\quad T = -\nabla^2":
@@ -372,3 +373,18 @@ def test_a_letter_with_another_argument_elsewhere_keeps_its_t_with_every_index()
     latex = r"P_{n+1}(t) = P_{n-1}(t) + \dot P_n(t)"
     assert said(latex) == "P_nplus1 = P_nminus1 + P_n_dot"
     assert said(latex, "P_n(x) = 1") == "P_nplus1(t) = P_nminus1(t) + P_n_dot(t)"
+
+
+SIDES = {
+    r"W + 3\Pi + \mathcal{M} = 0": r"W + 3\Pi + \mathcal{M}",
+    r"{\bf k}_1 + {\bf k}_2 = 0": r"{\bf k}_1 + {\bf k}_2",
+    r"{\bf \dot{x}} = {\bf c}": r"{\bf \dot{x}}",
+    r"\left(a\right) + {b} = c": r"\left(a\right) + {b}",
+    r"{\rm St} = \frac{f}{U}": r"{\rm St}",
+    r"\{a, b\} = {c}": r"\{a, b\}",
+}
+
+
+@pytest.mark.parametrize("latex", SIDES)
+def test_a_side_keeps_its_braces_and_its_font(latex: str) -> None:
+    assert read_formula(latex, notation_of([latex])).statements[0].sides[0].latex == SIDES[latex]
