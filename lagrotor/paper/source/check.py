@@ -41,10 +41,10 @@ from lagrotor.paper.source.tree import (
 )
 from lagrotor.paper.source.usage import Notation, letters_printed, notation_of
 
-HOLDS, REFUTED, UNITS, MEANINGS, BEFORE, FAULT = (
-    "would hold", "would be refuted", "dimensions differ", "two meanings", "used before it is given", "no LaTeX",
+HOLDS, REFUTED, NO_IDENTITY, UNITS, MEANINGS, BEFORE, FAULT = (
+    "would hold", "would be refuted", "no identity", "dimensions differ", "two meanings", "used before it is given", "no LaTeX",
 )  # fmt: skip
-FOUND = (REFUTED, UNITS, MEANINGS, BEFORE, FAULT)
+FOUND = (REFUTED, NO_IDENTITY, UNITS, MEANINGS, BEFORE, FAULT)
 WRONG = (REFUTED, UNITS, FAULT)
 # Terms of which each is tried with the other sign, to say what is wrong; the degree and the calls of functions, a few seconds,
 # beyond which a step is not decided.
@@ -69,6 +69,12 @@ _CONDITIONS = re.compile(
 )
 _TO_BE_SOLVED = re.compile(
     r"\b(?:if|when\w*|where|unless|until|only|satisf\w*|sol[uv]\w*|roots?|condition\w*|equations?|require\w*|must|equilibri\w*)\b",
+    re.IGNORECASE,
+)
+# What it says of an equation that holds for all values of its letters; □: where the equation stands.
+_IDENTITY = re.compile(
+    r"\b(?:identit\w*|theorems?|formula\w*|recall|remember|for (?:all|any|every)|trigonometr\w*|(?:double|half).angles?)\b"
+    r"|\b(?:using|used?|since|because|note that|known?(?: that)?)[\s,:]*□",
     re.IGNORECASE,
 )
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
@@ -183,7 +189,7 @@ class _Checker:
             verdict, why = _bounded(self._step, left.node, right.node, step == 1)
             if (guess := _guess(reading)) and verdict in (HOLDS, REFUTED):
                 verdict, why = "undecided", f"{why}; but it is a guess that {guess}"
-            if step > 1 or verdict in (HOLDS, REFUTED):
+            if step > 1 or verdict in (HOLDS, REFUTED, NO_IDENTITY):
                 yield self._finding(each, step, right, verdict, why)
 
     def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
@@ -275,14 +281,17 @@ class _Checker:
                 return REFUTED, f"the left side is not {b}; {slip}"
             return "undecided", "it is a condition, not an identity"
         difference = "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(sp.factor_terms(a - b))
-        if first and (not (a.has(sp.Function) and b.has(sp.Function)) or self._says(_TO_BE_SOLVED)):
+        solved, identity = self._says(_TO_BE_SOLVED), self._says(_IDENTITY)
+        if first and (not (a.has(sp.Function) and b.has(sp.Function)) or (solved and not identity)):
             return "undecided", "it may be a condition"
         slip = self._slip(left, right, a, b, first)
         if slip is None:
             return "undecided", f"the two sides differ by {difference}: it may be a condition"
         if related := next(self._related(own), None):
             return "undecided", f"{related} may be used"
-        return REFUTED, f"{'as an identity, ' * first}the two sides differ by {difference}; {slip}"
+        if first and (solved or not identity):
+            return NO_IDENTITY, f"the two sides differ by {difference}; {slip}; or it is a condition"
+        return REFUTED, f"the two sides differ by {difference}; {slip}"
 
     def _slip(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> str | None:
         """The one change with which the two sides agree."""

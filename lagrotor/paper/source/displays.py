@@ -568,7 +568,7 @@ class _Walker:
         while identifier in self.ids or not identifier:
             identifier += "'"
         self.ids.add(identifier)
-        self.found.words[identifier] = self.words
+        self.found.words[identifier] = f"{self.words} □ "  # where the display stands in its sentence
         self.found.sections.setdefault(self.section, "Before the first section")
         firsts = [next((t for t in row.tokens if t.text.strip(" \n\t&")), token) for row in group]
         places = [first.at + len(first.text) - len(first.text.lstrip()) for first in firsts]
