@@ -387,12 +387,16 @@ class _Checker:
             a, b = sympy_expression(left.node, self.opaque), sympy_expression(right.node, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
                 return
-            term = at_most(_MOST_CALLS, agreement_order, a, b, small, power - 1)
-        except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
+            rates = re.compile(rf"{re.escape(name)}_d+ot")  # of what is small, they are as small
+            scaled = {s: small * s for s in a.free_symbols | b.free_symbols if rates.fullmatch(s.name)}
+            term = at_most(_MOST_CALLS, agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
+        except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError):
             yield self._finding(each, step, right, "undecided", "the series cannot be compared")
             return
         if term.order is None:
             yield self._finding(each, step, right, HOLDS, f"through order {power - 1} in {name}")
+        elif has_opaque(a, b):
+            yield self._finding(each, step, right, "undecided", f"derivatives or functions may be small as {name} is")
         else:
             yield self._finding(
                 each,

@@ -513,3 +513,17 @@ def _nested(n: int, inner: str) -> str:
 def test_every_step_ends_with_a_word(tmp_path: Path, step: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(check, "_MOST_CALLS", 100_000)
     assert verdicts(tmp_path, rf"\[ y = {step} \]") == ["undecided"]
+
+
+@pytest.mark.parametrize(
+    ("step", "verdict"),
+    [
+        (r"(a + \eta)\ddot\eta + \dot\eta^2 = a \ddot\eta", HOLDS),
+        (r"(a + \eta)\ddot\eta + \dot\eta^2 = 2 a \ddot\eta", REFUTED),
+        (r"(a + \eta)\frac{d\eta}{dt} = a \frac{d\eta}{dt}", HOLDS),
+        (r"(a + \eta)\eta'(x) = a \eta'(x)", "undecided"),
+        (r"\cos\eta = 1 - \eta", REFUTED),
+    ],
+)
+def test_the_rates_of_a_small_quantity_are_small(step: str, verdict: str, tmp_path: Path) -> None:
+    assert verdicts(tmp_path, rf"\[ y = {step} + O(\eta^2) \]") == [verdict]
