@@ -1,6 +1,7 @@
-"""What acts on the axes of a structure and what holds them, for numbers of any kind: floats, or what records what is computed.
+"""What acts on the axes of a structure and what holds them, for numbers of any kind.
 
-r, v: the axes and their rates, (N, 3), 1/s; G: the axial momenta (N,). An array of objects has a `root`, their square root.
+r, v: the axes and their rates, (N, 3), 1/s; G: the axial momenta (N,). They are arrays of floats, or of objects: symbols, or
+numbers that record or are compiled, whose square roots `root` takes element by element.
 """
 
 from collections.abc import Callable
