@@ -51,6 +51,14 @@ def test_what_is_run_elsewhere_is_one_of_the_runs() -> None:
     assert again.split() == [OLDEST, "extras"] and set(again.split()) <= names
 
 
+def test_what_a_kernel_has_run_with_the_extras_is_not_run_again_for_them() -> None:
+    named = {run.name: run for run in runs()}
+    files, rest = (machines.without_repeats(named["extras"], [named[name]]).tests for name in ("lowest", OLDEST))
+    assert files == extras_files() and set(rest) < set(files)
+    assert not any(path.startswith(machines.COMPUTING) for path in rest) and "tests/proved/test_theorems.py" in rest
+    assert machines.without_repeats(named["Haswell"], [named[OLDEST]]) == named["Haswell"]
+
+
 def test_what_this_machine_cannot_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     other = Run("python9", ("tests",), Environment(".venv-9", python="no-such-python"))
     assert machines.hindrance(other) == "no no-such-python is installed"
