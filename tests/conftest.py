@@ -1,6 +1,7 @@
 """The processes of the tests begin as those of the command `lagrotor` do, before numpy is imported; which of them runs what;
 what hypothesis draws."""
 
+import gc
 from typing import Any
 
 import pytest
@@ -55,6 +56,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         for item in items:
             if getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
                 item.add_marker("slow")
+
+
+def pytest_collection_finish() -> None:
+    """What was collected stays: it is not searched for garbage again and again."""
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")

@@ -2,6 +2,7 @@
 
 import sys
 import tomllib
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ FIELDS = {
 }
 
 
+@cache
 def answer(kind: str, **fields: str) -> str:
     """The answer of a form, with the fields that are left empty."""
     sys.path.insert(0, str(EDITION))

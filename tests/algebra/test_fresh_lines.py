@@ -1,15 +1,25 @@
 """Lines that nothing was tuned against: none is wrong, few are undecided. Each sheet was drawn after the last was judged."""
 
+from functools import cache
+
 import pytest
 import sympy as sp
 
 from lagrotor.paper import judge
-from tests.algebra import fresh_lines
 
-SHEETS = {"first": fresh_lines.FIRST, "second": fresh_lines.SECOND, "third": fresh_lines.THIRD}
+SHEETS = ("first", "second", "third")
+Row = tuple[sp.Expr, sp.Expr, sp.Expr]
 
 
-def judged(rows: list[tuple[sp.Expr, sp.Expr, sp.Expr]]) -> dict[str, list[str]]:
+@cache
+def rows_of(sheet: str) -> list[Row]:
+    """Some of the lines take sympy long to write down: not before they are judged."""
+    from tests.algebra import fresh_lines
+
+    return getattr(fresh_lines, sheet.upper())
+
+
+def judged(rows: list[Row]) -> dict[str, list[str]]:
     """Lines that are wrong, and lines that are undecided; a near miss that is true on a branch is told with its branch."""
     found: dict[str, list[str]] = {"wrong": [], "undecided": []}
     for left, right, miss in rows:
@@ -26,22 +36,22 @@ def judged(rows: list[tuple[sp.Expr, sp.Expr, sp.Expr]]) -> dict[str, list[str]]
 
 @pytest.mark.parametrize("sheet", SHEETS)
 def test_a_part_of_each_sheet(sheet: str) -> None:
-    assert judged(SHEETS[sheet][::12]) == {"wrong": [], "undecided": []}
+    assert judged(rows_of(sheet)[::12]) == {"wrong": [], "undecided": []}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("sheet", SHEETS)
 def test_of_a_whole_sheet_none_is_wrong_and_at_most_three_in_a_hundred_are_undecided(sheet: str) -> None:
-    found = judged(SHEETS[sheet])
+    found = judged(rows_of(sheet))
     assert found["wrong"] == []
-    assert len(found["undecided"]) <= 0.03 * 2 * len(SHEETS[sheet]), found["undecided"]
+    assert len(found["undecided"]) <= 0.03 * 2 * len(rows_of(sheet)), found["undecided"]
 
 
 def test_few_lines_of_the_sheets_stand_in_the_table_too() -> None:
     from tests.algebra import textbook
 
     known = {f"{left} = {right}" for rows in textbook.SUBJECTS.values() for left, right, _ in rows}
-    drawn = [f"{left} = {right}" for rows in SHEETS.values() for left, right, _ in rows]
+    drawn = [f"{left} = {right}" for sheet in SHEETS for left, right, _ in rows_of(sheet)]
     assert len(drawn) == 259 and len(set(drawn) & known) <= 40, sorted(set(drawn) & known)
 
 

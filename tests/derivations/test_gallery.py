@@ -10,13 +10,15 @@ from lagrotor.paper import Step, prove
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 GALLERY = PAPER.scripts.names("derivations", "g")
-# Seconds each; their means are tested on less in tests/mechanics (chains, loops, rolling) and tests/pair.
+# Seconds each; their means are tested on less in tests/mechanics (chains, loops, rolling, impacts, friction) and tests/pair.
 LONG = (
     "g02_double_and_triple_pendulum",
     "g11_four_bar_linkage",
     "g13_rolling_disc",
     "g14_chains",
     "g15_paired_gyroscopes",
+    "g17_rocking_block",
+    "g18_clock",
 )
 STEMS = [pytest.param(stem, marks=pytest.mark.slow) if stem in LONG else stem for stem in GALLERY]
 SYSTEMS = (

@@ -401,9 +401,10 @@ PLOTS = {  # key → panels, entries of the legend
         "n9": (3, 8),
     },
 }
-# Drawn from hundreds of exact orbits or runs; from the waves of wide strips; from every method at every tolerance. What t4
-# n4 and n9 claim is held by a few orbits and runs in theory/test_paired_series, structures/test_damped and test_precession_law.
-LONG = ("t4", "t5", "t13", "n4", "n5", "n9", "b1", "m1")
+# Drawn from hundreds of exact orbits or runs; from the waves of wide strips; from every method at every tolerance. What t4,
+# t15, n4, n7 and n9 claim is held by a few orbits and runs in theory/test_paired_series,
+# mechanics/canonical/test_periodic_orbits, structures/test_damped, test_nonlinear_waves and test_precession_law.
+LONG = ("t4", "t5", "t13", "t15", "n4", "n5", "n7", "n9", "b1", "m1")
 
 
 def marked(rows):

@@ -1,5 +1,7 @@
 """A, B, C, D in symbols: rolling and steady motions, controls; against closed conditions and the numbers of `state_space`."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -27,9 +29,14 @@ SLOT = System(  # on a line that turns, whose rows turn where no reaction does: 
 C = coordinates("x y z phi theta psi")
 GROUND = Frame(C)
 WHEEL = GROUND.moved(*C.q[:3]).turned("zxy", C.q[3:]).body(m, (m * r**2 / 4, m * r**2 / 2, m * r**2 / 4))
-CONTACT = WHEEL.rolls_on(Plane(GROUND), r, axis=(0, 1, 0))
-DISC = System(C, WHEEL.kinetic - WHEEL.potential((0, 0, -g)), CONTACT.constraints, CONTACT.rolling)
 STRAIGHT = dict.fromkeys(C.q, 0) | {C.q[2]: r, C.v[5]: w, C.v[0]: r * w}
+
+
+@cache
+def rolling_disc() -> System:
+    """Two seconds, which the collection of other tests need not wait for."""
+    contact = WHEEL.rolls_on(Plane(GROUND), r, axis=(0, 1, 0))
+    return System(C, WHEEL.kinetic - WHEEL.potential((0, 0, -g)), contact.constraints, contact.rolling)
 
 
 def test_the_cart_and_pole_of_textbooks() -> None:
@@ -60,11 +67,13 @@ def test_functions_of_time_are_inputs() -> None:
 def test_a_rolling_disc_has_its_characteristic_polynomial() -> None:
     """s² = 4 g/(5 r) − 12 w²/5: it stands for w² > g/(3 r)."""
     s = sp.Symbol("s")
-    linear = DISC.linearise(STRAIGHT)
+    linear = rolling_disc().linearise(STRAIGHT)
     expected = s**6 * (s**2 - 4 * g / (5 * r) + 12 * w**2 / 5)
     assert sp.expand(linear.characteristic(s) - expected) == 0
     numbers = {m: 1.3, r: 0.3, g: 9.81, w: 7.0}
-    own = DISC.linearise({k: sp.sympify(e).subs(numbers) for k, e in STRAIGHT.items()}, {m: 1.3, r: 0.3, g: 9.81})
+    own = rolling_disc().linearise(
+        {k: sp.sympify(e).subs(numbers) for k, e in STRAIGHT.items()}, {m: 1.3, r: 0.3, g: 9.81}
+    )
     mine = np.linalg.eigvals(np.array(linear.A.subs(numbers).tolist(), float))
     assert np.abs(np.poly(mine) - np.poly(own.rates)).max() < 1e-9 * np.abs(np.poly(own.rates)).max()
 
@@ -155,7 +164,7 @@ def test_what_is_no_steady_motion_says_why() -> None:
         (lambda: SLOT.linearise(dict.fromkeys((x, y, theta), 0) | {om: w}), InputError, "theta moves there"),
         (lambda: SPRING.linearise({x: 0, v: 1}, {}, outputs=(x,)), InputError, "change with time"),
         (lambda: POLE.linearise({theta: 0}, inputs=(F,), outputs=("x",)), InputError, "no expression"),
-        (lambda: DISC.linearise(rolled | {C.v[5]: w}), InputError, "off the constraints"),
+        (lambda: rolling_disc().linearise(rolled | {C.v[5]: w}), InputError, "off the constraints"),
         (
             lambda: System(CART, POLE.L, forces=(F * t, 0)).linearise({theta: 0}, inputs=(F,)),
             InputError,

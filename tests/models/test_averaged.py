@@ -37,7 +37,7 @@ def apart(run: object, exact: object) -> np.ndarray:
 
 
 @pytest.mark.filterwarnings("ignore::lagrotor.errors.LagrotorWarning")
-@pytest.mark.parametrize("count", [5, pytest.param(400, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [3, pytest.param(400, marks=pytest.mark.slow)])
 def test_the_error_is_bounded(count: int) -> None:
     """Any lean, any bar, swings that are small or not, up to 300 turns."""
     rng, pairs, refused = np.random.default_rng(7), [], 0

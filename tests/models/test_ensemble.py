@@ -30,11 +30,10 @@ def mixed():
     """One scene of each kind: every bar, with and without shock, without bar, and one that starts on the joint line."""
     scenes = [
         family(1, Scene(spins, link=Link(length, *bar)))[0]
-        for spins in ((10.0, -10.0), (7.0, 3.0))
-        for length in (0.6, 1.0, 1.7)
+        for spins, length in (((10.0, -10.0), 0.6), ((7.0, 3.0), 1.0), ((10.0, -10.0), 1.7))
         for bar in ((0.0, 0.0), (0.3, 0.1))
     ]
-    scenes += [replace(s, shock=Shock((5.0, -2.0, 1.0), 0.6, 0.03, body)) for s in scenes[:5] for body in (1, 2)]
+    scenes += [replace(s, shock=Shock((5.0, -2.0, 1.0), 0.6, 0.03, body)) for s in scenes[::2] for body in (1, 2)]
     scenes.append(Scene((10.0, -4.0), link=None, rates=((0.5, 0.2, 0.0), (0.0, 0.0, 0.0))))
     return scenes
 

@@ -7,11 +7,10 @@ from lagrotor.paper import Remark, Step, scripts
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 AFTER_RUNS = pytest.mark.slow  # the step stands after exact runs of the script
+# Their numbers are held in test_chern, test_resonances, test_nonlinear_waves and test_precession_law.
+LONG = ("n5_chern", "n6_resonances", "n7_nonlinear_waves", "n9_precessions")
 STEMS = [
-    pytest.param(stem, marks=AFTER_RUNS)
-    if stem in ("n5_chern", "n9_precessions")
-    else stem  # held in tests of their own
-    for stem in PAPER.scripts.names("derivations", "n")
+    pytest.param(stem, marks=AFTER_RUNS) if stem in LONG else stem for stem in PAPER.scripts.names("derivations", "n")
 ]
 # A sign, a factor or a term; each must stop the script.
 MUTANTS = [

@@ -13,7 +13,15 @@ STEMS = [stem for stem in PAPER.scripts.names("derivations") if stem.startswith(
 STEPWISE = dict.fromkeys(STEMS, 8) | {"t4_orbit_family": 3, "t7_duration": 5, "t10_conserved": 5, "t13_integrals": 1}
 # Exact orbits by the hundred, long runs or long algebra: tests beside this one hold their
 # laws to a few.
-LONG = ("t5_floquet", "t11_slow_motion", "t12_unequal_spins", "t14_guiding_centre")
+LONG = (
+    "t5_floquet",
+    "t6_shock_drift",
+    "t11_slow_motion",
+    "t12_unequal_spins",
+    "t13_integrals",
+    "t14_guiding_centre",
+    "t15_return_maps",
+)
 SCRIPTS = [pytest.param(stem, marks=pytest.mark.slow) if stem in LONG else stem for stem in STEMS]
 
 

@@ -6,6 +6,8 @@
 # **Assumptions.** $I_1 = 0.66$, $I_3 = 0.5$ kg m², $m = 1$ kg, $l = 0.6$ m. "Fast" is 60 rad/s.
 
 # %%
+from functools import cache
+
 import numpy as np
 from symbols import I_1, I_3, c, g, l, m
 from top import VALUES, top
@@ -19,6 +21,7 @@ phi_v, theta_v, _ = c.v
 EXACT = "exact top"
 
 
+@cache
 def released(spin: float, push: float = 0.0):
     """A run over ten nutations from THETA_0, with the precession rate `push` (rad/s), and the times of its turning points."""
     period = 2 * np.pi * VALUES[I_1] / (VALUES[I_3] * spin)

@@ -31,7 +31,7 @@ def test_a_run_of_too_many_events_is_stopped(monkeypatch: pytest.MonkeyPatch) ->
     assert run.t[-1] == pytest.approx(11 * first) and "5 events" in run.ending.reason
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(st.integers(2, 12), st.floats(5, 100), st.floats(-0.95, 0.95))
 def test_every_crossing_is_on_its_section_however_few_times_are_read(n: int, duration: float, level: float) -> None:
     """x = cos t: upward through the level at 2πk − acos, downward at 2πk + acos."""
@@ -134,7 +134,7 @@ def flight(times: np.ndarray, restitution: float) -> np.ndarray:
     return heights
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(st.floats(0.3, 0.9))
 def test_a_ball_bounces_infinitely_often_and_comes_to_rest(restitution: float) -> None:
     """The impacts accumulate at sqrt(2 h/g) (1 + e)/(1 − e)."""
