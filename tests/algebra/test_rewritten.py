@@ -86,7 +86,7 @@ def check(seed: int) -> str:
 
 
 def test_no_answer_contradicts_values() -> None:
-    answers = [check(seed) for seed in range(24)]
+    answers = [check(seed) for seed in range(16)]
     assert {"zero", "nonzero"} <= set(answers)
 
 

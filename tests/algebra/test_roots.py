@@ -190,7 +190,7 @@ def values(expression: sp.Expr, digits: int) -> list[mpmath.mpf]:
     return found
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(RELATIONS)
 def test_random_expressions_agree_with_their_values_at_sixty_digits(expression: sp.Expr) -> None:
     assume(not expression.has(sp.zoo, sp.nan))

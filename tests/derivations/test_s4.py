@@ -38,18 +38,6 @@ def test_every_equation_of_the_section_has_one_statement():
     assert sorted(stated()) == [identifier for identifier in PAPER.equations if identifier.startswith("4.")]
 
 
-@pytest.mark.parametrize("identifier", ["4.01", "4.02", "4.03", "4.05"])
-def test_a_changed_coefficient_is_refuted(identifier):
-    statement = stated()[identifier]
-    for i, relation in enumerate(statement.relations):
-        twin = (
-            *statement.relations[:i],
-            replace(relation, printed=2 * relation.printed),
-            *statement.relations[i + 1 :],
-        )
-        assert decide(replace(statement, relations=twin)).verdict == "refuted"
-
-
 def test_one_wrong_sign_in_the_energy_is_refuted(kinetic, masses):
     statement = stated()["4.02"]
     twin = replace(statement.relations[-1], printed=kinetic.subs(masses[2], -masses[2]))

@@ -89,7 +89,7 @@ def test_what_is_refuted_is_refuted_with_every_premise_granted(stated: dict[str,
     assert shared_premises.OPPOSITE_SPINS in alone.premises
 
 
-@pytest.mark.parametrize("identifier", ["5.20", "5.21", "5.22"])
+@pytest.mark.parametrize("identifier", ["5.20", *(pytest.param(i, marks=pytest.mark.slow) for i in ("5.21", "5.22"))])
 def test_a_changed_correction_is_refuted(stated: dict[str, Statement], identifier: str) -> None:
     statement = stated[identifier]
     assert decide(statement).correction_verdict in ("holds", "holds-to-order")

@@ -7,8 +7,8 @@ from lagrotor.paper import Remark, Step, scripts
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 AFTER_RUNS = pytest.mark.slow  # the step stands after exact runs of the script
-# Their numbers are held in test_chern, test_resonances, test_nonlinear_waves and test_precession_law.
-LONG = ("n5_chern", "n6_resonances", "n7_nonlinear_waves", "n9_precessions")
+# Their numbers are held in test_standing, test_chern, test_resonances, test_nonlinear_waves and test_precession_law.
+LONG = ("n1_standing", "n5_chern", "n6_resonances", "n7_nonlinear_waves", "n9_precessions")
 STEMS = [
     pytest.param(stem, marks=AFTER_RUNS) if stem in LONG else stem for stem in PAPER.scripts.names("derivations", "n")
 ]

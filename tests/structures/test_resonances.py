@@ -184,7 +184,9 @@ def test_the_error_of_a_fall_is_held_where_the_expansion_misses_it_by_half(share
         found.fall_time_error(1e-3 * push * direction)
 
 
-@pytest.mark.parametrize(("shape", "spins"), [(CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1])])
+@pytest.mark.parametrize(
+    ("shape", "spins"), [(CORNER, [1, 0, 1]), pytest.param(SQUARE, [1, 1, 1, -1], marks=pytest.mark.slow)]
+)
 def test_what_is_said_does_not_depend_on_the_basis_of_modes_of_equal_rates(monkeypatch, shape, spins):
     """Both rates are double there: any unitary mixture of the two modes of a rate is as good, and a BLAS kernel picks one."""
     s, told, shapes = at(1.0607, shape, spins), [], []
@@ -256,8 +258,13 @@ def test_of_fourth_order_it_falls_more_slowly():
     assert resonance.least_time(0.06 * rate) * rate < times[0] and times[1] / times[0] == pytest.approx(4, rel=0.25)
 
 
-@pytest.mark.parametrize("count", [1, pytest.param(8, marks=pytest.mark.slow)])
-@pytest.mark.parametrize(("shape", "spins"), [(CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1])])
+@pytest.mark.parametrize(
+    ("shape", "spins", "count"),
+    [
+        (CORNER, [1, 0, 1], 1),
+        *(pytest.param(*s, 8, marks=pytest.mark.slow) for s in ((CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1]))),
+    ],
+)
 def test_a_tilt_is_a_push(shape, spins, count):
     """Of axes that are let go at rest: the law, in directions that the bars allow, as that of rates."""
     s = at(1.0607, shape, spins)
@@ -277,6 +284,7 @@ def test_a_tilt_is_a_push(shape, spins, count):
     assert np.median(part) < 0.3 and (smaller < 0.75 * part).all()
 
 
+@pytest.mark.slow  # the search is that of rates, below, on what test_a_tilt_is_a_push holds
 def test_spin_intervals_of_a_tilt():
     s = at(1.0607, CORNER, [1, 0, 1])
     intervals = s.spin_intervals(0.005, "tilts")
@@ -550,7 +558,7 @@ def test_no_exact_run_leaves_what_it_holds(seed):
     rate, push = local_hamiltonian(s).rate, 0.9 * s.largest_push().value
     while s.stands().hold_time(push) < 60 / rate:
         push *= 0.9
-    t = np.linspace(0, min(s.stands().hold_time(push), 150 / rate), 600)
+    t = np.linspace(0, min(s.stands().hold_time(push), 80 / rate), 600)
     start = push * next(directions(s, 1, seed))
     run = s.simulate(t, rates=np.column_stack([start, np.zeros(3)]), tol=1e-6)
     tilts = np.linalg.norm(run.axes[..., :2], axis=-1).max(0)

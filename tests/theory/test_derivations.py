@@ -16,6 +16,7 @@ STEPWISE = dict.fromkeys(STEMS, 8) | {"t4_orbit_family": 3, "t7_duration": 5, "t
 LONG = (
     "t5_floquet",
     "t6_shock_drift",
+    "t8_toppling",
     "t11_slow_motion",
     "t12_unequal_spins",
     "t13_integrals",
@@ -71,11 +72,12 @@ MUTANTS = [
     ("t11_slow_motion", "sp.Rational(3, 8) * SWING**4) / c - kappa", "sp.Rational(1, 8) * SWING**4) / c - kappa"),
     ("t11_slow_motion", "threshold = 1 + 2 / att**2 + sp.sqrt", "threshold = 1 + 1 / att**2 + sp.sqrt"),
     pytest.param("t11_slow_motion", "own = SWING**2 - (k**2", "own = SWING**2 + (k**2", marks=pytest.mark.slow),
-    ("t12_unequal_spins", "law -= share**2", "law += share**2"),
-    (
+    pytest.param("t12_unequal_spins", "law -= share**2", "law += share**2", marks=pytest.mark.slow),
+    pytest.param(
         "t12_unequal_spins",
         "apart**3 * sigma**2 * (sigma - 5) / (16 * k)",
         "apart**3 * sigma**2 * (sigma - 5) / (8 * k)",
+        marks=pytest.mark.slow,
     ),
     ("t12_unequal_spins", "slower = (sigma - 1) * ((sigma + 1)", "slower = (sigma - 1) * ((sigma - 1)"),
     ("t14_guiding_centre", "(G_1 - G_2) * sp.sin(h) ** 2 / k", "(G_1 + G_2) * sp.sin(h) ** 2 / k"),

@@ -68,7 +68,7 @@ def test_twist_growth(count):
     held(pairs, refused, count, 0.3)
 
 
-@pytest.mark.parametrize("count", [5, pytest.param(50, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [3, pytest.param(50, marks=pytest.mark.slow)])
 def test_hills_equation_against_exact_runs(count):
     rng, checked = np.random.default_rng(8), 0
     while checked < count:

@@ -18,7 +18,7 @@ CENTRAL = System(PLANE, m * (r_dot**2 + r**2 * phi_dot**2) / 2 - U(r))
 SUPPORTED = System(C, m * (v + y(t).diff(t)) ** 2 / 2 - k * x**2 / 2, dissipation=d * v**2 / 2, forces=(u(t),))
 WELL = System(C, m * v**2 / 2 - U(x))
 NUMBERS = {m: 1, k: 4, d: 0.1}
-T, FINE = np.linspace(0, 6, 25), np.linspace(0.3, 1.2, 2000)
+T, FINE = np.linspace(0, 6, 25), np.linspace(0.3, 1.2, 1000)
 
 
 def test_derivatives_stand_in_the_equations_as_what_they_are() -> None:

@@ -124,7 +124,8 @@ def test_the_same_inputs_give_the_same_bytes(first: Path, run: Run, tmp_path: Pa
 def test_what_hangs_on_the_hash_seed_is_seen(first: Path, run: Run, tmp_path: Path) -> None:
     report = Path(shutil.copytree(first, tmp_path / "report"))
     (report / "index.html").write_text("edited")  # the page alone is made anew
-    run(report, 'page_sections.balance = lambda report: " ".join({"one", "two", "three", "four", "five"})')
+    said = run(report, 'page_sections.balance = lambda report: " ".join({"one", "two", "three", "four", "five"})')
+    assert said.startswith("8 derivation")
     other, same = held(report), held(first)
     assert {name for name in same if other[name] != same[name]} == {"index.html", "whole.html", "pages/words.js"}
 
@@ -146,9 +147,6 @@ def test_what_is_damaged_is_made_anew(first: Path, run: Run) -> None:
     good = held(first)
     (first / "figures" / "fig14_euler_angles.svg").write_text("<svg/>")
     assert "figure 14" not in run(first)
-    assert held(first) == good
-    (first / "index.html").write_text("edited")
-    assert run(first).startswith("8 derivation")
     assert held(first) == good
 
 
