@@ -186,7 +186,7 @@ def readings_command(given: argparse.Namespace) -> int:
         print(json.dumps([each.as_data() for each in found], indent=1, ensure_ascii=False))
         return 0
     for each in found:
-        moved = f", printed ({each.number}) now" if each.number else ""
+        moved = f", printed ({each.number})" if each.number else ""
         print(wrap(f"{each.id}{moved}  {each.title}: {each.status}", 4))
         print(wrap(f"    print    {each.print}", 13))
         for text in each.said:

@@ -76,14 +76,14 @@ def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[
         return tuple(parts), behind + 1
     if first.kind == "bracket" and first.name in ("|", r"\|", r"\lvert", r"\vert") and first.sup is None:
         return (reader.factor(row, behind)[0],), behind + 1
+    if first.kind == "function" and row[place].name != "arg":  # \ln\cosh x; \arg\min is one word
+        node, end = reader.factor(row, behind)
+        return (node,), end
     end = _reach(reader, row, behind, row[place])
     for box in row[behind:end]:
         if box.sup is not None and mark_of(reader, box) is None:
             why = "whether the power is of the argument or of the function is open"
             raise FormulaError(box.at, why, "write brackets")
-    if row[behind].kind == "function":
-        node, end = reader.factor(row, behind)
-        return (node,), end
     return (reader.product(row[behind:end]),), end
 
 

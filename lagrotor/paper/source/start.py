@@ -6,6 +6,7 @@ Made again from a source that has changed, what is confirmed or derived stays, a
 import json
 import re
 import shutil
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -107,8 +108,9 @@ def _numbered(found: Source, aux: Mapping[str, str], source: Path) -> tuple[Sour
     """The source with the numbers that LaTeX wrote beside it, and where they differ from those that its text gives."""
     said: list[str] = []
     ids = {each.id for each in found.equations}
+    labels = Counter(each.label for each in found.equations)
     for place, each in enumerate(found.equations):
-        number = aux.get(each.label, each.number) if each.label else each.number
+        number = aux.get(each.label, each.number) if labels[each.label] == 1 and each.label else each.number
         if number not in (each.number, found.labels.get(each.label)):
             said.append(
                 f"{each.label} is ({number}) in {source.with_suffix('.aux').name} and ({each.number or 'without a number'}) by "

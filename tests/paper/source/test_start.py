@@ -71,7 +71,7 @@ def test_ids_stay_while_numbers_move_and_this_is_said(source: Path, capsys: pyte
     assert begin_paper(folder, source).moved == ("1 is (2)", "2 is (3)", "3 is (4)")
     assert main(["readings", str(folder)]) == 0
     out = capsys.readouterr().out
-    assert "1, printed (2) now  eq:T: unconfirmed" in out and "2, printed (3) now  eq:momentum: unconfirmed" in out
+    assert "1, printed (2)  eq:T: unconfirmed" in out and "2, printed (3)  eq:momentum: unconfirmed" in out
     assert begin_paper(folder, source).moved == (), "once"
     assert confirm(folder, ["eq:T", "(3)"]) == ["1", "2"], "the numbers that are printed now"
 
@@ -137,6 +137,15 @@ def test_numbers_beside_the_source_are_taken_and_a_difference_is_said(source: Pa
     made = begin_paper(source.parent / "other", source)
     assert rows(source.parent / "other")["7"]["label"] == "eq:T"
     assert "eq:T is (7) in paper.aux and (1) by the source" in made.notes[0]
+
+
+def test_a_label_that_two_displays_have_gives_neither_its_number(tmp_path: Path) -> None:
+    source = tmp_path / "paper.tex"
+    body = r"\begin{equation}\label{a} x = 1 \end{equation}\begin{equation}\label{a} y = 2 \end{equation}"
+    source.write_text(rf"\documentclass{{article}}\begin{{document}}{body}\end{{document}}", encoding="utf-8")
+    source.with_suffix(".aux").write_text(r"\newlabel{a}{{2}{1}}", encoding="utf-8")
+    begin_paper(tmp_path / "mine", source)
+    assert {row["latex"]: row["number"] for row in rows(tmp_path / "mine").values()} == {"x = 1": "1", "y = 2": "2"}
 
 
 def test_readings_are_shown_beside_the_print_and_confirmed(source: Path, capsys: pytest.CaptureFixture[str]) -> None:
