@@ -188,6 +188,10 @@ class _Reader:
         if self.peek() is None:
             raise FormulaError(opened.at, "{ is not closed", "write the brace that closes it")
         self.take()
+        if len(found) == 1 and self.latex.startswith(
+            tuple(_INFIX), found[0].at
+        ):  # {a \over b} is printed with its braces
+            found[0].at, found[0].end = opened.at, self.end
         return found
 
     def plain(self) -> str:

@@ -383,6 +383,8 @@ SIDES = {
     r"{\bf \dot{x}} = {\bf c}": r"{\bf \dot{x}}",
     r"\left(a\right) + {b} = c": r"\left(a\right) + {b}",
     r"{\rm St} = \frac{f}{U}": r"{\rm St}",
+    r"{\partial L \over \partial\theta} = M": r"{\partial L \over \partial\theta}",
+    r"m{\text{d}v \over \text{d}t} = F": r"m{\text{d}v \over \text{d}t}",
     r"\{a, b\} = {c}": r"\{a, b\}",
 }
 
