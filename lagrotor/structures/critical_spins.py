@@ -11,7 +11,8 @@ freedom:
   as above every branch's minimum each branch gives two real rates ω, n in all, and no more exist;
 - with M = a 1 and K = −κ 1 (massless bars, equal loads) that is 2 sqrt(a κ)/β, i β the least root of B.
 
-Friction on every axis undoes it: what fell still falls, however slowly (Kelvin, Tait & Chetaev: Merkin, § 6.5).
+Friction on every axis undoes it: what fell still falls, however slowly (Kelvin, Tait & Chetaev: Merkin, § 6.5). So does friction
+on some, where spins and stiffness let it act on what falls.
 
 All of this is the linear motion.
 """
@@ -50,7 +51,7 @@ def spin_threshold(linear: SmallMotion) -> float:
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     falling, factor = int((K < -1e-12).sum()), 0.0
     if falling:
-        if falling % 2 or np.linalg.eigvalsh(linear.damping)[0] > 0:
+        if falling % 2 or friction_undoes(linear):
             return inf
         if falling == len(K) and not linear.damping.any():
             return _by_branches(linear)
@@ -62,6 +63,27 @@ def stiffness_in_masses(linear: SmallMotion) -> Array:
     """K in the metric of M, in units of pull²: whatever the spins, what falls is not taken for neutral."""
     root = np.linalg.inv(np.linalg.cholesky(linear.mass))
     return np.asarray(root @ linear.stiffness @ root.T / (linear.pull or linear.rate) ** 2)
+
+
+def friction_undoes(linear: SmallMotion) -> bool:
+    """Whether friction lets fall, at any spins, what falls without: K is negative on the motions that it reaches.
+
+    They are those that are rubbed themselves, and what K and G make of them: the least such subspace, on which every motion is
+    damped in time, so that the theorem of Kelvin, Tait & Chetaev holds. The rest moves by itself.
+    """
+    root, K = np.linalg.inv(np.linalg.cholesky(linear.mass)), stiffness_in_masses(linear)
+    rubbed, turned = root @ linear.damping @ root.T, root @ linear.gyroscopic @ root.T
+    forms = [f / (np.abs(f).max() or 1.0) for f in (K, turned)]
+    reached = _range(rubbed)
+    while (wider := _range(np.hstack([reached, *(f @ reached for f in forms)]))).shape[1] > reached.shape[1]:
+        reached = wider
+    return bool(reached.shape[1] and np.linalg.eigvalsh(reached.T @ K @ reached)[0] < -1e-12)
+
+
+def _range(columns: Array) -> Array:
+    """An orthonormal basis of what columns span."""
+    vectors, sizes, _ = np.linalg.svd(columns, full_matrices=False)
+    return np.asarray(vectors[:, sizes > 1e-10 * sizes.max(initial=0.0)])
 
 
 def _by_branches(linear: SmallMotion) -> float:

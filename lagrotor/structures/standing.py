@@ -17,7 +17,7 @@ from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex, coefficients
-from lagrotor.structures.critical_spins import critical_spin, spin_threshold, stiffness_in_masses
+from lagrotor.structures.critical_spins import critical_spin, friction_undoes, spin_threshold, stiffness_in_masses
 from lagrotor.structures.exact.exact_motion import exact_motion
 from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.holding import hold_time
@@ -249,17 +249,16 @@ class Standing(Shown):
 def stands(s: Assembly) -> Standing:
     """Whether the linear motion about upright stays bounded, and what resonances do: see `Standing`.
 
-    Raises InputError where upright breaks a bar's length, and where friction lets it fall more slowly than is resolved: with
-    friction on every axis what falls without spin falls at any (Kelvin, Tait and Chetaev).
+    Raises InputError where upright breaks a bar's length, and where friction lets it fall more slowly than is resolved: where
+    friction acts on what falls without spin it falls at any (Kelvin, Tait and Chetaev).
     """
     linear, normal, factor = small_motion(s), modes(s), critical_spin(s)
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     growth = 0.0 if len(K) and K[0] > 1e-12 else linear.growth  # energy that is least when upright grows nowhere
-    rubbed = len(K) and K[0] < -1e-12 and np.linalg.eigvalsh(linear.damping)[0] > 0
-    if rubbed and growth < _RESOLVED * len(K) * np.finfo(float).eps * linear.rate:
+    if len(K) and friction_undoes(linear) and growth < _RESOLVED * len(K) * np.finfo(float).eps * linear.rate:
         raise InputError(
-            "stands: friction on every axis lets it fall at any spins (Kelvin, Tait and Chetaev), but beside these so slowly "
-            "that double precision cannot tell how fast: take slower spins, or more friction"
+            "stands: friction lets it fall at any spins (Kelvin, Tait and Chetaev), but beside these so slowly that "
+            "double precision cannot tell how fast: take slower spins, or more friction"
         )
     falls = growth > 0
     shape = normal.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)

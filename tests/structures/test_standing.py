@@ -230,3 +230,17 @@ def test_what_nothing_holds_does_not_stand_at_any_multiple_of_its_spins(more) ->
     assert s.plot().get_suptitle() == "Does not stand; no multiple of its spins holds it"
     held = replace(s, spins=[30.0, 1.0])
     assert held.stands() and held.critical_spin() < 1 and held.plot().get_suptitle().startswith("Stands")
+
+
+@pytest.mark.parametrize("times", [3, 300.0, 3e7])
+def test_friction_on_some_axes_lets_what_it_reaches_fall(times: float) -> None:
+    """Told, or refused where its growth is lost in rounding; where only a spring holds what is rubbed, it stands."""
+    s = Structure([(0, 0), (3, 0)], spins=[10.0 * times, 7.0 * times], gravity=9.81, friction=[0.0, 0.01])
+    held = replace(s, hinge=[0.0, 50.0])
+    assert held.stands() and held.critical_spin() < inf
+    assert s.critical_spin() == inf
+    if times > 1e6:
+        with pytest.raises(InputError, match="so slowly that double precision cannot tell"):
+            s.stands()
+    else:
+        assert not s.stands()
