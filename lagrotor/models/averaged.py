@@ -23,7 +23,7 @@ from lagrotor.errors import DomainError, SingularError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, inverse_matrix, total, variable
 from lagrotor.models.minimal import MODEL, RATIOS
 from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, natural_units
-from lagrotor.numerics.calibrated import Calibrated
+from lagrotor.numerics.calibrated import LOST, Calibrated
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.generated import generated
 from lagrotor.numerics.segment import StopError
@@ -296,7 +296,8 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
             break
     if one.shock:
         errors += 3 * distance(motions[0], states(order, order, starts[1], grid))
-    errors = np.minimum(np.maximum.accumulate(errors), UNKNOWN)
+    errors = np.maximum.accumulate(errors)
+    errors[errors > LOST.value] = UNKNOWN  # as of any run: what is no longer small is no estimate
 
     def motion(t: Array) -> tuple[Array, Array]:
         s = t * units.rate
