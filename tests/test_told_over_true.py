@@ -21,13 +21,14 @@ def test_an_error_is_told_at_all_times_and_would_be_seen_if_not(monkeypatch: pyt
 
 
 def test_two_runs_that_are_near_by_chance_are_no_better_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A pendulum whose two runs part no farther from 15 to 60 s, while the error grows tenfold."""
+    """A pendulum whose two runs part no farther from 15 to 60 s, while the error grows tenfold.
+
+    Whether they do is a matter of rounding: with other kernels of linear algebra they part. The twin is of a made case, in
+    tests/numerics/test_estimated_run.py.
+    """
     monkeypatch.setattr(told_over_true, "least_evaluations", lambda *_: np.nan)
     (row,) = systems(9132, 1, dense=True)
     assert row.under < 1
-    monkeypatch.setattr(estimated_run, "errors_up_to", lambda t, errors, turn: np.maximum.accumulate(errors))  # twin
-    (row,) = systems(9132, 1, dense=True)
-    assert row.under > 2
 
 
 @pytest.mark.slow
