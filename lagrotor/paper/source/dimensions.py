@@ -7,6 +7,7 @@ decimal, or a term other than 1 may be a quantity without its unit: such an equa
 """
 
 import re
+from collections import defaultdict
 from collections.abc import Collection, Iterable
 from fractions import Fraction
 
@@ -25,12 +26,16 @@ class _UnknownError(Exception):
 
 
 class FormulaDimensions:
-    """What the equations so far say, as rows in echelon form."""
+    """What the equations so far say: rows, each of which gives a letter by letters that no row gives and by units."""
 
     def __init__(self, numbers: Collection[str] = ()) -> None:
         """numbers: letters of quantities to which the paper gives the value 1."""
-        self.rows = {name: _unit(unit) for name, unit in _QUANTITIES.items() if name not in numbers}
+        self.rows: dict[str, Row] = {}
+        self.used_by: defaultdict[str, set[str]] = defaultdict(set)  # letter → rows that have it
         self.pending: list[tuple[Row, str]] = []
+        for name, unit in _QUANTITIES.items():
+            if name not in numbers:
+                self._put(name, _unit(unit))
 
     def add(self, sides: Iterable[Node]) -> str | None:
         """Take in an equation; a sentence where it contradicts those before, and then it is left out."""
@@ -39,30 +44,37 @@ class FormulaDimensions:
             self._alike([side for side in sides if not _is_zero(side)], "the sides", 0)
         except _UnknownError:
             return None
-        kept = dict(self.rows)
+        before: list[tuple[str, Row | None]] = []
         for row, where in self.pending:
             reduced = self._reduced(row)
-            letters = [name for name in reduced if name[0] != "["]
-            if letters:
-                self._keep(letters[0], reduced)
+            name = next((each for each in reduced if each[0] != "["), None)
+            if name is not None:
+                factor = -reduced.pop(name)
+                given = {other: value / factor for other, value in reduced.items()}
+                for of in (*self.used_by[name], name):
+                    old = self.rows.get(of)
+                    before.append((of, old))
+                    self._put(of, given if old is None else _plus(_without(old, name), given, old[name]))
             elif reduced:
-                self.rows = kept
+                for of, old in reversed(before):
+                    self._put(of, old)
                 return f"{where} have different dimensions"
         return None
 
     def _reduced(self, row: Row) -> Row:
-        made = dict(row)
-        while (name := next((n for n in made if n in self.rows), None)) is not None:
-            factor = made.pop(name)
-            for other, value in self.rows[name].items():
-                made[other] = made.get(other, Fraction(0)) + factor * value
-            made = {n: v for n, v in made.items() if v}
-        return {n: v for n, v in made.items() if v}
+        made: Row = {}
+        for name, value in row.items():
+            made = _plus(made, self.rows.get(name, {name: Fraction(1)}), value)
+        return made
 
-    def _keep(self, name: str, row: Row) -> None:
-        """name = −rest/factor."""
-        factor = row[name]
-        self.rows[name] = {other: -value / factor for other, value in row.items() if other != name}
+    def _put(self, name: str, row: Row | None) -> None:
+        """What gives a letter; None: nothing does."""
+        for letter in self.rows.pop(name, {}):
+            self.used_by[letter].discard(name)
+        if row is not None:
+            self.rows[name] = row
+            for letter in row:
+                self.used_by[letter].add(name)
 
     def _alike(self, nodes: list[Node], where: str, number: int) -> Row:
         """The dimension of all; number: what may stand alone among them."""
@@ -160,6 +172,10 @@ def _plus(a: Row, b: Row, times: int | Fraction = 1) -> Row:
     for name, value in b.items():
         made[name] = made.get(name, Fraction(0)) + times * value
     return {name: value for name, value in made.items() if value}
+
+
+def _without(row: Row, name: str) -> Row:
+    return {other: value for other, value in row.items() if other != name}
 
 
 def _rational(node: Node) -> Fraction | None:
