@@ -465,7 +465,7 @@ class _Checker:
         printed = [r for r in self.statements if r.statement.kind in ("equation", "approximation", "inequality")]
         held = [
             *self._values(),
-            *((read.equation.section, [side.node for side in read.statement.sides], read) for read in printed),
+            *((read.equation.section, _without_values(read.statement), read) for read in printed),
         ]
         numbers = {
             side.name
@@ -534,6 +534,14 @@ class _Checker:
 
 def _letters_of(statement: PrintedStatement) -> set[str]:
     return {name for side in statement.sides for name in letters_of(side.node)}
+
+
+def _without_values(statement: PrintedStatement) -> list[Node]:
+    """Its sides, but those behind a ≈ with a number that the side before has not: it may be a quantity without its unit."""
+    nodes = [side.node for side in statement.sides]
+    numbers = [{each for each in walk(node) if isinstance(each, Number)} for node in nodes]
+    pairs = zip(statement.relations, numbers, numbers[1:], nodes[1:], strict=False)
+    return [nodes[0], *(node for relation, before, own, node in pairs if relation != "~" or own <= before)]
 
 
 def _guess(reading: Reading) -> str:

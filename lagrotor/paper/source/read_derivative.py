@@ -280,6 +280,9 @@ def read_operators(reader: FormulaReader, row: list[Box], place: int) -> tuple[N
         reader.guess("reach", "the operator in brackets acts on all that follows it")
     made: list[Box] = []
     for term in terms:
+        inner = next((b for b in term if b.kind == "nabla"), None)
+        if inner is not None and not _acts(term):
+            raise FormulaError(inner.at, "how far ∇ reaches is open", "write brackets around what it acts on")
         if term[-1].kind == "nabla" and term[-1].sup is None and len(term) > 2 and term[-2].name == "cdot":
             term = [*term[:-3], Box("bracket", "(", term[-3].at, term[-1].end, [term[-3:]], closing=")")]
         made += [*term, Box("group", "", rest[0].at, rest[-1].end, [rest])]

@@ -181,6 +181,12 @@ def test_numbers_that_may_have_a_unit_say_nothing(values: str, tmp_path: Path) -
     assert UNITS in verdicts(tmp_path, r"At $x = 3\,\mathrm{m}$, $t = 2\,\mathrm{s}$ \[ x = t \]")
 
 
+def test_a_number_behind_a_sign_of_nearly_equal_may_be_a_quantity_without_its_unit(tmp_path: Path) -> None:
+    known = r"Here $v = 20\,\mathrm{m/s}$, $g = 9.8\,\mathrm{m/s^2}$ and $t = 2\,\mathrm{s}$. "
+    assert UNITS not in verdicts(tmp_path, known + r"\[ t = \frac{2v}{g} \approx \frac{2v}{10} \]")
+    assert UNITS in verdicts(tmp_path, known + r"\[ t = \frac{2v}{g} \approx 2v \]")
+
+
 def test_two_definitions_and_a_use_before_the_definition_are_found(tmp_path: Path) -> None:
     body = "".join(
         rf"\begin{{equation}} {each} \end{{equation}}" for each in ("y = H x", r"H \equiv a + b", "H := a - b")

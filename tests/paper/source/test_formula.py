@@ -148,6 +148,7 @@ OPEN = {
     r"a = \frac{\partial}{\partial t}\times\mathbf B": "the derivative has nothing to act on",
     r"\mathbf a = \mathbf u\cdot\nabla f\mathbf v": "∇ of a vector is not read",
     r"a = \mathbf u\cdot\nabla\mathbf v\cdot\mathbf w": "how far ∇ reaches",
+    r"(\nabla\cdot\mathbf v + \partial_t) f = 0": "how far ∇ reaches is open",
     r"y = \arg\max f": "the argument of arg is not clear",
     r"E = \sum_{pq} h^p_q a_p": "whether p is an upper index or a power",
     r"a = \mathbf e\cdot\mathbf H\cdot\mathbf p": "which · comes first",
