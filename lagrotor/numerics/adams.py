@@ -25,9 +25,9 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
     """Weights of an Adams pair of q nodes, from the Lagrange polynomials l_j of q equal steps, exact before rounding.
 
     A: integrals from the last node to the one after it (Adams–Bashforth); B: from the last but one to the last
-    (Adams–Moulton), both (2, q): rounded, and what rounding left. Without that all steps of all runs err alike, which no
-    comparison of two runs shows. S (q, q): from the first node to each; P (q, q + 1): the integral of l_j from the middle node
-    q // 2 as a polynomial in steps from there.
+    (Adams–Moulton), both (2, q): rounded, and what rounding left. Without that every step of every run has the same
+    error, which no comparison of two runs shows. S (q, q): from the first node to each; P (q, q + 1): the integral of l_j
+    from the middle node q // 2 as a polynomial in steps from there.
     """
     middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
