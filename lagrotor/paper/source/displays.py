@@ -13,6 +13,7 @@ from lagrotor.paper.source.groups import Macro
 from lagrotor.paper.source.primitives import PRIMITIVES
 from lagrotor.paper.source.source_faults import faults_of
 from lagrotor.paper.source.tokens import Token, latex_of, tokenize
+from lagrotor.paper.source.unknown_environments import UnknownEnvironments
 
 # Each row of these is an equation with a number of its own; the others have one number.
 _ROWS_WORDS = "align gather eqnarray alignat flalign xalignat xxalignat IEEEeqnarray numcases subnumcases"
@@ -131,6 +132,7 @@ class _Walker:
     ) -> None:
         whole = r"\documentclass" in text
         self.expander = Expander(text, file, PRIMITIVES, packages.commands((), everything=not whole), bare)
+        self.unknown = UnknownEnvironments(self.expander)
         self.found, self.whole = found, whole
         self.section, self.bare, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0
@@ -151,10 +153,12 @@ class _Walker:
     def read(self) -> None:
         for token in self.expander.tokens():
             if token.kind == "command":
-                if token.text == r"\end" and self._name() == "document":
-                    if self.expander.leave_file(token.at):
-                        continue
-                    break
+                if token.text == r"\end":
+                    if (name := self._name()) != "document":
+                        self.unknown.end(name, token.at)
+                    elif not self.expander.leave_file(token.at):
+                        break
+                    continue
                 self._command(token)
             elif token.kind == "math" and self.body:
                 self._math(token)
@@ -166,7 +170,7 @@ class _Walker:
         if self.whole and not self.body:
             self.expander.macros.fault(0, "", r"\begin{document} is missing")
         self.found.faults = faults_of(self.expander)
-        self.found.notes = list(dict.fromkeys(self.expander.notes))
+        self.found.notes = list(dict.fromkeys((*self.expander.notes, *self.unknown.notes())))
         self.found.missing = self.expander.missing
         self.found.preamble = "\n".join(
             rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in self.expander.loaded
@@ -244,6 +248,8 @@ class _Walker:
                 self._end_subequations(lettered)
         elif name in ("math",):
             self._inline_environment()
+        elif self.body:
+            self.unknown.begin(name, token.at)
 
     def _begin_subequations(self) -> tuple[int, Macro | None]:
         """Number by letters within the next number; gives what is to be put back."""
@@ -281,6 +287,7 @@ class _Walker:
                     return
                 if name == "document":
                     return self.expander.push(tokenize(r"\end{document}", token.at))
+                self.unknown.end(name, token.at)
             elif token.text == r"\label" and len(self.found.equations) == before:
                 self.found.labels.setdefault(self._name(), self.parent)
             elif token.kind == "command":

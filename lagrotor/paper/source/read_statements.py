@@ -279,9 +279,12 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
 
 
+_FONT = r"\\(?:math(?:bf|bb|cal|frak|it|rm|scr|sf|tt)|bm|boldsymbol|pmb|operatorname)\*?\s*"
+
+
 def _balanced(source: str, at: int, end: int) -> str:
-    r"""LaTeX of a side with the braces and the switch of a font that enclose its ends: {\bf k}_1, not k}_1."""
-    if switch := re.search(r"\{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)\s*$", source[:at]):
+    r"""LaTeX of a side with the braces and the font that enclose its ends: {\bf k}_1 and \mathbf{k} + q, not k}_1 and {k} + q."""
+    if switch := re.search(rf"\{{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)\s*$|{_FONT}\{{\s*$", source[:at]):
         at = switch.start()
     bare = re.sub(r"\\.", "  ", source)
     depth = least = 0
@@ -290,6 +293,8 @@ def _balanced(source: str, at: int, end: int) -> str:
         least = min(least, depth)
     for _ in range(-least):
         at = bare.rfind("{", 0, at)
+        if font := re.search(rf"{_FONT}$", source[:at]):
+            at = font.start()
     for _ in range(depth - least):
         end = bare.find("}", end) + 1 or end
     return source[at:end].strip()

@@ -6,7 +6,7 @@ from lagrotor.paper.source.expansion import STYLES, Expander
 from lagrotor.paper.source.tokens import latex_of
 
 # In another environment, of a class or package that is not beside the source, LaTeX may be shown and not set.
-_SET = (
+SET = (
     "document equation align gather multline eqnarray flalign alignat displaymath math subequations split aligned gathered"
     " alignedat cases array matrix pmatrix bmatrix vmatrix Vmatrix Bmatrix smallmatrix itemize enumerate description figure"
     " table tabular tabularx longtable minipage center flushleft flushright quote quotation abstract proof frame"
@@ -54,7 +54,7 @@ def _shown_source(expander: Expander, text: str) -> list[tuple[int, int]]:
     while (span := _SHOWN_SOURCE.search(text, place)) is not None:
         place = span.end()
         if (name := span[1]) is not None:
-            known = name.rstrip("*") in _SET.split() or name in expander.environments or name in expander.theorems
+            known = name.rstrip("*") in SET.split() or name in expander.environments or name in expander.theorems
             end = -1 if known or rf"\{name}" in expander.macros else text.find(rf"\end{{{name}}}", place)
             place = max(place, end)
             if end < 0:

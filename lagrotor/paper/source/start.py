@@ -73,7 +73,7 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     given = read_source(source)
     faults = [f"{file or source.name}:{line}: {said}" for file, line, said in given.faults]
     if not given.equations:
-        why = "; ".join([f"--from {source}: it has no displayed equation", *faults[:3]])
+        why = "; ".join([f"--from {source}: it has no displayed equation", *(*faults, *given.notes)[:3]])
         raise InputError(f"{why}: lagrotor init alone makes a folder to begin with")
     found, differences = _numbered(given, aux_numbers(source), source)
     old = toml(folder / "equations.toml") if again else {}

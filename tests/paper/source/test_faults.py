@@ -156,3 +156,53 @@ def test_a_part_that_could_stand_by_itself_does_not_end_the_source(tmp_path: Pat
     source = read_source(file)
     assert [each.latex for each in source.equations] == ["c = d", "x = y"]
     assert source.faults == []
+
+
+STRANGE = "\\documentclass{strange}\n\\begin{document}\n%s\n\\[ a = b \\]\n\\end{document}"
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        r"\begin{seq} x = y+1 \end{seq}",
+        r"\begin{seq}[left]{wide} F_{max other} = \frac{a}{b} \label{eq_a} \end{seq}",
+        r"\def\bq{\begin{seq}}\def\eq{\end{seq}} \bq \alpha^2 \text{ for all real numbers} \eq",
+        r"\begin{box}Words. \begin{seq} \begin{split} a &= b \end{split} \end{seq}\end{box}",
+    ],
+)
+def test_an_environment_that_no_file_defines_and_that_holds_a_formula_is_said_once(body: str, tmp_path: Path) -> None:
+    (file := tmp_path / "paper.tex").write_text(STRANGE % body)
+    (note,) = read_source(file).notes
+    assert note.startswith(
+        r"paper.tex:3: \begin{seq} is not known, and its formula is passed over: put strange.cls, loaded"
+    )
+    file.write_text(STRANGE.replace("strange", "article") % f"{body}\n{body}")
+    (note,) = read_source(file).notes
+    assert note.endswith(r"as is 1 more of this name: write equation, or define it by \newenvironment{seq}")
+    file.write_text(STRANGE % rf"\newenvironment{{seq}}{{}}{{}}{body}")
+    assert read_source(file).notes == [], "it is defined"
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        r"\begin{lemmaq}[Euler $x = y$] Let $x_1 = y$. \[ a^2 = b \] \begin{align} \frac12 &= a \end{align} \end{lemmaq}",
+        r"\begin{block}{x = y} \includegraphics[width=0.5\textwidth]{a_b} \cite{a_b} \caption{$a$ = b} \end{block}",
+        r"\begin{kframe} key_name = value of it \end{kframe} \begin{jscode} x = y \end{jscode}",
+        r"\begin{picture}(1,1) x_1 = y \end{picture} \begin{tikzcd} A_1 \arrow[r] & B^2 \end{tikzcd}",
+        r"\begin{ltabu} a = b \end{ltabu}",
+        r"\begin{steps} \item<1-> $a_1$ = $b$ \item[x = y] \(c^2\) 100\% \end{steps} \begin{boxes} \end{boxes}",
+        "\\begin{session}\nx = 2; y_1 # the second\n\\end{session} \\begin{seq} % x = y\n\\end{seq}",
+    ],
+)
+def test_an_environment_of_words_drawings_or_code_is_not_said(body: str, tmp_path: Path) -> None:
+    (file := tmp_path / "paper.tex").write_text(STRANGE % body)
+    assert read_source(file).notes == []
+
+
+def test_a_source_whose_only_displays_are_unknown_says_why(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (file := tmp_path / "paper.tex").write_text(whole(r"\begin{seq} x = y+1 \end{seq}").replace(AFTER, ""))
+    assert main(["init", str(tmp_path / "new"), "--from", str(file)]) != 0
+    assert r"\begin{seq} is not known" in capsys.readouterr().err
+    assert main(["check", str(file)]) == 0
+    assert r"\begin{seq} is not known" in capsys.readouterr().err
