@@ -16,7 +16,7 @@ moves this threshold, for heavy bars by a good part already at small shocks.
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import acos, asin, copysign, cos, hypot, inf, pi, sqrt, tan
+from math import asin, copysign, cos, hypot, inf, pi, sin, sqrt, tan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,6 +32,7 @@ from lagrotor.theory.shock_response import shock_response
 # (|eta| + s)/(k cos beta), the sine of the bar's tilt, beyond which no expansion in it is made.
 FARTHEST_TILT = 0.5
 LARGEST_SHARE = 0.5  # of the leading order, that the next one may be
+_ROUNDED = 1e-13  # part of a vector that is rounding
 _LEANS, _TRIES = 300, 30  # of a curve that is followed; steps of Newton's method at each
 
 
@@ -118,30 +119,41 @@ class SlowMotion:
 
     def half_squared(self, lean: float, branch: float = 1.0) -> float:
         """eta² on the curve of the motion at a lean; negative, or not a number, where the curve does not come."""
-        c = cos(lean) ** 2
-        square = np.polyval(self._square, c)
-        return branch * sqrt(square) - self._offset(c) if square >= 0 else -inf
+        v = sin(lean - self.lean) * sin(lean + self.lean)
+        square, offset = np.polyval(self._square, v), self._offset + self.weight * self.swing**2 * v / 2
+        if square < 0:
+            return -inf
+        apart = branch * sqrt(square)
+        return float((self._product - self.invariant * v) / (apart + offset) if apart * offset > 0 else apart - offset)
 
-    def _offset(self, c: float) -> float:
-        return (self.swing**2 * (1 - self.weight * c) - self.momentum) / 2
+    @cached_property
+    def _offset(self) -> float:
+        """D − eta² at the start."""
+        return (self.swing**2 * (1 - self.weight * cos(self.lean) ** 2) - self.momentum) / 2
+
+    @cached_property
+    def _product(self) -> float:
+        """D² − (D − eta²)² at the start; elsewhere it is less by W v."""
+        return self.half**2 * (self.half**2 + 2 * self._offset)
 
     @cached_property
     def _square(self) -> tuple[float, float, float]:
-        """Coefficients of D² in c."""
-        s2 = self.swing**2
-        slope = self.invariant - self.weight * s2 * (s2 - self.momentum) / 2
-        return (self.weight * s2 / 2) ** 2, slope, 3 * s2**2 / 8
+        """Coefficients of D² in v = sin² beta − sin² of the start's, as cos² beta rounds small leans away."""
+        s2, c, push = self.swing**2, cos(self.lean) ** 2, self.swing**2 - self.momentum
+        bend = (self.weight * s2 / 2) ** 2
+        slope = self.invariant - self.weight * s2 * push / 2 + 2 * bend * c
+        return bend, -slope, (self.half**2 + self._offset) ** 2
 
     def _turns(self, branch: float) -> list[tuple[float, float]]:
         """(|beta|, the branch from there on) of the points where beta turns on a branch."""
-        folds = [(float(c.real), -branch) for c in np.roots(self._square) if c.imag == 0]
-        turns = [(c, after) for c, after in folds if self._offset(c) <= 0]
-        s2, p = self.swing**2, self.momentum
+        rising, start = self.weight * self.swing**2 / 2, sin(self.lean) ** 2
+        folds = [(float(v.real), -branch) for v in np.roots(self._square) if v.imag == 0]
+        turns = [(v, after) for v, after in folds if self._offset + rising * v <= 0]
         if self.invariant != 0:  # where a branch has eta = 0: D = the offset
-            level = ((s2 - p) ** 2 / 4 - 3 * s2**2 / 8) / self.invariant
-            if branch * self._offset(level) >= 0:
+            level = self._product / self.invariant
+            if branch * (self._offset + rising * level) >= 0:
                 turns.append((level, branch))
-        return [(acos(sqrt(c)), after) for c, after in turns if 0 < c < 1]
+        return [(asin(sqrt(start + v)), after) for v, after in turns if 0 < start + v < 1 - 1e-12]
 
     @cached_property
     def legs(self) -> tuple[_Leg, ...]:
@@ -150,7 +162,7 @@ class SlowMotion:
         Beyond beta = 0 it goes on as its mirror image.
         """
         here = abs(self.lean)
-        branch = copysign(1.0, self.half**2 + self._offset(cos(self.lean) ** 2))
+        branch = copysign(1.0, self.half**2 + self._offset)
         along, across = self.slopes(self.lean, self.half)
         # Where eta = 0 beta turns, and eta' tells to which side.
         outward = self.lean * (along or branch * self.rate * across)
@@ -225,9 +237,9 @@ class SlowMotion:
         from scipy.integrate import quad
 
         def density(lean: float) -> float:
-            c = cos(lean) ** 2
-            square, y = np.polyval(self._square, c), self.half_squared(lean, leg.branch)
-            return c / sqrt(square * y) if square > 0 and y > 0 else 0.0
+            v = sin(lean - self.lean) * sin(lean + self.lean)
+            square, y = np.polyval(self._square, v), self.half_squared(lean, leg.branch)
+            return cos(lean) ** 2 / sqrt(square * y) if square > 0 and y > 0 else 0.0
 
         sense, root = copysign(1.0, leg.end - leg.begin), sqrt(abs(leg.end - leg.begin) / 2)
         first = quad(lambda u: u * density(leg.begin + sense * u * u), 0, root, epsabs=0, epsrel=1e-7, limit=200)[0]
@@ -252,6 +264,8 @@ def slow_motion(scene: Scene) -> SlowMotion:
         return float(vector[1] - vector[2]) / 2
 
     swing, apart = hypot(half(response.cosine), half(response.sine)), half(response.displacement)
+    if abs(apart) < _ROUNDED * hypot(*response.displacement, swing):  # a shock along y starts where beta turns
+        apart = 0.0
     if not abs(apart) + swing <= LARGEST_SWING.value:
         raise DomainError(
             f"slow_motion: the shock turns the axes {2 * (abs(apart) + swing):.3g} rad against each other, beyond "
