@@ -29,8 +29,8 @@ from lagrotor.theory.calibrated_factors import LARGEST_SWING
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 from lagrotor.theory.shock_response import shock_response
 
-# (|eta| + s)/(k cos beta), the sine of the bar's tilt, beyond which no expansion in it is made.
-FARTHEST_TILT = 0.5
+# sin chi = sin h/(k cos beta) beyond which no expansion in it is made; upright the bar tilts by 2 chi.
+FARTHEST_TWIST = 0.5
 LARGEST_SHARE = 0.5  # of the leading order, that the next one may be
 _ROUNDED = 1e-13  # part of a vector that is rounding
 _LEANS, _TRIES = 300, 30  # of a curve that is followed; steps of Newton's method at each
@@ -179,14 +179,14 @@ class SlowMotion:
         """The largest |beta| of the motion (rad), pi/2 where it does not turn back."""
         return max(leg.end for leg in self.legs)
 
-    def tilt(self, lean: float, half: float) -> float:
-        """The largest sine of the bar's tilt in a swing about a centre."""
+    def twist(self, lean: float, half: float) -> float:
+        """The largest sin chi in a swing about a centre, chi the turn of the plane of the axes about their mean."""
         return (abs(half) + self.swing) / (self.ratio * cos(lean))
 
     def turns(self, share: float) -> bool:
         """Whether |beta| turns back on the curve of W + share W_6, its s² that of the mean to the same share.
 
-        False where, before, the bar tilts by more than 30 degrees, or the next order's part of the slope by eta² is more than
+        False where, before, chi is more than 30 degrees, or the next order's part of the slope by eta² is more than
         half of the leading one's with all its terms positive.
         """
         p, sigma, average = self.momentum, 1 + 2 * self.weight / self.ratio**2, _next_order()
@@ -219,7 +219,7 @@ class SlowMotion:
                 return False
             if not (abs(step) <= least and y > 0 and slope * branch > 0):
                 return True
-            if self.tilt(lean, sqrt(y)) > FARTHEST_TILT:
+            if self.twist(lean, sqrt(y)) > FARTHEST_TWIST:
                 return False
         return False
 
@@ -289,8 +289,8 @@ def time_to_reach(scene: Scene, x: float) -> float:
 
     Raises:
         InputError: as `slow_motion`.
-        DomainError: as `slow_motion`, unless 0 < x < 1, where the bar comes to tilt by more than 30 degrees before,
-            sin = (|eta| + s)/(k sqrt(1 − x²)), and where x turns back before but `turns_back` refuses to say so.
+        DomainError: as `slow_motion`, unless 0 < x < 1, where the pair comes to twist by more than 30 degrees before,
+            sin chi = (|eta| + s)/(k sqrt(1 − x²)), and where x turns back before but `turns_back` refuses to say so.
     """
     if not 0 < finite_number(x, "time_to_reach: x", "1") < 1:
         raise DomainError(f"time_to_reach: x = {x:g} must lie between 0 and 1")
@@ -299,10 +299,10 @@ def time_to_reach(scene: Scene, x: float) -> float:
         turns_back(scene)  # which refuses where the next order decides
     else:
         half = sqrt(max(motion.half_squared(lean, motion.legs[-1].branch), 0.0))
-        tilt = motion.tilt(lean, max(half, abs(motion.half)))
-        if tilt > FARTHEST_TILT:
+        twist = motion.twist(lean, max(half, abs(motion.half)))
+        if twist > FARTHEST_TWIST:
             raise DomainError(
-                f"time_to_reach: at x = {x:g} the bar tilts by {np.degrees(asin(min(1.0, tilt))):.0f}°, more than 30°: take a "
+                f"time_to_reach: at x = {x:g} the pair twists by {np.degrees(asin(min(1.0, twist))):.0f}°, more than 30°: take a "
                 "smaller x or shock, or run it with lagrotor.simulate"
             )
     return motion.time_to(lean)
@@ -316,18 +316,18 @@ def turns_back(scene: Scene) -> bool:
 
         (sigma − 1) k² > 1 + 2/A² + sqrt(3/2),
 
-    3 + sqrt(3/2) for a short pulse. Below it x grows, at least until the bar tilts by 30 degrees, the end of the expansion.
+    3 + sqrt(3/2) for a short pulse. Below it x grows, at least until the pair twists by 30 degrees, the end of the expansion.
 
     Raises:
         InputError: as `slow_motion`.
-        DomainError: as `slow_motion`, where the bar tilts by more than 30 degrees before x turns back or from the start, and
+        DomainError: as `slow_motion`, where the pair twists by more than 30 degrees before x turns back or from the start, and
             beside the threshold, where W, W + W_6 and W + 2 W_6 decide differently.
     """
     motion = slow_motion(scene)
     answers = {motion.turns(share) for share in (0.0, 1.0, 2.0)}
-    if motion.tilt(motion.lean, motion.half) > FARTHEST_TILT or (answers == {False} and motion.farthest < pi / 2):
+    if motion.twist(motion.lean, motion.half) > FARTHEST_TWIST or (answers == {False} and motion.farthest < pi / 2):
         raise DomainError(
-            "turns_back: the bar tilts by more than 30° from the start or before x turns back: take a smaller shock, or run it "
+            "turns_back: the pair twists by more than 30° from the start or before x turns back: take a smaller shock, or run it "
             "with lagrotor.simulate"
         )
     if len(answers) > 1:

@@ -56,6 +56,23 @@ def test_the_farthest_lean_is_never_passed() -> None:
     assert turned > 5
 
 
+@pytest.mark.parametrize("size", [1e-12, 1e-8, 1e-3])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_lean_that_starts_where_it_turns_grows_as_the_cosh_or_swings(size: float, side: int) -> None:
+    """eta = 0 and s² << |p|, beta small: beta'' = g² p³ beta. The shock along y that starts it so."""
+    motion = SlowMotion(side * size, 0.0, size, 1e4 * size**2, 2.0, 1.0, 3.0)
+    assert motion.time_to(10 * size) == pytest.approx(np.arccosh(10) / (3 * (100 * size) ** 3), rel=5e-3)
+    held = replace(motion, momentum=-motion.momentum)
+    assert held.farthest == pytest.approx(size, rel=1e-9)
+    assert held.time_to(2 * size) == inf
+    for link in (Link(0.5), Link(2.0, 1.0, 0.1)):
+        for body in (1, 2):
+            pair = Scene((10, -10), link=link, shock=Shock((0, side * 40 * size, 0), 1.0, 0.05, body))
+            grows = slow_motion(pair).momentum > 0
+            assert turns_back(pair) is not grows
+            assert 0 < time_to_reach(pair, 0.1) < inf if grows else time_to_reach(pair, 0.1) == inf
+
+
 def test_the_numbers_are_the_derived_expressions() -> None:
     scene = Scene((9, -9), link=Link(1.3, 0.7, 0.1), shock=Shock((8, 3, 0), 1.0, 0.1, 2))
     motion, (a, b) = slow_motion(scene), scene.inertias
@@ -96,7 +113,7 @@ def test_the_time_to_reach_tells_its_error(seed: int, count: int) -> None:
             law = time_to_reach(scene, x)
             if 8 * turn < law < 60 * turn:  # beyond the first swings, and not for hours
                 scenes.append((scene, x, law, time_to_reach_error(scene, x)))
-        except DomainError:  # not small, or the bar tilts too far
+        except DomainError:  # not small, or the pair twists too far
             continue
     times = [np.r_[0, np.arange(s.shock.end, s.shock.at + 3 * law + 8 * turn, turn / 32)] for s, _, law, _ in scenes]
     u = (np.arange(192) + 0.5) / 192
@@ -139,7 +156,7 @@ def test_where_the_next_order_decides_whether_x_turns_back_nothing_is_said() -> 
     assert [motion.turns(share) for share in (0.0, 1.0)] == [True, False]
     with pytest.raises(DomainError, match="the next order of the averaged motion decides"):
         turns_back(heavy)
-    with pytest.raises(DomainError, match="tilts by more than 30° from the start"):
+    with pytest.raises(DomainError, match="twists by more than 30° from the start"):
         turns_back(Scene((10, -10), link=Link(0.3), shock=Shock((35, 0, 0), 1.0, 0.05)))
 
 
@@ -219,7 +236,7 @@ def test_refused() -> None:
     shocked = Scene((10, -10), shock=Shock((40, 0, 0), 1.0, 0.05))
     with pytest.raises(DomainError, match="x = 1 must lie"):
         time_to_reach(shocked, 1.0)
-    with pytest.raises(DomainError, match="the bar tilts by"):
+    with pytest.raises(DomainError, match="the pair twists by"):
         time_to_reach(shocked, 0.95)
     with pytest.raises(DomainError, match="rad against each other"):
         turns_back(replace(shocked, shock=Shock((400, 0, 0), 1.0, 0.05)))
