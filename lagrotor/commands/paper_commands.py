@@ -236,11 +236,16 @@ def check_command(given: argparse.Namespace) -> int:
         rows = [each.as_data() | ({"file": str(source)} if several else {}) for source, each in found]
         print(json.dumps(rows, indent=1, ensure_ascii=False))
     else:
+        unknown = Counter((source, each.why) for source, each in found if " is not known: " in each.why)
         for source, each in found:
-            if given.all or each.verdict in FOUND:
+            displays = unknown[source, each.why]
+            if (given.all and displays >= 0) or each.verdict in FOUND:
                 step = f", step {each.step}" if each.step else ""
                 of = "" if each.verdict == FAULT else f"({each.equation}){step}: {each.verdict}: "
-                print(wrap(f"{each.file or source}:{each.line}: {of}{readable(each.why) if of else each.why}", 4))
+                more = f"; so in {_some(displays, 'display')}" if displays > 1 else ""
+                print(wrap(f"{each.file or source}:{each.line}: {of}{readable(each.why) if of else each.why}{more}", 4))
+                if displays:  # what nothing defines is said where it is first
+                    unknown[source, each.why] = -1
         counts = Counter(each.verdict for _, each in found)
         nothing = (
             f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: lagrotor init FOLDER --from FILE makes "

@@ -533,3 +533,15 @@ def test_every_step_ends_with_a_word(tmp_path: Path, step: str, monkeypatch: pyt
 )
 def test_the_rates_of_a_small_quantity_are_small(step: str, verdict: str, tmp_path: Path) -> None:
     assert verdicts(tmp_path, rf"\[ y = {step} + O(\eta^2) \]") == [verdict]
+
+
+def test_a_macro_that_nothing_defines_is_said_once_with_the_number_of_its_displays(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    body = r"\[ x = \odd{y} \] \[ y = \odd{z} \] \[ a = \other \] \[ z = \odd{x} \] \[ a = \] \[ b = \]"
+    findings(tmp_path, body)
+    assert main(["check", str(tmp_path / "paper.tex"), "--all"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.count("odd is not known") == said.count("other is not known") == 1
+    assert said.count("so in 3 displays") == said.count("so in") == 1
+    assert said.count("a side of the relation is missing") == 2, "each by its line"
