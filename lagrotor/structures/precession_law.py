@@ -79,7 +79,7 @@ class PrecessionLaw(Shown):
         return np.asarray(np.linalg.eigvals(np.exp(-turning * period)[:, None] * expm(slopes * period)))
 
     def growth_at(self, tilt: float) -> float:
-        """The log of the largest modulus of a multiplier, per turn."""
+        """The log of the largest modulus of a multiplier, per turn; 0 where it is below 1e-9, the rounding of a modulus."""
         most = float(np.log(np.abs(self.multipliers_at(tilt)).max(initial=1.0)))
         return most if most > _ROUNDING else 0.0
 
@@ -124,9 +124,14 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
 
     What it leaves is small beside the terms it has where the mode's harmonics are well away from other rates.
 
+    Args:
+        s: without friction, upright at rest.
+        mode: its number in `modes()`, from 0; one with a rate of its own that neither grows nor decays.
+
     Raises:
         InputError: as `steady_precession`, for more than 8 degrees of freedom, where another mode grows or has no rate, and where
             a multiple of the mode's rate is the rate of another that it drives.
+        SingularError: where rates are lost beside the largest.
     """
     where = "precession_law"
     rate, shape = precessing_mode(s, mode, where)

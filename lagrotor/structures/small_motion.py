@@ -28,6 +28,7 @@ _SLOWEST = 1e-9  # of the structure's rate: of slower precessions of fast spins 
 _DAMPED = (
     1e-10  # of a root: with friction two roots of opposite real parts do not become one, and a smaller part is known
 )
+_NEUTRAL = 1e-12  # of the masses and the pull squared: a smaller stiffness is what is left of a sum of zero
 _DEPENDENT = 1e-10  # of the bars' largest singular value: one below it is zero
 
 
@@ -202,12 +203,15 @@ class SmallMotion:
 
     @property
     def drifts(self) -> bool:
-        """Whether some displacement neither returns nor grows but goes on at its speed: a double root zero in one motion."""
-        zeros = int((self.roots == 0).sum())
-        if not zeros:
+        """Whether some displacement neither returns nor grows but goes on at its speed: K v = 0, and neither friction nor
+        spins act between v and the others that K leaves free, so that zero is a double root of one motion."""
+        if not self.dof:
             return False
-        sizes = np.linalg.svd(self.stiffness / self.rate**2, compute_uv=False)
-        return zeros > int((sizes < 1e-9 * max(1.0, float(np.abs(self.mass).max()))).sum())
+        sizes, shapes = np.linalg.eigh(self.stiffness)
+        none = max(_DEPENDENT * np.abs(sizes).max(), _NEUTRAL * np.abs(self.mass).max() * self.pull**2)
+        free = shapes[:, np.abs(sizes) <= none]
+        turned = [_dagger(free) @ form @ free / (np.abs(form).max() or 1.0) for form in (self.damping, self.gyroscopic)]
+        return bool(free.size and np.linalg.svd(np.vstack(turned), compute_uv=False)[-1] <= _DEPENDENT)
 
 
 @lru_cache(maxsize=64)

@@ -88,7 +88,9 @@ class Standing(Shown):
             return "to first order"
         try:
             found = self.resonance
-        except SingularError:  # at the critical spins two modes are one
+        except (
+            SingularError
+        ):  # at the critical spins two modes are one, and far beyond slow ones are lost beside fast ones
             return "to first order"
         if found and found.push() < self._reference:
             return "falls at a resonance"
@@ -249,17 +251,27 @@ class Standing(Shown):
 def stands(s: Assembly) -> Standing:
     """Whether the linear motion about upright stays bounded, and what resonances do: see `Standing`.
 
-    Raises InputError where upright breaks a bar's length, and where friction lets it fall more slowly than is resolved: where
-    friction acts on what falls without spin it falls at any (Kelvin, Tait and Chetaev).
+    Raises InputError where upright breaks a bar's length, and where it falls more slowly than is resolved: an odd number of
+    degrees of freedom that fall without spin do so at any (Kelvin), and so does what friction acts on (Tait and Chetaev, too).
     """
     linear, normal, factor = small_motion(s), modes(s), critical_spin(s)
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
+    falling = int((K < -1e-12).sum())
     growth = 0.0 if len(K) and K[0] > 1e-12 else linear.growth  # energy that is least when upright grows nowhere
-    if len(K) and friction_undoes(linear) and growth < _RESOLVED * len(K) * np.finfo(float).eps * linear.rate:
-        raise InputError(
-            "stands: friction lets it fall at any spins (Kelvin, Tait and Chetaev), but beside these so slowly that "
-            "double precision cannot tell how fast: take slower spins, or more friction"
-        )
+    least = _RESOLVED * len(K) * np.finfo(float).eps * linear.rate
+    if falling and growth < least and not linear.drifts:
+        rubbed = friction_undoes(linear)
+        if rubbed or falling % 2:
+            cause = "friction lets it fall" if rubbed else f"an odd number of its degrees of freedom, {falling}, falls"
+            raise InputError(
+                f"stands: {cause} at any spins (Kelvin, Tait and Chetaev), but beside these so slowly that double precision "
+                "cannot tell how fast: take slower spins" + (", or more friction" if rubbed else "")
+            )
+        if factor == inf and np.abs(linear.roots).min() < least:
+            raise InputError(
+                "stands: no spins are known from which on it stands, and beside these its slow rates are lost in rounding: "
+                "take slower spins"
+            )
     falls = growth > 0
     shape = normal.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
     return Standing(not falls and not linear.drifts, growth, shape, factor, s, _why(linear, growth, factor))

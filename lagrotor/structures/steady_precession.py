@@ -187,7 +187,12 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
 
 
 def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
-    """The rate and shape of a mode that becomes a precession. Raises InputError for another."""
+    """The rate and shape of a mode that becomes a precession. Raises InputError for another, and for a structure that leans."""
+    if not s.natural:
+        raise InputError(
+            f"{where}: a bar is not as long as its tips are apart when upright, and its precessions are about upright axes: "
+            "take bars without a length, or simulate it"
+        )
     linear, c = modes(s), coefficients(s)
     count = len(linear.rates)
     if isinstance(mode, bool) or not isinstance(mode, int | np.integer) or not 0 <= mode < count:

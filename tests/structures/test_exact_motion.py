@@ -252,3 +252,9 @@ def test_a_run_that_stops_says_when_in_seconds() -> None:
         run = s.simulate([10, 12, 13], tilt=[(0.01, 0)] * 2)
     assert run.ending.at == pytest.approx(12.95, abs=0.05) and run.t.tolist() == [10, 12]
     assert s.simulate([0, 3], tilt=[(0, 0.01)] * 2).axes[0, -1, 2] < 0
+
+
+def test_a_brace_whose_ends_are_at_one_place_pulls_in_no_direction() -> None:
+    braced = Structure([(0, 0), (2, 0)], spins=5.0, braces=[(0, 1, 50.0)])
+    with pytest.raises(SingularError, match=r"^simulate: braces\[0\] begins with both ends at one place"):
+        braced.simulate([0, 0.1], tilt=[(1, 0), (-1, 0)])

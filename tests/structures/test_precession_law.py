@@ -70,3 +70,7 @@ def test_where_it_is_not_trusted_it_is_refused() -> None:
     ):
         with pytest.raises(InputError, match=says):
             structure.precession_law(mode)
+    leaning = replace(CORNER, bars=((0, 1, 1.1), (1, 2)))
+    for of in ("precession_law", "steady_precession"):
+        with pytest.raises(InputError, match=f"^{of}: a bar is not"):
+            getattr(leaning, of)()

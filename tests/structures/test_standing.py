@@ -174,6 +174,20 @@ def test_beside_the_fastest_spins_no_resonance_is_made_of_rounding() -> None:
     assert "rounding" not in replace(s, spins=tuple(2e4 * w for w in s.spins)).stands().why
 
 
+@pytest.mark.parametrize("size", [1e2, 1e5, 1e8])
+def test_at_any_spins_what_no_spins_hold_is_not_said_to_stand(size: float) -> None:
+    """An odd number that falls, and a motion along which neither a brace nor another motion acts."""
+    brace = Brace(0, (1.4, -0.3, 1.9), 90.0)
+    drifting, standing = Structure([(0, 0)], spins=size, braces=[brace]), Structure([(0, 0)], spins=size)
+    assert drifting.stands().kind == "never" and small_motion(drifting).drifts and not small_motion(standing).drifts
+    odd = replace(drifting, gravity=9.81, braces=[replace(brace, stiffness=60.0)])
+    if size == 1e8:
+        with pytest.raises(InputError, match="an odd number of its degrees of freedom, 1, falls"):
+            odd.stands()
+    else:
+        assert odd.stands().growth > 0
+
+
 def test_springs_hold_without_spin() -> None:
     s = Structure(**PAIR, spins=[10, -10], gravity=9.81, hinge=10.0)
     assert s.stands() and s.critical_spin() == 0

@@ -22,7 +22,7 @@ import sympy as sp
 from sympy.polys.polyerrors import CoercionFailed
 
 from lagrotor.algebra import decide_zero
-from lagrotor.errors import InputError, NotExactError
+from lagrotor.errors import InputError, NotExactError, SingularError
 from lagrotor.mechanics.canonical.exact_modes import elements, exact_coordinates
 from lagrotor.mechanics.canonical.local_series import LocalSeries
 from lagrotor.mechanics.canonical.polynomials import (
@@ -40,6 +40,7 @@ from lagrotor.shown import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
 _STEADY = "of a steady motion name the momenta of its angles, of another periodic orbit its period"
+_LARGE = 1e30  # times the first term: a series of a nilpotent part that has an end does not grow so
 _SMALL = 1e-16  # of the largest coefficient: what is left of a nilpotent part's series
 
 
@@ -190,10 +191,16 @@ def birkhoff(
     for degree in range(3, order + 1):
         _, rest, D = split(K.part(degree))
         term = generator = rest.over(-D) if len(rest.coefficients) else rest
+        first = np.abs(generator.coefficients).max(initial=0) if field is None else 0
         while len(nilpotent.coefficients) and len(term.coefficients):
             _, rest, D = split(poisson_bracket(nilpotent, term, weights, degree))
             term = rest.over(-D) if len(rest.coefficients) else rest
             if field is None:
+                if np.abs(term.coefficients).max(initial=0) > _LARGE * first:
+                    raise SingularError(
+                        "normal_form: some rates are so small beside the largest that they are taken to be zero, and are not: "
+                        "move a parameter off this value"
+                    )
                 term = term.where(np.abs(term.coefficients) > _SMALL * np.abs(generator.coefficients).max())
             generator = generator + term
         generators.append(generator)

@@ -20,6 +20,7 @@ from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, LineWatch, bar_in_line, exact_motion
+from lagrotor.structures.exact.forces import stretches
 from lagrotor.structures.exact.written_out import right_hand_side
 
 if TYPE_CHECKING:
@@ -262,6 +263,13 @@ def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None)
     else:
         r = x / np.linalg.norm(x, axis=1, keepdims=True)
     r = close_bars(motion, r)
+    with np.errstate(all="ignore"):
+        pointless = ~np.isfinite(stretches(motion.c, r)[0]).all(1)
+    if pointless.any():
+        raise SingularError(
+            f"simulate: braces[{int(np.argmax(pointless))}] begins with both ends at one place, where it pulls in no direction: "
+            "start elsewhere"
+        )
     v = _vectors("rates", rates, N)
     if v.shape[1] == 2:
         safe = np.where(np.abs(r[:, 2]) > 1e-6, r[:, 2], np.inf)

@@ -348,3 +348,14 @@ def test_conical_pendulums_shift_by_their_amplitude_as_the_quadrature_has_it():
     assert abs(measured_order(actions, off) - 2) < 0.1 and off[0] < 1e-5
     with pytest.raises(InputError, match="name the momenta of its angles"):
         h.normal_form(4, {theta: lean, phi: 0, h.p[0]: 0.1, h.p[1]: P})
+
+
+def test_what_is_taken_to_be_zero_and_is_not_is_refused_where_its_series_has_no_end() -> None:
+    def form(slow: float):
+        rates = {0: 1e4, 1: 0.011, 2: slow}
+        squares = {tuple(2 * (k == j + side) for k in range(6)): w / 2 for j, w in rates.items() for side in (0, 3)}
+        return normal_form_of_series(polynomial(squares | {(0, 1, 2, 0, 0, 0): 1.0}, 6), 3)
+
+    assert np.isfinite(form(0.003).generators[0].coefficients).all()
+    with pytest.raises(SingularError, match="so small beside the largest"):
+        form(0.009)
