@@ -11,11 +11,10 @@ from scipy.integrate import solve_ivp
 
 from lagrotor import Link, Scene, Shock, floquet, natural_rate, shock_response, simulate
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models import exact_orbit, slow_frequency_error, time_to_reach_error, time_to_wander
-from lagrotor.models.mean_motion import mean_over
+from lagrotor.models import exact_orbit, mean_over, slow_frequency_error, time_to_reach_error, time_to_wander
 from lagrotor.models.orbits.floquet import _pushed
 from lagrotor.numerics import measured_order
-from lagrotor.pair.lagrangians import leaning_lagrangian
+from lagrotor.pair import leaning_lagrangian
 from lagrotor.pair.notation import G_1, G_2, LEANING, a, b, k
 from lagrotor.theory import SlowMotion, slow_frequency, slow_motion, slow_rates, time_to_reach, turns_back
 from lagrotor.theory.averaged_motion import _next_order
