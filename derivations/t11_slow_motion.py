@@ -109,8 +109,8 @@ exact = leaning_lagrangian()
 prove(exact.subs({G_1: 0, G_2: 0}), kinetic, "the kinetic energy, exact", names="T")
 
 # %% [markdown]
-# The spins add $\Gamma=(G_1+G_2)\cos h\,(\dot\chi+\dot\alpha\sin\beta)+(G_1-G_2)\sin h\,(\dot\beta\cos\chi+
-# \dot\alpha\sin h/k)$:
+# The spins add
+# $$\Gamma=(G_1+G_2)\cos h\,(\dot\chi+\dot\alpha\sin\beta)+(G_1-G_2)\sin h\,(\dot\beta\cos\chi+\dot\alpha\sin h/k).$$
 
 # %%
 spins = (G_1 + G_2) * sp.cos(h) * (chi_v + alpha_v * sp.sin(beta))
