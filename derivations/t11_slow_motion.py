@@ -145,7 +145,7 @@ prove(
     "the curl of the spins' terms, exact, for any two spins",
     names=tuple(
         rf"\partial_{{{u}}}A_{{{v}}}-\partial_{{{v}}}A_{{{u}}}-F_{{{u}{v}}}"
-        for u, v in ((r"\beta", "h"), (r"\beta ", r"\alpha"), ("h", r"\alpha"))
+        for u, v in ((r"\beta ", "h"), (r"\beta ", r"\alpha"), ("h", r"\alpha"))
     ),
 )
 
