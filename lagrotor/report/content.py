@@ -1,7 +1,7 @@
 """What a report says and in which order, before it is put into HTML or Markdown."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import sympy as sp
@@ -18,7 +18,7 @@ from lagrotor.pictures.figures import Picture
 
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
 # File of the report's folder → what it is.
-_BESIDE = {
+BESIDE = {
     "index.html": "this report as pages",
     "whole.html": "as one page that needs nothing else",
     "report.md": "as Markdown",
@@ -176,11 +176,6 @@ def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
     shown = [entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot")]
     shown.sort(key=lambda entry: first.index(entry.symbol.name) if entry.symbol.name in first else len(first))
     return [(entry.symbol, entry.meaning, entry.unit) for entry in shown]
-
-
-def made_beside(name: Callable[[str], str]) -> str:
-    """The sentence on what else the run wrote, with each file's name as `name` gives it."""
-    return f"In the same folder: {', '.join(f'{name(file)} ({what})' for file, what in _BESIDE.items())}."
 
 
 def word(answer: str) -> str:

@@ -8,7 +8,7 @@ from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.verdict_text import uncorrected
 from lagrotor.paper.verdicts import AGREES, Relation, Verdict
-from lagrotor.report.latex import END, displayed_formula, head, latex_prose, tidy
+from lagrotor.report.latex import END, head, latex_prose, tidy
 
 
 @dataclass(frozen=True)
@@ -117,23 +117,4 @@ def latex_item(e: Erratum) -> str:
     return (
         rf"\item \textbf{{{latex_prose(e.cited.capitalize())}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"
         rf"Printed: ${tidy(e.printed)}$\\ Should read: ${tidy(right)}$"
-    )
-
-
-def latex_block(e: Erratum) -> str:
-    """One row as a LaTeX subsection."""
-    used = ", ".join(e.used_by) or "none"
-    return "\n\n".join(
-        [
-            rf"\subsection*{{{e.id}\quad {latex_prose(e.title)}}}",
-            rf"\textbf{{Printed.}} {displayed_formula(e.printed)}",
-            rf"\textbf{{Correct}} ({e.verdict_of_correction}). " + " ".join(map(displayed_formula, e.corrected)),
-            rf"\textbf{{What was wrong.}} {latex_prose(e.wrong)}",
-            *(
-                [rf"\textbf{{If:}} {latex_prose('; '.join(e.premises))}", *map(displayed_formula, e.put)]
-                if e.premises
-                else []
-            ),
-            rf"Used by: {used}. {latex_prose(e.reach).capitalize()}.",
-        ]
     )

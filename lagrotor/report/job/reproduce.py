@@ -30,7 +30,7 @@ from lagrotor.report.job.kept import Kept
 from lagrotor.report.job.processes import cores, results
 from lagrotor.report.job.reach import digest
 from lagrotor.report.job.steps import Derived, JobStep, steps
-from lagrotor.report.markdown import errata_blocks, markdown
+from lagrotor.report.markdown import errata_sheet, markdown
 from lagrotor.report.page.pages import FOLDER, pages, whole_page
 from lagrotor.report.supplement import supplement
 
@@ -183,7 +183,7 @@ def _write(folder: Path, report: Report) -> None:
         write_text(folder / name, text)
     write_text(folder / "report.md", markdown(report))
     write_text(folder / "report.tex", supplement(report))
-    write_text(folder / "errata.md", "\n\n".join(["# Errata", *errata_blocks(report.verdicts, report.paper)]) + "\n")
+    write_text(folder / "errata.md", errata_sheet(report))
     write_text(folder / "errata.tex", latex_document(report.verdicts, report.paper))
     rows = [_timeless(verdict_text.verdict_data(verdict, report.paper)) for verdict in report.verdicts]
     _write_json(folder / "verdicts.json", rows + list(map(verdict_text.waiting, report.waiting)))

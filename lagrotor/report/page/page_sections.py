@@ -6,12 +6,12 @@ from html import escape
 
 from lagrotor.report.cite import citation
 from lagrotor.report.content import (
+    BESIDE,
     CLAIM_MEANINGS,
     MEANINGS,
     Report,
     ShownPart,
     contents,
-    made_beside,
     notation,
 )
 from lagrotor.report.errata import errata
@@ -143,11 +143,13 @@ def _cite(report: Report) -> str:
 
 def _made(report: Report) -> str:
     versions = html_table(("What", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
+    beside = html_table(
+        ("In the same folder", "What it is"), [(file_link(file), what) for file, what in BESIDE.items()]
+    )
     inputs = [(escape(name), f"<code>{escape(digest)}</code>") for name, digest in report.inputs]
     return (
         "<p>The same inputs give the same page, byte for byte; how long each part took is in times.json.</p>"
-        f"<p>{made_beside(file_link)}</p>"
-        f"{versions}{html_table(('Input', 'SHA-256'), inputs)}"
+        f"{beside}{versions}{html_table(('Input', 'SHA-256'), inputs)}"
     )
 
 
