@@ -304,6 +304,9 @@ class _Reader:
 
     def script(self, found: list[Box]) -> None:
         item = self.take()
+        _as_letters(found)
+        if item.text == "_" and len(found) > 1 and found[-1].kind == "thin" and found[-2].sup and not found[-2].sub:
+            found.pop()  # \Lambda^\mu\,_\nu
         target = found[-1] if found else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
             why = f"{item.text} has nothing before it"
@@ -625,6 +628,17 @@ def _joins(before: Box, made: Box, style: str) -> bool:
         return False
     word = made.kind == "letter" and made.upright and len(made.name) == 1 and before.upright and not before.marks
     return made.kind == "number" or (style == "upright" and word)
+
+
+def _as_letters(row: list[Box]) -> None:
+    r"""The words at the end of a row as upright letters, \text{J kg}^{-1}: a script belongs to the last of them."""
+    if not row or row[-1].kind != "text" or not re.fullmatch(r"[A-Za-z]+(?:[ ~][A-Za-z]+)*", row[-1].name):
+        return
+    box = row.pop()
+    words = re.split(r"[ ~]", box.name)
+    for word in words[:-1]:
+        row += [Box("letter", word, box.at, box.end, upright=True), Box("thin", "", box.end, box.end)]
+    row.append(Box("letter", words[-1], box.at, box.end, upright=True))
 
 
 def _is_unit(word: str) -> bool:

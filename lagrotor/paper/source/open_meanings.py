@@ -289,7 +289,9 @@ def _before_bracket(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         return
     if bracket.name == "[" and is_entry(reader, box, bracket):
         return  # marked where it is read
-    called = bracket.name == "(" and is_called(reader, box, bracket) is True
+    called = bracket.name == "(" and is_called(reader, box, bracket)
+    if called is None:
+        return  # marked where it is read
     if not box.sup and bracket.name == "(":
         evident = _evidence(known, box, content, bracket)
     else:

@@ -7,7 +7,7 @@ from itertools import pairwise
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_advection, read_operators
-from lagrotor.paper.source.read_scripts import index_parts, power_of
+from lagrotor.paper.source.read_scripts import index_parts, letter_of, power_of
 from lagrotor.paper.source.read_statements import read_statement
 from lagrotor.paper.source.rows import all_boxes, derivative_mark, strip, without_thin
 from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node, is_matrix, is_vector, number
@@ -47,7 +47,8 @@ def _indexed(reader: FormulaReader, node: Node, box: Box) -> Node:
     index = index_parts(reader, box)
     if isinstance(node, Call) and node.name in ("mean", "ket", "bra"):
         return Call("_".join((node.name, *index)), node.args)
-    if box.name == "(" and is_vector(node) and all(len(part) <= 2 for part in index):
+    component = is_vector(node) or {*"".join(index)} <= {*"ijklmnab0123456789"}
+    if box.name == "(" and component and all(len(part) <= 2 for part in index):
         return Call("component", (node, *(number(i) if i.isdigit() else Letter(i) for i in index)))
     raise FormulaError(box.at, "a bracket has an index", "write what it means")
 
@@ -92,6 +93,8 @@ def _label(reader: FormulaReader, row: list[Box]) -> Node:
     if len(row) == 1 and row[0].kind in ("operator", "relation"):
         word = re.sub(r"\W", "", reader.source[row[0].at : row[0].end]) or {"+": "plus"}.get(row[0].name, "minus")
         return Letter(f"sign_{word}")
+    if len(row) == 1 and row[0].kind == "letter" and row[0].name in ("i", "j"):
+        return letter_of(reader, row[0])[0]
     return reader.expression(row)
 
 

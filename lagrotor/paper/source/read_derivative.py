@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.read_scripts import letter_of, mark_of, power_of
+from lagrotor.paper.source.read_scripts import letter_of, mark_of, power_of, stands_alone
 from lagrotor.paper.source.rows import (
     TENSOR,
     VARIABLES,
@@ -22,6 +22,9 @@ from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number, wa
 from lagrotor.paper.source.usage import arguments, power_in, simple_argument
 
 _INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a", "b")
+
+
+_DIVISORS = ("letter", "group", "bracket", "partial")
 
 
 def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
@@ -43,8 +46,10 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
     if box.primes or "d" in reader.notation.letters or not counted:
         return None
     if not box.upright and "d" in reader.notation.bare and not reader.integrating:
-        why = "whether d is a letter or a differential is open"
-        raise FormulaError(box.at, why, "write \\mathrm{d} for the differential")
+        if stands_alone(reader, "d"):
+            why = "whether d is a letter or a differential is open"
+            raise FormulaError(box.at, why, "write \\mathrm{d} for the differential")
+        reader.guess("differential", "d before a letter is its differential, and no factor", 'letters = "d"')
     if row[behind].kind == "group":
         inner, behind = reader.expression(row[behind].parts[0]), behind + 1
         return Call("differential", (inner,)), behind
@@ -139,10 +144,15 @@ def _variables(reader: FormulaReader, under: list[Box], mark: str) -> list[tuple
     found: list[tuple[Node, int]] = []
     place = 0
     while place < len(under):
-        if not is_d(under[place], mark) or place + 1 >= len(under) or under[place + 1].kind not in ("letter", "group"):
+        if not is_d(under[place], mark) or place + 1 >= len(under) or under[place + 1].kind not in _DIVISORS:
             raise FormulaError(under[place].at, "what is differentiated by is not clear", "write \\frac{d f}{d x}")
         target = under[place + 1]
-        if target.kind == "group":
+        if target.kind == "partial":  # \partial \partial_\mu \phi, without its brackets
+            return [*found, (reader.expression(under[place + 1 :]), 1)]
+        if mark == "delta" and place + 2 < len(under) and under[place + 2].kind == "bracket":  # \delta f(x)
+            variable, times = reader.expression(under[place + 1 : place + 3]), 1
+            place += 1
+        elif target.kind != "letter":
             variable, times = reader.expression(target.parts[0]), _order(reader, target)
         else:
             marked = mark_of(reader, target) is not None
@@ -214,6 +224,8 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
     if body and not (box.sub or box.sup or place or row[2:]):
         reader.guess("boundary", f"∂{after.name} is the boundary of {after.name}")
         return Letter(f"boundary_{after.name}{after.style}"), 2
+    if box.sub is None and [b.name for b in box.sup or ()] and {b.name for b in box.sup or ()} <= {*_INDICES}:
+        return _contravariant(reader, row, place)
     if box.sub is None:
         why = "what ∂ differentiates by is missing"
         raise FormulaError(box.at, why, "write \\partial_x or \\frac{\\partial f}{\\partial x}")
@@ -230,6 +242,19 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         return Call("operator_derivative", (variable, number(order)) if order > 1 else (variable,)), place + 1
     node, behind = _operand(reader, row, place + 1, box)
     return Call("Derivative", (node, variable, *([number(order)] if order > 1 else []))), behind
+
+
+def _contravariant(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
+    r"""\partial^\mu f, the derivative by x_\mu."""
+    box = row[place]
+    if len(box.sup or ()) != 1:
+        raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
+    reader.guess("index", "the index of ∂ is what it differentiates by")
+    variable = Letter(f"x_{box.sup[0].name}")  # type: ignore[index]
+    if _stands_alone(reader, row, place + 1):
+        return Call("operator_derivative", (variable,)), place + 1
+    node, behind = _operand(reader, row, place + 1, box)
+    return Call("Derivative", (node, variable)), behind
 
 
 def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:

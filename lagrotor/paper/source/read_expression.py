@@ -3,7 +3,7 @@ r"""Sums and products: which sign joins what; \\cdot and \\times of vectors and 
 from collections.abc import Callable
 from itertools import pairwise
 
-from lagrotor.paper.source.boxes import Box, FormulaError
+from lagrotor.paper.source.boxes import FUNCTIONS, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_bracket import (
     read_accent,
@@ -44,10 +44,11 @@ from lagrotor.paper.source.tree import (
 
 
 def _read_dots(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
-    """Dots for terms or for entries that are left out, where they stand alone."""
-    if len(row) > 1:
+    """Dots for terms, entries or factors that are left out."""
+    beside = [b.kind for b in (*row[max(place - 1, 0) : place], *row[place + 1 : place + 2])]
+    if len(row) > 1 and (not 0 < place < len(row) - 1 or not {*beside} <= {"letter", "bracket", "fraction", "group"}):
         raise FormulaError(row[place].at, "dots stand for factors", "write them, or as a product")
-    return Call("dots", ()), 1
+    return Call("dots", ()), place + 1
 
 
 Factor = Callable[[FormulaReader, list[Box], int], tuple[Node, int]]
@@ -144,6 +145,9 @@ class Grammar(FormulaReader):
         if self.integrating and len(vectors) == 2 and factors[-1] is vectors[1] and is_differential(factors[-1]):
             self.guess("line", "the vector before the differential of a vector is multiplied by it with a dot")
             return Call("dot", (product_of(factors[:-1]), factors[-1]))  # \int\vec F d\vec r
+        if self.exponents and len(vectors) == 2 and not any(map(is_matrix, vectors)):
+            self.guess("matrix", "vectors side by side in an exponent are multiplied with a dot")
+            return product_of([*(each for each in factors if not is_vector(each)), Call("dot", tuple(vectors))])
         if len(vectors) > 1:
             return _matrices(factors, row)
         if _is_contracted(row, self.notation.upper):
@@ -153,7 +157,8 @@ class Grammar(FormulaReader):
     def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
         """One factor and the place behind it."""
         box = row[place]
-        reader = _FACTORS.get(box.kind)
+        named = box.upright and len(box.name) > 1 and box.name in FUNCTIONS and not box.marks  # {\rm cos}
+        reader = read_function if named else _FACTORS.get(box.kind)
         if reader is None:
             why = f"{self.source[box.at : box.end] or box.name} is not read here"
             raise FormulaError(box.at, why, "write what it stands for")

@@ -3,8 +3,8 @@ r"""Letters: as quantities, as functions before a bracket, and those that custom
 from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_differential
-from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of
-from lagrotor.paper.source.rows import strip, without_thin
+from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of, stands_alone
+from lagrotor.paper.source.rows import all_boxes, derivative_mark, strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
 from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument, stem_of, unscripted
 
@@ -44,28 +44,58 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if place and _may_call(row, place) and _is_group(row[place - 1 : place + 2]):
         name = f"{row[place - 1].name}{box.name}"
         raise FormulaError(box.at, f"whether {name}(…) is one name is open", f"write \\mathrm{{{name}}}")
-    if _may_call(row, place):
-        called = is_called(reader, box, row[place + 1])
-        if called is None:
-            raise FormulaError(
-                box.at,
-                f"whether {box.name}(…) is a function or a product is open",
-                f'write \\cdot, or in paper.toml [notation] functions = "{box.name}" or letters = "{box.name}"',
-            )
-        if called:
-            return _call(reader, box, row[place + 1]), place + 2
-    if place + 1 < len(row) and row[place + 1].kind == "bracket" and row[place + 1].name == "[":
-        if is_entry(reader, box, row[place + 1]):
-            reader.guess("entry", f"{box.name}[…] is a function of what the brackets hold, and no product")
-            return _call(reader, box, row[place + 1]), place + 2
-        _check_square(box, row[place + 1].parts[0])
-    if box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK:
-        after = next((b for b in row[place + 1 :] if b.kind != "thin"), None)
-        if after is not None and after.kind not in _ENDING:
-            why = f"whether {box.name} acts on what follows is open"
-            raise FormulaError(box.at, why, f"write \\operatorname{{{box.name}}}(…) or \\cdot")
+    if (made := _applied(reader, row, place)) is not None:
+        return made
     node, raised = letter_of(reader, box)
     return (node if raised else power_of(reader, node, box)), place + 1
+
+
+def _applied(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
+    """A letter as a function of the bracket behind it; None where it is a factor."""
+    box = row[place]
+    bracket = row[place + 1] if place + 1 < len(row) and row[place + 1].kind == "bracket" else None
+    if bracket is not None and bracket.name == "(" and _is_function(reader, row, place):
+        return _call(reader, box, bracket), place + 2
+    if bracket is not None and bracket.name == "[":
+        functional = _is_functional(box, bracket.parts[0])
+        if functional or is_entry(reader, box, bracket):
+            what = "functional" if functional else "function"
+            reader.guess("entry", f"{box.name}[…] is a {what} of what the brackets hold, and no product")
+            return _call(reader, box, bracket), place + 2
+        _check_square(box, bracket.parts[0])
+    if not (box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK):
+        return None
+    behind = next((k for k in range(place + 1, len(row)) if row[k].kind != "thin"), place)
+    after = row[behind]
+    if behind == place or after.kind in _ENDING:
+        return None
+    if after.kind == "bracket" and after.name in ("(", "[", r"\{") and box.sup is None:
+        reader.guess("words", f"{box.name} is a function of the bracket that follows it, and no factor")
+        return _call(reader, box, after), behind + 1
+    why = f"whether {box.name} acts on what follows is open"
+    raise FormulaError(box.at, why, f"write \\operatorname{{{box.name}}}(…) or \\cdot")
+
+
+def _is_function(reader: FormulaReader, row: list[Box], place: int) -> bool:
+    """Whether a letter is a function of the round bracket behind it. Raises FormulaError where custom does not say."""
+    box = row[place]
+    called = is_called(reader, box, row[place + 1])
+    settles = f'functions = "{box.name}" or letters = "{box.name}"'
+    if called is None and (called := _called_by_custom(reader, row, place)) is not None:
+        what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
+        reader.guess("bracket", f"{box.name} before ( is {what}", settles)
+    if called is None:
+        why = f"whether {box.name}(…) is a function or a product is open"
+        raise FormulaError(box.at, why, f"write \\cdot, or in paper.toml [notation] {settles}")
+    return called
+
+
+def _is_functional(box: Box, inside: list[Box]) -> bool:
+    """Whether square brackets behind a capital hold functions or a ket, and no sum or commutator: S[q(t), t], E[|\\psi⟩]."""
+    held = [b for b in inside if b.kind == "bracket"]
+    capitals = any(b.kind == "letter" and (b.name[0].isupper() or "hat" in b.marks) for b in inside)
+    plain = all(b.kind in ("letter", "bracket", "comma", "thin") for b in inside) and bool(held)
+    return plain and not capitals and box.name[0].isupper() and box.sup is None
 
 
 def _check_square(box: Box, inside: list[Box]) -> None:
@@ -119,7 +149,7 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return True
     if {box.name, key, plain} & known.letters or bracket.sub:
         return False
-    if any(b.kind == "comma" and b.name != "." for b in content) or box.name == "O":
+    if any(b.kind == "comma" and b.name != "." for b in content) or (box.name == "O" and box.sup is None):
         return True
     if given_at(bracket):
         return True
@@ -143,6 +173,29 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
     if bracket.sup is not None:
         return None
     return True if own & evidence or (not own and any(b.kind == "number" for b in top)) else None
+
+
+def _called_by_custom(reader: FormulaReader, row: list[Box], place: int) -> bool | None:
+    """What custom takes of a letter before a bracket where the paper does not say; None where it takes neither."""
+    box, bracket, known = row[place], row[place + 1], reader.notation
+    content, held = without_thin(bracket.parts[0]), all_boxes(bracket.parts[0])
+    index = index_of(box) or ()
+    key = name_of(box, index)
+    evidence, bare = known.called.get(key, known.called.get(unscripted(box))), key in known.bare
+    letters = {b.name for b in content if b.kind == "letter"} - {box.name}
+    if any(b.kind in ("partial", "nabla") or (b.kind == "fraction" and derivative_mark(b)) for b in held):
+        return False
+    if any(b.kind == "relation" for b in held) or (box.sup is not None and not (evidence and letters & evidence)):
+        return None
+    if place + 2 < len(row) and row[place + 2].kind == "bracket":  # a(x - b)(x - c)
+        return False if bare else None
+    if len(content) == 1 and content[0].kind == "letter" and bracket.sup is None:
+        return True
+    if evidence and letters & evidence:
+        return None if bracket.sup or "0" in index or (bare and content[0].kind == "number") else True
+    if bare and (evidence or any(b.name == box.name for b in content)):
+        return False  # theta (theta^2 - 1): no function of itself
+    return None if bare or bracket.sup is not None else True
 
 
 def given_at(bracket: Box) -> int:
@@ -243,6 +296,9 @@ def _is_imaginary(reader: FormulaReader, row: list[Box], place: int) -> bool:
         if "i" in known.lowered and not beside:
             reader.guess("i", "i is the imaginary unit", 'numbers = "i" or letters = "i"')
         return True
+    if known.imaginary and box.name == "i" and len(row) > 1:
+        reader.guess("i", "i is the imaginary unit", 'numbers = "i" or letters = "i"')
+        return True
     why = f"whether {box.name} is the imaginary unit is open"
     raise FormulaError(box.at, why, f'write in paper.toml [notation] numbers = "{box.name}" or letters = "{box.name}"')
 
@@ -255,7 +311,7 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         return None
     if row[behind].kind not in ACTED_ON:
         return None
-    if box.name in reader.notation.bare:
+    if box.name in reader.notation.bare and (row[behind].kind != "letter" or stands_alone(reader, rf"\{box.name}")):
         why = f"whether \\{box.name} is a factor or a difference is open"
         raise FormulaError(box.at, why, f'write in paper.toml [notation] letters = "{box.name}"')
     if row[behind].kind != "letter":
@@ -268,4 +324,8 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         what = f"{box.name} {row[behind].name} is one quantity, a difference, and no product"
         reader.guess("difference", what, f'usual = "difference" or letters = "{box.name}"')
     letter = Letter(f"{box.name}_{node.name}", node.vector)
+    if _may_call(row, behind) and _is_function(reader, row, behind):
+        if row[behind].sup is not None or row[behind + 1].sup is not None:
+            raise FormulaError(box.at, f"what \\{box.name} acts on is open", "write brackets around it")
+        return Call(letter.name, tuple(map(reader.expression, arguments(row[behind + 1].parts[0])))), behind + 2
     return (letter if raised else power_of(reader, letter, row[behind])), behind + 1

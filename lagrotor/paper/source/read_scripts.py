@@ -1,5 +1,6 @@
 """What an index, a mark or a power makes of a letter: a name, or a power of it."""
 
+import re
 from dataclasses import replace
 
 from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
@@ -11,6 +12,15 @@ from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of,
 _SIGNS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _INDICES = ("i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
 _GREEK = frozenset(name.removeprefix("\\") for name in GREEK) - {"pi", "hbar"}
+
+
+def stands_alone(reader: FormulaReader, sign: str) -> bool:
+    """Whether a sign that may act on what follows it stands in this formula where nothing follows it."""
+    ends = (
+        r"\s*(?:[-+=<>,.;)|&^_]|\\(?:right|cdot|times|quad|approx|sim|simeq|l?l?eq?|g?geq?|[,;]?\s*\\)(?![A-Za-z])|$)"
+    )
+    shown = re.sub(r"[dD]\^\{?\d", "", reader.source) if sign == "d" else reader.source
+    return re.search(rf"(?<![A-Za-z\\]){re.escape(sign)}(?![A-Za-z]){ends}", shown) is not None
 
 
 def index_parts(reader: FormulaReader, box: Box) -> list[str]:

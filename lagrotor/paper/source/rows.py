@@ -145,8 +145,9 @@ def derivative_mark(box: Box) -> str:
     if not over or len(under) < 2:
         return ""
     for mark in ("d", "partial", "D", "delta"):
-        if is_d(over[0], mark) and is_d(under[0], mark) and under[1].kind in ("letter", "group"):
-            if mark in ("D", "delta") and len(over) == 1:
+        below = ("letter", "group", "bracket", "partial") if mark in ("partial", "delta") else ("letter", "group")
+        if is_d(over[0], mark) and is_d(under[0], mark) and under[1].kind in below:
+            if mark == "D" and len(over) == 1:
                 continue
             return mark
     return ""

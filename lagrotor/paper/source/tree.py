@@ -107,6 +107,8 @@ def is_vector(node: Node) -> bool:
         "quotient",
         "Derivative",
         "rate",
+        "bar",
+        "mean",
         "transpose",
         "Integral",
         "prime",

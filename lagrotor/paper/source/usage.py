@@ -40,8 +40,8 @@ class Notation:
     modular, exponent, dot, other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed
     as vectors somewhere. equal: letters and what they are equal to. numeric: letters shown to be numbers, below a fraction
     bar, under a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above where no power can, as in
-    \\partial x^i and T^{ij}, or below \\partial; exponents: letters in powers; entries: x of x[n]. made: formula → its boxes,
-    or what stopped them.
+    \\partial x^i and T^{ij}, or below \\partial; above, alone above a letter; exponents: letters in powers; entries: x of
+    x[n]. made: formula → its boxes, or what stopped them.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -69,6 +69,7 @@ class Notation:
     arrows: set[str] = field(default_factory=set)
     numeric: set[str] = field(default_factory=set)
     upper: set[str] = field(default_factory=set)
+    above: set[str] = field(default_factory=set)
     exponents: set[str] = field(default_factory=set)
     entries: set[str] = field(default_factory=set)
     equal: list[tuple[Box, list[Box]]] = field(default_factory=list)
@@ -125,6 +126,11 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
         _look(row, found)
     if found.imaginary:
         found.seen.add("complex")
+    found.upper |= {  # what is no factor anywhere, and stands below as well or in a theory of tensors
+        name
+        for name in found.above & {*TENSOR, *found.lowered} - found.exponents
+        if not {name, f"{name}_"} & found.bare
+    } - ({"lambda"} if "lamda" in found.bare else set())
     found.primed -= found.applied | found.twice  # y and y' of a differential equation
     if "dot" in found.seen and "other time" in found.seen:
         found.seen.add("times")
@@ -180,6 +186,8 @@ def power_in(box: Box) -> bool:
 def upper_index(known: Notation, box: Box) -> list[str]:
     """The letters above, where the paper has each as an index above and none in a power; empty where they are none."""
     row = without_thin(box.sup or []) if box.name != "e" else []
+    if [b.name for b in row] == ["0"] and box.kind == "letter" and known.upper & {*TENSOR}:
+        return ["0"]
     plain = all(b.kind == "letter" and not (b.sub or b.sup or b.marks or b.primes or b.upright) for b in row)
     names = [b.name for b in row]
     return names if plain and {*names} <= known.upper - known.exponents - known.letters else []
@@ -233,6 +241,8 @@ def index_of(box: Box) -> list[str] | None:
     alone = True  # a comma or a Greek letter ends a run of letters
     for part in box.sub:
         if part.kind == "comma" and part.name == ".":
+            if part is box.sub[-1] and found:  # an abbreviation
+                break
             return None
         if part.kind in ("comma", "thin"):
             alone = alone or part.kind == "comma"
@@ -279,8 +289,8 @@ def _index(part: Box) -> list[str] | None:
         return None if None in held else ["over".join(map(str, held))]
     if part.kind in ("function", "unit"):
         return [part.name] if part.name.isalnum() else None
-    if part.kind == "relation" and part.name == "=":
-        return ["eq"]
+    if part.kind == "relation" and part.name in ("=", "->"):
+        return ["eq" if part.name == "=" else "to"]
     return None
 
 
@@ -334,8 +344,9 @@ def _look(row: list[Box], found: Notation) -> None:
         marked = box.kind == "letter" and box.sup is not None and len(box.sup) == 1 and box.sup[0].kind == "bracket"
         if box.sup is not None and not marked and any(each.kind != "letter" or each.sub for each in box.sup):
             _look(box.sup, found)  # letters alone may be indices
-        if box.kind == "fraction" and [b.name for b in box.parts[1]] == ["i"] and box.parts[0][0].name == "hbar":
-            found.imaginary = True
+        if box.kind == "fraction" and box.parts[0] and box.parts[1]:
+            ends = {"i", "hbar"} == {box.parts[0][0].name, box.parts[1][0].name} and len(box.parts[1]) == 1
+            found.imaginary = found.imaginary or ends
         for part in box.parts:
             _look(part, found)
 
@@ -383,14 +394,22 @@ def _look_above(box: Box, found: Notation) -> None:
         names = {b.name for b in above if b.kind == "letter" and not b.upright}
         power = box.kind != "letter" or len(above) > 1 or box.name in ("d", "e")
         if power and not (len(names) == len(above) > 1 and (names <= set("ijkl") or names <= set(TENSOR))):
-            found.exponents |= {b.name for b in all_boxes(above) if b.kind == "letter"}
+            found.exponents |= {b.name for b in _printed_large(above) if b.kind == "letter"}
         elif power:
             found.upper |= names
+        elif len(names) == len(above) == 1 and not (above[0].sub or above[0].sup or above[0].primes):
+            pair = box.sub and len(box.sub) == 1 and is_plain_letter(box.sub[0])
+            found.above |= names & {*TENSOR, *"abcijk", *("pqrs" if pair else "")}
     if box.kind == "fraction":
         over, under = (without_thin(part) for part in box.parts)
         if over and under and over[0].kind == under[0].kind == "partial" and over[0].sup is None:
             found.upper |= {b.name for each in under[1:2] for b in each.sup or () if is_plain_letter(b)} & _ABOVE
             found.upper |= {b.name for each in under[1:2] for b in each.sup or () if b.name in TENSOR}
+
+
+def _printed_large(row: list[Box]) -> list[Box]:
+    """The boxes of a row and what they hold, without scripts."""
+    return [each for box in row for each in (box, *(inner for part in box.parts for inner in _printed_large(part)))]
 
 
 def _look_at_number(box: Box, after: Box | None, found: Notation) -> None:
@@ -556,7 +575,7 @@ def _look_at_letter(box: Box, following: Box | None, found: Notation, alone: boo
     if name == "i" and following is not None and following.name == "hbar":
         found.imaginary = True
         return
-    if name == "e" and box.sup is not None and not box.upright:
+    if name == "e" and box.sup is not None:
         if any(b.kind == "letter" or b.parts for b in box.sup):
             found.exponential = True
             if len(box.sup) > 1:
