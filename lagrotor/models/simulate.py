@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from math import inf, nan, pi
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -228,7 +228,7 @@ def _direct(scene: Scene, model: str, why: str, times: Array, closed: ClosedMoti
     axes, rates = closed.motion(since)
     errors = closed.errors(since) if closed.errors else np.full(len(times), closed.error)
     unkept = np.flatnonzero(~(errors <= tol))
-    horizon = inf if not len(unkept) else float(times[unkept[0]]) if closed.errors else nan
+    horizon = float(times[unkept[0]]) if len(unkept) else inf
     return Trajectory(
         scene=scene, model=model, why=why, t=times, axes=axes, rates=rates, momenta=constant_momenta(scene, len(times)),
         errors=errors, horizon=horizon, evaluations=closed.evaluations, ending=Ending("end", float(times[-1])),

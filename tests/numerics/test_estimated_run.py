@@ -94,6 +94,26 @@ def test_two_runs_that_swing_through_each_other_are_no_better_known_where_they_m
     assert not (errors(0.0)[inside] >= whole[inside]).all()  # the twin
 
 
+def test_two_runs_that_meet_by_chance_at_the_first_time_are_no_better_known_there() -> None:
+    """Between the ends of long steps two interpolations swing through the motion; at the first time that is read they agree."""
+    times = np.array([0.0, 0.01, 10.0])
+
+    def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+        swing = 5 * np.sin(6 * np.pi * times / 0.01) if companion else 0.0
+        states = 1 + (1e-8 * (1 + swing) * ((times > 0) & (times <= 0.01)))[:, None]
+        return Stretch(states, states[-1], 1)
+
+    def errors(parts: int) -> Array:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(estimated_run, "_PARTS", parts)
+            distance = lambda one, other: np.abs(one - other)[:, 0]  # noqa: E731
+            run = estimate_run(Evolution(np.ones(1), integrate, distance, 1.0, ENOUGH), times, 1e-6)
+            return run.errors / np.abs(run.states[:, 0] - 1).max()
+
+    assert errors(estimated_run._PARTS)[1] > 1
+    assert errors(1)[1] < 0.1  # the twin
+
+
 def test_two_runs_that_part_slowly_by_chance_are_no_better_known_there() -> None:
     """Errors that grow like t and like t²: their difference is no larger at 7 than at 3, and zero between."""
     t = np.linspace(0.0, 40.0, 401)
@@ -368,6 +388,18 @@ def test_where_none_is_looser_than_given_up_what_was_reached_longest_is_kept() -
     assert run.ending.at == 7.3 and run.t[-1] == 7 and run.local == made.locals[1]
     assert [made.locals[0] * APART ** (2 * n) <= estimated_run.GIVEN_UP.value for n in range(2)] == [True, True]
     assert len(made.locals) == 6  # three pairs, of which the last begins beyond GIVEN_UP
+
+
+def test_of_two_pairs_that_stop_at_one_time_the_better_known_is_kept() -> None:
+    made = Made(share=0.01)
+    made.fails[1.0] = StopError(7.3, "it goes to infinity", cause="stopped")
+    run = made.run(1e-6)
+    assert run.ending.at == 7.3 and run.local == min(made.locals) and len(made.locals) > 4
+    assert run.horizon == np.inf
+    later = Made(share=0.01)  # twin: one that lasts longer is kept, however loose
+    later.fails = {20 * FIRST_LOCAL: StopError(7.3, "it stops", cause="stopped"), 1.0: StopError(8.4, "later")}
+    run = later.run(1e-6)
+    assert run.ending.at == 8.4 and run.local > min(later.locals)
 
 
 def test_what_does_not_conserve_is_compared_with_a_looser_one() -> None:

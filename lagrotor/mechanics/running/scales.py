@@ -1,7 +1,7 @@
 """How large and how fast a motion is: what its errors are relative to, in whatever units it is given."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +62,8 @@ def motion_scales(
         stretch = stop.reached or Stretch(start[None], start, 1)
         # Of a motion that stops at once little is known; one whose budget is spent was followed for as long as that.
         reached = max(stop.at - float(times[0]), 0.0 if stop.cause == "budget" else 1e-3 * span)
+        if stop.cause == "stopped":  # it may go to infinity, and be as large as its last steps make it
+            stretch = replace(stretch, states=stretch.states[: len(stretch.states) * 9 // 10], end=start)
     states, evaluations, stiff = _finite(start, stretch), guess + stretch.evaluations, False
     if smooth and (system.forces or system.dissipation != 0):
         program = motion_program(system)

@@ -410,6 +410,23 @@ REFUSED = {
 }
 
 
+@pytest.mark.parametrize("power", [sp.Rational(3, 2), 3])
+def test_a_motion_that_goes_to_infinity_ends_there(power: sp.Expr) -> None:
+    """x'² = x^{2p} with x = 1 at first: x = (1 − (p − 1) t)^{−1/(p − 1)}, and in the other direction for ever."""
+    (x,), (v,) = (c := coordinates("x")).q, c.v
+    escape, power = System(c, v**2 / 2 + x ** (2 * power) / 2), float(power)
+    times = np.linspace(0, 3 / (power - 1), 40)
+    end = 1 / (power - 1)
+    with pytest.warns(LagrotorWarning, match="ended early"):
+        run = escape.simulate({}, (1,), (1,), times, 1e-8)
+    assert run.ending.kind == "stopped" and run.ending.at == pytest.approx(end, rel=0.01) and run.t[-1] <= end
+    exact = (1 - (power - 1) * run.t) ** (-1 / (power - 1))
+    states, same = np.hstack([run.q, run.v]), np.stack([exact, exact**power], 1)
+    assert (run.scales.distance(states, same) <= run.errors + 1e-12).all() and run.errors[1] < 1e-6
+    back = escape.simulate({}, (1,), (-1,), times, 1e-8)
+    assert back.ending.kind == "end"
+
+
 @pytest.mark.parametrize("message", REFUSED)
 def test_what_makes_no_sense_is_refused_in_words(message: str) -> None:
     run = pendulum().simulate(VALUES, (1,), (0,), (0, 1), 1e-6)
