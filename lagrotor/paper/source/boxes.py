@@ -257,6 +257,13 @@ class _Reader:
                 self.comma_in_number(found)
             else:
                 self.extend(found, style)
+                if (
+                    len(found) > 2
+                    and (stop := found[-2]).name == "."
+                    and stop.kind == "comma"
+                    and _multiplies(found[-3:])
+                ):
+                    found[-2] = replace(stop, kind="operator", name="cdot")
         self.depth -= 1
         return found
 
@@ -628,6 +635,13 @@ def _joins(before: Box, made: Box, style: str) -> bool:
         return False
     word = made.kind == "letter" and made.upright and len(made.name) == 1 and before.upright and not before.marks
     return made.kind == "number" or (style == "upright" and word)
+
+
+def _multiplies(row: list[Box]) -> bool:
+    r"""Whether a full stop stands between two vectors or \nabla without a space: \nabla.\vec u."""
+    sides = row[0], row[2]
+    plain = all(b.kind == "nabla" or b.style == "bold" or {"vec", "under"} & {*b.marks} for b in sides)
+    return plain and row[0].end == row[1].at and row[1].end == row[2].at
 
 
 def _as_letters(row: list[Box]) -> None:

@@ -51,7 +51,7 @@ def read_formula(latex: str, notation: Notation | None = None, lead: str = "") -
     reader = Grammar(source, notation or Notation())
     try:
         row = reader.notation.boxes(source)
-        reader.lowered = frozenset(_lowered(row))
+        reader.row, reader.lowered = row, frozenset(_lowered(row))
         statements = tuple(read_statements(reader, row))
         mark_open_meanings(reader, row)
     except FormulaError as stop:

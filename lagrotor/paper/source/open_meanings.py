@@ -193,6 +193,7 @@ def _adorned(known: Notation, box: Box, after: Box | None, bracketed: bool) -> M
          "with a bar is a name, and no conjugate or complement"),
         ("hat", "hat" in box.marks and not is_printed_as_vector(box), "with a hat is a factor, and no operator or direction"),
         ("dot", "times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
+        ("under", "under" in box.marks, "with a line below is a vector"),
         ("differential", box.name == "d" and box.style and not box.sub and after is not None, "is a factor, and no differential"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
         ("unit", box.upright and (len(box.name) == 1 or box.name in UNITS) and box.name not in ("d", "e", "i", "O"),
@@ -256,6 +257,8 @@ def _raised(reader: FormulaReader, box: Box) -> Marks:
     known, row, stem = reader.notation, without_thin(box.sup or []), stem_of(box)
     if (box.name == "e" and "e" not in known.letters) or not row:
         return
+    if reader.above and {b.name for b in row} <= reader.above:
+        return  # marked where it is read
     if not power_in(box) or upper_index(known, box):
         word = len(row) == 1 and (row[0].upright or row[0].kind == "text") and len(row[0].name) > 1
         transposed = row[0].name in ("top", "intercal") or (row[0].name == "T" and is_printed_as_vector(box))
@@ -412,7 +415,9 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Marks:
 def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     box, known = row[place], reader.notation
     before, after = (row[place - 1] if place else None), _behind(row, place)
-    if box.name == "cdot":
+    if box.name == "cdot" and reader.source[box.at] == ".":
+        yield "cdot", "the full stop multiplies what it stands between", ""
+    elif box.name == "cdot":
         beside = [b for b in (before, after) if b is not None]
         numbers = any(b.kind in ("number", "root", "function", "nabla") or not _letters(b) for b in beside)
         vectors = all(

@@ -15,6 +15,7 @@ from lagrotor.paper.source.rows import (
     has_differential_above,
     is_d,
     is_derivative_operator,
+    is_measure,
     strip,
     without_thin,
 )
@@ -27,17 +28,25 @@ _INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a"
 _DIVISORS = ("letter", "group", "bracket", "partial")
 
 
+def behind_function(row: list[Box], place: int) -> int:
+    r"""The place behind x of dx, and behind \ln m of d\ln m."""
+    if row[place].kind != "function":
+        return place + 1
+    return min(place + 2 + (place + 1 < len(row) and row[place + 1].kind == "thin"), len(row))
+
+
 def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
     """dx, d^3 x."""
     box = row[place]
     if box.upright and box.primes:
         raise FormulaError(box.at, "a differential has a prime", "write what it means")
-    behind = place + 1
-    while behind < len(row) and row[behind].kind == "thin":
-        behind += 1
+    behind = next((k for k in range(place + 1, len(row)) if row[k].kind != "thin"), len(row))
     after = row[behind] if behind < len(row) else None
     if box.upright and box.sup is None and after is not None and after.kind == "bracket" and after.sup is None:
         return Call("differential", (reader.expression(after.parts[0]),)), behind + 1
+    if after is not None and after.kind == "function" and box.sup is None and (box.upright or reader.integrating):
+        inner, behind = reader.factor(row[: behind_function(row, behind)], behind)
+        return Call("differential", (inner,)), behind
     if after is None or after.kind not in ("letter", "group"):
         if box.upright and "d" not in reader.notation.letters:
             raise FormulaError(box.at, "an upright d has no letter", "write the letter behind it")
@@ -61,6 +70,9 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
         node = letter_of(reader, replace(target, sup=None))[0]
         reader.guess("square", "ds^2 is the square of ds")
         return Call("power", (Call("differential", (node,)), number(2))), behind + 1
+    if is_measure(box):
+        reader.guess("differential", "the integral is over functions, with their measure D")
+        return Call("differential", (Call("measure", (node,)),)), behind + 1
     args = (node, reader.expression(box.sup)) if box.sup else (node,)
     return Call("differential", args), behind + 1
 

@@ -39,6 +39,7 @@ from lagrotor.paper.source.tree import (
     is_operator,
     is_printed_zero,
     is_vector,
+    may_be_vector,
     product_of,
 )
 
@@ -46,7 +47,7 @@ from lagrotor.paper.source.tree import (
 def _read_dots(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     """Dots for terms, entries or factors that are left out."""
     beside = [b.kind for b in (*row[max(place - 1, 0) : place], *row[place + 1 : place + 2])]
-    if len(row) > 1 and (not 0 < place < len(row) - 1 or not {*beside} <= {"letter", "bracket", "fraction", "group"}):
+    if len(row) > 1 and (not place or not {*beside} <= {"letter", "bracket", "fraction", "group"}):
         raise FormulaError(row[place].at, "dots stand for factors", "write them, or as a product")
     return Call("dots", ()), place + 1
 
@@ -150,7 +151,7 @@ class Grammar(FormulaReader):
             return product_of([*(each for each in factors if not is_vector(each)), Call("dot", tuple(vectors))])
         if len(vectors) > 1:
             return _matrices(factors, row)
-        if _is_contracted(row, self.notation.upper):
+        if _is_contracted(row, self.notation.upper | (self.above or set())):
             return Call("contraction", tuple(factors))
         return product_of(factors)
 
@@ -188,7 +189,9 @@ def _added(reader: FormulaReader, terms: list[tuple[str, list[Box]]]) -> Node:
         return made[0]
     _check_sums(reader, terms)
     kinds = {is_vector(each) for each in made if not is_printed_zero(each) and each != Call("dots", ())}
-    if len(kinds) > 1 and not any(isinstance(n, Call) and n.name == "order" for n in made):
+    if len(kinds) > 1 and all(is_vector(n) or may_be_vector(n) for n in made):
+        reader.guess("vector", "what has a hat, or is the divergence of a tensor, is a vector")
+    elif len(kinds) > 1 and not any(isinstance(n, Call) and n.name == "order" for n in made):
         raise FormulaError(terms[1][1][0].at, "a vector and a number are added", "mark the vectors alike")
     return Call("sum", tuple(made))
 

@@ -69,6 +69,8 @@ def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[
         raise FormulaError(row[place].at, f"{row[place].name} has no argument", "write it in brackets")
     first = row[behind]
     if first.kind == "bracket" and first.name in ("(", "[", r"\{"):
+        if first.sub is not None:
+            raise FormulaError(first.at, "a bracket has an index", "write what it means")
         if first.sup is not None:
             why = "whether the power is of the argument or of the function is open"
             raise FormulaError(first.at, why, "write brackets")

@@ -4,8 +4,8 @@ import re
 
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.read_derivative import is_differential, read_differential
-from lagrotor.paper.source.rows import has_differential_above, is_d, without_thin
+from lagrotor.paper.source.read_derivative import behind_function, is_differential, read_differential
+from lagrotor.paper.source.rows import has_differential_above, is_d, is_measure, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, product_of, walk
 from lagrotor.paper.source.usage import simple_argument
 
@@ -55,7 +55,8 @@ def _further(reader: FormulaReader, row: list[Box], place: int) -> tuple[list[No
     variables: list[Node] = []
     while True:
         start = next((k for k in range(place, len(row)) if row[k].kind != "thin"), len(row))
-        made = read_differential(reader, row, start) if start < len(row) and row[start].name == "d" else None
+        begins = start < len(row) and (row[start].name == "d" or is_measure(row[start]))
+        made = read_differential(reader, row, start) if begins else None
         if made is None or not isinstance(made[0], Call):
             return variables, place
         variables.append(made[0].args[0] if len(made[0].args) == 1 else made[0])
@@ -69,13 +70,15 @@ def _differential_at(reader: FormulaReader, rest: list[Box], box: Box) -> tuple[
     for place, each in enumerate(rest):
         inner += each.kind == "big" and BIG.get(each.name) == "Integral"
         target = next((k for k in range(place + 1, len(rest)) if rest[k].kind != "thin"), place)
-        plain = is_d(each, "d") and target > place and rest[target].kind in ("letter", "group")
+        held = ("letter", "group", "function", *(("bracket",) if each.upright else ()))
+        plain = (is_d(each, "d") or is_measure(each)) and target > place and rest[target].kind in held
         if not plain and not has_differential_above(each):
             continue
         if inner:
             inner -= 1
         elif plain:
-            return target + 1, place == first and any(b.kind != "thin" for b in rest[target + 1 :])
+            end = behind_function(rest, target)
+            return end, place == first and any(b.kind != "thin" for b in rest[end:])
         else:
             return (len(rest) if place == first else place + 1), False
     raise FormulaError(box.at, "the differential of the integral is missing", "write d and its letter")
@@ -125,6 +128,11 @@ def _holds(node: Node) -> bool:
     )
 
 
+def holds_variation(node: Node) -> bool:
+    """Whether it holds a small change, delta Q, which may stand beside a differential."""
+    return any(isinstance(each, Letter) and each.name.startswith("delta_") for each in walk(node))
+
+
 def differential_degree(node: Node, at: int) -> int:
     """How many differentials its terms have as factors. Raises FormulaError where the terms of a sum have not as many."""
     if not isinstance(node, Call):
@@ -132,7 +140,7 @@ def differential_degree(node: Node, at: int) -> int:
     if node.name == "differential":
         return 1
     degrees = [differential_degree(each, at) for each in node.args]
-    if node.name in ("product", "dot", "cross", "matmul"):
+    if node.name in ("product", "dot", "cross", "matmul", "contraction"):
         return sum(degrees)
     if node.name == "quotient":
         return degrees[0] - degrees[1]
@@ -140,7 +148,7 @@ def differential_degree(node: Node, at: int) -> int:
         return int(degrees[0] * node.args[1].value)
     if node.name in ("sum", "plus_minus", "minus_plus", "column"):
         terms = {d for d, each in zip(degrees, node.args, strict=True) if not is_printed_zero(each)}
-        if len(terms) > 1:
+        if len(terms) > 1 and not holds_variation(node):
             raise FormulaError(at, "a differential stands in one term only", "write what is added in each")
-        return terms.pop() if terms else 0
+        return max(terms, default=0)
     return degrees[0] if node.name in ("negative", "Sum", "Abs", "norm", "sqrt", "transpose") and degrees else 0

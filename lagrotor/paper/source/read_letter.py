@@ -4,7 +4,7 @@ from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_differential
 from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of, stands_alone
-from lagrotor.paper.source.rows import all_boxes, derivative_mark, strip, without_thin
+from lagrotor.paper.source.rows import all_boxes, derivative_mark, is_measure, strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
 from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument, stem_of, unscripted
 
@@ -16,7 +16,7 @@ def _special(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
     box = row[place]
     if box.marks or box.sub is not None:
         return None
-    if box.name == "d" and not box.style:
+    if (box.name == "d" and not box.style) or (reader.integrating and is_measure(box)):
         return read_differential(reader, row, place)
     if box.name in ("delta", "Delta") and box.sup is None:
         return _difference(reader, row, place)

@@ -59,7 +59,51 @@ def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
         names = [b.name + b.style for b in row if b.kind != "comma"]
         return names if all(name.isalnum() for name in names) else None
     upper = upper_index(reader.notation, box)
+    if not upper and _is_raised(reader, box, row):
+        reader.guess("mark", f"the superscript of {box.name} is part of the name")
+        upper = [b.name for b in row]
+    if not upper and len(row) == 2 and row[1].name in ("dagger", "*") and _is_plain(row[0]):  # b^{s\dagger}
+        upper = [row[0].name, "star" if row[1].name == "*" else "dagger"]
     return upper if upper and not {*upper} & {*reader.bound} - {*TENSOR} else None
+
+
+def _is_raised(reader: FormulaReader, box: Box, row: list[Box]) -> bool:
+    """Whether what stands above a letter are upper indices by what this formula shows."""
+    if box.kind != "letter" or box.name in ("e", "d") or not all(map(_is_plain, row)):
+        return False
+    if reader.above is None:
+        reader.above = frozenset(_raised_in(reader.row))
+    return {b.name for b in row} <= reader.above - reader.notation.letters
+
+
+def _raised_in(row: list[Box]) -> set[str]:
+    """Letters above others that are no power: they stand in scripts alone, below another letter or as in T^{ab}_c.
+
+    Of a theory of tensors, mu and nu are indices wherever they stand above a letter.
+    """
+    large, lower, upper = set[str](), list[str](), list[str]()
+
+    def look(part: list[Box]) -> None:
+        for box in part:
+            if box.kind == "letter":
+                large.add(box.name)
+            for inner in box.parts:
+                look(inner)
+            for script, held in ((box.sub, lower), (box.sup, upper)):
+                inner = without_thin(script or [])
+                indices = box.kind in ("letter", "partial", "nabla") and box.name != "e" and all(
+                    b.kind == "comma" or _is_plain(replace(b, primes=0)) for b in inner
+                )  # fmt: skip
+                if not indices:
+                    look(inner)
+                else:
+                    held += [b.name for b in inner]
+                    if held is upper and len(inner) > 1 and box.sub and all(map(_is_plain, box.sub)):  # t^{ab}_{ij}
+                        lower.extend(b.name for b in inner)
+
+    look(row)
+    greek = {name for name in TENSOR if (upper + lower).count(name) > 1} | {"mu", "nu"}
+    return {*upper} & (greek | {*lower} & {*"abcijkpqrs", "alpha", "beta", "gamma"}) - large
 
 
 def _is_plain(box: Box) -> bool:
@@ -118,12 +162,8 @@ def power_of(reader: FormulaReader, node: Node, box: Box) -> Node:
         _check_power(reader, box)
     if not row:
         raise FormulaError(box.at, "a power is empty", "write it")
-    letter = row[0].name if [b.kind for b in row] == ["letter"] else ""
-    if letter in ("top", "intercal") or (letter == "T" and is_vector(node)):
-        return Call("transpose", (node,))
-    if letter == "T" and "T" not in reader.notation.letters:
-        why = "whether T is a power or transposes is open"
-        raise FormulaError(row[0].at, why, "write \\top, or the letter in bold")
+    if (marked := _marked(reader, node, box, row)) is not None:
+        return marked
     if is_vector(node):
         power = reader.expression(box.sup)
         if power == number(2) and not is_matrix(node):
@@ -131,15 +171,34 @@ def power_of(reader: FormulaReader, node: Node, box: Box) -> Node:
         if power == Call("negative", (number(1),)) and is_matrix(node):
             return Call("inverse", (node,))
         raise FormulaError(row[0].at, "a vector has a power", "write its length")
-    if any(b.kind == "letter" and b.name in ("dagger", "prime") for b in row) or (
-        row[0].kind == "operator" and len(row) == 1
-    ):
-        raise FormulaError(row[0].at, "a mark stands over what is no letter", "write what it means")
-    if len(row) == 1 and row[0].kind in ("text", "relation", "comma"):
-        raise FormulaError(row[0].at, "words stand as a power", "write them as an index")
-    if len(row) == 1 and row[0].kind == "bracket" and row[0].name == "(" and isinstance(node, Call):
-        raise FormulaError(row[0].at, "whether it is an order of derivative or a power is open", "write what it means")
     power = reader.expression(box.sup)
     if power == Call("quotient", (number(1), number(2))):
         return Call("sqrt", (node,))
     return Call("power", (node, power))
+
+
+def _marked(reader: FormulaReader, node: Node, box: Box, row: list[Box]) -> Node | None:
+    """What a mark above makes of what is no letter: a transpose, a conjugate; None where a power stands above."""
+    known, only = reader.notation, row[0] if len(row) == 1 else None
+    letter = only.name if only is not None and only.kind == "letter" else ""
+    bare = "T" in known.bare
+    if letter in ("top", "intercal") or (letter == "T" and (is_vector(node) or not ("T" in known.letters or bare))):
+        if letter == "T" and not is_vector(node):
+            reader.guess("transpose", "T above transposes, and is no power")
+        return Call("transpose", (node,))
+    if letter == "T" and "T" not in known.letters:
+        raise FormulaError(
+            row[0].at, "whether T is a power or transposes is open", "write \\top, or the letter in bold"
+        )
+    if is_vector(node):
+        return None
+    state = isinstance(node, Call) and node.name.split("_")[0] in ("ket", "bra")
+    if box.kind == "bracket" and only is not None and only.name in ("*", "dagger") and not state:
+        return Call("conjugate" if only.name == "*" else "adjoint", (node,))
+    if any(b.kind == "letter" and b.name in ("dagger", "prime") for b in row) or (only and only.kind == "operator"):
+        raise FormulaError(row[0].at, "a mark stands over what is no letter", "write what it means")
+    if only is not None and only.kind in ("text", "relation", "comma"):
+        raise FormulaError(row[0].at, "words stand as a power", "write them as an index")
+    if only is not None and only.kind == "bracket" and only.name == "(" and isinstance(node, Call):
+        raise FormulaError(row[0].at, "whether it is an order of derivative or a power is open", "write what it means")
+    return None

@@ -6,10 +6,20 @@ from itertools import pairwise
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.read_integral import differential_degree
+from lagrotor.paper.source.read_integral import differential_degree, holds_variation
 from lagrotor.paper.source.read_scripts import letter_of
 from lagrotor.paper.source.rows import is_unit_like, strip, without_thin
-from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_scalar, is_vector, walk
+from lagrotor.paper.source.tree import (
+    Call,
+    Letter,
+    Node,
+    Number,
+    is_printed_zero,
+    is_scalar,
+    is_vector,
+    may_be_vector,
+    walk,
+)
 from lagrotor.paper.source.usage import arguments
 
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
@@ -124,8 +134,8 @@ def _continues(before: list[Box], line: list[Box]) -> bool:
     return False
 
 
-def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]:
-    """The statements of one piece, parted by wide spaces, words, arrows and commas."""
+def _parts(reader: FormulaReader, row: list[Box]) -> list[tuple[str, list[Box]]]:
+    """One piece parted by wide spaces, words, arrows and commas: what stands before each part, and its boxes."""
     parts: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
         if box.kind == "arrow" or (box.kind == "text" and not _is_side(row, place)):
@@ -150,10 +160,24 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
             continue
         else:
             parts[-1][1].append(box)
+    return parts
+
+
+def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]:
+    """The statements of one piece."""
+    parts = _parts(reader, row)
     found: list[PrintedStatement] = []
+    listed: list[list[Box]] = []  # i and j of i, j = 1, 2
     for place, (parted, part) in enumerate(parts):
         part = without_thin(part) if not part or part[0].kind == "thin" else part
         if not strip(part):
+            continue
+        if listed or (parted != "comma" and _is_list(parts, place)):
+            if any(box.kind == "relation" for box in part):
+                found += _of_each(reader, listed, strip(part))
+                listed = []
+            else:
+                listed.append(strip(part))
             continue
         has_relation = any(box.kind == "relation" for box in part)
         if parted == "comma" and has_relation and found and found[-1].kind == "expression":
@@ -167,6 +191,26 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
         else:
             found.append(read_statement(reader, strip(part)))
     return found
+
+
+def _is_list(parts: list[tuple[str, list[Box]]], place: int) -> bool:
+    """Whether letters parted by commas begin here, of which the last has a relation: i, j = 1, 2."""
+    behind = place
+    while behind < len(parts) and [box.kind for box in strip(parts[behind][1])] == ["letter"]:
+        behind += 1
+        if behind < len(parts) and parts[behind][0] != "comma":
+            return False
+    last = strip(parts[behind][1]) if place < behind < len(parts) else []
+    return [box.kind for box in last[:2]] == ["letter", "relation"] and sum(b.kind == "relation" for b in last) == 1
+
+
+def _of_each(reader: FormulaReader, letters: list[list[Box]], part: list[Box]) -> list[PrintedStatement]:
+    """The statement of several letters that a list has in common."""
+    stated = read_statement(reader, part)
+    names = [letter_of(reader, each[0])[0] for each in letters]
+    reader.guess("list", "what follows the letters holds for each of them")
+    first = replace(stated.sides[0], node=Call("values", (*names, letter_of(reader, part[0])[0])))
+    return [replace(stated, sides=(first, *stated.sides[1:]), kind="range")]
 
 
 def _is_condition(row: list[Box], place: int) -> bool:
@@ -220,12 +264,13 @@ def _further(reader: FormulaReader, found: list[PrintedStatement], part: list[Bo
     if not listed and part[0].kind == "number" and before.isdigit():
         why = "whether the comma is in a number is open"
         raise FormulaError(part[0].at - 1, why, "write {,} in the number, or a space behind the comma")
-    simple = all(b.kind in ("number", "dots", "letter", "operator", "infinity") for b in part)
+    simple = all(b.kind in ("number", "dots", "letter", "operator", "infinity", "fraction", "root") for b in part)
     if simple and last.kind in ("equation", "range", "condition") and len(last.sides) == 2:
         first, end = last.sides
         if last.kind == "range" or (isinstance(first.node, Letter) and isinstance(end.node, Number | Letter)):
             values = end.node.args if isinstance(end.node, Call) and last.kind == "range" else (end.node,)
-            end = replace(end, node=Call("values", (*values, _side(reader, part))))
+            ends = [part[:-1], part[-1:]] if len(part) > 1 and part[-1].kind == "dots" else [part]  # 1, 2...
+            end = replace(end, node=Call("values", (*values, *(_side(reader, each) for each in ends))))
             found[-1] = replace(last, sides=(first, end), kind="range")
             return
     if last.kind == "expression" or (last.relations and last.relations[-1] in (*_SETS, "!=")):
@@ -263,12 +308,15 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             node = letter_of(reader, side[0])[0] if index else _side(reader, side)
         read.append(Side(node, latex, side[0].at))
     degrees = {differential_degree(side.node, side.at) for side in read if not is_printed_zero(side.node)}
-    if len(degrees) > 1 and not any(relation in _SETS for relation in relations):
+    varied = len(degrees) > 1 and any(holds_variation(side.node) for side in read)
+    if len(degrees) > 1 and not varied and not any(relation in _SETS for relation in relations):
         why = "a differential stands on one side only"
         raise FormulaError(row[0].at, why, "write the derivative, or both differentials")
     vectors = any(isinstance(n, Letter) and n.vector for s in read if is_vector(s.node) for n in walk(s.node))
     scalar = next((side for side in read if is_scalar(side.node)), None)
-    if vectors and scalar is not None and set(relations) <= {"=", ":=", "~"}:
+    if vectors and scalar is not None and may_be_vector(scalar.node):
+        reader.guess("vector", "what has a hat, or is the divergence of a tensor, is a vector")
+    elif vectors and scalar is not None and set(relations) <= {"=", ":=", "~"}:
         raise FormulaError(scalar.at, "a vector is equal to a number", "mark the vectors alike, as \\hat{\\mathbf r}")
     order = None
     final = read[-1].node

@@ -139,6 +139,11 @@ def is_d(box: Box, mark: str) -> bool:
     return box.kind == "letter" and box.name == mark and not box.marks and box.sub is None
 
 
+def is_measure(box: Box) -> bool:
+    r"""Whether a letter is the measure of an integral over functions, \\mathcal{D}q."""
+    return box.kind == "letter" and box.name == "D" and box.style in ("cal", "scr") and not (box.sub or box.sup)
+
+
 def derivative_mark(box: Box) -> str:
     """d, partial, D or delta where a fraction is a derivative; nothing where it is none."""
     over, under = (without_thin(part) for part in box.parts)

@@ -126,9 +126,25 @@ def is_vector(node: Node) -> bool:
         "at_constant",
     ):
         return is_vector(node.args[0])
-    return node.name in (*_VECTORS, "matmul", "inverse") or node.name.split("_")[0].removesuffix("prime").endswith(
-        ("bold", "vec")
+    if node.name == "matmul":
+        return any(map(is_vector, node.args))
+    return node.name in (*_VECTORS, "inverse") or node.name.split("_")[0].removesuffix("prime").endswith(
+        ("bold", "vec", "under")
     )
+
+
+def may_be_vector(node: Node) -> bool:
+    """Whether a factor of it is a letter with a hat, or the divergence of what is printed in bold."""
+    if isinstance(node, Letter):
+        return "hat" in node.name and node.name[0].islower()
+    if isinstance(node, Number):
+        return False
+    if node.name == "divergence":
+        return isinstance(node.args[0], Letter) and "bold" in node.args[0].name
+    inner = node.args[:1] if node.name in ("quotient", "negative", "Derivative", "rate") else node.args
+    test = all if node.name == "sum" else any
+    carried = ("quotient", "negative", "Derivative", "rate", "product", "sum")
+    return node.name in carried and test(is_vector(each) or may_be_vector(each) for each in inner)
 
 
 def is_printed_zero(node: Node) -> bool:

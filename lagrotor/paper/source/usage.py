@@ -167,7 +167,7 @@ def is_plain_letter(box: Box) -> bool:
 def power_in(box: Box) -> bool:
     """Whether a superscript is read as a power, and not as part of a name."""
     row = without_thin(box.sup or [])
-    if not row:
+    if not row or (len(row) == 2 and row[1].name in ("dagger", "*")):
         return False
     if len(row) == 1:
         only = row[0]
@@ -230,7 +230,7 @@ def _named(box: Box, marks: list[str], primes: int, index: Iterable[str], raised
 
 def is_printed_as_vector(box: Box) -> bool:
     """Whether a letter is printed as a vector: bold or with an arrow."""
-    return box.style == "bold" or "vec" in box.marks
+    return box.style == "bold" or "vec" in box.marks or "under" in box.marks
 
 
 def index_of(box: Box) -> list[str] | None:
@@ -337,6 +337,8 @@ def _look(row: list[Box], found: Notation) -> None:
                 found.spelled.setdefault("_".join((box.name, *index)), set()).add(_spelling(box.sub))
         elif box.sub is not None:
             _look(box.sub, found)
+        if box.name == "exp" and following is not None and following.kind == "bracket":
+            found.imaginary = found.imaginary or any(b.name == "i" and not b.sub for b in following.parts[0])
         if box.kind == "function" and following is not None and following.kind == "letter":
             after = inner[place + 2] if place + 2 < len(inner) else None
             if after is None or (after.kind in _BEHIND and after.name != "/"):
