@@ -13,7 +13,7 @@ class FormulaReader(ABC):
     """One formula that is read. guesses: what custom settled; bound: indices of the sums that are open here.
 
     integrating, exponents: how many integrals, and powers of e, the place that is read lies in. lowered: what stands in an
-    index, a ket or a bound of this formula. row: its boxes; above: its upper indices, once they are asked for.
+    index, a ket or a bound of this formula. row: its boxes; above: its upper indices, once they are needed.
     """
 
     source: str
