@@ -2,30 +2,31 @@ r"""What can be judged of a source without any derivation: chains step by step, 
 orders, letters.
 
 No reading is confirmed here: what agrees "would hold", what differs "would be refuted". A step of a chain may rest on physics
-that is in the text; it is refuted only where its right side has no letter but those of the left, no equation before relates
-these, the difference is decided, and one change of sign, factor or power makes the two sides agree: a slip, not a law.
+that is in the text; it is refuted only where its right side has no letter but those of the left, with the definitions that its
+section gives put in and derivatives taken; where no equation before can make the two sides agree, the difference is decided, and
+one change of sign, factor or power makes them agree: a slip, not a law.
 """
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass, replace
-from fractions import Fraction
 from functools import cached_property
-from itertools import chain, islice, pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any
 
 import sympy as sp
 
-from lagrotor.algebra import agreement_order, decide_equal
-from lagrotor.algebra.scalar import degree
-from lagrotor.algebra.work import at_most
-from lagrotor.errors import LagrotorError, WorkError
+from lagrotor.algebra import agreement_order
+from lagrotor.errors import LagrotorError
+from lagrotor.paper.source.compared import LARGE, agree, bounded, decided, expression_of, is_large, may_agree
 from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula, with_progress
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
+from lagrotor.paper.source.slips import change_to_agree, constant_value
+from lagrotor.paper.source.substitution import PrintedMeaning, SectionMeanings, put_for, rounds
 from lagrotor.paper.source.tree import (
     KNOWN,
     Call,
@@ -46,15 +47,7 @@ HOLDS, REFUTED, NO_IDENTITY, UNITS, MEANINGS, BEFORE, FAULT = (
 )  # fmt: skip
 FOUND = (REFUTED, NO_IDENTITY, UNITS, MEANINGS, BEFORE, FAULT)
 WRONG = (REFUTED, UNITS, FAULT)
-# Terms of which each is tried with the other sign, to say what is wrong; the degree and the calls of functions, a few seconds,
-# beyond which a step is not decided.
-_MOST_TERMS, _MOST_DEGREE, _MOST_CALLS = 12, 1000, 3_000_000
-_LARGE = "undecided", "the difference is too large"
-_LARGEST = 1e300  # of numbers that are compared
-# Functions that are taken for each other.
-_TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
-# Changes that are tried to find a slip; equations back to which a step may refer.
-_MOST_SLIPS, _MEMORY = 120, 60
+_MOST_TERMS = 12  # of which each is tried with the other sign, to say what is wrong
 # Formulas of the text that give a value: with a unit, or in units where it is 1.
 _VALUED = re.compile(r"\\(?:mathrm|rm|text|hbar)\b|k_")
 # Where a reading stops at what a package may define.
@@ -63,8 +56,8 @@ _UNKNOWN = re.compile(r"(\\(?:[A-Za-z@]+|begin\{[^{}]*\})) is not known")
 _RELATION = re.compile(r"=|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
 # What the text says where two sides agree only under a condition.
 _CONDITIONS = re.compile(
-    r"\b(?:modulo|up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*|by parts|boundary|relabel\w*"
-    r"|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|vanish\w*|limit|small|assum\w*|on.shell|constraint)\b",
+    r"\b(?:modulo|up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*|by parts|boundary terms?"
+    r"|relabel\w*|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|vanish\w*|on.shell|constraint)\b",
     re.IGNORECASE,
 )
 _TO_BE_SOLVED = re.compile(
@@ -77,6 +70,7 @@ _IDENTITY = re.compile(
     r"|\b(?:using|used?|since|because|note that|known?(?: that)?)[\s,:]*□",
     re.IGNORECASE,
 )
+_DOTTED = re.compile(r"(\w+?)_(d*)ot")
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 # The one guess that verdicts rest on: that log is the natural logarithm.
 _ANY_BASE = "log is"
@@ -131,11 +125,39 @@ def check_source(
     return faults + sorted(checker.findings(progress), key=lambda found: (order[found.equation], found.step))
 
 
+@dataclass(frozen=True)
+class _Way:
+    """Two sides with premises put in round by round, None where there is no expression; value: of any side, in the same way.
+
+    fixing: whether letters are held fixed in a derivative.
+    """
+
+    left: Any
+    right: Any
+    put: list[dict[Node, PrintedMeaning]]
+    value: Callable[[Node], Any]
+    fixing: bool
+
+    @property
+    def used(self) -> list[PrintedMeaning]:
+        return [each for one in self.put for each in one.values()]
+
+    @property
+    def named(self) -> str:
+        names = dict.fromkeys(each.name for each in self.used)
+        return ", ".join([*names, *(["the other letters fixed in derivatives and integrals"] if self.fixing else [])])
+
+    def differs(self, a: Any, b: Any) -> bool:
+        """Whether anything was put in or taken, and it can be compared."""
+        known = self.left is not None and self.right is not None and (self.left, self.right) != (a, b)
+        return known and not is_large(self.left, self.right)
+
+
 class _Checker:
     def __init__(self, source: Source, readings: list[tuple[Displayed, Reading]], notation: Notation) -> None:
         self.source, self.readings, self.notation = source, readings, notation
         self.opaque = Opaque()
-        self.before: list[_Read] = []
+        self.given, self.told = SectionMeanings(), set[str]()  # the sections whose text was taken over
         self.labelled: defaultdict[str, list[_Read]] = defaultdict(list)  # those before, by label
         self.place = 0
         self.statements = [
@@ -154,14 +176,15 @@ class _Checker:
                     helps = f"{files} {verb} not beside the source: {name[1]} may be defined there"
                 yield self._finding(each, 0, None, "not read", f"{what}: {helps}")
                 continue
+            self._take_text(each.section)
+            for statement in reading.statements:
+                self.given.add(statement, f"({each.id})", each.section, place)
             for number, statement in enumerate(reading.statements):
-                yield from self._steps(each, statement if number else self._continued(each, statement), reading)
-            if (judged := _bounded(self._against_cited, each, reading)) is not None:
+                yield from self._steps(each, statement, statement if number else self._continued(each, statement))
+            if (judged := bounded(self._against_cited, each, reading)) is not None:
                 yield self._finding(each, 0, None, *judged)
             if not _guess(reading):
-                made = [_Read(each, s) for s in reading.statements if s.kind == "equation"]
-                self.before += made
-                self.labelled[each.label] += made
+                self.labelled[each.label] += [_Read(each, s) for s in reading.statements if s.kind == "equation"]
         yield from self._dimensions()
         yield from self._letters()
 
@@ -175,8 +198,8 @@ class _Checker:
 
     # ---- chains
 
-    def _steps(self, each: Displayed, statement: PrintedStatement, reading: Reading) -> Iterator[StepFinding]:
-        """Each step of a chain but the first, which says what is meant."""
+    def _steps(self, each: Displayed, printed: PrintedStatement, statement: PrintedStatement) -> Iterator[StepFinding]:
+        """Each step of a chain but the first, which says what is meant; printed: without what it continues."""
         sides = statement.sides
         for step in range(1, len(sides)):
             left, right, relation = sides[step - 1], sides[step], statement.relations[step - 1]
@@ -186,11 +209,21 @@ class _Checker:
                 continue
             if relation not in ("=", ":=") or (step == 1 and not self._identity(left.node, right.node)):
                 continue
-            verdict, why = _bounded(self._step, left.node, right.node, step == 1)
-            if (guess := _guess(reading)) and verdict in (HOLDS, REFUTED):
+            verdict, why, *used = bounded(self._step, left.node, right.node, printed, step == 1)
+            if verdict in (HOLDS, REFUTED) and (guess := self._guess_of(left, right, used)):
                 verdict, why = "undecided", f"{why}; but it is a guess that {guess}"
             if step > 1 or verdict in (HOLDS, REFUTED, NO_IDENTITY):
                 yield self._finding(each, step, right, verdict, why)
+
+    def _guess_of(self, left: Side, right: Side, used: list[PrintedMeaning]) -> str:
+        """The guess that the reading of two sides, or of a premise, rests on, each read by itself; nothing where none does."""
+        whole = self.readings[self.place][1]
+        if not _guess(whole) and not used:
+            return ""
+        alone = read_formula(f"{left.latex} = {right.latex}", self.notation)
+        same = alone.whole and [side.node for side in alone.statements[0].sides] == [left.node, right.node]
+        readings = [alone if same else whole, *(read_formula(each.latex, self.notation) for each in used)]
+        return next(filter(None, map(_guess, readings)), "")
 
     def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """A row that continues the one before, with the last side of that row in its place."""
@@ -213,71 +246,104 @@ class _Checker:
         beside = bool(letters_of(right)) or (of_functions and isinstance(right, Number) and right.value != 0)
         return isinstance(left, Call) and not isinstance(right, Letter) and beside
 
-    def _step(self, left: Node, right: Node, first: bool) -> tuple[str, str]:
+    def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool) -> tuple[Any, ...]:
+        """The verdict on a step, why, and each premise that was put in."""
         try:
             a, b = sympy_expression(left, self.opaque), sympy_expression(right, self.opaque)
         except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
             return "undecided", f"the two sides cannot be compared: {error}"
-        if a != b and _is_large(a, b):
-            return _LARGE
-        answer = decided(a, b) if _may_agree(a, b) else "nonzero"
+        if a != b and is_large(a, b):
+            return LARGE
+        answer = decided(a, b) if may_agree(a, b) else "nonzero"
         if answer == "zero":
             return HOLDS, f"{text_of(left)} = {text_of(right)} is an identity"
-        given, used = self._put_in(a, b)
-        if _is_large(*given):
-            given, used = (a, b), []
-        if used and _agree(*given):
-            return HOLDS, f"with {', '.join(used)}"
+        ways = [way for both in (False, True) if (way := self._way(left, right, printed, both)).differs(a, b)]
+        for way in ways:
+            if agree(way.left, way.right):
+                return HOLDS, f"with {way.named}", *way.used
         if answer == "undecided":
             return "undecided", "the difference is outside what is decided exactly"
-        if answer == "shape":
-            return "undecided", "one side is printed as a vector, the other as a number"
         verdict, why = self._refuted(left, right, a, b, first)
-        if (
-            verdict != REFUTED
-            and used
-            and not first
-            and self._are_near(used)
-            and (slip := self._slip_from(given[0], b, right))
-        ):
-            return REFUTED, f"with {', '.join(used)} the two sides differ; {slip}"
+        if verdict != REFUTED and not first:
+            for way in ways:
+                if self._are_sure(way.used) and (slip := self._slip_with(left, right, way)):
+                    return REFUTED, f"with {way.named} the two sides differ; {slip}", *way.used
         if verdict == REFUTED and decided(a, b) != "nonzero":
             return "undecided", "the difference is outside what is decided exactly"
         return verdict, why
 
-    def _are_near(self, used: list[str]) -> bool:
-        """Whether equations are cited, or among the last three of the section."""
+    def _way(self, left: Node, right: Node, printed: PrintedStatement, both: bool) -> "_Way":
+        """The two sides with premises put in and derivatives taken; both: also for letters that both sides have."""
+        section = self.readings[self.place][0].section
+
+        def premises(parts: Iterable[Node]) -> Iterator[PrintedMeaning]:
+            return self.given.of(parts, self.place, section, printed)
+
+        put = rounds(left, right, premises, both)
+        opaque = Opaque(self.opaque.names, self._rates)
+
+        def value(node: Node) -> Any:
+            return expression_of(_put(node, put), opaque)
+
+        sides = value(left), value(right)
+        return _Way(*sides, put, value, opaque.fixing)
+
+    @cached_property
+    def _rates(self) -> dict[sp.Symbol, sp.Symbol]:
+        """Letters of which there are dots, and components of vectors, to their rates."""
+        rates: dict[sp.Symbol, sp.Symbol] = {}
+        for letter in {each for read in self.statements for side in read.statement.sides for each in walk(side.node)}:
+            if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
+                stem, dots = dotted[1], len(dotted[2])
+                names = [stem, *(f"{stem}_{'d' * n}ot" for n in range(1, dots + 2))]
+                for end in ("_1", "_2", "_3") if letter.vector else ("",):
+                    rates |= {_real(a + end): _real(b + end) for a, b in pairwise(names)}
+        return rates
+
+    def _are_sure(self, used: list[PrintedMeaning]) -> bool:
+        """Whether premises are cited, of the last three displays, or all that the section gives; and no word is against them."""
         each = self.readings[self.place][0]
-        last = [e for e, _ in self.readings[max(self.place - 3, 0) : self.place] if e.section == each.section]
-        near = [*last, *(read.equation for label in each.cites for read in self.labelled[label])]
-        return {*used} <= {f"({e.id})" for e in near} and not self._says(_CONDITIONS)
+        cited = {f"({read.equation.id})" for label in each.cites for read in self.labelled[label]}
+        return not self._says(_CONDITIONS) and all(
+            premise.name in cited
+            or (
+                premise.section == each.section
+                and (premise.place >= max(self.place - 3, 0) or self.given.is_given_once(premise))
+            )
+            for premise in used
+        )
 
     def _says(self, condition: re.Pattern[str]) -> str:
         words = condition.search(self.source.words.get(self.readings[self.place][0].id, ""))
         return words[0] if words else ""
 
-    def _slip_from(self, put: Any, b: Any, right: Node) -> str | None:
-        """The one change of the right side with which it is the left one, `put`, whose letters no other equation relates."""
-        if any(isinstance(side, sp.MatrixBase) for side in (put, b)) or has_opaque(put, b):
+    def _slip_with(self, left: Node, right: Node, way: "_Way") -> str | None:
+        """The one change of the right side with which it is the left one, the premises put in."""
+        own, others = (set(letters_of(_put(side, way.put))) for side in (left, right))
+        if None in (way.left, way.right) or not others or not _comparable(way.left, way.right):
             return None
-        letters = {symbol.name for symbol in put.free_symbols}
-        if {symbol.name for symbol in b.free_symbols} != letters or next(self._related(letters), None):
-            return None
-        return self._change(put, right, letters)
+        slip = _but_for_dots(others, own) and change_to_agree(way.left, right, own | set(letters_of(right)), way.value)
+        return slip if slip and not self._related(own | others, way.left, way.right) else None
 
     def _refuted(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> tuple[str, str]:
         """Whether a difference that is not zero refutes the step; first: of the whole equation."""
         own, others = set(letters_of(left)), set(letters_of(right))
-        if has_opaque(a, b):
+        if not _comparable(a, b) or (has_opaque(a, b) and (first or not others)):
             return "undecided", "derivatives, integrals or functions may be related"
-        if more := sorted(others - own):
+        of_terms = isinstance(a, sp.Add) and _but_for_dots(others, own)  # of one term, as p' = p, it may be a condition
+        if (more := sorted(others - own)) and not of_terms:
             return "undecided", f"{', '.join(more)} may be related to the letters before"
         if words := self._says(_CONDITIONS):
             return "undecided", f"the text beside it says: {words}"
         if not others and own:
-            if (value := _constant(a)) is not None and decided(a, value) == "zero":
+            if (value := constant_value(a)) is not None and decided(a, value) == "zero":
                 return REFUTED, f"the left side is {value} for all values of its letters"
-            if not first and a.has(sp.Function) and (slip := self._change(b, left, own)) and "sign" in slip:
+            if (
+                not first
+                and a.has(sp.Function)
+                and (slip := change_to_agree(b, left, own, self._value))
+                and "sign" in slip
+            ):
                 return REFUTED, f"the left side is not {b}; {slip}"
             return "undecided", "it is a condition, not an identity"
         difference = "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(sp.factor_terms(a - b))
@@ -287,7 +353,7 @@ class _Checker:
         slip = self._slip(left, right, a, b, first)
         if slip is None:
             return "undecided", f"the two sides differ by {difference}: it may be a condition"
-        if related := next(self._related(own), None):
+        if related := self._related(own, a, b):
             return "undecided", f"{related} may be used"
         if first and (solved or not identity):
             return NO_IDENTITY, f"the two sides differ by {difference}; {slip}; or it is a condition"
@@ -296,44 +362,44 @@ class _Checker:
     def _slip(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> str | None:
         """The one change with which the two sides agree."""
         names = {*letters_of(left), *letters_of(right)}
-        return self._change(a, right, names, first) or self._change(b, left, names, first)
+        return change_to_agree(a, right, names, self._value, first) or change_to_agree(
+            b, left, names, self._value, first
+        )
 
-    def _change(self, fixed: Any, changing: Node, names: set[str], by_identity: bool = False) -> str | None:
-        """The one change of a side with which it is the other, `fixed`.
+    def _value(self, node: Node) -> Any:
+        return expression_of(node, self.opaque)
 
-        by_identity: by more than to the same print, as cos x = sin x, and not by putting θ₁ for θ₂: both may be conditions.
-        """
-        given = _expression_of(changing, self.opaque)
-        letters = (sp.Symbol(name, real=True) for name in names)
-        symbols = sorted({*fixed.free_symbols, *given.free_symbols, *letters}, key=str)
-        point = {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}
-        value = _number(fixed, point)
-        ratio = _ratio(fixed, given, point)
-        if ratio is not None and not (by_identity and fixed == sp.Rational(str(ratio)) * given):
-            return f"with the factor {ratio} of the whole they agree"
-        whole = () if by_identity else _whole(changing)  # tan x = cot x may be a condition
-        for mutant, said in islice(chain(whole, slips(changing, () if by_identity else names)), _MOST_SLIPS):
-            other = _expression_of(mutant, self.opaque)
-            if other is None or (by_identity and fixed == other):
-                continue
-            if _near(value, _number(other, point)) and decided(fixed, other) == "zero":
-                return f"with {said} they agree"
-        return None
-
-    def _related(self, letters: set[str]) -> Iterator[str]:
-        """What the text, and the equations before whether they are read or not, say of these letters and no others."""
+    def _related(self, letters: set[str], a: Any, b: Any) -> str:
+        """What the text, or an equation before, says of these letters and no others, so that two sides may agree."""
         before = ((f"({each.id})", each.latex, reading) for each, reading in self.readings[: self.place])
         for name, latex, reading in chain(before, self._said):
             if reading.whole:
                 related = any(
-                    _letters_of(s) <= letters and {*s.relations} - _BOUNDS and not self._says_nothing(s)
+                    _letters_of(s) <= letters and {*s.relations} - _BOUNDS and self._may_explain(s, a, b)
                     for s in reading.statements
                 )
             else:
                 named = letters_printed(latex, self.notation)
                 related = bool(named) and named <= {letter.split("_")[0] for letter in letters}
             if related:
-                yield name
+                return name
+        return ""
+
+    def _may_explain(self, statement: PrintedStatement, a: Any, b: Any) -> bool:
+        """Whether two sides agree, or may agree, where a statement holds, and are not both zero: it is solved for each letter."""
+        sides = [expression_of(side.node, self.opaque) for side in statement.sides]
+        if None in sides or statement.kind != "equation" or any(isinstance(e, sp.MatrixBase) for e in (*sides, a, b)):
+            return not self._says_nothing(sides)
+        for left, right in pairwise(sides):
+            shared = sorted((left - right).free_symbols & (a - b).free_symbols, key=str)
+            zeros = [zero for symbol in shared if (zero := _zero_in(left - right, symbol)) is not None]
+            if shared and not zeros and not agree(left, right):
+                return True
+            for zero in zeros:
+                put = a.subs(*zero), b.subs(*zero)
+                if agree(*put) and not agree(put[0], sp.S.Zero):
+                    return True
+        return False
 
     @cached_property
     def _said(self) -> list[tuple[str, str, Reading]]:
@@ -344,38 +410,18 @@ class _Checker:
             if _RELATION.search(latex)
         ]
 
-    def _says_nothing(self, statement: PrintedStatement) -> bool:
-        """Whether an equation is an identity, which relates no letters."""
-        sides = [_expression_of(side.node, self.opaque) for side in statement.sides]
-        return None not in sides and all(_agree(a, b) for a, b in pairwise(sides))
+    def _take_text(self, section: str) -> None:
+        """Take over what the text of a section gives, at the first display of it."""
+        for name, latex, reading in self._said if section not in self.told else ():
+            if self.source.inline[latex] == section:
+                for statement in reading.statements:
+                    if letters_of(statement.sides[-1].node):  # x = 0 is what comes out, and no premise
+                        self.given.add(statement, name, section, -1)
+        self.told.add(section)
 
-    def _put_in(self, a: Any, b: Any) -> tuple[tuple[Any, Any], list[str]]:
-        """Both sides with the definitions before put in, and the equations that were used."""
-        used: list[str] = []
-        put: set[str] = set()  # each letter once: x by y and y by x go on without end
-        for _ in range(4):
-            free = {s.name for side in (a, b) for s in side.free_symbols} - put
-            meanings = {}
-            for read in self.before[-_MEMORY:]:
-                first, last = read.statement.sides[0].node, read.statement.sides[-1].node
-                if not isinstance(first, Letter) or first.vector or first.name not in free:
-                    continue
-                if first.name in letters_of(last):
-                    continue
-                try:
-                    value = sympy_expression(last, self.opaque)
-                except (TypeError, ValueError, ArithmeticError, AttributeError):
-                    continue
-                if isinstance(value, sp.MatrixBase):
-                    continue
-                meanings[sp.Symbol(first.name, real=True)] = value, f"({read.equation.id})"
-            if not meanings:
-                break
-            put |= free
-            values = {symbol: value for symbol, (value, _) in meanings.items()}
-            used += [name for _, name in meanings.values()]
-            a, b = a.subs(values), b.subs(values)
-        return (a, b), list(dict.fromkeys(used))
+    def _says_nothing(self, sides: list[Any]) -> bool:
+        """Whether an equation is an identity, which relates no letters."""
+        return None not in sides and all(agree(a, b) for a, b in pairwise(sides))
 
     def _order(
         self, each: Displayed, step: int, left: Side, right: Side, order: tuple[str, int]
@@ -389,11 +435,13 @@ class _Checker:
                 return
             rates = re.compile(rf"{re.escape(name)}_d+ot")  # of what is small, they are as small
             scaled = {s: small * s for s in a.free_symbols | b.free_symbols if rates.fullmatch(s.name)}
-            term = at_most(_MOST_CALLS, agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
+            term = bounded(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
         except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError):
             yield self._finding(each, step, right, "undecided", "the series cannot be compared")
             return
-        if term.order is None:
+        if term is LARGE:
+            yield self._finding(each, step, right, *LARGE)
+        elif term.order is None:
             yield self._finding(each, step, right, HOLDS, f"through order {power - 1} in {name}")
         elif has_opaque(a, b):
             yield self._finding(each, step, right, "undecided", f"derivatives or functions may be small as {name} is")
@@ -433,7 +481,7 @@ class _Checker:
                     continue
                 put = old.subs(symbol, value)
                 names = f"({definition.equation.id}) in ({other.equation.id})"
-                if put.free_symbols != new.free_symbols or _is_large(put, new):
+                if put.free_symbols != new.free_symbols or is_large(put, new):
                     continue
                 if guess := _guess(reading):
                     return "undecided", f"it cites {names}; but it is a guess that {guess}"
@@ -498,8 +546,10 @@ class _Checker:
 
     def _differ(self, one: _Read, other: _Read) -> bool:
         """Whether two definitions differ, as they are and with those before put in."""
-        a, b = (sympy_expression(each.statement.sides[1].node, self.opaque) for each in (one, other))
-        return decided(a, b) == "nonzero" and decided(*self._put_in(a, b)[0]) == "nonzero"
+        left, right = (each.statement.sides[1].node for each in (one, other))
+        ways = (self._way(left, right, other.statement, both) for both in (False, True))
+        a, b = (sympy_expression(each, self.opaque) for each in (left, right))
+        return decided(a, b) == "nonzero" and all(decided(way.left, way.right) == "nonzero" for way in ways)
 
     def _letters(self) -> Iterator[StepFinding]:
         """Letters that are defined twice, used before they are given, or have two meanings."""
@@ -510,7 +560,7 @@ class _Checker:
                 continue
             if first.name in definitions:
                 _, other = definitions[first.name]
-                if _bounded(self._differ, other, read) is True:
+                if bounded(self._differ, other, read) is True:
                     yield self._finding(
                         read.equation, 0, None, MEANINGS, f"{first.name} is defined in ({other.equation.id}) otherwise"
                     )
@@ -532,6 +582,33 @@ class _Checker:
             yield self._finding(places[0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
 
 
+def _put(node: Node, put: list[dict[Node, PrintedMeaning]]) -> Node:
+    for one in put:
+        node = put_for(node, {key: each.value for key, each in one.items()})
+    return node
+
+
+def _real(name: str) -> sp.Symbol:
+    return sp.Symbol(name, real=True)
+
+
+def _zero_in(e: Any, symbol: sp.Symbol) -> tuple[sp.Symbol, Any] | None:
+    """Where an expression that is linear in a letter is zero."""
+    slope = e.diff(symbol)
+    return None if slope == 0 or symbol in slope.free_symbols else (symbol, symbol - e / slope)
+
+
+def _comparable(a: Any, b: Any) -> bool:
+    """Whether the same derivatives, integrals and unknown functions stand on both sides, and both are vectors or neither."""
+    hidden = [{symbol for symbol in side.free_symbols if has_opaque(symbol)} for side in (a, b)]
+    return hidden[0] == hidden[1] and isinstance(a, sp.MatrixBase) == isinstance(b, sp.MatrixBase)
+
+
+def _but_for_dots(others: set[str], own: set[str]) -> bool:
+    """Whether letters are those of the other side, but for dots: a rate is not the letter itself."""
+    return {_DOTTED.sub(r"\1", name) for name in others - own} <= {_DOTTED.sub(r"\1", name) for name in own}
+
+
 def _letters_of(statement: PrintedStatement) -> set[str]:
     return {name for side in statement.sides for name in letters_of(side.node)}
 
@@ -547,154 +624,6 @@ def _without_values(statement: PrintedStatement) -> list[Node]:
 def _guess(reading: Reading) -> str:
     """The guess that a reading rests on; nothing where it rests on none."""
     return next((each for each in reading.guesses if not each.startswith(_ANY_BASE)), "")
-
-
-def _expression_of(node: Node, opaque: Opaque) -> Any:
-    """The node as a sympy expression; None where it has none."""
-    try:
-        return sympy_expression(node, opaque)
-    except (TypeError, ValueError, ArithmeticError, AttributeError):
-        return None
-
-
-def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]:
-    """The node with one sign, factor 2, power, index or function changed, and what was changed; names: letters about."""
-    if isinstance(node, Letter) and not node.vector:
-        for name in sorted(names):
-            if name != node.name and name.split("_")[0] == node.name.split("_")[0]:
-                yield Letter(name), f"{name} for {node.name}"
-        yield Call("power", (node, Number(Fraction(2)))), f"{node.name} squared"
-    if not isinstance(node, Call):
-        return
-    if node.name in _TAKEN_FOR:
-        yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
-    if node.name == "sum":
-        for place, term in enumerate(node.args):
-            other = term.args[0] if isinstance(term, Call) and term.name == "negative" else Call("negative", (term,))
-            yield _with(node, place, other), f"the sign of {text_of(term)} changed"
-            yield _with(node, place, Call("product", (Number(Fraction(2)), term))), f"{text_of(term)} doubled"
-            yield _with(node, place, Call("quotient", (term, Number(Fraction(2))))), f"{text_of(term)} halved"
-    if node.name == "power" and isinstance(node.args[1], Number):
-        for more in (1, -1):
-            yield _with(node, 1, Number(node.args[1].value + more)), f"the power of {text_of(node)} changed by one"
-    if node.name == "exp":
-        yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
-    for place, part in enumerate(node.args):
-        for changed, said in slips(part, names):
-            yield _with(node, place, changed), said
-
-
-def _whole(node: Node) -> Iterator[tuple[Node, str]]:
-    """The node with its sign changed, or turned over."""
-    if not (isinstance(node, Call) and node.name == "sum"):
-        yield Call("negative", (node,)), "the sign of the whole changed"
-    yield Call("quotient", (Number(Fraction(1)), node)), "the whole turned over"
-    yield Call("sqrt", (node,)), "the root of the whole"
-    yield Call("power", (node, Number(Fraction(2)))), "the whole squared"
-
-
-def _ratio(a: Any, b: Any, point: dict[sp.Symbol, sp.Rational]) -> Fraction | None:
-    """The number of few digits by which b is multiplied to be a."""
-    if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
-        return None
-    value, other = _number(a, point), _number(b, point)
-    if not (value.is_real and other.is_real and value and other):
-        return None
-    if abs(value / other) > _LARGEST:
-        return None
-    ratio = Fraction(float(value / other)).limit_denominator(100)
-    exact = sp.Rational(ratio.numerator, ratio.denominator)
-    return ratio if ratio > 0 and _near(value, exact * other) and decided(a, exact * b) == "zero" else None
-
-
-def _constant(a: Any) -> sp.Rational | None:
-    """The number that an expression may be, whatever its letters are."""
-    if isinstance(a, sp.MatrixBase):
-        return None
-    values = {}
-    for shift in (3, 7):
-        point = {s: sp.Rational(2 * n + shift, 2 * n + 5) for n, s in enumerate(sorted(a.free_symbols, key=str))}
-        values[shift] = _number(a, point)
-    if not all(value.is_real for value in values.values()) or not _near(*values.values()):
-        return None
-    return sp.Rational(str(Fraction(float(values[3])).limit_denominator(100)))
-
-
-def _with(node: Call, place: int, part: Node) -> Call:
-    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :]))
-
-
-def _number(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
-    """The value at a point; nan beyond what floats hold."""
-    entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
-    try:
-        value = sp.N(entry.xreplace(point), 15)
-        return value if abs(complex(value)) < _LARGEST else sp.nan
-    except (ArithmeticError, ValueError, TypeError):
-        return sp.nan
-
-
-def _near(a: Any, b: Any) -> bool:
-    try:
-        return bool(abs(a - b) <= 1e-9 * (abs(a) + abs(b)))
-    except TypeError:
-        return False
-
-
-def _may_agree(a: Any, b: Any) -> bool:
-    """Whether no point is known where two expressions are real numbers that differ: only then is it worth deciding exactly."""
-    if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
-        return True
-    symbols = sorted(a.free_symbols | b.free_symbols, key=str)
-    for shift in (3, 7, 19):
-        point = {s: sp.Rational(2 * n + shift, 5 * n + 7) for n, s in enumerate(symbols)}
-        values = _number(a, point), _number(b, point)
-        if all(value.is_real and value.is_finite for value in values):
-            return _near(*values)
-    return True
-
-
-def _bounded(work: Callable[..., Any], *arguments: Any) -> Any:
-    """What it gives; that it is too large beyond the bound on the work of a step."""
-    try:
-        return at_most(_MOST_CALLS, work, *arguments)
-    except (WorkError, RecursionError):
-        return _LARGE
-
-
-def _is_large(*sides: Any) -> bool:
-    """Whether a degree is beyond what sums of polynomials are multiplied out to."""
-    entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
-    return any(degree(e) > _MOST_DEGREE for e in entries)
-
-
-def _agree(a: Any, b: Any) -> bool:
-    return _may_agree(a, b) and decided(a, b) == "zero"
-
-
-def decided(a: Any, b: Any) -> str:
-    """zero, nonzero or undecided; shape where one side is a vector and the other is not."""
-    matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
-    if any(matrices) and not all(matrices):
-        return "zero" if not any(matrices) else "shape" if sp.S.Zero not in (a, b) else _all(a if matrices[0] else b)
-    if all(matrices):
-        return _all(a - b)
-    return _single(a, b)
-
-
-def _all(matrix: sp.MatrixBase) -> str:
-    answers = {_single(entry, sp.S.Zero) for entry in matrix}
-    return next(each for each in ("nonzero", "undecided", "zero") if each in answers)
-
-
-def _single(a: Any, b: Any) -> str:
-    if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
-        return "undecided"
-    try:
-        found = decide_equal(a, b)
-    except (LagrotorError, TypeError, ValueError, ArithmeticError):
-        return "undecided"
-    return "undecided" if found.partly else found.answer
 
 
 def _proportional(a: sp.Expr, b: sp.Expr) -> bool:

@@ -1,7 +1,7 @@
 """What a printed formula says: numbers, letters and calls; as text in the names of letters, and as a sympy expression."""
 
 import operator
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import reduce
@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 
 import sympy as sp
 
+from lagrotor.algebra.proving import evaluated
 from lagrotor.paper.letters import FUNCTIONS
 
 
@@ -232,13 +233,22 @@ def _text(node: Node, above: int) -> str:
 
 @dataclass
 class Opaque:
-    """Parts that stand for themselves in a sympy expression: derivatives, integrals, functions that are not known."""
+    """Parts that stand for themselves in a sympy expression: derivatives, integrals, functions that are not known.
+
+    rates: letters and components to their rates. Where they are known, derivatives and integrals of explicit expressions are
+    taken, the other letters held fixed, and `fixing` says whether any were.
+    """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
+    rates: Mapping[sp.Symbol, sp.Symbol] | None = None
+    fixing: bool = False
 
-    def symbol(self, node: Node) -> sp.Symbol:
-        """The symbol that stands for a part."""
-        return self.names.setdefault(text_of(node), sp.Symbol(f"[{text_of(node)}]", real=True))
+    def symbol(self, node: Node) -> sp.Symbol | sp.MatrixBase:
+        """The symbol that stands for a part; of a vector, its components."""
+        text = text_of(node)
+        if is_vector(node) and not is_matrix(node):
+            return sp.Matrix(sp.symbols([f"[{text}]_{k}" for k in (1, 2, 3)], real=True))
+        return self.names.setdefault(text, sp.Symbol(f"[{text}]", real=True))
 
 
 def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
@@ -265,11 +275,15 @@ def has_opaque(*values: Any) -> bool:
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
-def _evaluated(node: Call, opaque: Opaque) -> sp.Expr | None:
-    """A determinant, a sum of a few terms, the derivative or integral of a polynomial of its variable alone; else None."""
+def _evaluated(node: Call, opaque: Opaque) -> Any:
+    """A determinant, a column, a sum of a few terms, the derivative or integral of an explicit expression; else None."""
     if node.name == "det" and all(isinstance(row, Call) and row.name == "row" for row in node.args):
         rows = [[sympy_expression(each, opaque) for each in row.args] for row in node.args if isinstance(row, Call)]
         return sp.Matrix(rows).det() if len(rows) == len(rows[0]) <= 4 else None
+    if node.name == "column" and len(node.args) == 3 and not any(map(is_vector, node.args)):
+        return sp.Matrix([sympy_expression(each, opaque) for each in node.args])
+    if node.name == "rate" and opaque.rates is not None and isinstance(node.args[0], Call):
+        return _rate(sympy_expression(node.args[0], opaque), opaque)
     if node.name not in ("Sum", "Derivative", "Integral") or not isinstance(node.args[1], Letter):
         return None
     inner, name, rest = sympy_expression(node.args[0], opaque), node.args[1].name, node.args[2:]
@@ -282,14 +296,28 @@ def _evaluated(node: Call, opaque: Opaque) -> sp.Expr | None:
         if len(rest) != 2 or len(ends) != 2 or ends[1] - ends[0] > _MOST_ADDED or indexed:
             return None
         return sum((inner.subs(variable, k) for k in range(int(ends[0]), int(ends[1]) + 1)), sp.S.Zero)
-    if inner.free_symbols != {variable} or not inner.is_polynomial(variable):
+    others = inner.free_symbols - {variable}
+    if variable not in inner.free_symbols or (others and opaque.rates is None):
         return None
     if node.name == "Derivative":
         order = rest[0].value if rest and isinstance(rest[0], Number) else Fraction(len(rest) + 1)
-        return sp.diff(inner, variable, int(order)) if order.denominator == 1 and 0 < order < 20 else None
-    return (
-        sp.integrate(inner, (variable, *(sympy_expression(each, opaque) for each in rest))) if len(rest) == 2 else None
-    )
+        value = sp.diff(inner, variable, int(order)) if order.denominator == 1 and 0 < order < 20 else None
+    elif len(rest) != 2:
+        return None
+    else:
+        value = evaluated(sp.Integral(inner, (variable, *(sympy_expression(each, opaque) for each in rest))))
+    opaque.fixing |= bool(others)
+    return None if value is None or value.has(sp.Integral, sp.Derivative, sp.nan, sp.zoo) else value
+
+
+def _rate(inner: Any, opaque: Opaque) -> Any:
+    """The derivative by t along the rates of its letters, those without one held fixed; None where it has no rate."""
+    rates = opaque.rates or {}
+    moving = sorted(inner.free_symbols & rates.keys(), key=str)
+    if has_opaque(inner) or not moving or sp.Symbol("t", real=True) in inner.free_symbols:
+        return None
+    opaque.fixing |= len(moving) < len(inner.free_symbols)
+    return reduce(operator.add, [inner.diff(symbol) * rates[symbol] for symbol in moving])
 
 
 _VALUES: dict[str, Any] = {

@@ -11,7 +11,7 @@ from lagrotor.algebra import decide_equal
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.paper.readable import readable
-from lagrotor.paper.source import check
+from lagrotor.paper.source import compared, slips
 from lagrotor.paper.source.check import BEFORE, HOLDS, MEANINGS, NO_IDENTITY, REFUTED, UNITS, StepFinding, check_source
 from lagrotor.paper.source.displays import read_latex
 from lagrotor.paper.source.formula import read_formula
@@ -240,7 +240,7 @@ def test_a_step_that_takes_too_much_work_is_left_undecided_and_says_so(
 ) -> None:
     """Twin: with the whole budget the same step is decided."""
     inner = r"\tan(C - 2 + \frac{1}{C - 1/y} - 1/y)"
-    monkeypatch.setattr(check, "_MOST_CALLS", 20_000)
+    monkeypatch.setattr(compared, "MOST_CALLS", 20_000)
     (found,) = findings(tmp_path, rf"\[ b = p {inner} + v = v + p {inner} + \ln(p^2 + 1) - \ln(1 + p^2) \]")
     assert (found.verdict, found.why) == ("undecided", "the difference is too large")
     monkeypatch.undo()
@@ -261,7 +261,7 @@ def test_with_definitions_put_in_only_what_agrees_at_a_point_is_decided_exactly(
         decisions.append((a, b))
         return decide_equal(a, b)
 
-    monkeypatch.setattr(check, "decide_equal", counted)
+    monkeypatch.setattr(compared, "decide_equal", counted)
     assert verdicts(tmp_path, r"\[ u = x + y \] \[ b = p u + v = q u^2 \]") == ["undecided"] and not decisions
     assert verdicts(tmp_path, r"\[ u = x + y \] \[ b = p u + v = p x + p y + v \]") == [HOLDS] and len(decisions) == 1
 
@@ -491,10 +491,10 @@ def test_a_change_a_ratio_and_a_constant_of_what_is_too_large_are_not_sought() -
     x, y = sp.symbols("x y", real=True)
     huge = sp.exp(10**24 + x)
     point = {x: sp.Rational(3, 5), y: sp.Rational(5, 7)}
-    assert check._number(huge, point) is sp.nan and check._number(sp.exp(900) * y, point) is sp.nan
-    assert check._ratio(huge, 2 * y, point) is None and check._constant(huge) is None
-    assert check._ratio(sp.exp(600) * x, sp.exp(-600) * x, point) is None
-    assert check._ratio(2 * y, y, point) == 2 and check._constant(y - y + sp.Integer(2)) == 2
+    assert compared.value_at(huge, point) is sp.nan and compared.value_at(sp.exp(900) * y, point) is sp.nan
+    assert slips._ratio(huge, 2 * y, point) is None and slips.constant_value(huge) is None
+    assert slips._ratio(sp.exp(600) * x, sp.exp(-600) * x, point) is None
+    assert slips._ratio(2 * y, y, point) == 2 and slips.constant_value(y - y + sp.Integer(2)) == 2
 
 
 def _nested(n: int, inner: str) -> str:
@@ -517,7 +517,7 @@ def _nested(n: int, inner: str) -> str:
     ],
 )
 def test_every_step_ends_with_a_word(tmp_path: Path, step: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(check, "_MOST_CALLS", 100_000)
+    monkeypatch.setattr(compared, "MOST_CALLS", 100_000)
     assert verdicts(tmp_path, rf"\[ y = {step} \]") == ["undecided"]
 
 
@@ -545,3 +545,59 @@ def test_a_macro_that_nothing_defines_is_said_once_with_the_number_of_its_displa
     assert said.count("odd is not known") == said.count("other is not known") == 1
     assert said.count("so in 3 displays") == said.count("so in") == 1
     assert said.count("a side of the relation is missing") == 2, "each by its line"
+
+
+# What the text gives before a step, the step, and a part of it with a slip in its place.
+WITH_PREMISES = [
+    (r"Here $v = l\dot\theta$.", r"T = \frac12 m v^2 = \frac12 m l^2\dot\theta^2", r"= \frac12 m l^2", r"= \frac14 m l^2"),
+    (r"\[ v = l\dot\theta \]", r"T = m v^2 = m l^2\dot\theta^2", r"\dot\theta", r"\theta"),
+    (r"\[ H = \frac{p^2}{2M} + \frac{k q^2}{2} \]", r"\dot p = -\frac{\partial H}{\partial q} = -k q", "-k", "k"),
+    (
+        r"\[ L = T - V \] where $T = \frac12 m\dot q^2$ and $V = \frac12 k q^2$.",
+        r"p = \frac{\partial L}{\partial\dot q} = m\dot q", r"m\dot q", "m q",
+    ),
+    (
+        r"\[ \mathbf v = \dot{\mathbf r} \]",
+        r"T = \frac12 m\mathbf v\cdot\mathbf v = \frac12 m\dot{\mathbf r}\cdot\dot{\mathbf r}",
+        r"\frac12 m\dot{\mathbf r}", r"m\dot{\mathbf r}",
+    ),
+    ("", r"N = \frac{d}{dt}\left(\frac13 m b^2\dot\theta\right) = \frac13 m b^2\ddot\theta", r"= \frac13", r"= -\frac13"),
+    ("", r"S = \int_0^a b x\,dx = \frac{a^2 b}{2}", "{a^2", "{a^3"),
+    (
+        "", r"E = \left(1 + \frac{\partial f}{\partial x}\right)^2 = 1 + 2\frac{\partial f}{\partial x}"
+        r" + \left(\frac{\partial f}{\partial x}\right)^2", r"2\frac", r"\frac",
+    ),
+    (r"At $x = 0$, \[ x\ddot x + y = 0 \]", "E = (b + y)^2 x = x b^2 + 2 b y x + x y^2", "+ 2 b", "- 2 b"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("before", "step", "part", "slip"), WITH_PREMISES)
+def test_a_slip_is_found_where_the_step_holds_with_what_the_text_gives(
+    before: str, step: str, part: str, slip: str, tmp_path: Path
+) -> None:
+    assert verdicts(tmp_path, rf"{before} \[ {step} \]")[-1] == HOLDS
+    assert verdicts(tmp_path, rf"{before} \[ {step.replace(part, slip)} \]")[-1] == REFUTED
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"Here $v = l\omega$, and for the other $v = b\omega$. \[ T = m v^2 = \frac12 m l^2\omega^2 \]",
+        r"\section{One} $v = l\omega$ \section{Two} \[ T = m v^2 = \frac12 m l^2\omega^2 \]",
+        r"\[ v = l\omega \] By symmetry \[ T = m v^2 = \frac12 m l^2\omega^2 \]",
+        r"\[ l\omega = 2 l\omega^2 \] \[ v = l\omega \] \[ T = v = 2 l\omega^2 \]",
+        r"\[ A = \frac{\partial f}{\partial x} + b = \frac{\partial f}{\partial y} - b \]",
+        r"\[ A = \int_0^1 f(x)\,dx = -\int_0^1 f(x)\,dx = 0 \]",
+        r"\[ xy = 0 \] \[ E = (x + y)^2 = x^2 - 2xy + y^2 \]",
+    ],
+)
+def test_what_the_text_gives_twice_elsewhere_or_under_a_condition_refutes_nothing(text: str, tmp_path: Path) -> None:
+    assert REFUTED not in verdicts(tmp_path, text)
+
+
+def test_a_guess_of_another_side_or_of_a_premise_stands_by_itself(tmp_path: Path) -> None:
+    """Twin: with the guess in the step itself, or in the premise that is put in, nothing is refuted."""
+    assert verdicts(tmp_path, r"\[ E = \bar{A} = (x + y)^2 = x^2 - 2xy + y^2 \]")[-1] == REFUTED
+    assert REFUTED not in verdicts(tmp_path, r"\[ E = (\bar{A} + y)^2 = \bar{A}^2 - 2\bar{A}y + y^2 \]")
+    for l, expected in (("l", REFUTED), ("l'", "undecided")):
+        assert verdicts(tmp_path, rf"\[ v = {l}\omega \] \[ T = m v^2 = m {l}\omega^2 \]")[-1] == expected

@@ -1,0 +1,98 @@
+"""Whether two printed sides agree: at points in floating point, then exactly; with a bound on the work."""
+
+from collections.abc import Callable
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.algebra import decide_equal
+from lagrotor.algebra.scalar import degree
+from lagrotor.algebra.work import at_most
+from lagrotor.errors import LagrotorError, WorkError
+from lagrotor.paper.source.tree import Node, Opaque, sympy_expression
+
+# The degree and the calls of functions, a few seconds, beyond which a step is not decided.
+_MOST_DEGREE, MOST_CALLS = 1000, 3_000_000
+LARGE = "undecided", "the difference is too large"
+LARGEST = 1e300  # of numbers that are compared
+
+
+def expression_of(node: Node, opaque: Opaque) -> Any:
+    """The node as a sympy expression; None where it has none."""
+    try:
+        return sympy_expression(node, opaque)
+    except (TypeError, ValueError, ArithmeticError, AttributeError):
+        return None
+
+
+def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
+    """The value at a point; nan beyond what floats hold."""
+    entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
+    try:
+        value = sp.N(entry.xreplace(point), 15)
+        return value if abs(complex(value)) < LARGEST else sp.nan
+    except (ArithmeticError, ValueError, TypeError):
+        return sp.nan
+
+
+def nearly_equal(a: Any, b: Any) -> bool:
+    try:
+        return bool(abs(a - b) <= 1e-9 * (abs(a) + abs(b)))
+    except TypeError:
+        return False
+
+
+def may_agree(a: Any, b: Any) -> bool:
+    """Whether no point is known where two expressions are real numbers that differ: only then is it worth deciding exactly."""
+    if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
+        return True
+    symbols = sorted(a.free_symbols | b.free_symbols, key=str)
+    for shift in (3, 7, 19):
+        point = {s: sp.Rational(2 * n + shift, 5 * n + 7) for n, s in enumerate(symbols)}
+        values = value_at(a, point), value_at(b, point)
+        if all(value.is_real and value.is_finite for value in values):
+            return nearly_equal(*values)
+    return True
+
+
+def bounded(work: Callable[..., Any], *arguments: Any) -> Any:
+    """What it gives; that it is too large beyond the bound on the work of a step."""
+    try:
+        return at_most(MOST_CALLS, work, *arguments)
+    except (WorkError, RecursionError):
+        return LARGE
+
+
+def is_large(*sides: Any) -> bool:
+    """Whether a degree is beyond what sums of polynomials are multiplied out to."""
+    entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
+    return any(degree(e) > _MOST_DEGREE for e in entries)
+
+
+def agree(a: Any, b: Any) -> bool:
+    return may_agree(a, b) and decided(a, b) == "zero"
+
+
+def decided(a: Any, b: Any) -> str:
+    """zero, nonzero or undecided; shape where one side is a vector and the other is not."""
+    matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
+    if any(matrices) and not all(matrices):
+        return "zero" if not any(matrices) else "shape" if sp.S.Zero not in (a, b) else _all(a if matrices[0] else b)
+    if all(matrices):
+        return _all(a - b) if a.shape == b.shape else "shape"
+    return _single(a, b)
+
+
+def _all(matrix: sp.MatrixBase) -> str:
+    answers = {_single(entry, sp.S.Zero) for entry in matrix}
+    return next(each for each in ("nonzero", "undecided", "zero") if each in answers)
+
+
+def _single(a: Any, b: Any) -> str:
+    if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
+        return "undecided"
+    try:
+        found = decide_equal(a, b)
+    except (LagrotorError, TypeError, ValueError, ArithmeticError):
+        return "undecided"
+    return "undecided" if found.partly else found.answer

@@ -1,0 +1,108 @@
+"""Slips of an author: one sign, factor, power, index or function of a side changed, so that it agrees with another."""
+
+from collections.abc import Callable, Collection, Iterator
+from fractions import Fraction
+from itertools import chain, islice
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.paper.source.compared import LARGEST, decided, nearly_equal, value_at
+from lagrotor.paper.source.tree import Call, Letter, Node, Number, has_opaque, text_of
+
+# Functions that are taken for each other.
+_TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
+_MOST_SLIPS = 120  # changes that are tried
+
+
+def change_to_agree(
+    fixed: Any, changing: Node, names: set[str], value: Callable[[Node], Any], by_identity: bool = False
+) -> str | None:
+    """The one change of a side with which it is the other, `fixed`; value: of a side as an expression.
+
+    by_identity: by more than to the same print, as cos x = sin x, and not by putting θ₁ for θ₂: both may be conditions.
+    """
+    given = value(changing)
+    letters = (sp.Symbol(name, real=True) for name in names)
+    symbols = sorted({*fixed.free_symbols, *given.free_symbols, *letters}, key=str)
+    point = {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}
+    number = value_at(fixed, point)
+    ratio = _ratio(fixed, given, point)
+    bare = by_identity or has_opaque(fixed)  # {f, f} = −{f, f} = 0 and tan x = cot x may be conditions
+    if ratio is not None and not (bare and fixed == sp.Rational(str(ratio)) * given):
+        return f"with the factor {ratio} of the whole they agree"
+    whole = () if bare else _whole(changing)
+    for mutant, said in islice(chain(whole, slips(changing, () if by_identity else names)), _MOST_SLIPS):
+        other = value(mutant)
+        if other is None or (by_identity and fixed == other):
+            continue
+        if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
+            return f"with {said} they agree"
+    return None
+
+
+def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]:
+    """The node with one sign, factor 2, power, index or function changed, and what was changed; names: letters about."""
+    if isinstance(node, Letter) and not node.vector:
+        for name in sorted(names):
+            if name != node.name and name.split("_")[0] == node.name.split("_")[0]:
+                yield Letter(name), f"{name} for {node.name}"
+        yield Call("power", (node, Number(Fraction(2)))), f"{node.name} squared"
+    if not isinstance(node, Call):
+        return
+    if node.name in _TAKEN_FOR:
+        yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
+    if node.name == "sum":
+        for place, term in enumerate(node.args):
+            other = term.args[0] if isinstance(term, Call) and term.name == "negative" else Call("negative", (term,))
+            yield _with(node, place, other), f"the sign of {text_of(term)} changed"
+            yield _with(node, place, Call("product", (Number(Fraction(2)), term))), f"{text_of(term)} doubled"
+            yield _with(node, place, Call("quotient", (term, Number(Fraction(2))))), f"{text_of(term)} halved"
+    if node.name == "power" and isinstance(node.args[1], Number):
+        for more in (1, -1):
+            yield _with(node, 1, Number(node.args[1].value + more)), f"the power of {text_of(node)} changed by one"
+    if node.name == "exp":
+        yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
+    for place, part in enumerate(node.args):
+        for changed, said in slips(part, names):
+            yield _with(node, place, changed), said
+
+
+def _whole(node: Node) -> Iterator[tuple[Node, str]]:
+    """The node with its sign changed, or turned over."""
+    if not (isinstance(node, Call) and node.name == "sum"):
+        yield Call("negative", (node,)), "the sign of the whole changed"
+    yield Call("quotient", (Number(Fraction(1)), node)), "the whole turned over"
+    yield Call("sqrt", (node,)), "the root of the whole"
+    yield Call("power", (node, Number(Fraction(2)))), "the whole squared"
+
+
+def _ratio(a: Any, b: Any, point: dict[sp.Symbol, sp.Rational]) -> Fraction | None:
+    """The number of few digits by which b is multiplied to be a."""
+    if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
+        return None
+    value, other = value_at(a, point), value_at(b, point)
+    if not (value.is_real and other.is_real and value and other):
+        return None
+    if abs(value / other) > LARGEST:
+        return None
+    ratio = Fraction(float(value / other)).limit_denominator(100)
+    exact = sp.Rational(ratio.numerator, ratio.denominator)
+    return ratio if ratio > 0 and nearly_equal(value, exact * other) and decided(a, exact * b) == "zero" else None
+
+
+def constant_value(a: Any) -> sp.Rational | None:
+    """The number that an expression may be, whatever its letters are."""
+    if isinstance(a, sp.MatrixBase):
+        return None
+    values = {}
+    for shift in (3, 7):
+        point = {s: sp.Rational(2 * n + shift, 2 * n + 5) for n, s in enumerate(sorted(a.free_symbols, key=str))}
+        values[shift] = value_at(a, point)
+    if not all(value.is_real for value in values.values()) or not nearly_equal(*values.values()):
+        return None
+    return sp.Rational(str(Fraction(float(values[3])).limit_denominator(100)))
+
+
+def _with(node: Call, place: int, part: Node) -> Call:
+    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :]))
