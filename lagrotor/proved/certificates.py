@@ -6,16 +6,34 @@ its length, terms and the node at its end.
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Protocol
 
 from lagrotor.proved.balls import Ball, Matrix, as_text, exact
 from lagrotor.proved.carried_sets import CarriedStep, Node, Start
+from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.subjects import Subject
 from lagrotor.proved.tape import Tape
+from lagrotor.shown import Shown
 
 Certificate = dict[str, Any]
 VERSION = 1
+
+
+class Certified(Protocol):
+    """What has a certificate, a field of its own or made when it is read."""
+
+    @property
+    def certificate(self) -> Certificate: ...
+
+
+class Proved(Shown):
+    """A result with a theorem, which its certificate has."""
+
+    @property
+    def theorem(self: Certified) -> str:
+        """In words."""
+        return theorem_of(self.certificate)
 
 
 def ball_data(x: Ball) -> list[str]:

@@ -17,16 +17,14 @@ from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
 from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, column_matrix, entries_of, steps_of
-from lagrotor.proved.certificates import Certificate, ball_data, balls_data, flow_data, matrix_data
+from lagrotor.proved.certificates import Certificate, Proved, ball_data, balls_data, flow_data, matrix_data
 from lagrotor.proved.enclosure import accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of, values_at
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
 from lagrotor.proved.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
 from lagrotor.proved.orbit_shape import extremes
-from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
-from lagrotor.shown import Shown
 
 Signs = tuple[int, ...]
 TOL = 1e-20
@@ -64,7 +62,7 @@ class OrbitProblem:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PeriodicOrbit(Shown):
+class PeriodicOrbit(Proved):
     """A periodic orbit that exists, the only one of its kind within `alone` of its start's middle.
 
     period (s) and frequency 2π/period (rad/s), balls; start: the states at t = 0; kind: by its multipliers. pair_sum: μ + 1/μ
@@ -117,11 +115,6 @@ class PeriodicOrbit(Shown):
     def certificate(self) -> Certificate:
         """Plain data that `check` verifies."""
         return self.proof.certificate(self)
-
-    @property
-    def theorem(self) -> str:
-        """In words."""
-        return theorem_of(self.certificate)
 
     def summary(self) -> dict[str, str]:
         """Period, frequency, start and kind, name → words."""

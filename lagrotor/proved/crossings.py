@@ -2,23 +2,20 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import sympy as sp
 
 from lagrotor.errors import InputError, NotProved
 from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, radius
-from lagrotor.proved.carried_sets import CarriedStep, Start, steps_of
-from lagrotor.proved.certificates import Certificate, ball_data, flow_data, tape_data
+from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, steps_of
+from lagrotor.proved.certificates import Certificate, Proved, ball_data, flow_data, tape_data
 from lagrotor.proved.enclosure import TOL, accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of
-from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion, scaled, taylor, with_rest
 from lagrotor.proved.subjects import in_rationals
 from lagrotor.proved.tails import Evaluation, Tailed
 from lagrotor.proved.tape import Tape
-from lagrotor.shown import Shown
 
 _DEPTH = 12  # halvings of a step
 
@@ -70,7 +67,7 @@ def watch(motion: Motion, tape: Tape, step: CarriedStep, w: Balls) -> list[Watch
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Crossing(Shown):
+class Crossing(Proved):
     """A proved crossing, in a time that `time` holds, or a proved non-crossing up to `time`.
 
     Attributes:
@@ -82,38 +79,19 @@ class Crossing(Shown):
     crosses: bool
     time: Ball
     first: bool
-    field: Field
-    start: Start
-    steps: tuple[CarriedStep, ...]
-    bits: int
-
-    @property
-    def theorem(self) -> str:
-        """In words."""
-        return theorem_of(self.certificate)
-
-    @cached_property
-    def certificate(self) -> Certificate:
-        """Plain data that `check` verifies."""
-        with precision(self.bits):
-            flow = flow_data(self.field.about, self.field.motion, self.start, self.steps, self.bits)
-            return flow | {
-                "observed": observed_data(self.field),
-                "kind": "crossing" if self.crosses else "no crossing",
-                "event": words(self.expression),
-                "claim": {
-                    "time": ball_data(loosened(self.time) if self.crosses else self.time),
-                    "first": self.first,
-                },
-            }
+    certificate: Certificate
 
     def summary(self) -> dict[str, str]:
         """What is proved, name → words."""
-        return {"expression": words(self.expression)["of"], "theorem": self.theorem, "steps": str(len(self.steps))}
+        return {
+            "expression": words(self.expression)["of"],
+            "theorem": self.theorem,
+            "steps": str(len(self.certificate["steps"])),
+        }
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Means(Shown):
+class Means(Proved):
     """Means of expressions over spans of time, enclosed. spans: (expression, from, to); values: a ball for each.
 
     certificate: what `check` verifies.
@@ -122,11 +100,6 @@ class Means(Shown):
     spans: tuple[tuple[sp.Basic, Ball, Ball], ...]
     values: tuple[Ball, ...]
     certificate: Certificate
-
-    @property
-    def theorem(self) -> str:
-        """In words."""
-        return theorem_of(self.certificate)
 
     def summary(self) -> dict[str, str]:
         """What is proved, name → words."""
@@ -201,17 +174,17 @@ def crossing(
         end = time_ball(before, where)
         made, tape, start = prepared(system, values, q0, v0, [event])
         known, since, pending, clear, steps = 0, arb(0), False, True, list[CarriedStep]()
-        for step in steps_of(made.motion, start, end, accuracy):
-            steps.append(step)
-            for low, high, sign in watch(made.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
-                if not sign:
-                    pending = True
-                    continue
-                if known and sign != known:
-                    time = since.union(step.node.t + step.h * low)
-                    return Crossing(event, True, time, clear, made, start, tuple(steps), accuracy.bits)
-                clear = clear and not pending
-                known, since, pending = sign, step.node.t + step.h * high, False
+        for step, low, high, sign in _signs(made, tape, start, end, accuracy, steps):
+            if not sign:
+                pending = True
+                continue
+            if known and sign != known:
+                time = since.union(step.node.t + step.h * low)
+                claim = {"time": ball_data(loosened(time)), "first": clear}
+                certificate = _certificate(made, start, steps, accuracy.bits, "crossing", words(event), claim)
+                return Crossing(event, True, time, clear, certificate)
+            clear = clear and not pending
+            known, since, pending = sign, step.node.t + step.h * high, False
         raise NotProved(
             f"{where}: {words(event)['of']} keeps its sign, or is not shown to change it, up to t = {printed(end, 10)}"
         )
@@ -244,14 +217,32 @@ def no_crossing(
     with precision(accuracy.bits, accuracy.terms):
         end = time_ball(until, where)
         made, tape, start = prepared(system, values, q0, v0, [event])
-        steps = []
-        for step in steps_of(made.motion, start, end, accuracy):
-            steps.append(step)
-            for low, _, sign in watch(made.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
-                if not sign:
-                    at = float((step.node.t + step.h * low).mid())
-                    raise NotProved(f"{where}: {words(event)['of']} is not shown to stay off zero beyond t = {at:.10g}")
-        return Crossing(event, False, end, False, made, start, tuple(steps), accuracy.bits)
+        steps = list[CarriedStep]()
+        for step, low, _, sign in _signs(made, tape, start, end, accuracy, steps):
+            if not sign:
+                at = float((step.node.t + step.h * low).mid())
+                raise NotProved(f"{where}: {words(event)['of']} is not shown to stay off zero beyond t = {at:.10g}")
+        claim = {"time": ball_data(end), "first": False}
+        certificate = _certificate(made, start, steps, accuracy.bits, "no crossing", words(event), claim)
+        return Crossing(event, False, end, False, certificate)
+
+
+def _signs(
+    made: Field, tape: Tape, start: Start, end: Ball, accuracy: Accuracy, steps: list[CarriedStep]
+) -> Iterator[tuple[CarriedStep, Ball, Ball, int]]:
+    """Each step up to a time in pieces, with the sign of an expression over them; the steps are added to `steps`."""
+    for step in steps_of(made.motion, start, end, accuracy):
+        steps.append(step)
+        for piece in watch(made.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
+            yield step, *piece
+
+
+def _certificate(
+    made: Field, start: Start, steps: Sequence[CarriedStep], bits: int, kind: str, event: Any, claim: dict[str, Any]
+) -> Certificate:
+    """Of a claim about an event, or about means, which name their own expressions."""
+    flow = flow_data(made.about, made.motion, start, steps, bits) | ({"event": event} if event else {})
+    return flow | {"observed": observed_data(made), "kind": kind, "claim": claim}
 
 
 def means(
@@ -305,7 +296,6 @@ def means(
             }
             for (e, *_), (since, until), x in zip(spans, ends, values_of, strict=True)
         ]
-        flow = flow_data(made.about, made.motion, start, steps, accuracy.bits)
-        certificate = flow | {"kind": "means", "observed": observed_data(made), "claim": {"means": claim}}
+        certificate = _certificate(made, start, steps, accuracy.bits, "means", None, {"means": claim})
         whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
         return Means(tuple(whole), tuple(values_of), certificate)

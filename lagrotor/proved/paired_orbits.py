@@ -21,7 +21,7 @@ from lagrotor.pair.notation import AXES, G_1, G_2, a, b
 from lagrotor.pair.scene import Scene
 from lagrotor.proved.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, rational
 from lagrotor.proved.carried_sets import Accuracy
-from lagrotor.proved.certificates import VERSION, Certificate, ball_data, exact_data, motion_data
+from lagrotor.proved.certificates import VERSION, Certificate, Proved, ball_data, exact_data, motion_data
 from lagrotor.proved.closed_orbits import OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
 from lagrotor.proved.enclosure import accuracy_of, loosened
 from lagrotor.proved.exact_structure import exact_number
@@ -29,11 +29,9 @@ from lagrotor.proved.families import FamilyProof, prove_family
 from lagrotor.proved.fields import Field, scene_field, scene_numbers
 from lagrotor.proved.multipliers import Kind
 from lagrotor.proved.near_rest import MotionNearRest
-from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.subjects import of_scene
 from lagrotor.proved.tape import paced
-from lagrotor.shown import Shown
 
 A, B = (1, -1, -1, -1, 1, 1), (-1, 1, -1, 1, -1, 1)
 FREE, CONDITIONS = (4, 5, 6), (0, 2, 4)
@@ -89,7 +87,7 @@ class FamilyPiece:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Precession(Shown):
+class Precession(Proved):
     """The paired precession of amplitude r0, or of every amplitude in r0, one orbit each.
 
     frequency: angular, rad/s, of rotor 1's sign; period, s: balls that hold those of every r0. kind: elliptic or hyperbolic
@@ -181,11 +179,6 @@ class Precession(Shown):
         """elliptic, hyperbolic, or undecided where it is not shown of every orbit."""
         first = self.pieces[0].kind
         return first if all(piece.kind == first for piece in self.pieces) else "undecided"
-
-    @property
-    def theorem(self) -> str:
-        """In words."""
-        return theorem_of(self.certificate)
 
     @cached_property
     def certificate(self) -> Certificate:

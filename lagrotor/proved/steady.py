@@ -18,15 +18,13 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
 from lagrotor.proved.carried_sets import column_matrix, entries_of
-from lagrotor.proved.certificates import Certificate, balls_data, exact_data, matrix_data, tape_data
+from lagrotor.proved.certificates import Certificate, Proved, balls_data, exact_data, matrix_data, tape_data
 from lagrotor.proved.crossings import words
 from lagrotor.proved.enclosure import accuracy_of, loosened
 from lagrotor.proved.fields import Field, Values, system_field, values_at
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
-from lagrotor.proved.statements import theorem_of
 from lagrotor.proved.subjects import exactly_meant
 from lagrotor.proved.tape import Tape, joined
-from lagrotor.shown import Shown
 
 Stability = Literal["stable", "stable to first order", "unstable", "undecided"]
 TOL = 1e-25
@@ -34,7 +32,7 @@ _NEWTON = 30
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ProvedEquilibrium(Shown):
+class ProvedEquilibrium(Proved):
     """An equilibrium that exists, the only one in a box about it. q: its coordinates, balls; stability: what is proved of it.
 
     Attributes:
@@ -47,11 +45,6 @@ class ProvedEquilibrium(Shown):
     stability: Stability
     eigenvalues: tuple[tuple[Ball, Ball], ...]
     certificate: Certificate
-
-    @property
-    def theorem(self) -> str:
-        """In words."""
-        return theorem_of(self.certificate)
 
     def summary(self) -> dict[str, str]:
         """Coordinates and stability, name → words."""

@@ -146,7 +146,7 @@ OTHERS = {
         put("about/structure/gravity", 0),
         put("start/middle/2", ["1p0", "0p0"]),
         put("about/structure/bars", [[0, 1, 1]]),
-        put("about/structure/braces", [{"tip": 0, "to": [9, 9, 9], "stiffness": 1, "damping": 0}]),
+        put("about/structure/braces", [{"tip": 0, "to": [0, 3, 5], "stiffness": 1, "damping": 0}]),
     ],
     "an equilibrium": [
         put(f"{LAGRANGIAN}/dissipation", "0"),
