@@ -17,7 +17,7 @@ from lagrotor.mechanics.linear_modes import LinearSystem
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
-from lagrotor.structures.small_motion import bar_rows, matrices
+from lagrotor.structures.small_motion import bar_rows, check_upright, matrices
 
 s = sp.Symbol("s")
 _MOST = 6  # rotors
@@ -47,8 +47,7 @@ def characteristic(structure: Assembly) -> Characteristic:
     N = len(structure.joints)
     if N > _MOST:
         raise InputError(f"characteristic: {N} rotors are too many for symbols: at most {_MOST}; use modes()")
-    if not structure.natural:
-        raise InputError("characteristic: a bar is not as long as its tips are apart when upright: simulate it")
+    check_upright(structure, "characteristic")
     c, values, exact = coefficients(structure), dict[sp.Symbol, float](), np.vectorize(_exact, otypes=[object])
     G = [sp.Symbol(f"G_{i + 1}", real=True) if g else sp.Integer(0) for i, g in enumerate(c.G)]
     values |= {letter: float(g) for letter, g in zip(G, c.G, strict=True) if g}

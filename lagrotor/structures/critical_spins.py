@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
-from lagrotor.structures.small_motion import SmallMotion, small_motion
+from lagrotor.structures.small_motion import SmallMotion, check_upright, small_motion
 
 _MOST = 12  # rotors whose patterns of signs are tried
 _SAME = 1e-9  # relative: spins as near as that are one
@@ -40,9 +40,11 @@ def critical_spin(s: Assembly) -> float:
     At single factors beyond, resonances may let a push fall: `spin_intervals` gives those at which none does.
 
     0 where every factor will do, inf where none does, as with friction on a motion that falls without spins, or with a motion
-    that nothing holds and no spin acts on.
+    that nothing holds and no spin acts on. Friction reaches a motion through couplings of stiffness and spins of more than
+    1e-10 of the largest: weaker ones are not told from rounding, and count as none.
     Raises InputError where upright breaks a bar's length.
     """
+    check_upright(s, "critical_spin")
     return spin_threshold(small_motion(s))
 
 
@@ -72,9 +74,11 @@ def friction_undoes(linear: SmallMotion) -> bool:
     damped in time, so that the theorem of Kelvin, Tait & Chetaev holds. The rest moves by itself.
     """
     root, K = np.linalg.inv(np.linalg.cholesky(linear.mass)), stiffness_in_masses(linear)
-    rubbed, turned = root @ linear.damping @ root.T, root @ linear.gyroscopic @ root.T
-    forms = [f / (np.abs(f).max() or 1.0) for f in (K, turned)]
-    reached = _range(rubbed)
+    forms = [f / (np.abs(f).max() or 1.0) for f in (K, root @ linear.gyroscopic @ root.T)]
+    own = np.sqrt(np.diag(linear.damping))
+    own = np.where(own > 0, own, 1)  # however little of it there is
+    rows = root @ (own[:, None] * _range(linear.damping / np.outer(own, own)))
+    reached = _range(rows / np.linalg.norm(rows, axis=0))
     while (wider := _range(np.hstack([reached, *(f @ reached for f in forms)]))).shape[1] > reached.shape[1]:
         reached = wider
     return bool(reached.shape[1] and np.linalg.eigvalsh(reached.T @ K @ reached)[0] < -1e-12)
@@ -152,11 +156,12 @@ def sign_patterns(s: Assembly) -> Patterns:
     A turn of all signs changes nothing (a mirror image).
 
     Raises:
-        InputError: for more rotors.
+        InputError: for more rotors, and where upright breaks a bar's length.
     """
     N = len(s.joints)
     if N > _MOST:
         raise InputError(f"sign_patterns: {N} rotors have 2^{N - 1} patterns: at most {_MOST} rotors")
+    check_upright(s, "sign_patterns")
     linear = small_motion(s)
     I3 = np.array([rotor.I3 for rotor in s.rotor])
     needed = {}

@@ -27,14 +27,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics.canonical.normal_forms import NormalForm, normal_form_of_series, quadratic_modes
+from lagrotor.mechanics.canonical.normal_forms import NormalForm, normal_form_of_series
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.critical_spins import spin_threshold
-from lagrotor.structures.small_motion import SmallMotion, small_motion
+from lagrotor.structures.small_motion import SmallMotion, check_upright, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 Of = Literal["rates", "tilts"]  # what a push gives all axes: rates from upright, rad/s, or tilts (sines) at rest
@@ -46,9 +46,12 @@ _GROUP = 4.0  # times the least detuning of a group: what is detuned no more is 
 _NOTHING = 1e-9  # of the largest coefficient: a smaller one is zero
 _FALLEN = 1.0  # the sine of a tilt
 _TRUSTED = 0.1  # the sine of a tilt
-_EQUAL = 1e-6  # of the largest rate
+_EQUAL = 1e-6  # of a rate
 _ON_BARS = 1e-6  # of the largest rate: what the bars do not allow
 _MOST_STEPS = 8  # of the search for the edge of a window
+_SLOW = 1e-4  # of the largest rate: of slower ones the normal form loses digits, which slower spins have
+_SLOWEST = 1e-6  # of the largest rate: a slower one is zero in the normal form
+_FAST = 1e-2  # how near to the spins, or to one over them, rates change with them
 _FAR = 0.2  # of a resonant factor: how far its slope there is relied on
 _STOPPED = "no: its own terms stop it; how far it grows before is not known"
 _FASTEST = 1e9  # times the critical factor: beyond, no spins are sought
@@ -150,10 +153,12 @@ def resonances(
 ) -> tuple[Resonance, ...]:
     """The resonances that the spins, multiplied by a factor, are near, those that the smallest pushes of that kind meet first.
 
-    None where the energy is definite. Raises InputError where a mode grows or has the rate zero, friction acts, or the degrees
-    of freedom are too many.
+    None where the energy is definite. Of fast spins they are those of slower ones, to 10⁻⁴ or so. Raises InputError where a
+    mode grows or has the rate zero, friction acts, the degrees of freedom are too many, or a rate is below 10⁻⁶ of another and
+    not all are as the spins or as one over them.
     """
     check_kind_of_push(of)
+    check_upright(s, "resonances")
     linear = small_motion(s)
     rates = signed_rates(linear, factor)
     if not len(rates):
@@ -164,9 +169,39 @@ def resonances(
         return ()
     if linear.dof > MOST_DOF:
         raise InputError(f"resonances: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
+    if (slow := np.abs(rates).min() / np.abs(rates).max()) < _SLOW:
+        by_slower = _by_slower_spins(s, rates, factor, sqrt(_SLOW / slow), orders, of)
+        if by_slower is not None:
+            return by_slower
+        if slow < _SLOWEST:
+            raise InputError(
+                f"resonances: a rate is {slow:.1g} of the fastest, which is zero in the normal form: take slower spins"
+            )
     slope = _slopes(linear, factor)
     found = [r for d in orders for r in _of_order(s, rates, slope, factor, d, of)]
     return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
+
+
+def _by_slower_spins(
+    s: Assembly, rates: Array, factor: float, times: float, orders: Sequence[int], of: Of
+) -> tuple[Resonance, ...] | None:
+    """The resonances by those of spins that many times slower, None unless all rates are as the spins or as one over them.
+
+    The slow motion of fast spins, C q' + ∂V/∂q = 0 to first order in slow over fast rates, is the same from the same tilts, in
+    times as spin; rates leave it at tilts as 1/spin.
+    """
+    slower = signed_rates(small_motion(s), factor / times)
+    change = np.sort(np.abs(rates)) / np.sort(np.abs(slower)) if len(slower) else np.zeros(1)
+    if not (np.minimum(np.abs(change / times - 1), np.abs(change * times - 1)) < _FAST).all():
+        return None
+    reach = 1 / times if of == "rates" else 1.0
+    return tuple(
+        replace(
+            r, rates=rates, at=factor, detuning=r.detuning / times, per_factor=r.per_factor / times**2,
+            growth=r.growth / times, largest=r.largest / times, reach=r.reach * reach,
+        )
+        for r in resonances(s, factor / times, orders, of)
+    )  # fmt: skip
 
 
 def _of_order(
@@ -310,8 +345,13 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
         factor: by which all spins are multiplied.
         detuning: up to which resonances are kept, rad/s.
         order: through which.
+
+    Raises SingularError where a rate is zero in it that is not.
     """
-    return normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
+    form = normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
+    if len(signed_rates(small_motion(s), factor)) and 0 in form.frequencies:
+        raise SingularError("normal form: beside the fastest rates slow ones are taken for zero: take slower spins")
+    return form
 
 
 def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: float, of: Of = "rates") -> float:
@@ -390,9 +430,10 @@ def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
     """How far a structure may be pushed out of upright, whatever the direction, by the terms through fourth order.
 
     of: "rates", a push of the axes' rates from upright, or "tilts", of their tilts at rest. 0 where it does not stand to first
-    order. From some 100 times the critical spins on rounding lowers it. Raises InputError as `resonances` does.
+    order. Raises InputError as `resonances` does.
     """
     check_kind_of_push(of)
+    check_upright(s, "largest_push")
     if small_motion(s).growth > 0:
         return LargestPush(0.0, "it falls to first order", None, of)
     first = next((r for r in resonances(s, of=of) if r.falls), None)
@@ -408,24 +449,23 @@ def trusted_push(s: Assembly, factor: float = 1.0, of: Of = "rates") -> float:
     check_kind_of_push(of)
     if not len(signed_rates(small_motion(s), factor)):
         return 0.0
-    h = local_hamiltonian(s)
-    try:
-        _, n = quadratic_modes(h.at_spins(factor))
-    except SingularError:  # at the critical spins two modes are one
-        return 0.0
-    rates = n.frequencies.real
-    size, shapes = len(rates), h.basis @ n.vectors[: len(rates), : len(rates)]
-    over = np.linalg.inv(n.vectors)[:size] @ start_of_push(s, factor, of)
-    tilts = sum(
-        2 * np.linalg.norm((shapes[:, g] @ over[g]).reshape(-1, 2, size), 2, axis=(1, 2))
-        for g in _of_equal_rates(rates)
-    )
+    here, tilts = small_motion(s).at_spins(factor), np.zeros(1)
+    roots, vectors = here.waves
+    n, turning = here.dof, roots.imag > 0
+    w, u = roots[turning].imag, vectors[:, turning]
+    for g in _of_equal_rates(w):  # what of a push (q', q) turns with them, by their energy's form
+        moving, still = (1j * w[g] * u[:, g]).conj().T @ here.mass, u[:, g].conj().T @ here.stiffness
+        form, parts = moving @ (1j * w[g] * u[:, g]) + still @ u[:, g], [moving, still][of == "tilts"]
+        if np.abs(np.linalg.eigvalsh(form)).min() < _NOTHING * np.linalg.norm(still @ u[:, g], 2):
+            return 0.0  # at the critical spins two modes are one
+        shares = (here.basis @ u[:, g] @ np.linalg.solve(form, parts)).reshape(-1, 2, n)
+        tilts = tilts + 2 * np.linalg.norm(shares, 2, axis=(1, 2))
     return float(_TRUSTED / np.max(tilts))
 
 
 def _of_equal_rates(rates: Array) -> list[list[int]]:
     """The modes by groups of equal rates, of which only the sum has a meaning: their shapes are any basis of what they span."""
-    equal = np.abs(rates[:, None] - rates) < _EQUAL * np.abs(rates).max()
+    equal = np.abs(rates[:, None] - rates) < _EQUAL * np.minimum(np.abs(rates[:, None]), np.abs(rates))
     return [list(g) for g in {tuple(np.flatnonzero(row).tolist()) for row in equal}]
 
 
@@ -456,9 +496,12 @@ def window_of(s: Assembly, resonance: Resonance, push: float) -> tuple[float, fl
 def _like(s: Assembly, linear: SmallMotion, resonance: Resonance, factor: float) -> Resonance | None:
     """The resonance of the same vectors at another factor."""
     rates = signed_rates(linear, factor)
-    found = (
-        _of_order(s, rates, _slopes(linear, factor), factor, resonance.order, resonance.of) if len(rates) else iter(())
-    )
+    try:
+        found = list(
+            _of_order(s, rates, _slopes(linear, factor), factor, resonance.order, resonance.of) if len(rates) else ()
+        )
+    except SingularError:  # rates too far apart
+        return None
     return next((r for r in found if {*r.vectors} & {*resonance.vectors}), None)
 
 
@@ -474,6 +517,7 @@ def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[fl
     are checked. Empty where no spins are known to hold it. Raises InputError as `resonances` does.
     """
     check_kind_of_push(of)
+    check_upright(s, "spin_intervals")
     push = checked_push("spin_intervals", push)
     least = spin_threshold(small_motion(s))
     if least == inf:

@@ -12,7 +12,7 @@ from lagrotor.errors import InputError
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Complex, coefficients
-from lagrotor.structures.small_motion import small_motion
+from lagrotor.structures.small_motion import check_upright, small_motion
 
 
 def response(
@@ -27,6 +27,7 @@ def response(
     force: amplitude (x, y) in N on tip `at`, or (N, 2) on all; ground: amplitude (x, y) of its acceleration, m/s². Complex
     amplitudes have phases. Raises InputError for what makes no sense, and at the very rate of a resonance without damping.
     """
+    check_upright(s, "response")
     c, linear = coefficients(s), small_motion(s)
     N, w = len(c.R), np.atleast_1d(finite_array("response: rates", rates))
     if w.ndim != 1:

@@ -9,6 +9,7 @@ they leave. Merkin, Introduction to the Theory of Stability, ch. 6; rigidity mat
 (1993).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any
@@ -22,12 +23,14 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, Complex, coefficients
 
 Matrix = NDArray[Any]  # real of a structure, complex of a pattern
+Inverse = Callable[[], tuple[Matrix, float]]  # 1/(W − h) of a matrix W, and h
 
 _ZERO = 1e-6  # of a root, and of the structure's rate beside a double root zero, which is found to half of a double's digits
-_SLOWEST = 1e-9  # of the structure's rate: of slower precessions of fast spins the digits are lost
-_DAMPED = (
-    1e-10  # of a root: with friction two roots of opposite real parts do not become one, and a smaller part is known
-)
+_SLOWEST = 1e-9  # of the structure's rate: of slower waves of fast spins the digits are lost
+_APART = 1e4  # the fastest over the slowest root, from which on the slow ones are those of the inverse
+_SHIFT = 0.6  # of the slow rates
+_ROUNDED = 1e-14  # of what a matrix does: less is rounding
+_DAMPED = 1e-10  # of a root with friction, whose real part is then that of the energy's balance
 _NEUTRAL = 1e-12  # of the masses and the pull squared: a smaller stiffness is what is left of a sum of zero
 _DEPENDENT = 1e-10  # of the bars' largest singular value: one below it is zero
 
@@ -39,7 +42,9 @@ class Modes(Shown):
     Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
     energy_signs (n,): that of ω² ū·M u + ū·K u, −1 of an oscillation with less energy than rest; 0 of what grows or has no rate.
     left_out (n,): by how much (rad/s) the inertia lowers each rate to first order, where it is left out; else 0. Below zero where
-    it raises it, under weight. Of modes_about shapes (n, N, 3) are changes of the axes.
+    it raises it, under weight. lost (n,): growth and decay (1/s) below it are rounding, and given as 0: of an oscillation what is
+    1e-14 of all that friction could take, or without friction 1e-6 of its rate beside another of that rate. Of modes_about shapes
+    (n, N, 3) are changes of the axes.
     """
 
     rates: Array
@@ -48,6 +53,7 @@ class Modes(Shown):
     topple: int
     energy_signs: NDArray[np.int64]
     left_out: Array
+    lost: Array
 
     def summary(self) -> dict[str, str]:
         """Rate and growth of each mode, the fastest growing first, and how many topple, name → words."""
@@ -65,7 +71,8 @@ class Modes(Shown):
 class SmallMotion:
     """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the degrees of freedom q, u = basis q, basis (2 N, n).
 
-    pull: `Coefficients.pull`, beside whose square the stiffness over the mass is rounded; 0 where it is not known.
+    pull: `Coefficients.pull`, beside whose square the stiffness over the mass is rounded; 0 where it is not known. rounding: of
+    the damping, in parts of its largest.
 
     Of waves at many wave numbers each has an axis more, and so have the roots: (n_q, n, n), (n_q, 2 n).
     """
@@ -77,6 +84,7 @@ class SmallMotion:
     basis: Matrix
     rate: float
     pull: float = 0.0
+    rounding: float = _ROUNDED
 
     @property
     def dof(self) -> int:
@@ -105,11 +113,9 @@ class SmallMotion:
     @cached_property
     def roots(self) -> Complex:
         """All 2n roots s of det(M s² + C s + K), n without inertia, nearly zero ones set to zero."""
-        if not self.mass.any():
-            return self.waves[0]
-        if self._definite:
+        if self.mass.ndim > 2 and self._definite and self.mass.any():
             return self._in_seconds(-1j * np.linalg.eigvalsh(self._hermitian[0]))
-        return self._in_seconds(np.linalg.eigvals(self.first_order))
+        return self.waves[0]
 
     @cached_property
     def waves(self) -> tuple[Complex, Complex]:
@@ -120,11 +126,51 @@ class SmallMotion:
         if not self.mass.any():
             return self._of_first_order
         if self._definite:
-            H, over_L = self._hermitian
-            rates, vectors = np.linalg.eigh(H)
-            return self._in_seconds(-1j * rates), _dagger(over_L) @ vectors[..., self.dof :, :]
-        s, vectors = np.linalg.eig(self.first_order)
-        return self._in_seconds(s), vectors[..., : self.dof, :] + 0j
+            H, inverse, over_R, over_L = self._hermitian
+            rates, x = _at_both_ends(np.linalg.eigh, H, inverse)
+            s, q, velocity = (
+                -1j * rates,
+                _dagger(over_R) @ x[..., : self.dof, :],
+                _dagger(over_L) @ x[..., self.dof :, :],
+            )
+        else:
+            s, x = _at_both_ends(np.linalg.eig, self.first_order, self._inverse)
+            q, velocity = x[..., : self.dof, :] + 0j, x[..., self.dof :, :]
+        if s.ndim > 1:
+            return self._in_seconds(s), velocity if self._definite else q
+        vectors = np.where(np.abs(s) > 1, velocity / np.where(s == 0, 1, s), q)
+        s = self._in_seconds(s)
+        return self._damped(s, vectors) if self.damping.any() else s, vectors
+
+    def _damped(self, s: Complex, vectors: Complex) -> Complex:
+        """The roots with the real parts of the energy's balance where they are small beside the imaginary ones."""
+        growth, lost = self.energy_balance(s, vectors)
+        known = (np.abs(s.real) < _ZERO * np.abs(s)) & (lost < _ZERO * np.abs(s))  # else as it is
+        return np.asarray(np.where(known, np.where(np.abs(growth) > lost, growth, 0), s.real) + 1j * s.imag)
+
+    def energy_balance(self, s: Complex, vectors: Complex) -> tuple[Array, Array]:
+        """What friction lets oscillations of roots s (m,) and vectors (n, m) grow by to first order, and how much of it is lost
+        in rounding, (m,) in 1/s: σ = −ω² ū·C u/(ω² ū·M u + ū·K u), twice the energy below.
+
+        What friction takes is no difference of large numbers: small growth beside fast rates keeps its digits.
+        """
+        kinetic, rubbed, elastic = (
+            (vectors.conj() * (form @ vectors)).sum(0).real for form in (self.mass, self.damping, self.stiffness)
+        )
+        square, sizes = s.imag**2, np.abs(s)
+        apart = np.abs(s[:, None] - s) + np.diag(np.full(len(s), np.inf))
+        nearest = np.maximum(apart.min(1, initial=np.inf), 1e-300)
+        if not self.damping.any():
+            together = (square > 0) & (nearest < 10 * _ZERO * sizes) & (not self._definite)
+            return 0 * sizes, np.where(together, _ZERO * sizes, 0)
+        least = sizes.min(where=sizes > 0, initial=np.inf)
+        mixed = np.minimum(10 * _ROUNDED * np.minimum(sizes.max(initial=0), sizes**2 / least) / nearest, 1)
+        most = np.linalg.norm(self.damping, 2) * (vectors.conj() * vectors).sum(0).real
+        energy = square * kinetic + elastic
+        sharp = (square > 0) & (np.abs(energy) > _ZERO * (square * kinetic + np.abs(elastic)))  # not at critical spins
+        over = square / np.where(sharp, energy, 1)
+        lost = np.abs(over) * most * (self.rounding + mixed**2)
+        return np.where(sharp, -over * rubbed, 0), np.where(sharp, lost, np.where(square > 0, _ZERO * sizes, 0))
 
     @property
     def _of_first_order(self) -> tuple[Complex, Complex]:
@@ -158,26 +204,42 @@ class SmallMotion:
         return bool((sizes[..., 0] > _DEPENDENT * np.abs(sizes).max(-1)).all())
 
     @property
-    def _hermitian(self) -> tuple[Complex, Matrix]:
+    def _hermitian(self) -> tuple[Complex, Inverse, Matrix, Matrix]:
         """The lower half of H, i x' = H x in units of the rate for x = (R† q, L† q') with K = R R† and M = L L†, so that
-        |x|² is twice the energy; 1/L."""
+        |x|² is twice the energy; that of its inverse; 1/R, 1/L."""
         n = self.dof
         L, R = np.linalg.cholesky(self.mass), np.linalg.cholesky(self.stiffness / self.rate**2)
-        over_L = np.linalg.inv(L)
-        lower = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
-        lower[..., n:, :n] = over_L @ R
-        lower[..., n:, n:] = over_L @ (self.gyroscopic / self.rate) @ _dagger(over_L)
-        return -1j * lower, over_L
+        over_L, over_R, turning = np.linalg.inv(L), np.linalg.inv(R), self.gyroscopic / self.rate
+
+        def lower(above: Any, below: Matrix, beside: Any) -> Complex:
+            H = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
+            H[..., :n, :n], H[..., n:, :n], H[..., n:, n:] = above, below, beside
+            return -1j * H
+
+        def inverse() -> tuple[Complex, float]:
+            return lower(-over_R @ turning @ _dagger(over_R), _dagger(over_R @ L), 0), 0.0
+
+        return lower(0, over_L @ R, over_L @ turning @ _dagger(over_L)), inverse, over_R, over_L
 
     @property
     def first_order(self) -> Matrix:
-        """The matrix of (q, q')' in units of the rate, (2n, 2n)."""
+        """The matrix W of (q, q')' in units of the rate, (2n, 2n)."""
         n, unit = self.dof, self.rate
         below = np.concatenate([self.stiffness / -(unit**2), (self.damping + self.gyroscopic) / -unit], axis=-1)
         W = np.zeros((*below.shape[:-2], 2 * n, 2 * n), dtype=below.dtype)
         W[..., :n, n:] = np.eye(n)
         W[..., n:, :] = np.linalg.solve(self.mass, below)
         return W
+
+    def _inverse(self) -> tuple[Matrix, float]:
+        """1/(W − h) and h: 0, or among the slow rates where some stiffness is zero."""
+        C, K = (self.gyroscopic + self.damping) / self.rate, self.stiffness / self.rate**2
+        sizes, turning = np.abs(np.linalg.eigvalsh(K)), np.abs(C).max(initial=0.0)
+        slow = sizes.max() / turning if turning and sizes.any() else 1.0
+        h = 0.0 if (sizes > _DEPENDENT * sizes.max()).all() else _SHIFT * float(slow)
+        M, one = self.mass, np.eye(self.dof)
+        above = -np.linalg.solve(K + h * C + h * h * M, np.hstack([C + h * M, M]))
+        return np.vstack([above, np.hstack([one, 0 * one]) + h * above]), h
 
     def _in_seconds(self, s: Matrix) -> Complex:
         sizes, shapes = np.linalg.eigh(self.stiffness) if self.dof else (np.ones(1), np.eye(1))
@@ -190,7 +252,7 @@ class SmallMotion:
             if turned[-1] > _DEPENDENT * np.abs(C).max():  # each neutral motion is a single root zero, and no other is
                 s, neutral = s + 0j, np.array([False])
                 s[np.argsort(np.abs(s))[: len(turned)]] = 0
-        near = np.maximum(np.abs(s), np.where(neutral, 1.0, _SLOWEST))
+        near = np.maximum(np.abs(s), np.where(neutral, 1.0, _SLOWEST if s.ndim > 1 else 0.0))
         still = np.abs(s.real) < (np.where(neutral, _ZERO, _DAMPED) if self.damping.any() else _ZERO) * near
         return np.asarray(
             self.rate * (np.where(still, 0, s.real) + 1j * np.where(np.abs(s.imag) < _ZERO * near, 0, s.imag))
@@ -220,14 +282,42 @@ def small_motion(s: Assembly) -> SmallMotion:
 
     Raises InputError where a bar is not as long as its tips are apart when upright.
     """
-    if not s.natural:
-        raise InputError(
-            "modes: a bar is not as long as its tips are apart when upright: small motion is about upright "
-            "axes; give modes_about(rest_near(tilt)), or simulate it"
-        )
+    check_upright(s, "small_motion")
     c = coefficients(s)
     rank, vectors = left_by(bar_rows(c))
     return replace(on_basis(matrices(c), vectors[:, int(rank) :], c.rate), pull=c.pull)
+
+
+def check_upright(s: Assembly, where: str) -> None:
+    """Raises InputError, of a door, where a bar is not as long as its tips are apart when upright."""
+    if not s.natural:
+        raise InputError(
+            f"{where}: a bar is not as long as its tips are apart when upright, and small motion is about upright axes: take "
+            "modes_about(rest_near(tilt)), or simulate it"
+        )
+
+
+def _at_both_ends(solve: Callable[[Matrix], Any], matrix: Matrix, inverse: Inverse) -> tuple[Matrix, Matrix]:
+    """Eigenvalues s and vectors of a matrix, the slow ones of fast spins those of 1/(matrix − h): each to its own digits.
+
+    Of a matrix they are known to rounding of the largest, of its inverse to that of the smallest.
+    """
+    s, x = solve(matrix)
+    if s.ndim > 1 or not len(s):
+        return s, x
+    below, h = inverse()
+    with np.errstate(divide="ignore"):
+        r, y = solve(below)
+        t = h + 1 / r
+    least = np.abs(t).min(where=np.abs(t) > _ZERO * h, initial=np.inf)
+    if not np.abs(s).max() > _APART * least:
+        return s, x
+    middle = np.sqrt(np.abs(s).max() * least)
+    edges = np.sort([middle / 10, *np.clip(np.abs(s), middle / 10, 10 * middle), 10 * middle])
+    widest = int((edges[1:] / edges[:-1]).argmax())  # no root lies there
+    fast = np.abs(s) > np.sqrt(edges[widest] * edges[widest + 1])
+    slow = np.argsort(np.abs(t), kind="stable")[: np.count_nonzero(~fast)]
+    return np.append(t[slow], s[fast]), np.hstack([y[:, slow], x[:, fast]])
 
 
 def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
@@ -294,6 +384,7 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
     Raises InputError where a bar is not as long as its tips are apart when upright, SingularError without inertia where no spin
     acts.
     """
+    check_upright(s, "modes")
     whole = small_motion(s)
     return modes_of(whole, whole if inertia else whole.without_inertia)
 
@@ -316,4 +407,5 @@ def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Mo
         rates, u = roots[kept].imag, vectors[:, kept]
         heavy, turned = ((u.conj() * (form @ u)).sum(0) for form in (whole.mass, whole.gyroscopic))
         np.divide(rates**2 * heavy.real, turned.imag, out=left_out, where=rates > 0)
-    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out)
+    lost = linear.energy_balance(roots, vectors)[1][kept]
+    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out, lost)

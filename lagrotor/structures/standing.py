@@ -34,14 +34,13 @@ from lagrotor.structures.resonances import (
     trusted_push,
     window_of,
 )
-from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
+from lagrotor.structures.small_motion import SmallMotion, check_upright, modes, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
 _FARTHEST = 5  # times the push that is trusted: beyond, an axis tilts by ½ before anything grows
 _LEAST_TIMES = 20  # in which a push falls, if it does
 _MOST_TURNS = 10_000  # of the fastest mode, of an exact run
-_RESOLVED = 100  # times the rounding of the largest rate: what is slower has lost its digits
 _BOUNDED = "every small motion stays bounded"
 
 
@@ -75,8 +74,8 @@ class Standing(Shown):
           smaller ones as `largest_push` says;
         - "holds": its energy is least when upright, or no resonance through fourth order falls from such a push;
         - "to first order": it stands in the linear motion, and no more is known: something neither falls nor is pulled back,
-          friction acts, there are more degrees of freedom than are expanded, the spins are so fast that the slow precessions
-          are lost in rounding, or the critical spins are so near that such a push tilts it by more than 0.1.
+          friction acts, there are more degrees of freedom than are expanded, rates are so far apart that `resonances` refuses
+          them, or the critical spins are so near that such a push tilts it by more than 0.1.
         """
         linear = small_motion(self.structure)
         if not self.stands:
@@ -84,13 +83,11 @@ class Standing(Shown):
         if linear.dof and np.linalg.eigvalsh(stiffness_in_masses(linear))[0] > 1e-12:
             return "holds"
         rubs = linear.damping.any() or coefficients(self.structure).decay.any()
-        if rubs or linear.dof > MOST_DOF or not len(signed_rates(linear)) or self._lost:
+        if rubs or linear.dof > MOST_DOF or not len(signed_rates(linear)):
             return "to first order"
         try:
             found = self.resonance
-        except (
-            SingularError
-        ):  # at the critical spins two modes are one, and far beyond slow ones are lost beside fast ones
+        except (InputError, SingularError):  # at the critical spins two modes are one, or rates are too far apart
             return "to first order"
         if found and found.push() < self._reference:
             return "falls at a resonance"
@@ -105,12 +102,6 @@ class Standing(Shown):
     def _too_near(self) -> bool:
         """Whether a push of PUSH is beyond what the expansion is trusted, as beside the critical spins."""
         return trusted_push(self.structure) < self._reference
-
-    @property
-    def _lost(self) -> bool:
-        """Whether rates of slow precessions are rounding beside the fast ones."""
-        rates = np.abs(signed_rates(small_motion(self.structure)))
-        return bool(rates.size and rates.min() < _RESOLVED * len(rates) * np.finfo(float).eps * rates.max())
 
     @property
     def _reference(self) -> float:
@@ -141,8 +132,6 @@ class Standing(Shown):
                 f"{self.first_order}; so near the critical spins a push of {self._reference:.3g} rad/s tilts it too far for more "
                 "to be known"
             )
-        if self.kind == "to first order" and self.first_order.startswith("to first order") and self._lost:
-            return f"{self.first_order}; beside the fast rates of these spins slow ones are lost in rounding: no more is known"
         return self.first_order
 
     def _falls_by(self, of: Of) -> Resonance | None:
@@ -253,24 +242,20 @@ def stands(s: Assembly) -> Standing:
 
     Raises InputError where upright breaks a bar's length, and where it falls more slowly than is resolved: an odd number of
     degrees of freedom that fall without spin do so at any (Kelvin), and so does what friction acts on (Tait and Chetaev, too).
+    What friction reaches by less than `critical_spin` counts, or lets grow by less than `Modes.lost`, stands here.
     """
+    check_upright(s, "stands")
     linear, normal, factor = small_motion(s), modes(s), critical_spin(s)
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     falling = int((K < -1e-12).sum())
     growth = 0.0 if len(K) and K[0] > 1e-12 else linear.growth  # energy that is least when upright grows nowhere
-    least = _RESOLVED * len(K) * np.finfo(float).eps * linear.rate
-    if falling and growth < least and not linear.drifts:
+    if falling and growth == 0 and not linear.drifts:
         rubbed = friction_undoes(linear)
         if rubbed or falling % 2:
             cause = "friction lets it fall" if rubbed else f"an odd number of its degrees of freedom, {falling}, falls"
             raise InputError(
                 f"stands: {cause} at any spins (Kelvin, Tait and Chetaev), but beside these so slowly that double precision "
                 "cannot tell how fast: take slower spins" + (", or more friction" if rubbed else "")
-            )
-        if factor == inf and np.abs(linear.roots).min() < least:
-            raise InputError(
-                "stands: no spins are known from which on it stands, and beside these its slow rates are lost in rounding: "
-                "take slower spins"
             )
     falls = growth > 0
     shape = normal.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)

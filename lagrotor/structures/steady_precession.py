@@ -29,7 +29,7 @@ from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
 from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.leaning import constraint_tangents
-from lagrotor.structures.small_motion import modes
+from lagrotor.structures.small_motion import check_upright, modes
 
 _STEP = 1e-3  # of the monodromy's differences, of fourth order; half of it for Newton's steps, of second
 _CLOSED = 1e-11  # of axes and of rates over the structure's rate: an orbit is closed
@@ -188,11 +188,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
 
 def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
     """The rate and shape of a mode that becomes a precession. Raises InputError for another, and for a structure that leans."""
-    if not s.natural:
-        raise InputError(
-            f"{where}: a bar is not as long as its tips are apart when upright, and its precessions are about upright axes: "
-            "take bars without a length, or simulate it"
-        )
+    check_upright(s, where)
     linear, c = modes(s), coefficients(s)
     count = len(linear.rates)
     if isinstance(mode, bool) or not isinstance(mode, int | np.integer) or not 0 <= mode < count:
