@@ -346,7 +346,8 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
         detuning: up to which resonances are kept, rad/s.
         order: through which.
 
-    Raises SingularError where a rate is zero in it that is not.
+    Raises:
+        SingularError: where a rate is zero in it that is not.
     """
     form = normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
     if len(signed_rates(small_motion(s), factor)) and 0 in form.frequencies:
