@@ -154,8 +154,8 @@ def resonances(
     """The resonances that the spins, multiplied by a factor, are near, those that the smallest pushes of that kind meet first.
 
     None where the energy is definite. Of fast spins they are those of slower ones, to 10⁻⁴ or so. Raises InputError where a
-    mode grows or has the rate zero, friction acts, the degrees of freedom are too many, or a rate is below 10⁻⁶ of another and
-    not all are as the spins or as one over them.
+    mode grows or has the rate zero, friction acts, or the degrees of freedom are too many, SingularError where a rate is below
+    10⁻⁶ of another and not all are as the spins or as one over them.
     """
     check_kind_of_push(of)
     check_upright(s, "resonances")
@@ -174,7 +174,7 @@ def resonances(
         if by_slower is not None:
             return by_slower
         if slow < _SLOWEST:
-            raise InputError(
+            raise SingularError(
                 f"resonances: a rate is {slow:.1g} of the fastest, which is zero in the normal form: take slower spins"
             )
     slope = _slopes(linear, factor)
@@ -431,7 +431,7 @@ def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
     """How far a structure may be pushed out of upright, whatever the direction, by the terms through fourth order.
 
     of: "rates", a push of the axes' rates from upright, or "tilts", of their tilts at rest. 0 where it does not stand to first
-    order. Raises InputError as `resonances` does.
+    order. Raises as `resonances` does.
     """
     check_kind_of_push(of)
     check_upright(s, "largest_push")
@@ -551,7 +551,10 @@ def _checked_parts(
     def holds(factor: float) -> bool:
         if trusted_push(s, factor, of) < push:
             return False
-        return all(r.push() >= push for d in (3, 4) for r in resonances(s, factor, (d,), of) if r.falls)
+        try:
+            return all(r.push() >= push for d in (3, 4) for r in resonances(s, factor, (d,), of) if r.falls)
+        except SingularError:  # not known
+            return False
 
     parts = _where(holds, [low, *between, top], _CHECKED, least)
     return [(a, high if b == top else b) for a, b in parts if a < b]
