@@ -41,7 +41,7 @@ def critical_spin(s: Assembly) -> float:
 
     0 where every factor will do, inf where none does, as with friction on a motion that falls without spins, or with a motion
     that nothing holds and no spin acts on. Friction reaches a motion through couplings of stiffness and spins of more than
-    1e-10 of the largest: weaker ones are not told from rounding, and count as none.
+    1e-10 of the largest: weaker ones cannot be distinguished from rounding, and are taken for none.
     Raises InputError where upright breaks a bar's length.
     """
     check_upright(s, "critical_spin")

@@ -15,6 +15,7 @@ miss the resonance by.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf, pi
 
 import numpy as np
@@ -28,13 +29,13 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.resonances import MOST_DOF, normal_form_of, signed_rates
 from lagrotor.structures.small_motion import small_motion
-from lagrotor.structures.steady_precession import precessing_mode
+from lagrotor.structures.steady_precession import precessing_mode, steady_precession
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 _NEAR = 0.1  # of the largest rate: detunings up to which terms of two other modes are kept
 _NOTHING = 1e-9  # of the largest coefficient: a smaller one is zero
 _LARGEST = 0.5  # tilt, and share of the mode that its harmonics drive of others, to which the expansion is trusted
-_PARTS = 100  # of the reach, between which the edge of stability is sought
+_SHORTEST = 1e-4  # of the reach: growth over less may not be seen where two rates are nearly one
 _ROUNDING = 1e-9  # of a multiplier's modulus
 _EXACT = 1e-6  # of the rate: what is detuned less is in resonance
 
@@ -45,7 +46,7 @@ class PrecessionLaw(Shown):
 
     others (n − 1,): the other rates, rad/s, negative of modes of negative energy; sign: of its own. reach: the tilt to which
     it is trusted, 0.5 or where harmonics drive other modes to half of it. action: I_j/a² in the unit of `beside`, the terms in
-    z_j, z̄_j and the other z, z̄ that are of second degree in these, rad/s.
+    z_j, z̄_j and the other z, z̄ that are of second degree in these, rad/s. structure, mode: whose law it is.
     """
 
     rate: float
@@ -56,6 +57,8 @@ class PrecessionLaw(Shown):
     sign: int
     action: float
     beside: Polynomial
+    structure: Assembly
+    mode: int
 
     def rate_at(self, tilt: float) -> float:
         """Ω in rad/s at a tilt as that of `steady_precession`."""
@@ -65,47 +68,92 @@ class PrecessionLaw(Shown):
         """The multipliers beside two ones, (2n − 2,), through the square of the tilt."""
         from scipy.linalg import expm
 
-        Omega, root, half = self.sign * self.rate_at(tilt), (self._square(tilt) * self.action) ** 0.5, len(self.others)
-        own, each = self.beside.exponents[:, :2], self.beside.exponents[:, 2:]
-        nu = _frame(self.beside)[0] * Omega  # z_k = ζ_k exp(−iν_k t): the terms of ζ do not depend on time
-        turning = 1j * np.append(nu, -nu)
-        Q = np.zeros((2 * half, 2 * half), complex)
-        for c, e in zip(self.beside.coefficients * root ** own.sum(1), each, strict=True):
-            k, l = (i for i, m in enumerate(e) for _ in range(m))
-            Q[k, l] += c
-            Q[l, k] += c
-        slopes = np.vstack([-1j * Q[half:], 1j * Q[:half]]) + np.diag(turning)
-        period = 2 * pi / abs(Omega)
-        return np.asarray(np.linalg.eigvals(np.exp(-turning * period)[:, None] * expm(slopes * period)))
+        period, turned = 2 * pi / self.rate_at(tilt), np.exp(-2 * pi * self._turning)
+        return np.asarray(np.linalg.eigvals(turned[:, None] * expm(self._slopes(self._root(tilt)) * period)))
 
     def growth_at(self, tilt: float) -> float:
         """The log of the largest modulus of a multiplier, per turn; 0 where it is below 1e-9, the rounding of a modulus."""
         most = float(np.log(np.abs(self.multipliers_at(tilt)).max(initial=1.0)))
         return most if most > _ROUNDING else 0.0
 
+    def errors_at(self, tilt: float) -> tuple[float, float]:
+        """How far the rate (rad/s) and the multipliers, the farthest, are from the exact orbit's at that tilt, whose own
+        errors are added.
+
+        Raises InputError as `steady_precession`.
+        """
+        orbit, multipliers = steady_precession(self.structure, self.mode, tilt), self.multipliers_at(tilt)
+        exact = 2 * pi / orbit.period
+        off = np.abs(np.subtract.outer(orbit.multipliers[2:], multipliers)).min(1) + orbit.errors[2:]
+        return abs(exact - self.rate_at(tilt)) + orbit.mismatch * exact, float(off.max(initial=0.0))
+
     @property
     def edge(self) -> float:
         """The least tilt at which a multiplier leaves the circle, inf where none does within reach.
 
-        Sought at 100 tilts: growth between two of these alone, over less than a hundredth of the reach, is not seen.
+        What turns in the precession's frame leaves only in twos of opposite signs of energy, of rates that become one. Beside a
+        root r of the action its slopes are S₀ + r S₁ + r² S₂, and as far as their change in the modes' own coordinates is below
+        half of the least such difference none has become one (Gershgorin's discs; Krein). So all is seen but growth over less
+        than 1e-4 of the reach, where two rates are nearly one.
         """
-        tilts = np.linspace(0, self.reach, _PARTS + 1)
-        grows = next((k for k in range(1, _PARTS + 1) if self.growth_at(tilts[k])), None)
-        if grows is None:
-            return inf
-        low, high = tilts[grows - 1 : grows + 1]
-        while high - low > 1e-6 * self.reach:
-            middle = (low + high) / 2
-            low, high = (low, middle) if self.growth_at(middle) else (middle, high)
-        return float(high)
+        from scipy.optimize import brentq
+
+        last = self._root(self.reach)
+        least, root, before = _SHORTEST * last, 0.0, 0.0
+        while (ahead := self._stable_ahead(root)) is not None:
+            if root == last:
+                return inf
+            before, root = root, min(root + max(ahead, least), last)
+        while root - before > 1e-6 * last:
+            middle = (before + root) / 2
+            before, root = (before, middle) if self._stable_ahead(middle) is None else (middle, root)
+        return float(brentq(lambda tilt: self._root(tilt) - root, 0.0, self.reach))
+
+    @property
+    def _turning(self) -> NDArray[np.complex128]:
+        """i ν/Ω of ζ and ζ̄, z_k = ζ_k exp(−iν_k t): the terms of ζ do not depend on time."""
+        nu = self.sign * _frame(self.beside)[0]
+        return np.asarray(1j * np.append(nu, -nu), complex)
+
+    @cached_property
+    def _parts(self) -> NDArray[np.complex128]:
+        """S₀, S₁, S₂ of (ζ, ζ̄)' = (S₀ + r S₁ + r² S₂) (ζ, ζ̄), r² the action, (3, 2n − 2, 2n − 2)."""
+        half = len(self.others)
+        Q = np.zeros((3, 2 * half, 2 * half), complex)
+        for c, e in zip(self.beside.coefficients, self.beside.exponents, strict=True):
+            k, l = (i for i, m in enumerate(e[2:]) for _ in range(m))
+            Q[sum(e[:2]), k, l] += c
+            Q[sum(e[:2]), l, k] += c
+        slopes = -1j * np.concatenate([Q[:, half:], -Q[:, :half]], axis=1)
+        slopes[[0, 2]] += np.diag(self._turning) * np.array([self.rate, self.shift / self.action])[:, None, None]
+        return np.asarray(slopes)
+
+    def _slopes(self, root: float) -> NDArray[np.complex128]:
+        return np.asarray(np.tensordot([1, root, root**2], self._parts, 1))
+
+    def _stable_ahead(self, root: float) -> float | None:
+        """How much farther no multiplier can leave the circle; None where one has left it."""
+        values, V = np.linalg.eig(self._slopes(root))
+        period = 2 * pi / (self.rate + self.shift * root**2 / self.action)
+        if values.real.max(initial=0.0) * period > _ROUNDING:
+            return None
+        half = len(self.others)
+        above = (np.abs(V[:half]) ** 2).sum(0) > (np.abs(V[half:]) ** 2).sum(0)
+        apart = np.abs(np.subtract.outer(values[above], values[~above])).min(initial=inf)
+        over, (_, linear, square) = np.linalg.pinv(V), self._parts
+        b, c = (np.linalg.norm(over @ part @ V, 2) if half else 0.0 for part in (linear + 2 * root * square, square))
+        return float(apart / max(b + (b * b + 2 * c * apart) ** 0.5, 1e-300)) if apart < inf else inf
+
+    def _root(self, tilt: float) -> float:
+        return float((self._square(tilt) * self.action) ** 0.5)
 
     def summary(self) -> dict[str, str]:
         """The law in numbers and the edge of stability, name → words."""
         return {
             "rate [rad/s]": f"{self.rate:.8g} + ({self.shift:.6g}) (tilt² − 2 ({self.skew:.4g}) tilt³)",
-            "stable": f"up to a tilt of {min(self.edge, self.reach):.4g}"
-            + (" at least" if self.edge == inf else "")
-            + f", at {_PARTS} tilts of up to {self.reach:.4g}",
+            "stable": f"up to a tilt of {self.edge:.4g}"
+            if self.edge < inf
+            else f"up to a tilt of {self.reach:.4g} at least, to which it is trusted",
         }
 
     def _square(self, tilt: float) -> float:
@@ -122,7 +170,8 @@ class PrecessionLaw(Shown):
 def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
     """The law of the precessions that `steady_precession` finds, of a mode of `modes()`, at small tilts.
 
-    What it leaves is small beside the terms it has where the mode's harmonics are well away from other rates.
+    What it leaves is small beside the terms it has where the mode's harmonics are well away from other rates; `errors_at`
+    measures it on the exact orbit.
 
     Args:
         s: without friction, upright at rest.
@@ -176,7 +225,7 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
         driven = max((abs(generator.derivative(k).at(at)) for k in (*others, *(n + others))), default=0.0) / action**0.5
         reach = min(reach, (_LARGEST / max(driven, _NOTHING)) ** (1 / (degree - 2)))
     shift = 2 * sign * action * float(np.real(own.terms.get((2, 2, *(0,) * (2 * n - 2)), 0.0)))
-    return PrecessionLaw(rate, shift, skew, h.rate * signed[others], reach, sign, action, beside)
+    return PrecessionLaw(rate, shift, skew, h.rate * signed[others], reach, sign, action, beside, s, mode)
 
 
 def _steps(exponents: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -35,6 +35,7 @@ def test_what_it_leaves_of_exact_orbits_is_of_fourth_order() -> None:
         apart = np.abs(np.subtract.outer(orbit.multipliers[2:], law.multipliers_at(tilt))).min(1).max()
         symmetric = law.rate + law.shift * tilt**2  # twin: without what the tilt is off the amplitude
         left.append((abs(rate - law.rate_at(tilt)), apart, abs(rate - symmetric)))
+        assert law.errors_at(tilt) == pytest.approx(left[-1][:2], rel=0.05)
     orders = [measured_order(tilts, part) for part in zip(*left, strict=True)]
     assert orders == pytest.approx([4, 4, 3], abs=0.1)
 
@@ -42,6 +43,9 @@ def test_what_it_leaves_of_exact_orbits_is_of_fourth_order() -> None:
 def test_beyond_its_edge_exact_multipliers_leave_the_circle() -> None:
     law = TRIANGLE.precession_law(2)
     assert 0.05 < law.edge < 0.06
+    tilts = np.linspace(0, law.reach, 2001)
+    first = next(tilt for tilt in tilts if law.growth_at(tilt))  # twin: sought at many tilts
+    assert 0 <= first - law.edge < 1.01 * tilts[1]
     below, beyond = (TRIANGLE.steady_precession(2, factor * law.edge) for factor in (0.9, 1.3))
     assert below.growth == 0 == law.growth_at(0.9 * law.edge)
     assert beyond.growth == pytest.approx(law.growth_at(1.3 * law.edge), rel=0.02)
