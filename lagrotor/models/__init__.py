@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from lagrotor.models.linear import linear_run as linear_run
     from lagrotor.models.linear import shock_response_error as shock_response_error
     from lagrotor.models.mean_motion import exact_cancelling_force as exact_cancelling_force
+    from lagrotor.models.mean_motion import guiding_centre_error as guiding_centre_error
     from lagrotor.models.mean_motion import mean_error as mean_error
     from lagrotor.models.mean_motion import mean_over as mean_over
     from lagrotor.models.mean_motion import run_after as run_after

@@ -5,15 +5,18 @@ it about exp(−sqrt(4 pi n)) is left (`mean_error`). A mean rate depends on the
 """
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models.simulate import simulate
+from lagrotor.numerics.arrays import check_times
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.averaged_motion import time_to_reach
+from lagrotor.theory.charged_particle import guiding_centre
 from lagrotor.theory.drift_after_shock import cancelling_force
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.shock_response import shock_response
@@ -22,6 +25,7 @@ Array = NDArray[np.float64]
 _SAMPLES = 32  # a turn of the swing
 _AT_ENDS = 185.51  # 2 sqrt(pi)/(e Z), Z = 0.0070298584
 _ROUNDED = 1e-15
+_CENTRES = 9  # of the exact motion within a swing
 _LONGEST, _MOST = 3, 10_000  # times what the averaged motion takes, of an exact run; swings that it lasts
 
 
@@ -153,6 +157,34 @@ def time_to_reach_error(scene: Scene, x: float) -> float:
             f"{law:.4g} s; take a larger shock or a smaller x"
         )
     return float(abs(_time_to_wander(scene, x, _LONGEST * law) - law)) + turn / _SAMPLES if law < np.inf else np.inf
+
+
+def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
+    """How far (rad) `guiding_centre(scene).path(t)` is from the exact motion, (n,): in beta, h or alpha from the centre of the
+    exact state, the most in a swing about each time, as that centre, of leading order itself, swings a little.
+
+    Raises:
+        InputError: as `guiding_centre` and its path.
+        DomainError: likewise, where the exact motion has no centre, and where it is longer than 10⁴ swings.
+    """
+    centre, turn = guiding_centre(scene), 2 * np.pi / abs(natural_rate(scene))
+    times = check_times("guiding_centre_error", t)
+    if (swings := times[-1] / turn) > _MOST:
+        raise DomainError(
+            f"guiding_centre_error: the exact run is {swings:.2g} swings long, more than {_MOST}: take earlier times, or compare "
+            "with lagrotor.simulate"
+        )
+    centre.path(times)  # refuses what it does not reach
+    around = np.maximum(times[:, None] + turn * (np.arange(_CENTRES) / (_CENTRES - 1) - 0.5), 0.0)
+    each, of = np.unique(np.append(around, 0.0), return_inverse=True)
+    run, path = simulate(scene, each, "minimal", 1e-9), centre.path(each)
+    starts: Any = [
+        {"axes": tuple(map(tuple, r)), "rates": tuple(map(tuple, v))}
+        for r, v in zip(run.axes.swapaxes(0, 1), run.rates.swapaxes(0, 1), strict=True)
+    ]
+    off = path - [guiding_centre(replace(scene, **start)).place for start in starts]
+    off[:, 2] = (off[:, 2] + np.pi) % (2 * np.pi) - np.pi
+    return np.asarray(np.abs(off).max(1)[of[:-1]].reshape(around.shape).max(1))
 
 
 def _time_to_wander(scene: Scene, bound: float, longest: float) -> float:

@@ -86,7 +86,9 @@ class GuidingCentre:
         return float(self.action * at.rate + ((self.momentum - at.flux) / at.along[2]) ** 2 / 2)
 
     def path(self, t: ArrayLike) -> Array:
-        """(beta, h, alpha) in rad at ascending times t (n,) in s after the scene's start: (n, 3).
+        """(beta, h, alpha) in rad at ascending times t (n,) in s after the scene's start: (n, 3), to leading order in the motion.
+
+        No bound of what is left is known; `lagrotor.models.guiding_centre_error` measures it on the exact motion.
 
         Raises:
             InputError: unless the times are finite, ascending and not before 0.

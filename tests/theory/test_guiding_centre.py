@@ -7,6 +7,7 @@ import pytest
 
 from lagrotor import Link, Scene, Shock, consistent_scene, natural_rate, simulate
 from lagrotor.errors import DomainError, InputError
+from lagrotor.models import guiding_centre_error
 from lagrotor.pair import leaning_lagrangian
 from lagrotor.pair.notation import G_1, G_2, LEANING, a, b, k
 from lagrotor.theory import GuidingCentre, charged_particle, guiding_centre, leaning_state
@@ -83,6 +84,25 @@ def test_random_pairs_go_where_it_says(seed):
     off = np.abs(path - [end.place for end in ends]).max()
     assert off < 0.02
     assert np.ptp(path, axis=0).max() > 4 * off
+
+
+def test_its_error_is_that_of_the_exact_motion_and_of_first_order():
+    """A slower pair, for as many times longer; the path of another centre, the twin, is off by more."""
+    pair, errors = Scene((11, 5), link=Link(1.2, 0.5, 0.03)), []
+    for slower in (1.0, 0.5):
+        scene = leaning(pair, rates=tuple(slower * v for v in (0.06, 0.04, 0.06, -0.03)))
+        t = np.array([3.0, 6.0, 9.0]) / slower
+        errors.append(guiding_centre_error(scene, t))
+        run, path = simulate(scene, [0.0, *t], "minimal", 1e-9), guiding_centre(scene).path(t)
+        for i, place in enumerate(path, 1):
+            state = replace(scene, axes=tuple(map(tuple, run.axes[:, i])), rates=tuple(map(tuple, run.rates[:, i])))
+            assert np.abs(place - guiding_centre(state).place).max() <= errors[-1][i - 1] + 1e-9
+        assert np.ptp(path, axis=0).max() > 4 * errors[-1].max()
+    assert errors[1].max() == pytest.approx(errors[0].max() / 2, rel=0.3)
+    with pytest.raises(DomainError, match="swings long"):
+        guiding_centre_error(scene, [1e6])
+    with pytest.raises(InputError, match="before the start"):
+        guiding_centre_error(scene, [-1.0, 2.0])
 
 
 def test_what_it_does_not_hold_is_refused():
