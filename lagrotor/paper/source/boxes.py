@@ -446,7 +446,7 @@ class _Reader:
         )
         if word is not None:
             stripped = word.strip()
-            if name in ("text", "textbf") and word not in ("d", *FUNCTIONS):
+            if name in ("text", "textbf") and word != "d" and stripped not in FUNCTIONS:
                 self.plain()
                 return [Box("text", stripped, item.at, self.end)] if stripped else [Box("thin", "", item.at, self.end)]
             if re.fullmatch(r"[A-Za-z]{2,}", stripped):
@@ -457,9 +457,10 @@ class _Reader:
                     d = Box("letter", "d", item.at, item.at + 1, upright=True)
                     return [d, Box("letter", stripped[1], item.at + 1, self.end)]
                 return [Box("letter", stripped, item.at, self.end, upright=True)]
-            if name == "mathrm" and _is_unit(stripped):
+            unit = stripped.replace(r"\Omega", "Ohm") if stripped != r"\Omega" else ""
+            if name == "mathrm" and _is_unit(unit):
                 self.plain()
-                return [Box("unit", stripped, item.at, self.end)]
+                return [Box("unit", unit, item.at, self.end)]
         content = self.argument(style or "upright")
         for box in content:
             if box.kind == "letter" and style:

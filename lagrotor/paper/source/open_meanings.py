@@ -257,7 +257,10 @@ def _raised(reader: FormulaReader, box: Box) -> Marks:
     known, row, stem = reader.notation, without_thin(box.sup or []), stem_of(box)
     if (box.name == "e" and "e" not in known.letters) or not row:
         return
-    if reader.above and {b.name for b in row} <= reader.above:
+    small = is_printed_as_vector(box) and (box.name[0].islower() or "vec" in box.marks)
+    if (reader.above and {b.name for b in row} <= reader.above) or (
+        small and power_in(box) and [b.name for b in row] != ["2"]
+    ):
         return  # marked where it is read
     if not power_in(box) or upper_index(known, box):
         word = len(row) == 1 and (row[0].upright or row[0].kind == "text") and len(row[0].name) > 1

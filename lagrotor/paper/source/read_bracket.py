@@ -47,7 +47,7 @@ def _indexed(reader: FormulaReader, node: Node, box: Box) -> Node:
     index = index_parts(reader, box)
     if isinstance(node, Call) and node.name in ("mean", "ket", "bra"):
         return Call("_".join((node.name, *index)), node.args)
-    component = is_vector(node) or {*"".join(index)} <= {*"ijklmnab0123456789"}
+    component = is_vector(node) or {*"".join(index)} <= {*"ijklmnabpqrs0123456789"}
     if box.name == "(" and component and all(len(part) <= 2 for part in index):
         return Call("component", (node, *(number(i) if i.isdigit() else Letter(i) for i in index)))
     raise FormulaError(box.at, "a bracket has an index", "write what it means")
@@ -140,6 +140,11 @@ def _evaluated(reader: FormulaReader, box: Box, content: list[Box]) -> Node:
     if where and box.sup is not None:
         start = where[places[0] + 1 :] if places else where
         return Call("between", (node, reader.expression(start), reader.expression(box.sup)))
+    if not places and len(where) == 1 and where[0].name in ("i", "j"):  # at a point of a grid
+        return Call("at", (node, letter_of(reader, where[0])[0]))
+    if not places and any(b.kind == "comma" for b in where) and all(b.kind in ("letter", "comma") for b in where):
+        reader.guess("at", "what the comma parts is held constant")
+        return Call("at_constant", (node, *map(reader.expression, arguments(where))))
     if len(places) > 1 or not where:
         raise FormulaError(box.at, "where it is evaluated is not an equation", "write |_{x = 0}")
     if not places and len(where) > 1:
@@ -246,8 +251,11 @@ def read_cases(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
             raise FormulaError(box.at, "the condition of a case is not read", "write one relation")
         if where:
             stated = read_statement(reader, where)
-            if len(stated.relations) != 1 or stated.relations[0] not in CONDITIONS:
+            joined = [b for b in strip(line.parts[1])[1:] if b.kind == "text" and b.name not in (".", ",")]
+            if not stated.relations or joined or not {*stated.relations} <= CONDITIONS.keys():
                 raise FormulaError(where[0].at, "the condition of a case is not read", "write one relation")
-            condition = Call(CONDITIONS[stated.relations[0]], tuple(side.node for side in stated.sides))
+            pairs = zip(stated.relations, pairwise(side.node for side in stated.sides), strict=True)
+            each = [Call(CONDITIONS[relation], two) for relation, two in pairs]
+            condition = each[0] if len(each) == 1 else Call("And", tuple(each))
         made.append(Call("case", (reader.expression(value), condition)))
     return Call("cases", tuple(made)), place + 1

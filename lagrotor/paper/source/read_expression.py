@@ -30,7 +30,15 @@ from lagrotor.paper.source.read_function import read_function
 from lagrotor.paper.source.read_letter import is_called, read_letter
 from lagrotor.paper.source.read_number import read_number, read_unit
 from lagrotor.paper.source.read_sum import read_sum
-from lagrotor.paper.source.rows import TENSOR, ends_with_bracket, fold_derivatives, pair_bars, refuse_words, strip
+from lagrotor.paper.source.rows import (
+    TENSOR,
+    ends_integral,
+    ends_with_bracket,
+    fold_derivatives,
+    pair_bars,
+    refuse_words,
+    strip,
+)
 from lagrotor.paper.source.tree import (
     Call,
     Node,
@@ -52,6 +60,7 @@ def _read_dots(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
     return Call("dots", ()), place + 1
 
 
+_ENDS = ("operator", "relation", "comma", "wide", "text", "arrow")
 Factor = Callable[[FormulaReader, list[Box], int], tuple[Node, int]]
 _FACTORS: dict[str, Factor] = {
     "number": read_number, "unit": read_unit, "letter": read_letter, "bracket": read_bracket, "group": read_group,
@@ -84,7 +93,7 @@ class Grammar(FormulaReader):
                         part.append(box)  # a factor with its sign: 3 \cdot -2
                         continue
                     raise FormulaError(box.at, "two signs follow each other", "write brackets around the second")
-                if is_open_integral(part):
+                if is_open_integral(part) and any(map(ends_integral, row[place:])):
                     part.append(box)
                     continue
                 terms.append((sign, part))
@@ -160,6 +169,13 @@ class Grammar(FormulaReader):
         box = row[place]
         named = box.upright and len(box.name) > 1 and box.name in FUNCTIONS and not box.marks  # {\rm cos}
         reader = read_function if named else _FACTORS.get(box.kind)
+        if (
+            box.kind == "function"
+            and box.name == "Re"
+            and (box.sub or place + 1 >= len(row) or row[place + 1].kind in _ENDS)
+        ):
+            self.guess("words", "Re is a number of its own, and no real part")
+            reader = read_letter
         if reader is None:
             why = f"{self.source[box.at : box.end] or box.name} is not read here"
             raise FormulaError(box.at, why, "write what it stands for")

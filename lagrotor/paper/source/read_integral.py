@@ -5,7 +5,7 @@ import re
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import behind_function, is_differential, read_differential
-from lagrotor.paper.source.rows import has_differential_above, is_d, is_measure, without_thin
+from lagrotor.paper.source.rows import ends_integral, has_differential_above, is_d, is_measure, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, product_of, walk
 from lagrotor.paper.source.usage import simple_argument
 
@@ -14,6 +14,9 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     """From the sign to its differential."""
     box = row[place]
     rest = row[place + 1 :]
+    if box.sub is not None and box.sup is None and not any(map(ends_integral, rest)):
+        reader.guess("integral", "the integral is over what stands below it, and its differential is left out")
+        return Call("Integral", (reader.expression(rest), _region(reader, box))), len(row)
     reader.integrating += 1
     try:
         end, before = _differential_at(reader, rest, box)
@@ -38,7 +41,7 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     if box.sub is not None and box.sup is not None:
         bounds = [reader.expression(box.sub), reader.expression(box.sup)]
     elif box.sub is not None or box.sup is not None:
-        bounds = [Letter("over_" + "_".join(re.findall(r"\w+", reader.source[(box.sub or box.sup)[0].at : box.end])))]  # type: ignore[index]
+        bounds = [_region(reader, box)]
     variable_of = differential.args[0] if len(differential.args) == 1 else differential
     if not reader.integrating and not before:
         further, behind = _further(reader, row, behind)
@@ -48,6 +51,11 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
             raise FormulaError(box.at, why, "write as many integrals as differentials")
         variable_of = Call("volume", (variable_of, *further))
     return Call("Integral", (inner, variable_of, *bounds)), behind
+
+
+def _region(reader: FormulaReader, box: Box) -> Letter:
+    """What an integral is over, as a name."""
+    return Letter("over_" + "_".join(re.findall(r"\w+", reader.source[(box.sub or box.sup or [box])[0].at : box.end])))
 
 
 def _further(reader: FormulaReader, row: list[Box], place: int) -> tuple[list[Node], int]:

@@ -59,12 +59,25 @@ def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
         names = [b.name + b.style for b in row if b.kind != "comma"]
         return names if all(name.isalnum() for name in names) else None
     upper = upper_index(reader.notation, box)
+    if not upper and _labels_vector(reader, box, row):
+        reader.guess("mark", f"the superscript of the vector {box.name} is part of the name")
+        return index_of(replace(box, sub=row, sup=None))
     if not upper and _is_raised(reader, box, row):
         reader.guess("mark", f"the superscript of {box.name} is part of the name")
         upper = [b.name for b in row]
     if not upper and len(row) == 2 and row[1].name in ("dagger", "*") and _is_plain(row[0]):  # b^{s\dagger}
         upper = [row[0].name, "star" if row[1].name == "*" else "dagger"]
     return upper if upper and not {*upper} & {*reader.bound} - {*TENSOR} else None
+
+
+def _labels_vector(reader: FormulaReader, box: Box, row: list[Box]) -> bool:
+    """Whether what stands above a vector is no power: a number but 2, a step n + 1, a letter."""
+    small = is_printed_as_vector(box) and (box.name[0].islower() or "vec" in box.marks)
+    kinds = {b.kind for b in row}
+    marked = {b.name for b in row} & {"T", "top", "dagger", "intercal", "prime", "*"}
+    return small and [b.name for b in row] != ["2"] and kinds <= {"letter", "number", "operator", "fraction"} and not (
+        marked or row[0].kind == "operator" or box.name in ("e", "d")
+    )  # fmt: skip
 
 
 def _is_raised(reader: FormulaReader, box: Box, row: list[Box]) -> bool:

@@ -99,10 +99,20 @@ def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
             begins = line[0].name == "-" and pieces[-1][-1].kind not in ("operator", "relation")
             if begins and any(box.kind == "relation" for box in line):
                 reader.guess("rows", "a row that begins with - and has a relation continues the row before")
-            pieces[-1] = [*pieces[-1], *line]
+            twice = (
+                pieces[-1][-1].kind == line[0].kind == "relation" and pieces[-1][-1].name == line[0].name
+            )  # = \\\\ =
+            pieces[-1] = [*pieces[-1][: -1 if twice else None], *line]
         else:
             pieces.append(line)
-    return [*pieces, *([beside] if beside else [])]
+    inner = [each for piece in pieces for each in (_pieces(reader, piece) if _holds_system(piece) else [piece])]
+    return [*inner, *([beside] if beside else [])]
+
+
+def _holds_system(piece: list[Box]) -> bool:
+    """Whether a row of a display is itself a system of equations."""
+    held = strip(piece)
+    return len(held) == 1 and held[0].kind == "cases" and _system(held[0]) is not None
 
 
 def _system(box: Box) -> list[list[Box]] | None:
@@ -152,6 +162,9 @@ def _parts(reader: FormulaReader, row: list[Box]) -> list[tuple[str, list[Box]]]
         ):
             raise FormulaError(box.at, "a full stop stands within the formula", "write \\cdot for a product")
         elif box.kind == "wide" or box.kind == "comma":
+            following = next((b.kind for b in row[place + 1 :] if b.kind not in ("thin", "wide")), "")
+            if box.kind == "comma" and following == "relation" and strip(parts[-1][1]):
+                continue  # a = b, \\\\ = c
             if box.kind == "wide" and _goes_on(row, place, parts[-1][1]):
                 continue
             waiting = not parts[-1][1] and parts[-1][0] in ("text", "condition")
@@ -279,7 +292,8 @@ def _further(reader: FormulaReader, found: list[PrintedStatement], part: list[Bo
     raise FormulaError(part[0].at, "what follows the comma has no relation", "write it as a statement of its own")
 
 
-def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
+def _sides(reader: FormulaReader, row: list[Box]) -> tuple[list[list[Box]], list[str]]:
+    """What stands between the relations of a statement, and the relations."""
     sides: list[list[Box]] = [[]]
     relations: list[str] = []
     for box in row:
@@ -288,8 +302,16 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             sides.append([])
         else:
             sides[-1].append(box)
+    if len(sides) > 2 and not strip(sides[0]) and relations[0] == "=":
+        reader.guess("continued", "the display begins with its sign: what it continues stands before, and is not read")
+        sides, relations = sides[1:], relations[1:]
     if len(sides) > 1 and not strip(sides[0]):
         raise FormulaError(row[0].at, "the left side is missing", "write what is equal, or join it to the row before")
+    return sides, relations
+
+
+def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
+    sides, relations = _sides(reader, row)
     read: list[Side] = []
     for place, side in enumerate(sides):
         side = strip(side)

@@ -164,6 +164,11 @@ def has_differential_above(box: Box) -> bool:
     return d and not derivative_mark(box)
 
 
+def ends_integral(box: Box) -> bool:
+    """Whether a box may be an integral's differential, or holds it above a fraction bar."""
+    return has_differential_above(box) or is_d(box, "d") or is_measure(box)
+
+
 def is_derivative_operator(box: Box) -> bool:
     """Whether a fraction is d/dx with nothing above."""
     return bool(derivative_mark(box)) and len(without_thin(box.parts[0])) == 1

@@ -161,8 +161,9 @@ def product_of(factors: list[Node]) -> Node:
 
 def is_numeric(node: Node) -> bool:
     """Whether a node has no letters, or begins with a number."""
-    if isinstance(node, Call) and node.name in ("product", "quotient"):
-        return is_numeric(node.args[0]) or all(map(is_numeric, node.args))
+    if isinstance(node, Call) and node.name == "product":
+        units = (isinstance(each, Letter) and each.name.startswith("unit_") for each in node.args[1:])
+        return (is_numeric(node.args[0]) and all(units)) or all(map(is_numeric, node.args))
     return isinstance(node, Number) or (isinstance(node, Call) and all(map(is_numeric, node.args)))
 
 

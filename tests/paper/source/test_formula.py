@@ -88,6 +88,14 @@ READ = {
     r"|a\rangle = |b\rangle + c|d\rangle": "ket(a) = ket(b) + matmul(c, ket(d))",
     r"(ds)^2 = g_{\mu\nu}\mathrm{d}x^\mu\mathrm{d}x^\nu":
         "differential(s)**2 = contraction(g_mu_nu, differential(x__mu), differential(x__nu))",
+    r"\rho = 46\,\mathrm{\Omega\,cm}": "rho = 46*unit_Ohm*unit_cm",
+    r"\ddot x + x = A\text{ cos }(t)": "x_ddot + x = A*cos(t)",
+    r"\begin{aligned} a &= b = \\ &= c\end{aligned}": "a = b = c",
+    r"a = b, \\ = c": "a = b = c",
+    r"\begin{aligned}\begin{cases} a = b\\ c = d\end{cases}\end{aligned}": "a = b; c = d",
+    r"y = \begin{cases} a & 0 \le t \le T\\ b & t > T\end{cases}":
+        "y = cases(case(a, And(Le(0, t), Le(t, T))), case(b, Gt(t, T)))",
+    r"y = \left.\frac{\partial a}{\partial x}\right|_i": "y = at(Derivative(a, x), i)",
     r"x = a_1 \cdots a_n": "x = a_1*dots()*a_n",
     r"y = \mathrm{e}^{im\phi} + i": "y = exp(imaginary_unit*m*phi) + imaginary_unit",
     r"c = (AB)_{ik}": "c = component(A*B, ik)",
@@ -189,6 +197,9 @@ OPEN = {
     r"y = \sin x y": "where the argument of sin ends",
     r"y = \sin\theta^2": "whether the power is of the argument",
     r"y = \sin(\theta)^2": "",
+    r"k = \frac{1}{c} v\times H": "whether × is of vectors or of numbers",
+    r"k = 2 v\times H": "whether × is of vectors or of numbers",
+    r"y = \begin{cases} 0 & x < 0 \text{ or } x > L\\ 1 & x = 0\end{cases}": "the condition of a case is not read",
     r"y = \exp(\theta)_{2} S": "a bracket has an index",
     r"y = \sum_i a_i x^i": "whether i is an upper index or a power",
     r"y = \sin\theta/2": "whether the slash is within the function",
@@ -292,6 +303,23 @@ CUSTOM: dict[tuple[str, ...], tuple[str, str]] = {
     (r"\nabla.\underline{u} = \underline{a}.\underline{b}",): (
         "divergence(uunder) = dot(aunder, bunder)",
         "the full stop",
+    ),
+    (r"\int_V \rho + \oint_S\vec j\cdot\hat{\vec n} = 0",): (
+        "Integral(rho, over_V) + Integral(dot(jvec, nvechat), over_S) = 0",
+        "its differential is left out",
+    ),
+    (r"= a = b",): ("a = b", "begins with its sign"),
+    (r"f = \phi(\mathrm{Re}, \epsilon) + \frac{64}{\text{Re}}", r"\phi(x) = 1"): (
+        "f = phi(Re, epsilon) + 64/Re",
+        "Re is a number of its own",
+    ),
+    (r"\mathbf q^{n+1/2}_i = \vec F^{int} + \mathbf s^1",): (
+        "qbold__nplus1over2_i = Fvec__int + sbold__1",
+        "is part of the name",
+    ),
+    (r"c = \left.\frac{\partial S}{\partial E}\right|_{V,N}",): (
+        "c = at_constant(Derivative(S, E), V, N)",
+        "is held constant",
     ),
     (r"a, b = 0",): ("values(a, b) = 0", "holds for each of them"),
     (r"e_i = a_j,\quad i, j = 1, 2",): ("e_i = a_j; values(i, j) = values(1, 2)", "holds for each of them"),
