@@ -90,11 +90,12 @@ def judge(which: list[int], engine: str) -> tuple[list[str], list[str], list[str
     return silent, refused, needless
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-def test_no_miss_is_silent(engine: str) -> None:
-    silent, refused, needless = judge(SHORT, engine)
+@pytest.mark.parametrize(("engine", "count"), [("core", 100), pytest.param("fast", 40, marks=NO_HEYOKA)])
+def test_no_miss_is_silent(engine: str, count: int) -> None:
+    """Fewer by the fast engine, which compiles a program for nearly each scene anew: of all in the slow suite."""
+    silent, refused, needless = judge(SHORT[:count], engine)
     assert not silent, silent
-    assert len(refused) + len(needless) <= len(SHORT) / 10, refused + needless
+    assert len(refused) + len(needless) <= count / 10, refused + needless
 
 
 AT_THE_DEAD_POINT = [228, 585, 729, 997]  # the unit vectors' constraints are dependent where they start
