@@ -94,16 +94,6 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
     return Absorber(24 / ((s - 1) ** 2 * form), damping, form / (3 * np.sqrt(m * (s + 2) * (3 * s + 2))))
 
 
-def mass_white_noise(mu: ArrayLike) -> Absorber:
-    """The best tuned mass under white noise (Warburton): f² = (1 + μ/2)/(1 + μ)², ζ² = μ (1 + 3μ/4)/(4 (1 + μ)(1 + μ/2)).
-
-    The mean square is sqrt((4 + 3μ)/(μ (1 + μ))). Raises DomainError unless μ > 0.
-    """
-    m = _in_domain("mu", mu, np.inf)
-    damping = np.sqrt(m * (1 + 3 * m / 4) / (4 * (1 + m) * (1 + m / 2)))
-    return Absorber((1 + m / 2) / (1 + m) ** 2, damping, np.sqrt((4 + 3 * m) / (m * (1 + m))))
-
-
 def spins_win_worst_case(mu: ArrayLike) -> Array:
     """γ from which on the spins' peak is lower than a tuned mass': sqrt(μ) for a small one."""
     inverse = mass_worst_case(mu).value ** -2.0

@@ -515,7 +515,7 @@ def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[fl
     critical factor or more) and, where one is more than 1.5 times as far from the critical factor as the other, at three
     between. Where it is less, the end moves in to a factor at which it is not, found by bisection to 1/8 of its distance from
     the critical factor, or the interval is left out. So no end is said to hold that does not; inside, only those three factors
-    are checked. Empty where no spins are known to hold it. Raises InputError as `resonances` does.
+    are checked. Empty where no spins are known to hold it. Raises as `resonances` does.
     """
     check_kind_of_push(of)
     check_upright(s, "spin_intervals")

@@ -42,8 +42,8 @@ class Modes(Shown):
     Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
     energy_signs (n,): that of ω² ū·M u + ū·K u, −1 of an oscillation with less energy than rest; 0 of what grows or has no rate.
     left_out (n,): by how much (rad/s) the inertia lowers each rate to first order, where it is left out; else 0. Below zero where
-    it raises it, under weight. lost (n,): growth and decay (1/s) below it are rounding, and given as 0: of an oscillation what is
-    1e-14 of all that friction could take, or without friction 1e-6 of its rate beside another of that rate. Of modes_about shapes
+    it raises it, under weight. lost (n,): growth and decay (1/s) below it are rounding, and given as 0; without friction that is
+    1e-6 of the rate beside another of that rate. Of modes_about shapes
     (n, N, 3) are changes of the axes.
     """
 
@@ -61,6 +61,7 @@ class Modes(Shown):
         signs = {1: "", 0: "", -1: ", of negative energy"}
         rows = {
             f"mode {i + 1}": f"{self.rates[i]:.6g} rad/s, growth {self.growth[i]:.3g} 1/s{signs[int(self.energy_signs[i])]}"
+            + (f", {self.lost[i]:.1g} 1/s lost" if self.lost[i] > abs(self.growth[i]) else "")
             for i in most
         }
         rest = {"further ones": str(len(self.rates) - 12)} if len(self.rates) > 12 else {}
@@ -154,9 +155,7 @@ class SmallMotion:
 
         What friction takes is no difference of large numbers: small growth beside fast rates keeps its digits.
         """
-        kinetic, rubbed, elastic = (
-            (vectors.conj() * (form @ vectors)).sum(0).real for form in (self.mass, self.damping, self.stiffness)
-        )
+        kinetic, rubbed, elastic = _forms(vectors, self.mass, self.damping, self.stiffness)
         square, sizes = s.imag**2, np.abs(s)
         apart = np.abs(s[:, None] - s) + np.diag(np.full(len(s), np.inf))
         nearest = np.maximum(apart.min(1, initial=np.inf), 1e-300)
@@ -165,12 +164,13 @@ class SmallMotion:
             return 0 * sizes, np.where(together, _ZERO * sizes, 0)
         least = sizes.min(where=sizes > 0, initial=np.inf)
         mixed = np.minimum(10 * _ROUNDED * np.minimum(sizes.max(initial=0), sizes**2 / least) / nearest, 1)
-        most = np.linalg.norm(self.damping, 2) * (vectors.conj() * vectors).sum(0).real
+        most, moved = np.linalg.norm(self.damping, 2) * _forms(vectors, np.eye(self.dof))[0], np.abs(vectors)
+        noise = self.rounding * _forms(moved, np.abs(self.damping))[0] + (mixed**2 + _ROUNDED * self.rounding) * most
         energy = square * kinetic + elastic
         sharp = (square > 0) & (np.abs(energy) > _ZERO * (square * kinetic + np.abs(elastic)))  # not at critical spins
         over = square / np.where(sharp, energy, 1)
-        lost = np.abs(over) * most * (self.rounding + mixed**2)
-        return np.where(sharp, -over * rubbed, 0), np.where(sharp, lost, np.where(square > 0, _ZERO * sizes, 0))
+        lost = np.where(sharp, np.abs(over) * noise, np.where(square > 0, _ZERO * sizes, 0))
+        return np.where(sharp, -over * rubbed, 0), lost
 
     @property
     def _of_first_order(self) -> tuple[Complex, Complex]:
@@ -191,8 +191,7 @@ class SmallMotion:
 
     def energy_signs(self, roots: Complex, vectors: Complex) -> NDArray[np.int64]:
         """The signs of ω² ū·M u + ū·K u of roots and their vectors, (m,)."""
-        forms = (vectors.conj() * (form @ vectors) for form in (self.mass, self.stiffness))
-        kinetic, elastic = (form.sum(0).real for form in forms)
+        kinetic, elastic = _forms(vectors, self.mass, self.stiffness)
         return np.sign(kinetic * roots.imag**2 + elastic).astype(np.int64)
 
     @cached_property
@@ -334,6 +333,11 @@ def on_basis(parts: Matrix, basis: Matrix, rate: float) -> SmallMotion:
         parts = _dagger(basis)[..., None, :, :] @ parts @ basis[..., None, :, :]
     mass, damping, gyroscopic, stiffness = np.moveaxis(parts, -3, 0)
     return SmallMotion(mass, damping, gyroscopic, stiffness, basis, rate)
+
+
+def _forms(vectors: Complex, *matrices: Matrix) -> list[Array]:
+    """ū·A u of vectors (n, m) and each matrix, (m,)."""
+    return [(vectors.conj() * (A @ vectors)).sum(0).real for A in matrices]
 
 
 def _dagger(x: Matrix) -> Matrix:

@@ -118,7 +118,7 @@ def test_the_mean_square_is_at_its_least(gamma) -> None:
 def test_spins_and_mass_are_even_where_it_is_said(mu) -> None:
     worst, noise = absorbers.spins_win_worst_case(mu), absorbers.spins_win_white_noise(mu)
     assert absorbers.spins_worst_case(worst).value == pytest.approx(absorbers.mass_worst_case(mu).value)
-    assert absorbers.spins_white_noise(noise).value == pytest.approx(absorbers.mass_white_noise(mu).value)
+    assert absorbers.spins_white_noise(noise).value == pytest.approx(np.sqrt((4 + 3 * mu) / (mu * (1 + mu))))
     assert absorbers.spins_worst_case(1.01 * worst).value < absorbers.mass_worst_case(mu).value
 
 

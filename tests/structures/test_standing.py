@@ -168,10 +168,21 @@ def test_small_growth_beside_fast_rates_keeps_its_digits_or_is_said_to_be_lost()
     given = {"spins": [30.0, 41.0], "gravity": 9.81, "friction": [0.0, 0.01], "hinge": [0.0, 50.0]}
     soft = Structure([(0, 0), (3, 0)], braces=[Brace(0, 1, 1e-3)], **given)
     assert soft.stands().growth == pytest.approx(1.46579e-14, rel=1e-4)  # of roots of 80 digits
-    softer = replace(soft, braces=[Brace(0, 1, 1e-7)])  # 1.46588e-22
-    assert (softer.modes().growth[:2] == 0).all() and softer.modes().lost[0] > 1e-22 and softer.critical_spin() == inf
+    softer = replace(soft, braces=[Brace(0, 1, 1e-8)])
+    assert softer.stands().growth == pytest.approx(1.465882e-24, rel=1e-3)
+    given |= {"spins": [30.0, 41.0, 37.0], "friction": [0.0, 0.0, 0.01], "hinge": [0.0, 50.0, 60.0]}
+    lost = Structure([(0, 0), (3, 0), (6, 0)], braces=[Brace(0, 1, 1e-7), Brace(1, 2, 1e-7)], **given)
+    assert lost.modes().growth[0] == 0 < lost.modes().lost[0] and lost.critical_spin() == inf
     with pytest.raises(InputError, match="so slowly that double precision cannot tell"):
-        softer.stands()
+        lost.stands()
+
+
+def test_however_little_friction_reaches_what_falls() -> None:
+    """Beside another of 10¹³ times as much; twin: none there."""
+    given = {"spins": [30.0, 41.0], "gravity": 9.81, "hinge": [50.0, 0.0]}
+    s = Structure([(0, 0), (3, 0)], friction=[1.0, 1e-13], **given)
+    assert s.critical_spin() == inf and s.stands().growth == pytest.approx(2.950227e-16, rel=1e-4)
+    assert Structure([(0, 0), (3, 0)], friction=[1.0, 0.0], **given).stands()
 
 
 def test_of_fast_spins_what_holds_is_that_of_slower_ones() -> None:

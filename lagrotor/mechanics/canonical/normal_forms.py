@@ -35,7 +35,7 @@ from lagrotor.mechanics.canonical.polynomials import (
     polynomial,
     total,
 )
-from lagrotor.mechanics.canonical.symplectic import NormalCoordinates, normal_coordinates
+from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.shown import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
@@ -261,8 +261,12 @@ def normal_form_of_series(H: Polynomial, order: int, detuning: float = 0.0) -> N
 
     Raises as `normal_coordinates`.
     """
-    n = H.variables // 2
-    A, normal = quadratic_modes(H)
+    n, A = H.variables // 2, np.zeros((H.variables, H.variables))
+    for e, c in H.part(2).terms.items():
+        i, j = (k for k, m in enumerate(e) for _ in range(m))
+        A[i, j] += c.real
+        A[j, i] += c.real
+    normal = normal_coordinates(A, _symplectic(n))
     rows = [linear_form(row) for row in normal.vectors]
     full = Polynomial(H.exponents, H.coefficients + 0j).through(order).substitute(rows, order)
     quadratic = normal_quadratic(A, normal.vectors, normal.weights, normal.frequencies)
@@ -273,16 +277,6 @@ def normal_form_of_series(H: Polynomial, order: int, detuning: float = 0.0) -> N
     brackets = normal.vectors @ np.block([[none, pair], [-pair, none]]) @ normal.vectors.T - _symplectic(n)
     rest = np.abs((full.part(2) - quadratic).coefficients).max(initial=0.0) / np.abs(A).max(initial=1e-300)
     return replace(form, error=max(form.error, float(rest), float(np.abs(brackets).max())))
-
-
-def quadratic_modes(H: Polynomial) -> tuple[Any, NormalCoordinates]:
-    """A of the quadratic part ½ x·A x, and its normal coordinates."""
-    A = np.zeros((H.variables, H.variables))
-    for e, c in H.part(2).terms.items():
-        i, j = (k for k, m in enumerate(e) for _ in range(m))
-        A[i, j] += c.real
-        A[j, i] += c.real
-    return A, normal_coordinates(A, _symplectic(H.variables // 2))
 
 
 def _symplectic(n: int) -> Any:
