@@ -5,7 +5,10 @@
 # to it.
 #
 # **Assumptions.** Small motion about upright axes; in the closed forms equal rotors and loads and massless bars. The
-# numbers compare the linear results with the exact motion, with heavy bars too.
+# numbers compare the linear results with the exact motion, with heavy bars too. Known: that spins hold an even number of
+# motions alone, Thomson & Tait, Natural Philosophy, § 345; tops that spins hold one upon another, Greenhill, Encyclopædia
+# Britannica, 11th ed. (1911), Gyroscope and Gyrostat, §§ 14 and 15; what friction does, Merkin, Introduction to the Theory of
+# Stability, ch. 6. For rotors side by side under bars the least spins are new, as far as we know.
 #
 # **Notation.** $u_i=(x_i,y_i)$ the tilt of axis $i$; $a$ the inertia of an axis about its joint, load included; $\kappa=gS$
 # its weight's moment, $S$ the sum of its masses times their heights; $N$ the number of rotors; $b$ the coupling by a heavy

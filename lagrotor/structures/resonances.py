@@ -153,7 +153,7 @@ def resonances(
 ) -> tuple[Resonance, ...]:
     """The resonances that the spins, multiplied by a factor, are near, those that the smallest pushes of that kind meet first.
 
-    None where the energy is definite. Of fast spins they are those of slower ones, to 10⁻⁴ or so. Raises InputError where a
+    None where the energy is definite. Of fast spins they are estimated by those of slower ones. Raises InputError where a
     mode grows or has the rate zero, friction acts, or the degrees of freedom are too many, SingularError where a rate is below
     10⁻⁶ of another and not all are as the spins or as one over them.
     """
