@@ -71,9 +71,14 @@ _IDENTITY = re.compile(
     re.IGNORECASE,
 )
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
+# What it says where a letter has a meaning of its own.
+_GIVES = re.compile(r"\bwhere\s*□|□[\s,.]*(?:is|are) (?:the|an?)\b|\b(?:defin|call|denot|let\b)", re.IGNORECASE)
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 # The one guess that verdicts rest on: that log is the natural logarithm.
 _ANY_BASE = "log is"
+# Guesses of what has a name; it stands for itself whatever it is, where nothing is differentiated or integrated.
+_OF_NAMES = re.compile(r"with a dot is its rate|is (?:a|part of the) name, and no derivative")
+_PLAIN = frozenset((*KNOWN, "sum", "product", "quotient", "power", "negative", "dot", "cross", "norm", "column"))
 
 
 @dataclass(frozen=True)
@@ -223,7 +228,10 @@ class _Checker:
         alone = read_formula(f"{left.latex} = {right.latex}", self.notation)
         same = alone.whole and [side.node for side in alone.statements[0].sides] == [left.node, right.node]
         readings = [alone if same else whole, *(read_formula(each.latex, self.notation) for each in used)]
-        return next(filter(None, map(_guess, readings)), "")
+        nodes = (left.node, right.node, *(each.value for each in used))
+        plain = all(n.name in _PLAIN for node in nodes for n in walk(node) if isinstance(n, Call))
+        guesses = (each for reading in readings for each in reading.guesses if not each.startswith(_ANY_BASE))
+        return next((each for each in guesses if not (plain and _OF_NAMES.search(each))), "")
 
     def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """A row that continues the one before, with the last side of that row in its place."""
@@ -532,7 +540,8 @@ class _Checker:
                 broken.append((read, why, near))
         letters = Counter(name for read, _, _ in broken for name in _letters_of(read.statement))
         for read, why, near in broken:
-            if near or all(letters[name] == 1 for name in _letters_of(read.statement)):
+            alone = all(letters[name] == 1 for name in _letters_of(read.statement))
+            if near or (alone and not _GIVES.search(self.source.words.get(read.equation.id, ""))):
                 yield self._finding(read.equation, 0, None, UNITS, why)
 
     def _values(self) -> Iterator[tuple[str, list[Node], None]]:

@@ -217,6 +217,8 @@ def test_a_letter_with_another_meaning_in_another_section_is_no_contradiction(tm
     fall = r"\section{Fall} \[ t = 3\,\mathrm{s} \] \[ v = a t \] \[ l = \frac12 a t^2 \] "
     assert UNITS not in verdicts(tmp_path, waves + fall)
     assert verdicts(tmp_path, waves + r"\section{Fall} \[ v = a t \]").count(UNITS) == 1, "one by itself is a slip"
+    for where in (r"where \[ v = a t \] is the speed", r"By the definition of $v$ \[ v = a t \]"):
+        assert UNITS not in verdicts(tmp_path, waves + r"\section{Fall} " + where), "the text gives it"
     assert verdicts(tmp_path, waves + fall + r"\[ l = a t^3 \]").count(UNITS) == 1, "against its own section"
 
 
@@ -599,5 +601,13 @@ def test_a_guess_of_another_side_or_of_a_premise_stands_by_itself(tmp_path: Path
     """Twin: with the guess in the step itself, or in the premise that is put in, nothing is refuted."""
     assert verdicts(tmp_path, r"\[ E = \bar{A} = (x + y)^2 = x^2 - 2xy + y^2 \]")[-1] == REFUTED
     assert REFUTED not in verdicts(tmp_path, r"\[ E = (\bar{A} + y)^2 = \bar{A}^2 - 2\bar{A}y + y^2 \]")
-    for l, expected in (("l", REFUTED), ("l'", "undecided")):
-        assert verdicts(tmp_path, rf"\[ v = {l}\omega \] \[ T = m v^2 = m {l}\omega^2 \]")[-1] == expected
+    for name, expected in (("l", REFUTED), (r"\bar{L}", "undecided")):
+        assert verdicts(tmp_path, rf"\[ v = {name}\omega \] \[ T = m v^2 = m {name}\omega^2 \]")[-1] == expected
+
+
+def test_a_guess_of_a_name_matters_only_where_something_is_differentiated(tmp_path: Path) -> None:
+    for step, expected in (
+        ("(x' + y)^2 = x'^2 - 2x'y + y^2", REFUTED),
+        (r"x'\frac{\partial f}{\partial x} + y = y - x'\frac{\partial f}{\partial x}", "undecided"),
+    ):
+        assert verdicts(tmp_path, rf"\[ E = {step} \]")[-1] == expected
