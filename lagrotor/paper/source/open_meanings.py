@@ -531,7 +531,13 @@ def _spaces(reader: FormulaReader, row: list[Box]) -> Marks:
     for place, box in enumerate(row[1:-1], 1):
         sides = row[place - 1].kind, row[place + 1].kind
         wide = box.kind == "thin" and reader.source[box.at : box.end] not in (r"\,", r"\!")
-        if wide and all(kind in (*_FACTORS, "number", "thin") for kind in sides) and row[place + 1].kind != "big":
+        closing = row[place + 1].name == "d" and any("int" in b.name for b in row[:place] if b.kind == "big")
+        if (
+            wide
+            and all(kind in (*_FACTORS, "number", "thin") for kind in sides)
+            and row[place + 1].kind != "big"
+            and not closing
+        ):
             yield "spaces", "what a space parts are factors, and no list", ""
     ends = [k for k, b in enumerate(row) if b.kind in _PARTS]
     for first, last in pairwise(ends):

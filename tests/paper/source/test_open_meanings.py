@@ -14,6 +14,11 @@ def guesses(latex: str, *paper: str, **said: str) -> tuple[str, ...]:
     return read_formula(latex, notation_of([latex, *paper], declared_notation(said))).guesses
 
 
+def test_a_space_before_the_differential_of_an_integral_parts_no_list() -> None:
+    assert not guesses(r"a = \int_0^b x^2 \;\mathrm{d} x")
+    assert "what a space parts" in guesses(r"a = b \; c")[-1]
+
+
 # A formula that is marked by itself, other formulas of a paper that settle it, and the words of the mark.
 SETTLED = [
     (r"a = \Phi(b + c)", [r"\Phi(b) = c"], "Phi before ( is a factor"),
