@@ -101,7 +101,8 @@ def spins_win_worst_case(mu: ArrayLike) -> Array:
 
 
 def spins_win_white_noise(mu: ArrayLike) -> Array:
-    """γ from which on the spins do better than a tuned mass under white noise: 2 sqrt(μ (1 + μ))/(2 + μ)."""
+    """γ from which on the spins do better than a tuned mass under white noise: 2 sqrt(μ (1 + μ))/(2 + μ). The best tuned mass has
+    the mean square sqrt((4 + 3μ)/(μ (1 + μ))) (Warburton)."""
     m = _in_domain("mu", mu, np.inf)
     return np.asarray(2 * np.sqrt(m * (1 + m)) / (2 + m))
 
