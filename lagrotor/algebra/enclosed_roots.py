@@ -40,18 +40,22 @@ def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], p
     middle = sp.Matrix([[(low + high) / 2 for low, high in row] for row in spread])
     if middle.det() == 0:
         return None
-    Y = middle.inv()
-    n = len(unknowns)
-    for i, s in enumerate(unknowns):
-        moved = _sum(_times((Y[i, j], Y[i, j]), values[j]) for j in range(n))
-        total = (here[s] - moved[1], here[s] - moved[0])
-        for k in range(n):
-            product = _sum(_times((Y[i, j], Y[i, j]), spread[j][k]) for j in range(n))
+    K = _image(values, spread, middle.inv(), here, box)
+    return box if all(box[s][0] < K[s][0] <= K[s][1] < box[s][1] for s in unknowns) else None
+
+
+def _image(values: Sequence[Bounds], spread: Sequence[Sequence[Bounds]], Y: sp.Matrix, x: Point, X: Box) -> Box:
+    """K(X), of F(x), F'(X), Y and x."""
+    K: Box = {}
+    for i, s in enumerate(X):
+        moved = _sum(_times((Y[i, j], Y[i, j]), v) for j, v in enumerate(values))
+        parts = [(x[s] - moved[1], x[s] - moved[0])]
+        for k, other in enumerate(X):
+            product = _sum(_times((Y[i, j], Y[i, j]), row[k]) for j, row in enumerate(spread))
             off = (int(i == k) - product[1], int(i == k) - product[0])
-            total = _sum([total, _times(off, (-_NARROW, _NARROW))])
-        if not box[s][0] < total[0] <= total[1] < box[s][1]:
-            return None
-    return box
+            parts.append(_times(off, (X[other][0] - x[other], X[other][1] - x[other])))
+        K[s] = _sum(parts)
+    return K
 
 
 def _near(
@@ -171,16 +175,7 @@ def _krawczyk(system: _Equations, X: Box) -> Box | None:
     if mean.det() == 0:
         return None
     Y = mean.inv().applyfunc(_short)
-    K: Box = {}
-    for i, s in enumerate(unknowns):
-        moved = _sum(_times((Y[i, j], Y[i, j]), v) for j, v in enumerate(values) if v)
-        parts = [(middle[s] - moved[1], middle[s] - moved[0])]
-        for k, other in enumerate(unknowns):
-            product = _sum(_times((Y[i, j], Y[i, j]), v) for j in range(n) if (v := spread[j][k]))
-            off = (int(i == k) - product[1], int(i == k) - product[0])
-            parts.append(_times(off, (X[other][0] - middle[other], X[other][1] - middle[other])))
-        K[s] = _sum(parts)
-    return K
+    return _image([v for v in values if v], [[v for v in row if v] for row in spread], Y, middle, X)
 
 
 def _meet(a: Bounds, b: Bounds) -> bool:
