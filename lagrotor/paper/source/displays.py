@@ -44,7 +44,7 @@ _NO_FORMULA = (r"\[", r"\]", *(rf"\{level}" for level in _LEVELS))  # in none of
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Displayed:
     """One displayed equation: `number` as printed, empty where it has none; `latex` expanded, without labels and numbers.
 

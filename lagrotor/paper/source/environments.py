@@ -108,13 +108,7 @@ def _pass_over(expander: Expander, name: str, at: int) -> bool:
     if place < 0 or not text.startswith(r"\begin", at - start):
         return False
     end = start + place + len(ending)
-    while expander.waiting and not (expander.waiting[-1] and not start <= expander.waiting[-1][-1].at < end):
-        tokens = expander.waiting.pop()
-        if tokens:
-            last = tokens.pop()
-            if last.at + len(last.text) > end:  # taken as a comment or \verb over the end
-                tokens[:] = tokenize(text[end - start :], end)[::-1]
-            expander.waiting.append(tokens)
+    expander.pass_over(start, end, text[end - start :])
     return True
 
 

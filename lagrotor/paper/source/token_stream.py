@@ -3,20 +3,40 @@
 import os
 import re
 from bisect import bisect_left, bisect_right
-from collections.abc import Collection, Iterable
-from itertools import chain
+from collections.abc import Collection, Iterable, Iterator
+from itertools import islice
 from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.files import read_text
 from lagrotor.paper.source.groups import Macro, Macros
-from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
+from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize, tokens_of
 
 _MOST_TOKENS, _MOST_FILES = 2_000_000, 500
+_AHEAD = 4096  # tokens of a file that are made at a time
 # TeX passes over NUL; another control character is no part of a formula, nor of a file that keeps one.
 _CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
 _EMPTY_LINE = re.compile(r"\n\s*\n")
 _NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
+
+
+class FileTokens(list[Token]):
+    """The next tokens of a file in reverse order; the others are made as they are asked for."""
+
+    def __init__(self, text: str, at: int) -> None:
+        super().__init__()
+        self.begin(text, at)
+
+    def begin(self, text: str, at: int) -> None:
+        """Go on with this text, whose first character has this place."""
+        self.rest = tokens_of(text, at)
+        self.clear()
+
+    def read_on(self) -> list[Token]:
+        """Take in some tokens more, and give them in their order; none at the end."""
+        more = list(islice(self.rest, _AHEAD))
+        self[:0] = more[::-1]
+        return more
 
 
 class TokenStream:
@@ -27,11 +47,11 @@ class TokenStream:
         self.macros = Macros({r"\empty": Macro(()), r"\@empty": Macro(())})
         self.files = 0
         self.in_vain = 0  # tokens looked at for the end of an argument that did not come
-        self.most = _MOST_TOKENS  # tokens that may wait: those of the files, and what expansions add
+        self.most = _MOST_TOKENS  # tokens that may wait: as many as the files have characters, and what expansions add
         # where each file begins, its name, its ends of lines, its text
         self.starts: list[tuple[int, str, list[int], str]] = []
         self.end = 0
-        self.reading: list[tuple[Path, list[Token]]] = []  # files, and what is left of each
+        self.reading: list[tuple[Path, FileTokens]] = []  # files, and what is left of each
         self.waiting: list[list[Token]] = []  # tokens in reverse order, the innermost file or expansion last
         self.take_in(text, file or Path())
 
@@ -44,9 +64,10 @@ class TokenStream:
         if self.files > _MOST_FILES:
             raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: give its parts")
         self.starts.append((self.end, file.name, [m.start() for m in re.finditer("\n", text)], text))
-        self.waiting.append(tokenize(text, self.end)[::-1])
-        self.reading.append((file, self.waiting[-1]))
-        self.most += len(self.waiting[-1])
+        tokens = FileTokens(text, self.end)
+        self.waiting.append(tokens)
+        self.reading.append((file, tokens))
+        self.most += len(text)
         self.end += len(text) + 1
 
     def read_file(self, name: str, suffixes: tuple[str, ...] = (".tex", "")) -> bool:
@@ -85,9 +106,30 @@ class TokenStream:
     def next(self) -> Token | None:
         """The next token as it stands; None at the end."""
         while self.waiting:
-            if self.waiting[-1]:
-                return self.waiting[-1].pop()
+            tokens = self.waiting[-1]
+            if tokens or (isinstance(tokens, FileTokens) and tokens.read_on()):
+                return tokens.pop()
             self.waiting.pop()
+        return None
+
+    def ahead(self) -> Iterator[Token]:
+        """What `next()` will give, which stays."""
+        for tokens in reversed(self.waiting):
+            yield from reversed(tokens)
+            while isinstance(tokens, FileTokens) and (more := tokens.read_on()):
+                yield from more
+
+    def pass_over(self, start: int, end: int, text: str) -> None:
+        """Take what stands between two places; what a token has taken over the end is read again: the text behind it."""
+        while (token := self.next()) is not None:
+            if not start <= token.at < end:
+                return self.push([token])
+            if token.at + len(token.text) > end:  # a comment, or \verb
+                tokens = self.waiting[-1]
+                if isinstance(tokens, FileTokens):
+                    tokens.begin(text, end)
+                else:
+                    tokens[:] = tokenize(text, end)[::-1]
         return None
 
     def push(self, tokens: Iterable[Token]) -> None:
@@ -197,7 +239,7 @@ class TokenStream:
         """The tokens before `end`, which is taken; nothing is taken where the paragraph or the group ends first."""
         found: list[Token] = []
         depth = 0
-        for token in chain.from_iterable(map(reversed, reversed(self.waiting))):
+        for token in self.ahead():
             ends = (
                 depth == 0
                 and token.kind == end.kind

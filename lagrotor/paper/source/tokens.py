@@ -1,7 +1,7 @@
 """LaTeX as TeX's tokens: commands, braces, scripts and runs of characters, without comments; and tokens as LaTeX again."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 _VERBATIM = r"verbatim\*?|Verbatim\*?|BVerbatim|lstlisting|minted|comment|filecontents\*?|asy|asydef"
@@ -36,7 +36,11 @@ class Token(NamedTuple):
 
 def tokenize(text: str, base: int = 0) -> list[Token]:
     """The tokens of a text, its comments left out; base: the place of its first character."""
-    found = []
+    return list(tokens_of(text, base))
+
+
+def tokens_of(text: str, base: int = 0) -> Iterator[Token]:
+    """The tokens of a text one by one, as they are asked for."""
     if (short := _SHORT.search(text)) is not None:  # \DefineShortVerb{\|}: what is between two bars is no LaTeX
         mark = re.escape(short[1])
         text = re.sub(rf"(?<!\\)(?<!\\verb){mark}[^{mark}\n]*{mark}", _blank, text)
@@ -50,8 +54,7 @@ def tokenize(text: str, base: int = 0) -> list[Token]:
         if kind in ("name", "mark"):
             kind = "raw"
         if kind != "comment":
-            found.append(Token(kind, match[0], base + match.start()))
-    return found
+            yield Token(kind, match[0], base + match.start())
 
 
 def latex_of(tokens: Iterable[Token]) -> str:

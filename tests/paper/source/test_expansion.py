@@ -108,3 +108,18 @@ def test_derivatives_of_packages_are_read_or_refused_in_words(package: str, form
     reading = read_formula(equation.latex, notation_of([equation.latex]))
     shown = reading.stop[0] if reading.stop else statement_text(reading.statements[0]).removeprefix("g = ")
     assert said in (shown, equation.latex.removeprefix("g = "))
+
+
+def test_a_file_is_taken_in_as_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All tokens of 5 MB took 220 MB before the first was looked at."""
+    stream = token_stream.TokenStream("a $b$ " * 100_000)
+    longest = 0
+    while stream.next() is not None:
+        longest = max(longest, len(stream.waiting[-1]) if stream.waiting else 0)
+    assert 0 < longest < 10_000
+
+
+def test_an_argument_may_be_longer_than_what_was_read() -> None:
+    body = "x $y$ " * 20_000
+    source = rf"\def\f#1\end{{}}\f {body}\end \[ a = b \]"
+    assert [each.latex for each in read_latex(source).equations] == ["a = b"]
