@@ -21,7 +21,7 @@ _NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
 
 
 class FileTokens(list[Token]):
-    """The next tokens of a file in reverse order; the others are made as they are asked for."""
+    """The next tokens of a file in reverse order; the others are made as they are needed."""
 
     def __init__(self, text: str, at: int) -> None:
         super().__init__()

@@ -40,7 +40,7 @@ def tokenize(text: str, base: int = 0) -> list[Token]:
 
 
 def tokens_of(text: str, base: int = 0) -> Iterator[Token]:
-    """The tokens of a text one by one, as they are asked for."""
+    """The tokens of a text one by one, as they are needed."""
     if (short := _SHORT.search(text)) is not None:  # \DefineShortVerb{\|}: what is between two bars is no LaTeX
         mark = re.escape(short[1])
         text = re.sub(rf"(?<!\\)(?<!\\verb){mark}[^{mark}\n]*{mark}", _blank, text)
