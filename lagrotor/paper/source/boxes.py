@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from string import ascii_letters
 
-from lagrotor.paper.source.tokens import Token, tokenize
+from lagrotor.paper.source.tokens import BRACES, Token, tokenize
 
 _GREEK_NAMES = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega "
@@ -202,7 +202,7 @@ class _Reader:
         start, depth = item.at + 1, 0
         while (item := self.peek()) is not None:
             self.take()
-            depth += {"open": 1, "close": -1}.get(item.kind, 0)
+            depth += BRACES.get(item.kind, 0)
             if depth == 0:
                 return self.latex[start : item.at]
         return self.latex[start:]
@@ -216,7 +216,7 @@ class _Reader:
         depth = 0
         while (item := self.peek()) is not None:
             self.take()
-            depth += {"open": 1, "close": -1}.get(item.kind, 0)
+            depth += BRACES.get(item.kind, 0)
             if item.text == "]" and depth == 0:
                 return self.latex[start : item.at]
         return None
@@ -508,7 +508,7 @@ class _Reader:
         """The first of these that comes, in the same braces."""
         depth = 0
         for item in self.items[self.place :]:
-            depth += {"open": 1, "close": -1}.get(item.kind, 0)
+            depth += BRACES.get(item.kind, 0)
             if depth < 0 or (depth == 0 and item.text in wanted):
                 return item.text
         return ""

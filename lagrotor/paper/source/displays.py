@@ -12,7 +12,7 @@ from lagrotor.paper.source.expansion import STYLES, Expander
 from lagrotor.paper.source.groups import Macro
 from lagrotor.paper.source.primitives import PRIMITIVES
 from lagrotor.paper.source.source_faults import faults_of
-from lagrotor.paper.source.tokens import Token, latex_of, tokenize
+from lagrotor.paper.source.tokens import BRACES, NESTING, Token, latex_of, tokenize
 from lagrotor.paper.source.unknown_environments import UnknownEnvironments
 
 # Each row of these is an equation with a number of its own; the others have one number.
@@ -371,8 +371,8 @@ class _Walker:
             row.stepped = True
         depth = braces = 0
         for part in self._inside(token, end):
-            depth += {r"\begin": 1, r"\end": -1}.get(part.text, 0)
-            braces += {"open": 1, "close": -1}.get(part.kind, 0)
+            depth += NESTING.get(part.text, 0)
+            braces += BRACES.get(part.kind, 0)
             if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or part.text in _BETWEEN):
                 if self._ended(part) and by_rows and (part.text not in _BETWEEN or _has_text(row.tokens)):
                     self._finish(row, by_rows)
@@ -509,6 +509,7 @@ class _Walker:
         """The equations of a display: rows that continue the one before are joined with it."""
         known = len(self.found.equations)
         group: list[Row] = []
+        sources: list[str] = []
         previous = ""
         for place, row in enumerate(rows if kind in ("align", "gather", "alignat", "flalign") else ()):
             after = next((each for each in rows[place + 1 :] if each.number), None)
@@ -522,12 +523,13 @@ class _Walker:
                 continue
             if group and self._continues(group, row, source):
                 group.append(row)
+                sources.append(source)
                 continue
             if group:
-                previous = self._one(group, kind, token, previous, lead)
-            group = [row]
+                previous = self._one(group, sources, kind, token, previous, lead)
+            group, sources = [row], [source]
         if group:
-            self._one(group, kind, token, previous, lead)
+            self._one(group, sources, kind, token, previous, lead)
         self.cited, self.words = [], ""
         self.beside = [each.id for each in self.found.equations[known:]]
 
@@ -546,14 +548,15 @@ class _Walker:
         whole = " ".join(latex_of(each.tokens) for each in group)
         return _unbalanced(whole)
 
-    def _one(self, group: list[Row], kind: str, token: Token, previous: str, lead: list[Token]) -> str:
-        """One equation; gives its left side."""
+    def _one(
+        self, group: list[Row], sources: list[str], kind: str, token: Token, previous: str, lead: list[Token]
+    ) -> str:
+        """One equation of rows and their LaTeX; gives its left side."""
         number = next((row.number for row in group if row.number), "")
         labels = [label for row in group for label in row.labels]
         for row in group:
             for label in row.labels:
                 self.found.labels.setdefault(label, row.number or row.referred or number)
-        sources = [" ".join(latex_of(row.tokens).split()) for row in group]
         if len(sources) > 1:
             latex = r"\begin{aligned} " + r" \\ ".join(sources) + r" \end{aligned}"
         else:
@@ -624,8 +627,8 @@ def _without_columns(tokens: list[Token], kind: str) -> str:
     kept: list[Token] = []
     words: list[Token] | None = None  # the second column of numcases is text, in which $ begins a formula
     for token in tokens:
-        depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0)
-        braces += {"open": 1, "close": -1}.get(token.kind, 0)
+        depth += NESTING.get(token.text, 0)
+        braces += BRACES.get(token.kind, 0)
         if token.kind == "align" and depth == 0:
             columns += 1
             parts = "cases" in kind or (columns % 2 == 0 and kind in _PAIRS)

@@ -6,8 +6,8 @@ from typing import Any
 
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
-from lagrotor.paper.source.tokens import Token, latex_of, tokenize
-from lagrotor.paper.source.tree import Letter, Number, in_catalogue, letters_of, text_of, walk
+from lagrotor.paper.source.tokens import NESTING, Token, latex_of, tokenize
+from lagrotor.paper.source.tree import Letter, Number, in_catalogue, is_constant, text_of, walk
 from lagrotor.paper.source.usage import Notation, declared_notation, notation_of
 
 
@@ -50,7 +50,7 @@ def read_print(latex: str, notation: Notation | None = None, lead: str = "") -> 
         lines.append(line)
         for side in (each for each in statement.sides if in_catalogue(each.node)):
             for each in walk(side.node):
-                if isinstance(each, Letter) and each.name in letters_of(each):
+                if isinstance(each, Letter) and not is_constant(each):
                     (vectors if each.vector else letters)[each.name] = None
     return Print(tuple(lines), tuple(aside), tuple(letters), tuple(vectors), reading.guesses)
 
@@ -81,7 +81,7 @@ def _latex(side: Side) -> str:
     kept: list[Token] = []
     depth = 0
     for token in tokenize(side.latex):
-        depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0)
+        depth += NESTING.get(token.text, 0)
         if depth or token.text not in ("&", r"\\"):
             kept.append(token)
     return " ".join(latex_of(kept).split())

@@ -32,14 +32,16 @@ def strip(row: list[Box]) -> list[Box]:
 def all_boxes(row: list[Box]) -> list[Box]:
     """The boxes of a row and all that they hold."""
     found: list[Box] = []
-    for box in row:
-        found.append(box)
-        for part in box.parts:
-            found += all_boxes(part)
-        if box.sub:
-            found += all_boxes(box.sub)
-        if box.sup:
-            found += all_boxes(box.sup)
+    rows = [iter(row)]
+    while rows:
+        for box in rows[-1]:
+            found.append(box)
+            if box.parts or box.sub or box.sup:
+                held = [*box.parts, *(script for script in (box.sub, box.sup) if script)]
+                rows += [iter(each) for each in held[::-1]]
+                break
+        else:
+            rows.pop()
     return found
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from lagrotor.errors import InputError
 from lagrotor.files import read_text
 from lagrotor.paper.source.groups import Macro, Macros
-from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize, tokens_of
+from lagrotor.paper.source.tokens import BRACES, Token, latex_of, plain, tokenize, tokens_of
 
 _MOST_TOKENS, _MOST_FILES = 2_000_000, 500
 _AHEAD = 4096  # tokens of a file that are made at a time
@@ -181,7 +181,7 @@ class TokenStream:
         found: list[Token] = []
         depth = 1
         while (token := self.next()) is not None:
-            depth += {"open": 1, "close": -1}.get(token.kind, 0)
+            depth += BRACES.get(token.kind, 0)
             if depth == 0:
                 return found
             found.append(token)
@@ -207,7 +207,7 @@ class TokenStream:
                         rest = token.text[place + 1 :]
                         self.push(plain(rest, token.at + place + 1))
                         return found
-            braces += {"open": 1, "close": -1}.get(token.kind, 0)
+            braces += BRACES.get(token.kind, 0)
             if braces < 0:
                 self.push([token])
                 return found
@@ -246,7 +246,7 @@ class TokenStream:
                 and end.text in (token.text if end.kind == "text" else (token.text,))
             )
             before, _, rest = token.text.partition(end.text) if ends else (token.text, "", "")
-            depth += {"open": 1, "close": -1}.get(token.kind, 0)
+            depth += BRACES.get(token.kind, 0)
             if token.text == r"\par" or ("\n" in before and _EMPTY_LINE.search(before)) or (depth < 0 and not ends):
                 break
             if ends:

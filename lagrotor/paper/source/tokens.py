@@ -26,6 +26,11 @@ def _blank(span: re.Match[str]) -> str:
     return " " * len(span[0])
 
 
+# What a token adds to the depth of environments, by its text, and of braces, by its kind.
+NESTING = {r"\begin": 1, r"\end": -1}
+BRACES = {"open": 1, "close": -1}
+
+
 class Token(NamedTuple):
     r"""One token: `kind` is command, open, close, math, align, script, param, text or raw; `at`: where it begins."""
 

@@ -80,16 +80,22 @@ def number(value: int | str) -> Number:
 
 def walk(node: Node) -> Iterator[Node]:
     """The node and all that it holds."""
-    yield node
-    if isinstance(node, Call):
-        for argument in node.args:
-            yield from walk(argument)
+    waiting = [node]
+    while waiting:
+        node = waiting.pop()
+        yield node
+        if isinstance(node, Call):
+            waiting += node.args[::-1]
 
 
 def letters_of(node: Node) -> list[str]:
     """The names of its letters, in the order in which they are printed; pi, e and i as numbers are none."""
-    found = (each.name for each in walk(node) if isinstance(each, Letter))
-    return [name for name in dict.fromkeys(found) if name not in _CONSTANTS]
+    return list(dict.fromkeys(each.name for each in walk(node) if isinstance(each, Letter) and not is_constant(each)))
+
+
+def is_constant(letter: Letter) -> bool:
+    """Whether it is pi, i or infinity."""
+    return letter.name in _CONSTANTS
 
 
 def is_vector(node: Node) -> bool:
@@ -197,8 +203,15 @@ def is_operator(node: Node) -> bool:
 
 def in_catalogue(node: Node) -> bool:
     """Whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
-    calls = all(each.name in _ARITHMETIC or each.name in _CALLED for each in walk(node) if isinstance(each, Call))
-    return calls and Letter("imaginary_unit") not in walk(node)
+    return all(
+        isinstance(each, Number)
+        or (
+            each.name != "imaginary_unit"
+            if isinstance(each, Letter)
+            else each.name in _ARITHMETIC or each.name in _CALLED
+        )
+        for each in walk(node)
+    )
 
 
 def text_of(node: Node) -> str:
