@@ -18,7 +18,6 @@ from lagrotor.paper.source.read_statements import is_set
 from lagrotor.paper.source.rows import (
     TENSOR,
     UNITS,
-    VARIABLES,
     all_boxes,
     derivative_mark,
     has_differential_above,
@@ -31,13 +30,11 @@ from lagrotor.paper.source.usage import (
     is_number,
     is_plain_letter,
     is_printed_as_vector,
-    name_of,
     power_in,
     simple_argument,
     stem_of,
     touch,
     unprimed,
-    upper_index,
 )
 
 # Names that are mostly functions: before a bracket they are no factors.
@@ -179,10 +176,6 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     said = box.name in known.letters or box.name in known.numbers or box.name in known.functions
     if not (box.sub or box.marks or box.style or said):
         yield from _constant(reader, box, after)
-    if box.sub:
-        yield from _lowered(known, box)
-    if box.sup:
-        yield from _raised(reader, box)
 
 
 def _adorned(known: Notation, box: Box, after: Box | None, bracketed: bool) -> Marks:
@@ -228,56 +221,6 @@ def _constant(reader: FormulaReader, box: Box, after: Box | None) -> Marks:
         yield "differential", "d is a factor, and no differential of what follows", settles
     if box.name == "D" and "P(D)" in reader.notation.seen:
         yield "operator", "D is a number, and no derivative", settles
-
-
-def _lowered(known: Notation, box: Box) -> Marks:
-    """Indices that may be what a letter is differentiated by."""
-    below = without_thin(box.sub or [])
-    names = [b.name if b.kind == "comma" or is_plain_letter(b) else "" for b in below]
-    behind = names[names.index(",") + 1 :] if "," in names else []
-    if names[:1] == [","] or (0 < len(behind) < 3 and all(names) and "".join(names).replace(",", "").islower()):
-        yield "index", f"the comma in the index of {box.name} parts indices, and is no derivative", ""
-    elif any(b.kind in ("operator", "relation", "bracket") and b.name not in ("+", "-", "/") for b in below):
-        yield "index", f"the index of {box.name} is part of the name", ""
-    stem = stem_of(box)
-    alone = any({stem, name_of(box)} & shown for shown in (known.bare, known.called.keys(), known.applied))
-    differentiated = known.called.get(stem, set()) | known.varied.get(stem, set())
-    component = (
-        stem in known.arrows
-        and len(names) == 1
-        and not is_printed_as_vector(box)
-        and f"{box.name}_t" not in known.spelled
-    ) or (box.name == "e" and is_printed_as_vector(box))
-    if names and (({*names} <= set("xyzt") and not component) or (alone and {*names} <= VARIABLES | differentiated)):
-        yield "index", f"the index of {box.name} is part of the name, and no derivative", ""
-
-
-def _raised(reader: FormulaReader, box: Box) -> Marks:
-    """A superscript is a power where it is a number, or above Euler's e; and a name where it is a word."""
-    known, row, stem = reader.notation, without_thin(box.sup or []), stem_of(box)
-    if (box.name == "e" and "e" not in known.letters) or not row:
-        return
-    small = is_printed_as_vector(box) and (box.name[0].islower() or "vec" in box.marks)
-    if (reader.above and {b.name for b in row} <= reader.above) or (
-        small and power_in(box) and [b.name for b in row] != ["2"]
-    ):
-        return  # marked where it is read
-    if not power_in(box) or upper_index(known, box):
-        word = len(row) == 1 and (row[0].upright or row[0].kind == "text") and len(row[0].name) > 1
-        transposed = row[0].name in ("top", "intercal") or (row[0].name == "T" and is_printed_as_vector(box))
-        if not (word and row[0].name.islower()) and not transposed:
-            yield "mark", f"the superscript of {box.name} is part of the name", ""
-        return
-    number = row[-1].kind == "number" and len(row) == 1
-    if [b.name for b in row] == ["-", "1"]:
-        if not is_number(known, box) or known.is_function(box) or (box.name[0].isupper() and stem not in known.numeric):
-            yield "inverse", f"{box.name} is one over {box.name}, and no inverse function or matrix", ""
-    elif stem in known.raised or box.style == "bb" or (number and row[0].name in ("0", "1")):
-        yield "power", f"the superscript of {box.name} is a power, and no index", ""
-    elif _letters(*row):
-        yield "power", f"the superscript of {box.name} is a power, and no index, label or half step", ""
-    elif not all(b.kind in ("number", "operator", "fraction") for b in row):
-        yield "power", f"the superscript of {box.name} is a power", ""
 
 
 def _before_bracket(reader: FormulaReader, row: list[Box], place: int) -> Marks:

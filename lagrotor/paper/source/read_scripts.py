@@ -5,9 +5,18 @@ from dataclasses import replace
 
 from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.rows import TENSOR, without_thin
+from lagrotor.paper.source.rows import TENSOR, VARIABLES, all_boxes, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
-from lagrotor.paper.source.usage import index_of, is_printed_as_vector, name_of, power_in, upper_index
+from lagrotor.paper.source.usage import (
+    index_of,
+    is_number,
+    is_plain_letter,
+    is_printed_as_vector,
+    name_of,
+    power_in,
+    stem_of,
+    upper_index,
+)
 
 _SIGNS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _INDICES = ("i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
@@ -127,6 +136,10 @@ def _is_plain(box: Box) -> bool:
 def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
     """The letter, and whether its superscript is part of its name."""
     raised = mark_of(reader, box)
+    if box.sub:
+        _mark_index(reader, box)
+    if box.sup:
+        _mark_superscript(reader, box)
     if raised is None and box.sup is not None:
         _check_power(reader, box)
     index = index_parts(reader, box)
@@ -135,6 +148,57 @@ def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
         raise FormulaError(box.at, f"whether {prints} are one letter is open", "give one of them another index")
     name = name_of(box, index, raised or ())
     return Letter(name, is_printed_as_vector(box)), raised is not None
+
+
+def _mark_index(reader: FormulaReader, box: Box) -> None:
+    """Mark an index that may be what a letter is differentiated by."""
+    known = reader.notation
+    below = without_thin(box.sub or [])
+    names = [b.name if b.kind == "comma" or is_plain_letter(b) else "" for b in below]
+    behind = names[names.index(",") + 1 :] if "," in names else []
+    if names[:1] == [","] or (0 < len(behind) < 3 and all(names) and "".join(names).replace(",", "").islower()):
+        reader.guess("index", f"the comma in the index of {box.name} parts indices, and is no derivative")
+    elif any(b.kind in ("operator", "relation", "bracket") and b.name not in ("+", "-", "/") for b in below):
+        reader.guess("index", f"the index of {box.name} is part of the name")
+    stem = stem_of(box)
+    alone = any({stem, name_of(box)} & shown for shown in (known.bare, known.called.keys(), known.applied))
+    differentiated = known.called.get(stem, set()) | known.varied.get(stem, set())
+    component = (
+        stem in known.arrows
+        and len(names) == 1
+        and not is_printed_as_vector(box)
+        and f"{box.name}_t" not in known.spelled
+    ) or (box.name == "e" and is_printed_as_vector(box))
+    if names and (({*names} <= set("xyzt") and not component) or (alone and {*names} <= VARIABLES | differentiated)):
+        reader.guess("index", f"the index of {box.name} is part of the name, and no derivative")
+
+
+def _mark_superscript(reader: FormulaReader, box: Box) -> None:
+    """Mark a superscript; it is a power where it is a number, or above Euler's e; and a name where it is a word."""
+    known, row, stem = reader.notation, without_thin(box.sup or []), stem_of(box)
+    if (box.name == "e" and "e" not in known.letters) or not row:
+        return
+    small = is_printed_as_vector(box) and (box.name[0].islower() or "vec" in box.marks)
+    if (reader.above and {b.name for b in row} <= reader.above) or (
+        small and power_in(box) and [b.name for b in row] != ["2"]
+    ):
+        return  # marked where it is read
+    if not power_in(box) or upper_index(known, box):
+        word = len(row) == 1 and (row[0].upright or row[0].kind == "text") and len(row[0].name) > 1
+        transposed = row[0].name in ("top", "intercal") or (row[0].name == "T" and is_printed_as_vector(box))
+        if not (word and row[0].name.islower()) and not transposed:
+            reader.guess("mark", f"the superscript of {box.name} is part of the name")
+        return
+    number = row[-1].kind == "number" and len(row) == 1
+    if [b.name for b in row] == ["-", "1"]:
+        if not is_number(known, box) or known.is_function(box) or (box.name[0].isupper() and stem not in known.numeric):
+            reader.guess("inverse", f"{box.name} is one over {box.name}, and no inverse function or matrix")
+    elif stem in known.raised or box.style == "bb" or (number and row[0].name in ("0", "1")):
+        reader.guess("power", f"the superscript of {box.name} is a power, and no index")
+    elif any(b.kind == "letter" for b in all_boxes(row)):
+        reader.guess("power", f"the superscript of {box.name} is a power, and no index, label or half step")
+    elif not all(b.kind in ("number", "operator", "fraction") for b in row):
+        reader.guess("power", f"the superscript of {box.name} is a power")
 
 
 def _check_power(reader: FormulaReader, box: Box) -> None:

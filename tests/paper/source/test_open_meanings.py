@@ -327,3 +327,9 @@ def test_pairs_and_sets_are_no_means_brackets_or_names(latex: str) -> None:
         ["what sum runs over is as it is written"],
         [r"\in is read as in"],
     )
+
+
+def test_what_is_no_letter_of_the_formula_has_no_mark_of_its_scripts() -> None:
+    """The order of a derivative is no power of its variable; elsewhere the letter may have an index above."""
+    assert guesses(r"\frac{\partial^2 f}{\partial x^2} = a", "x^1 = b") == ()
+    assert any("no index" in each for each in guesses("a = x^2", "x^1 = b"))
