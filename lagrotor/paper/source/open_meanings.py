@@ -11,9 +11,10 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 
-from lagrotor.paper.source.boxes import FUNCTIONS, GREEK, Box
+from lagrotor.paper.source.boxes import FUNCTIONS, Box
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.read_letter import is_called, is_entry
+from lagrotor.paper.source.read_letter import is_called
+from lagrotor.paper.source.read_scripts import INDICES
 from lagrotor.paper.source.read_statements import is_set
 from lagrotor.paper.source.rows import (
     TENSOR,
@@ -26,20 +27,14 @@ from lagrotor.paper.source.rows import (
     without_thin,
 )
 from lagrotor.paper.source.usage import (
-    Notation,
     is_number,
     is_plain_letter,
     is_printed_as_vector,
     power_in,
-    simple_argument,
     stem_of,
     touch,
-    unprimed,
 )
 
-# Names that are mostly functions: before a bracket they are no factors.
-_FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
-_FUNCTIONS = frozenset(_FUNCTION_NAMES.split())
 # What is evident by itself, or marked where it is read; what it holds is looked at.
 _EVIDENT = ("root", "infinity", "comma", "wide", "thin", "dots", "row", "rows", "group", "percent", "degree", "unit", "binomial",
             "cases", "accent", "matrix", "nabla", "partial", "fraction", "function", "number", "arrow")  # fmt: skip
@@ -48,7 +43,6 @@ _RELATIONS = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
 _BOUNDS = frozenset(("<", ">", "<=", ">="))
 _JOINING = "where with and for if when so then thus hence since but while also let in mit wobei und für wenn pour si avec où et"
 _WORDS = frozenset(_JOINING.split())
-_INDICES = frozenset("abcdefghijklmnopqrsuvwIJKMN") | {name[1:] for name in GREEK if name[1].islower()}
 # Capitals that are amplitudes before a sine.
 _AMPLITUDES = "ABCFINQRVWXYZ"
 _PARTS = ("relation", "comma", "wide", "text", "arrow")
@@ -152,124 +146,14 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
 
 
 def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    box, after, known = row[place], _behind(row, place), reader.notation
-    bracketed = after is not None and after.kind == "bracket" and after.name in ("(", "[", r"\{")
-    if (
-        box.upright
-        and place
-        and (row[place - 1].kind in ("number", "unit") or row[place - 1].upright)
-        and box.name in UNITS
-    ):
-        return  # a unit behind its number
-    if after is not None and bracketed:
-        yield from _before_bracket(reader, row, place)
-    if box.primes or box.marks or box.style or box.upright:
-        yield from _adorned(known, box, after, bracketed)
-    if not (box.name.isalnum() and (len(box.name) == 1 or f"\\{box.name}" in GREEK or box.upright)):
-        yield "sign", f"{box.name} is a letter", ""
-    if _is_laplacian(box, after):
-        yield "laplacian", f"{box.name} is a letter, and no Laplacian", ""
-    then = _behind(row, place + 1)
-    differs = box.name == "d" and not box.sub and after is not None and after.kind == "letter"
-    if differs and then is not None and then.kind in _FACTORS and then.name != "d":
+    """A differential; what else a letter may be is marked where it is read."""
+    box, after, then = row[place], _behind(row, place), _behind(row, place + 1)
+    if box.name != "d" or box.sub or after is None:
+        return
+    if box.style:
+        yield "differential", "d is a factor, and no differential", ""
+    if after.kind == "letter" and then is not None and then.kind in _FACTORS and then.name != "d":
         yield "differential", "the differential is of the letter that follows it alone", ""
-    said = box.name in known.letters or box.name in known.numbers or box.name in known.functions
-    if not (box.sub or box.marks or box.style or said):
-        yield from _constant(reader, box, after)
-
-
-def _adorned(known: Notation, box: Box, after: Box | None, bracketed: bool) -> Marks:
-    """What primes, marks and fonts may mean."""
-    open_ = (
-        ("prime", box.primes and (stem_of(box) not in known.primed or bracketed), "with a prime is a name, and no derivative"),
-        ("bar", "bar" in box.marks and (known.seen & {"complex", "ket", "operators"} or box.name[0].isupper()),
-         "with a bar is a name, and no conjugate or complement"),
-        ("hat", "hat" in box.marks and not is_printed_as_vector(box), "with a hat is a factor, and no operator or direction"),
-        ("dot", "times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
-        ("under", "under" in box.marks, "with a line below is a vector"),
-        ("differential", box.name == "d" and box.style and not box.sub and after is not None, "is a factor, and no differential"),
-        ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
-        ("unit", box.upright and (len(box.name) == 1 or box.name in UNITS) and box.name not in ("d", "e", "i", "O"),
-         "is no unit or operator"),
-    )  # fmt: skip
-    yield from ((key, f"{box.name} {what}", "") for key, is_open, what in open_ if is_open)
-
-
-def _is_laplacian(box: Box, after: Box | None) -> bool:
-    """Whether a capital delta or a triangle may be one: without an index, and before no letter of which it is a difference."""
-    differs = after is not None and after.kind == "letter" and not (box.sup or box.marks or box.name == "triangle")
-    return box.name in ("Delta", "triangle") and not (box.sub or box.style or box.primes or differs)
-
-
-def _constant(reader: FormulaReader, box: Box, after: Box | None) -> Marks:
-    """Letters that may be numbers, and D that may be a derivative."""
-    settles = f'letters = "{box.name}" or numbers = "{box.name}"'
-    turned = "complex" in reader.notation.seen or (after is not None and after.name == "omega")
-    if box.name in ("j", "imath", "jmath") and turned and box.name not in reader.lowered:
-        yield "j", f"{box.name} is a letter, and not the imaginary unit", settles
-    if box.name == "e" and not (box.sup or box.upright) and reader.notation.exponential:
-        yield "e", "e is a letter, and not Euler's number", settles
-    alone = box.name == "e" and box.sup and len(box.sup) == 1 and box.sup[0].name in _INDICES and not box.upright
-    if alone and any(name.startswith("e_") for name in reader.notation.bare):
-        yield "e", "e is Euler's number, and no vector of a basis", settles
-    if (
-        box.name == "d"
-        and not box.sup
-        and after is not None
-        and after.kind not in ("letter", "group", *_PARTS, "operator")
-    ):
-        yield "differential", "d is a factor, and no differential of what follows", settles
-    if box.name == "D" and "P(D)" in reader.notation.seen:
-        yield "operator", "D is a number, and no derivative", settles
-
-
-def _before_bracket(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    """A letter before a bracket: a function of it, or a factor."""
-    box, bracket, known = row[place], row[place + 1], reader.notation
-    content = without_thin(bracket.parts[0])
-    if box.name in "Oo":
-        if not place or row[place - 1].kind != "operator" or not _letters(*bracket.parts[0]):
-            yield "order", f"{box.name}(…) is an order of magnitude, and no group or function", ""
-        return
-    if "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"):
-        yield "order", f"{box.name} is a function of the bracket, and no order of magnitude", ""
-    settles = f'functions = "{box.name}" or letters = "{box.name}"'
-    if any({box.name, unprimed(box), stem_of(box)} & said for said in (known.functions, known.letters)):
-        return
-    if bracket.name == "[" and is_entry(reader, box, bracket):
-        return  # marked where it is read
-    called = bracket.name == "(" and is_called(reader, box, bracket)
-    if called is None:
-        return  # marked where it is read
-    if not box.sup and bracket.name == "(":
-        evident = _evidence(known, box, content, bracket)
-    else:
-        listed = any(b.kind == "comma" for b in content)
-        evident = False if not listed and _is_factor(known, box, content) else None
-    if evident is not called:
-        what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
-        yield "bracket", f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}", settles
-
-
-def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bool | None:
-    """True for a function, False for a factor, None where the paper does not say."""
-    stem, listed = stem_of(box), any(b.kind == "comma" for b in content)
-    if simple_argument(content) and _letters(*content) and not bracket.sup and (listed or len(content) == 1):
-        numbers = listed and stem in known.factors and any(b.kind == "number" for b in content)  # gamma(1, beta)
-        other = known.called.get(unprimed(box), set()) - _letters(*content)
-        return None if numbers and not other else True
-    if stem in known.applied:
-        return None if stem in known.factors or bracket.sup else True
-    return False if _is_factor(known, box, content) else None
-
-
-def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
-    """Whether the paper has a letter as a number among factors, and never before an argument or differentiated."""
-    stem = stem_of(box)
-    held = _letters(*content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}  # E(\\phi(E))
-    free = not known.is_function(box) and box.name not in _FUNCTIONS and stem in known.factors
-    variable = held & {"t", "tau"} or any(held & letters for letters in known.called.values())
-    return free and not variable and is_number(known, box)
 
 
 # ---- brackets and signs
@@ -555,7 +439,7 @@ def _repeated(row: list[Box]) -> Marks:
     look(row)
     bound = {each.name for box in all_boxes(row) if box.kind == "big" for each in box.sub or ()}
     for box in all_boxes(row):
-        below = [b.name for b in box.sub or () if b.name in _INDICES - bound]
+        below = [b.name for b in box.sub or () if b.name in INDICES - bound]
         if box.kind == "letter" and len(below) > len({*below}) and len(below) > 2:
             yield "sum", f"an index of {box.name} is not summed over", ""
     counts = [_indices(term) for term in terms if any(b.kind == "letter" for b in all_boxes(term))]
@@ -573,7 +457,7 @@ def _indices(term: list[Box]) -> Counter[str]:
         if box.kind in ("letter", "partial", "nabla"):
             for script in (box.sub, None if power_in(box) and box.sup and box.sup[0].kind != "letter" else box.sup):
                 if script and all(b.kind in ("letter", "comma", "thin") and len(b.name) < 9 for b in script):
-                    names = [b.name for b in script if b.kind == "letter" and not b.upright and b.name in _INDICES]
+                    names = [b.name for b in script if b.kind == "letter" and not b.upright and b.name in INDICES]
                     found.update(names)
                     if box.sup and power_in(box) and [b.name for b in box.sup] == ["2"]:
                         found.update(names)

@@ -3,12 +3,27 @@ r"""Letters: as quantities, as functions before a bracket, and those that custom
 from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_differential
-from lagrotor.paper.source.read_scripts import index_parts, letter_of, mark_of, power_of, stands_alone
-from lagrotor.paper.source.rows import all_boxes, derivative_mark, is_measure, strip, without_thin
+from lagrotor.paper.source.read_scripts import INDICES, index_parts, letter_of, mark_of, power_of, stands_alone
+from lagrotor.paper.source.rows import UNITS, all_boxes, derivative_mark, is_measure, strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
-from lagrotor.paper.source.usage import ACTED_ON, arguments, index_of, name_of, simple_argument, stem_of, unscripted
+from lagrotor.paper.source.usage import (
+    ACTED_ON,
+    Notation,
+    arguments,
+    index_of,
+    is_number,
+    name_of,
+    simple_argument,
+    stem_of,
+    unprimed,
+    unscripted,
+)
 
 _ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
+
+# Names that are mostly functions: before a bracket they are no factors.
+_FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
+_FUNCTIONS = frozenset(_FUNCTION_NAMES.split())
 
 
 def _special(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
@@ -31,6 +46,7 @@ def _special(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
 
 def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
+    _mark_letter(reader, row, place)
     if (special := _special(reader, row, place)) is not None:
         return special
     if box.name == "delta" and box.sup and _may_call(row, place):  # \delta^3(x - y)
@@ -329,3 +345,107 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
             raise FormulaError(box.at, f"what \\{box.name} acts on is open", "write brackets around it")
         return Call(letter.name, tuple(map(reader.expression, arguments(row[behind + 1].parts[0])))), behind + 2
     return (letter if raised else power_of(reader, letter, row[behind])), behind + 1
+
+
+# ---- marks
+
+
+def _mark_letter(reader: FormulaReader, row: list[Box], place: int) -> None:
+    """Mark what a letter may be besides: a function or a factor, a number, an operator."""
+    box, after, known = row[place], row[place + 1] if place + 1 < len(row) else None, reader.notation
+    before = row[place - 1] if place else None
+    if (
+        box.upright
+        and before is not None
+        and (before.kind in ("number", "unit") or before.upright)
+        and box.name in UNITS
+    ):
+        return  # a unit behind its number
+    if after is not None and after.kind == "bracket" and after.name in ("(", "[", r"\{"):
+        _mark_before_bracket(reader, box, after)
+        if box.primes:
+            reader.guess("prime", f"{box.name} with a prime is a name, and no derivative")
+    if not (box.name.isalnum() and (len(box.name) == 1 or f"\\{box.name}" in GREEK or box.upright)):
+        reader.guess("sign", f"{box.name} is a letter")
+    if _is_laplacian(box, after):
+        reader.guess("laplacian", f"{box.name} is a letter, and no Laplacian")
+    said = box.name in known.letters or box.name in known.numbers or box.name in known.functions
+    if not (box.sub or box.marks or box.style or said):
+        _mark_constant(reader, box, after)
+
+
+def _is_laplacian(box: Box, after: Box | None) -> bool:
+    """Whether a capital delta or a triangle may be one: without an index, and before no letter of which it is a difference."""
+    differs = after is not None and after.kind == "letter" and not (box.sup or box.marks or box.name == "triangle")
+    return box.name in ("Delta", "triangle") and not (box.sub or box.style or box.primes or differs)
+
+
+def _mark_constant(reader: FormulaReader, box: Box, after: Box | None) -> None:
+    """Mark letters that may be numbers, and D that may be a derivative."""
+    settles = f'letters = "{box.name}" or numbers = "{box.name}"'
+    turned = "complex" in reader.notation.seen or (after is not None and after.name == "omega")
+    if box.name in ("j", "imath", "jmath") and turned and box.name not in reader.lowered:
+        reader.guess("j", f"{box.name} is a letter, and not the imaginary unit", settles)
+    if box.name == "e" and not (box.sup or box.upright) and reader.notation.exponential:
+        reader.guess("e", "e is a letter, and not Euler's number", settles)
+    alone = box.name == "e" and box.sup and len(box.sup) == 1 and box.sup[0].name in INDICES and not box.upright
+    if alone and any(name.startswith("e_") for name in reader.notation.bare):
+        reader.guess("e", "e is Euler's number, and no vector of a basis", settles)
+    if box.name == "d" and not box.sup and after is not None and after.kind not in ("letter", "group", "text"):
+        reader.guess("differential", "d is a factor, and no differential of what follows", settles)
+    if box.name == "D" and "P(D)" in reader.notation.seen:
+        reader.guess("operator", "D is a number, and no derivative", settles)
+
+
+def _letters(row: list[Box]) -> set[str]:
+    return {b.name for b in all_boxes(row) if b.kind == "letter"}
+
+
+def _mark_before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> None:
+    """Mark a letter before a bracket: a function of it, or a factor."""
+    known = reader.notation
+    content = without_thin(bracket.parts[0])
+    if box.name in "Oo":
+        added = reader.source[: box.at].rstrip().endswith(("+", "-", r"\pm", r"\mp", "−"))
+        if not added or not _letters(bracket.parts[0]):
+            reader.guess("order", f"{box.name}(…) is an order of magnitude, and no group or function")
+        return
+    if "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"):
+        reader.guess("order", f"{box.name} is a function of the bracket, and no order of magnitude")
+    settles = f'functions = "{box.name}" or letters = "{box.name}"'
+    if any({box.name, unprimed(box), stem_of(box)} & said for said in (known.functions, known.letters)):
+        return
+    if bracket.name == "[" and is_entry(reader, box, bracket):
+        return  # marked where it is read
+    called = bracket.name == "(" and is_called(reader, box, bracket)
+    if called is None:
+        return  # marked where it is read
+    if not box.sup and bracket.name == "(":
+        evident = _evidence(known, box, content, bracket)
+    else:
+        listed = any(b.kind == "comma" for b in content)
+        evident = False if not listed and _is_factor(known, box, content) else None
+    if evident is not called:
+        what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
+        reader.guess("bracket", f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}", settles)
+
+
+def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bool | None:
+    """True for a function, False for a factor, None where the paper does not say."""
+    stem, listed = stem_of(box), any(b.kind == "comma" for b in content)
+    if simple_argument(content) and _letters(content) and not bracket.sup and (listed or len(content) == 1):
+        numbers = listed and stem in known.factors and any(b.kind == "number" for b in content)  # gamma(1, beta)
+        other = known.called.get(unprimed(box), set()) - _letters(content)
+        return None if numbers and not other else True
+    if stem in known.applied:
+        return None if stem in known.factors or bracket.sup else True
+    return False if _is_factor(known, box, content) else None
+
+
+def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
+    """Whether the paper has a letter as a number among factors, and never before an argument or differentiated."""
+    stem = stem_of(box)
+    held = _letters(content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}  # E(\\phi(E))
+    free = not known.is_function(box) and box.name not in _FUNCTIONS and stem in known.factors
+    variable = held & {"t", "tau"} or any(held & letters for letters in known.called.values())
+    return free and not variable and is_number(known, box)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
-from lagrotor.paper.source.rows import TENSOR, VARIABLES, all_boxes, without_thin
+from lagrotor.paper.source.rows import TENSOR, UNITS, VARIABLES, all_boxes, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import (
     index_of,
@@ -20,6 +20,8 @@ from lagrotor.paper.source.usage import (
 
 _SIGNS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _INDICES = ("i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
+# Letters that are indices.
+INDICES = frozenset("abcdefghijklmnopqrsuvwIJKMN") | {name[1:] for name in GREEK if name[1].islower()}
 _GREEK = frozenset(name.removeprefix("\\") for name in GREEK) - {"pi", "hbar"}
 
 
@@ -136,6 +138,8 @@ def _is_plain(box: Box) -> bool:
 def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
     """The letter, and whether its superscript is part of its name."""
     raised = mark_of(reader, box)
+    if box.primes or box.marks or box.style or box.upright:
+        _mark_print(reader, box)
     if box.sub:
         _mark_index(reader, box)
     if box.sup:
@@ -148,6 +152,25 @@ def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
         raise FormulaError(box.at, f"whether {prints} are one letter is open", "give one of them another index")
     name = name_of(box, index, raised or ())
     return Letter(name, is_printed_as_vector(box)), raised is not None
+
+
+def _mark_print(reader: FormulaReader, box: Box) -> None:
+    """Mark what primes, marks and fonts may mean."""
+    known = reader.notation
+    open_ = (
+        ("prime", box.primes and stem_of(box) not in known.primed, "with a prime is a name, and no derivative"),
+        ("bar", "bar" in box.marks and (known.seen & {"complex", "ket", "operators"} or box.name[0].isupper()),
+         "with a bar is a name, and no conjugate or complement"),
+        ("hat", "hat" in box.marks and not is_printed_as_vector(box), "with a hat is a factor, and no operator or direction"),
+        ("dot", "times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
+        ("under", "under" in box.marks, "with a line below is a vector"),
+        ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
+        ("unit", box.upright and (len(box.name) == 1 or box.name in UNITS) and box.name not in ("d", "e", "i", "O"),
+         "is no unit or operator"),
+    )  # fmt: skip
+    for key, is_open, what in open_:
+        if is_open:
+            reader.guess(key, f"{box.name} {what}")
 
 
 def _mark_index(reader: FormulaReader, box: Box) -> None:
