@@ -1,6 +1,9 @@
 """Whether two printed sides agree: at points in floating point, then exactly; with a bound on the work."""
 
+import cmath
+import math
 from collections.abc import Callable
+from random import Random
 from typing import Any
 
 import sympy as sp
@@ -15,6 +18,13 @@ from lagrotor.paper.source.tree import Node, Opaque, sympy_expression
 _MOST_DEGREE, MOST_CALLS = 1000, 3_000_000
 LARGE = "undecided", "the difference is too large"
 LARGEST = 1e300  # of numbers that are compared
+# Points at which two sides are evaluated until both are real; what a sum must keep of its terms for floats to have it.
+_MOST_POINTS, _UNCANCELLED = 16, 1e-6
+_IN_FLOATS = {
+    **{getattr(sp, name): getattr(cmath, name) for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")},
+    **{getattr(sp, name): getattr(cmath, name) for name in ("asin", "acos", "atan", "asinh", "acosh", "atanh")},
+    sp.Abs: abs,
+}
 
 
 def expression_of(node: Node, opaque: Opaque) -> Any:
@@ -47,12 +57,47 @@ def may_agree(a: Any, b: Any) -> bool:
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
         return True
     symbols = sorted(a.free_symbols | b.free_symbols, key=str)
-    for shift in (3, 7, 19):
-        point = {s: sp.Rational(2 * n + shift, 5 * n + 7) for n, s in enumerate(symbols)}
-        values = value_at(a, point), value_at(b, point)
-        if all(value.is_real and value.is_finite for value in values):
+    random = Random(len(symbols))
+    for trial in range(_MOST_POINTS):
+        point = {s: sp.Rational(2 * n + 4 * trial + 3, 5 * n + 7) for n, s in enumerate(symbols)}
+        if trial > 2:  # of any sign and size: a root of what is negative is real there
+            point = {s: sp.Rational(random.randrange(-99, 100, 2), random.choice((7, 80))) for s in symbols}
+        numbers = {s: float(value) for s, value in point.items()}
+        values = _float(a, numbers), _float(b, numbers)
+        if complex in map(type, values):
+            continue
+        if None in values:
+            values = value_at(a, point), value_at(b, point)
+        if all(value.is_real and value.is_finite for value in map(sp.sympify, values)):
             return nearly_equal(*values)
     return True
+
+
+def _float(e: Any, point: dict[sp.Symbol, float]) -> Any:
+    """The value in floats, a complex number where it is not real; None where digits cancel or floats do not hold it."""
+    try:
+        value = _evaluated(e, point)
+        return value if abs(value) < LARGEST else None
+    except (ArithmeticError, ValueError, TypeError, KeyError):
+        return None
+
+
+def _evaluated(e: Any, point: dict[sp.Symbol, float]) -> Any:
+    if not e.args:
+        return point[e] if e.is_Symbol else _real_or_complex(complex(e))
+    values = [_evaluated(part, point) for part in e.args]
+    if e.is_Add:
+        total = sum(values)
+        if abs(total) < _UNCANCELLED * max(map(abs, values)):
+            raise ArithmeticError
+        return total
+    if e.is_Mul:
+        return math.prod(values)
+    return values[0] ** values[1] if e.is_Pow else _real_or_complex(_IN_FLOATS[type(e)](values[0]))
+
+
+def _real_or_complex(value: complex) -> complex:
+    return value if value.imag else value.real
 
 
 def bounded(work: Callable[..., Any], *arguments: Any) -> Any:

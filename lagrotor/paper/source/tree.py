@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 import sympy as sp
 
 from lagrotor.algebra.proving import evaluated
+from lagrotor.algebra.work import kept
 from lagrotor.paper.letters import FUNCTIONS
 
 
@@ -289,6 +290,12 @@ def has_opaque(*values: Any) -> bool:
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
+@kept(1000)
+def _in_closed_form(integral: sp.Integral) -> sp.Expr:
+    """The value of an integral, which a step may have in both sides and with each premise."""
+    return evaluated(integral)
+
+
 def _evaluated(node: Call, opaque: Opaque) -> Any:
     """A determinant, a column, a sum of a few terms, the derivative or integral of an explicit expression; else None."""
     if node.name == "det" and all(isinstance(row, Call) and row.name == "row" for row in node.args):
@@ -319,7 +326,7 @@ def _evaluated(node: Call, opaque: Opaque) -> Any:
     elif len(rest) != 2:
         return None
     else:
-        value = evaluated(sp.Integral(inner, (variable, *(sympy_expression(each, opaque) for each in rest))))
+        value = _in_closed_form(sp.Integral(inner, (variable, *(sympy_expression(each, opaque) for each in rest))))
     opaque.fixing |= bool(others)
     return None if value is None or value.has(sp.Integral, sp.Derivative, sp.nan, sp.zoo) else value
 

@@ -1,0 +1,45 @@
+"""Two sides at points: they differ only where both are real numbers there; what is spared is counted."""
+
+import pytest
+import sympy as sp
+
+from lagrotor.paper.source import compared, tree
+from lagrotor.paper.source.check import check_source
+from lagrotor.paper.source.displays import read_latex
+
+x, y = sp.symbols("x y", real=True)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "may"),
+    [
+        ((x + y) ** 2, x**2 + 2 * x * y + y**2, True),
+        ((x + y) ** 2, x**2 + 3 * x * y + y**2, False),
+        (sp.sqrt(-x - y), -sp.sqrt(-x - y), False),  # real where x + y is negative alone
+        (sp.log(-x), sp.log(-2 * x), False),
+        (sp.sqrt(-(x**2) - 1), x, True),  # nowhere: what is certain is sought exactly
+        (sp.cosh(40 * x) - sp.sinh(40 * x), sp.exp(-40 * x), True),  # digits cancel in floats
+        (sp.Integer(10) ** 400 * x, x, True),  # no float has it
+        (sp.gamma(x), sp.gamma(x) + 1, False),  # no function of floats
+    ],
+)
+def test_sides_differ_only_where_both_are_real(a: sp.Expr, b: sp.Expr, may: bool) -> None:
+    assert compared.may_agree(a, b) is may
+
+
+def test_what_is_not_real_at_positive_letters_takes_no_exact_decision(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It took up to a second each."""
+    asked = []
+    monkeypatch.setattr(compared, "decide_equal", lambda a, b: asked.append((a, b)))
+    check_source(read_latex(r"\begin{align*} A &= \sqrt{-p - q} + p \\ &= \sqrt{-p - q} + q \end{align*}"))
+    assert not asked
+
+
+def test_an_integral_of_both_sides_is_evaluated_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole, evaluated = tree.evaluated, []
+    monkeypatch.setattr(tree, "evaluated", lambda e: evaluated.append(e) or whole(e))
+    found = check_source(
+        read_latex(r"\begin{align*} A &= 2 \int_0^1 x^2\,dx \\ &= \int_0^1 x^2\,dx + \int_0^1 x^2\,dx \end{align*}")
+    )
+    assert [each.verdict for each in found if each.step == 2] == ["would hold"]
+    assert len(evaluated) == 1
