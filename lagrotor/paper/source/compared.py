@@ -66,9 +66,10 @@ def may_agree(a: Any, b: Any) -> bool:
         values = _float(a, numbers), _float(b, numbers)
         if complex in map(type, values):
             continue
-        if None in values:
-            values = value_at(a, point), value_at(b, point)
-        if all(value.is_real and value.is_finite for value in map(sp.sympify, values)):
+        if None not in values:
+            return nearly_equal(*values)
+        values = value_at(a, point), value_at(b, point)
+        if all(value.is_real and value.is_finite for value in values):
             return nearly_equal(*values)
     return True
 
