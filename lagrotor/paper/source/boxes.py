@@ -32,6 +32,7 @@ STYLES = {
     "mathrm": "", "mathbf": "bold", "boldsymbol": "bold", "mathcal": "cal", "mathscr": "scr", "mathfrak": "frak",
     "mathbb": "bb", "mathit": "", "mathsf": "sf", "mathtt": "tt", "mathnormal": "", "symbf": "bold", "mathds": "bb", "rm": "",
     "bf": "bold", "it": "", "cal": "cal", "bfseries": "bold", "text": "", "textbf": "bold", "operatorname": "", "mathbbm": "bb",
+    "bold": "bold",
 }  # fmt: skip
 _SWITCHES = ("rm", "bf", "it", "cal", "bfseries", "mathrm@")
 FUNCTIONS = {

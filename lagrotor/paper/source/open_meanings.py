@@ -121,6 +121,17 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
             yield "matrix", f"{box.name} of its argument is a number, and no matrix", ""
         amplitude = after.kind == "function" and after.name in FUNCTIONS and box.name in _AMPLITUDES and not box.marks
         bracketed = after.kind == "bracket" and after.name in ("(", "[", r"\{")
+        if (
+            box.name in ("Sigma", "Pi")
+            and after.kind == "letter"
+            and is_number(known, box)
+            and not (box.sub or bracketed)
+        ):
+            yield (
+                "sum",
+                f"{box.name} is a factor of what follows, and no sum or product over it",
+                f'letters = "{box.name}"',
+            )
         held = [] if amplitude or bracketed or (box.upright and box.name in UNITS) else [box]
     elif box.kind == "bracket" and box.name in ("(", "[", r"\{"):
         held = without_thin(box.parts[0])

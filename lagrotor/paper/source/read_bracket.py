@@ -10,7 +10,7 @@ from lagrotor.paper.source.read_derivative import read_advection, read_operators
 from lagrotor.paper.source.read_scripts import index_parts, letter_of, power_of
 from lagrotor.paper.source.read_statements import read_statement
 from lagrotor.paper.source.rows import all_boxes, derivative_mark, strip, without_thin
-from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node, is_matrix, is_vector, number
+from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node, Number, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import arguments
 
 
@@ -47,7 +47,8 @@ def _indexed(reader: FormulaReader, node: Node, box: Box) -> Node:
     index = index_parts(reader, box)
     if isinstance(node, Call) and node.name in ("mean", "ket", "bra"):
         return Call("_".join((node.name, *index)), node.args)
-    component = is_vector(node) or {*"".join(index)} <= {*"ijklmnabpqrs0123456789"}
+    rising = isinstance(node, Number) or (isinstance(node, Letter) and len(node.name) == 1)  # (a)_n = a(a + 1)…
+    component = is_vector(node) or (not rising and {*"".join(index)} <= {*"ijklmnabpqrs0123456789"})
     if box.name == "(" and component and all(len(part) <= 2 for part in index):
         return Call("component", (node, *(number(i) if i.isdigit() else Letter(i) for i in index)))
     raise FormulaError(box.at, "a bracket has an index", "write what it means")

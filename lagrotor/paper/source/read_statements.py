@@ -97,8 +97,9 @@ def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
             continue
         if pieces and _continues(pieces[-1], line):
             begins = line[0].name == "-" and pieces[-1][-1].kind not in ("operator", "relation")
-            if begins and any(box.kind == "relation" for box in line):
-                reader.guess("rows", "a row that begins with - and has a relation continues the row before")
+            worded = line[0].kind == "relation" and any(box.kind == "text" for box in pieces[-1])
+            if worded or (begins and any(box.kind == "relation" for box in line)):
+                reader.guess("rows", "a row that begins with its sign continues what stands just before it")
             twice = (
                 pieces[-1][-1].kind == line[0].kind == "relation" and pieces[-1][-1].name == line[0].name
             )  # = \\\\ =
@@ -354,7 +355,9 @@ _FONT = r"\\(?:math(?:bf|bb|cal|frak|it|rm|scr|sf|tt)|bm|boldsymbol|pmb|operator
 
 def _balanced(source: str, at: int, end: int) -> str:
     r"""LaTeX of a side with the braces and the font that enclose its ends: {\bf k}_1 and \mathbf{k} + q, not k}_1 and {k} + q."""
-    if switch := re.search(rf"\{{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)\s*$|{_FONT}\{{\s*$", source[:at]):
+    switch = re.search(rf"\{{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)\s*$|{_FONT}\{{\s*$", source[:at])
+    switch = switch or re.search(r"\\(?:boldsymbol|bm|pmb|mathbf)\s*$", source[:at])
+    if switch:
         at = switch.start()
     bare = re.sub(r"\\.", "  ", source)
     depth = least = 0

@@ -144,7 +144,7 @@ SETTLED = [
     (r"S = \frac{T N}{T N + F P}", [], "TN is a product"),
     (r"\lim_{n\to\infty} a_n + b_n = c", [], "the lim is of the term"),
     (r"a = \sum_{i=1}^n b_i + c", [], "the sum is of the term"),
-    (r"\begin{aligned} 0 = u + v \\ -u = v\end{aligned}", [], "continues the row before"),
+    (r"\begin{aligned} 0 = u + v \\ -u = v\end{aligned}", [], "continues what stands just before"),
     (r"a = \mathrm{F} b", [], "no unit or operator"),
     (r"a = \sum_{i\ne j} b_{ij}", [], "what sum runs over"),
     (r"a = \begin{pmatrix} n\\ k\end{pmatrix}", [], "binomial"),
