@@ -37,14 +37,7 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if box.sub is not None:
         raise FormulaError(box.at, "a number has an index", "write the letter that it belongs to")
     if box.sup and len(box.sup) == 1 and (box.sup[0].name in ("circ", "degree", "o")):
-        if box.sup[0].name == "o":
-            reader.guess("unit", f"o above {text} means degrees")
-        scale = next((k for k in range(behind, len(row)) if row[k].kind != "thin"), len(row))
-        if scale < len(row) and row[scale].name in ("C", "F") and not row[scale].sub:
-            if not (row[scale].upright or row[scale].kind == "text"):
-                reader.guess("unit", f"{row[scale].name} behind a degree sign is a scale of temperature")
-            return product_of([node, Letter(f"unit_deg{row[scale].name}")]), scale + 1
-        return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
+        return _degrees(reader, row, behind, node, box)
     node = power_of(reader, node, box)
     if behind < len(row) and row[behind].kind == "percent":
         return Call("quotient", (node, number(100))), behind + 1
@@ -61,6 +54,18 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         behind = unit + 1
         unit = next((k for k in range(behind, len(row)) if row[k].kind != "thin"), len(row))
     return product_of(factors), behind
+
+
+def _degrees(reader: FormulaReader, row: list[Box], behind: int, node: Node, box: Box) -> tuple[Node, int]:
+    """A number of degrees, of an angle or before C and F of a temperature."""
+    if box.sup and box.sup[0].name == "o":
+        reader.guess("unit", f"o above {box.name} means degrees")
+    scale = next((k for k in range(behind, len(row)) if row[k].kind != "thin"), len(row))
+    if scale < len(row) and row[scale].name in ("C", "F") and not row[scale].sub:
+        if not (row[scale].upright or row[scale].kind == "text"):
+            reader.guess("unit", f"{row[scale].name} behind a degree sign is a scale of temperature")
+        return product_of([node, Letter(f"unit_deg{row[scale].name}")]), scale + 1
+    return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
 
 
 def _value(reader: FormulaReader, text: str, box: Box) -> Fraction:
