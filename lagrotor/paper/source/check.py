@@ -168,6 +168,7 @@ class _Checker:
         self.statements = [
             _Read(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
         ]
+        self.rates = _rates(read.statement for read in self.statements)
 
     def findings(self, progress: Callable[[str], None] | None = None) -> Iterator[StepFinding]:
         """Every finding."""
@@ -288,25 +289,13 @@ class _Checker:
             return self.given.of(parts, self.place, section, printed)
 
         put = rounds(left, right, premises, both)
-        opaque = Opaque(self.opaque.names, self._rates)
+        opaque = Opaque(self.opaque.names, self.rates)
 
         def value(node: Node) -> Any:
             return expression_of(_put(node, put), opaque)
 
         sides = value(left), value(right)
         return _Way(*sides, put, value, opaque.fixing)
-
-    @cached_property
-    def _rates(self) -> dict[sp.Symbol, sp.Symbol]:
-        """Letters of which there are dots, and components of vectors, to their rates."""
-        rates: dict[sp.Symbol, sp.Symbol] = {}
-        for letter in {each for read in self.statements for side in read.statement.sides for each in walk(side.node)}:
-            if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
-                stem, dots = dotted[1], len(dotted[2])
-                names = [stem, *(f"{stem}_{'d' * n}ot" for n in range(1, dots + 2))]
-                for end in ("_1", "_2", "_3") if letter.vector else ("",):
-                    rates |= {_real(a + end): _real(b + end) for a, b in pairwise(names)}
-        return rates
 
     def _are_sure(self, used: list[PrintedMeaning]) -> bool:
         """Whether premises are cited, of the last three displays, or all that the section gives; and no word is against them."""
@@ -616,6 +605,18 @@ def _comparable(a: Any, b: Any) -> bool:
 def _but_for_dots(others: set[str], own: set[str]) -> bool:
     """Whether letters are those of the other side, but for dots: a rate is not the letter itself."""
     return {_DOTTED.sub(r"\1", name) for name in others - own} <= {_DOTTED.sub(r"\1", name) for name in own}
+
+
+def _rates(statements: Iterable[PrintedStatement]) -> dict[sp.Symbol, sp.Symbol]:
+    """Letters of which there are dots, and components of vectors, to their rates."""
+    rates: dict[sp.Symbol, sp.Symbol] = {}
+    for letter in {each for statement in statements for side in statement.sides for each in walk(side.node)}:
+        if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
+            stem, dots = dotted[1], len(dotted[2])
+            names = [stem, *(f"{stem}_{'d' * n}ot" for n in range(1, dots + 2))]
+            for end in ("_1", "_2", "_3") if letter.vector else ("",):
+                rates |= {_real(a + end): _real(b + end) for a, b in pairwise(names)}
+    return rates
 
 
 def _letters_of(statement: PrintedStatement) -> set[str]:

@@ -43,3 +43,13 @@ def test_an_integral_of_both_sides_is_evaluated_once(monkeypatch: pytest.MonkeyP
     )
     assert [each.verdict for each in found if each.step == 2] == ["would hold"]
     assert len(evaluated) == 1
+
+
+def test_what_a_step_may_cost_does_not_hang_on_the_length_of_the_source(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The rates of all letters were sought within the first step that needs them: in 5 MB each step was too large."""
+    monkeypatch.setattr(compared, "MOST_CALLS", 40_000)
+    chain = r"\begin{align*} F &= 2 a (b + a) \\ &= 2 a b + 2 a^2 + \frac{c d}{e} \end{align*}"
+    others = "".join(rf"\[ q_{{{n}}} = p_{{{n}}} + r_{{{n}}} s_{{{n}}} \]" "\n" for n in range(600))
+    alone, among = (next(f for f in check_source(read_latex(text)) if f.step == 2) for text in (chain, chain + others))
+    assert (among.verdict, among.why) == (alone.verdict, alone.why)
+    assert "may be related" in among.why
