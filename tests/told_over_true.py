@@ -16,6 +16,7 @@ from scipy.integrate import solve_ivp
 
 from lagrotor import simulate
 from lagrotor.errors import LagrotorError, LagrotorWarning
+from lagrotor.numerics.calibrated import LOST
 from lagrotor.structures import exact_motion, right_hand_side
 from lagrotor.structures.exact import structure_run
 
@@ -64,7 +65,10 @@ def quietly(door: Any, *given: Any, **more: Any) -> tuple[Any, bool]:
 
 
 def least_evaluations(rhs: Any, start: Any, t: np.ndarray, sizes: Any, off: Any, error: float) -> float:
-    """Evaluations of one call of scipy's DOP853 whose largest error, off(its states (n, d)), is at most `error`."""
+    """Evaluations of one call of scipy's DOP853 whose largest error, off(its states (n, d)), is at most `error`; NaN where that
+    is one of which nothing is known: any run has it."""
+    if error > LOST.value:
+        return np.nan
     for local in TOLERANCES:
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("ignore")
