@@ -60,6 +60,12 @@ _CONDITIONS = re.compile(
     r"|relabel\w*|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|vanish\w*|on.shell|constraint)\b",
     re.IGNORECASE,
 )
+# Where the sentence of an equation begins a case of its own, for which what stands before need not hold; □: the equation.
+_CASES = re.compile(
+    r"(?:^|[.;:]|\b(?:and|but|while|whereas|then)\b)\s*(?:for|if|with|when|at|on|in|near|along|after|under|as)\b[^.;:□]*[.;:,]?\s*□"
+    r"|\b(?:now|half|halves|twice|double\w*|instead|opposite|other|another|special|cases?)\b",
+    re.IGNORECASE,
+)
 _TO_BE_SOLVED = re.compile(
     r"\b(?:if|when\w*|where|unless|until|only|satisf\w*|sol[uv]\w*|roots?|condition\w*|equations?|require\w*|must|equilibri\w*)\b",
     re.IGNORECASE,
@@ -207,7 +213,7 @@ class _Checker:
     def _steps(self, each: Displayed, printed: PrintedStatement, statement: PrintedStatement) -> Iterator[StepFinding]:
         """Each step of a chain but the first, which says what is meant; printed: without what it continues."""
         sides = statement.sides
-        for step in range(1, len(sides)):
+        for step in range(1 if statement is printed else 2, len(sides)):
             left, right, relation = sides[step - 1], sides[step], statement.relations[step - 1]
             last = step == len(sides) - 1
             if statement.order is not None and last and step > 1:
@@ -298,15 +304,11 @@ class _Checker:
         return _Way(*sides, put, value, opaque.fixing)
 
     def _are_sure(self, used: list[PrintedMeaning]) -> bool:
-        """Whether premises are cited, of the last three displays, or all that the section gives; and no word is against them."""
+        """Whether premises are cited, or all that the section gives; and no word is against them, or begins another case."""
         each = self.readings[self.place][0]
         cited = {f"({read.equation.id})" for label in each.cites for read in self.labelled[label]}
-        return not self._says(_CONDITIONS) and all(
-            premise.name in cited
-            or (
-                premise.section == each.section
-                and (premise.place >= max(self.place - 3, 0) or self.given.is_given_once(premise))
-            )
+        return not (self._says(_CONDITIONS) or self._says(_CASES)) and all(
+            premise.name in cited or (premise.section == each.section and self.given.is_given_once(premise))
             for premise in used
         )
 
@@ -388,6 +390,8 @@ class _Checker:
         if None in sides or statement.kind != "equation" or any(isinstance(e, sp.MatrixBase) for e in (*sides, a, b)):
             return not self._says_nothing(sides)
         for left, right in pairwise(sides):
+            if not _hidden(left) | _hidden(right) <= _hidden(a) | _hidden(b):
+                continue  # it gives a function that neither side has
             shared = sorted((left - right).free_symbols & (a - b).free_symbols, key=str)
             zeros = [zero for symbol in shared if (zero := _zero_in(left - right, symbol)) is not None]
             if shared and not zeros and not agree(left, right):
@@ -598,8 +602,12 @@ def _zero_in(e: Any, symbol: sp.Symbol) -> tuple[sp.Symbol, Any] | None:
 
 def _comparable(a: Any, b: Any) -> bool:
     """Whether the same derivatives, integrals and unknown functions stand on both sides, and both are vectors or neither."""
-    hidden = [{symbol for symbol in side.free_symbols if has_opaque(symbol)} for side in (a, b)]
-    return hidden[0] == hidden[1] and isinstance(a, sp.MatrixBase) == isinstance(b, sp.MatrixBase)
+    return _hidden(a) == _hidden(b) and isinstance(a, sp.MatrixBase) == isinstance(b, sp.MatrixBase)
+
+
+def _hidden(side: Any) -> set[sp.Symbol]:
+    """The derivatives, integrals and unknown functions of a side."""
+    return {symbol for symbol in side.free_symbols if has_opaque(symbol)}
 
 
 def _but_for_dots(others: set[str], own: set[str]) -> bool:
