@@ -17,6 +17,7 @@ from lagrotor.paper.source.read_letter import is_called
 from lagrotor.paper.source.read_scripts import INDICES
 from lagrotor.paper.source.read_statements import is_set
 from lagrotor.paper.source.rows import (
+    DEGREES,
     TENSOR,
     UNITS,
     all_boxes,
@@ -132,7 +133,8 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
                 f"{box.name} is a factor of what follows, and no sum or product over it",
                 f'letters = "{box.name}"',
             )
-        held = [] if amplitude or bracketed or (box.upright and box.name in UNITS) else [box]
+        named = box.upright and (box.name in UNITS or box.name in FUNCTIONS)
+        held = [] if amplitude or bracketed or named else [box]
     elif box.kind == "bracket" and box.name in ("(", "[", r"\{"):
         held = without_thin(box.parts[0])
         applied = [stem_of(b) for b in held if b.kind == "letter"]
@@ -356,7 +358,8 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
             yield "range", "the numbers are taken from each other, and are no ends of a range", ""
         letters = [b for b in side if b.kind == "letter"]
         plain = all(b.kind in ("number", "letter") or b.name in ("/", "times", "cdot") for b in side)
-        if letters and plain and not any(b.sub or b.upright for b in letters):
+        scale = letters and letters[0].name in ("C", "F") and {b.name for b in side[0].sup or ()} & DEGREES
+        if letters and plain and not scale and not any(b.sub or b.upright for b in letters):
             names = [b.name for b in letters]
             joined = "".join(" " * (a.end != b.at) + b.name for a, b in pairwise([*letters[:1], *letters])).split()
             spaced = reader.source[side[0].end :].lstrip().startswith(r"\,") and all(len(name) == 1 for name in names)

@@ -23,8 +23,6 @@ from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number, wa
 from lagrotor.paper.source.usage import arguments, power_in, simple_argument
 
 _INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a", "b")
-
-
 _DIVISORS = ("letter", "group", "bracket", "partial")
 
 
@@ -131,6 +129,10 @@ def _mark_derivative(reader: FormulaReader, box: Box, mark: str, operand: list[B
         reader.guess("derivative", f"the fraction with {mark} is a derivative like any other")
     if mark == "d" and "times" in reader.notation.seen and [b.name for b in box.parts[1]][1:] == ["t"]:
         reader.guess("dot", "the derivative by t is the rate that a dot has")
+    if mark == "d" and [b.name for b in operand] == ["t"]:
+        by = set().union(*(letters for stem, letters in reader.notation.varied.items() if stem != "t"))
+        if {"t", box.parts[1][-1].name} <= by:
+            reader.guess("derivative", "the fraction with dt above is a derivative, and no quotient of two steps")
 
 
 def _mark_arguments(reader: FormulaReader, operand: list[Box], variables: list[Box]) -> None:

@@ -391,7 +391,8 @@ def _mark_constant(reader: FormulaReader, box: Box, after: Box | None) -> None:
     alone = box.name == "e" and box.sup and len(box.sup) == 1 and box.sup[0].name in INDICES and not box.upright
     if alone and any(name.startswith("e_") for name in reader.notation.bare):
         reader.guess("e", "e is Euler's number, and no vector of a basis", settles)
-    if box.name == "d" and not box.sup and after is not None and after.kind not in ("letter", "group", "text"):
+    acting = ("letter", "group", "text", *(("bracket", "function") if box.upright else ()))
+    if box.name == "d" and not box.sup and after is not None and after.kind not in acting:
         reader.guess("differential", "d is a factor, and no differential of what follows", settles)
     if box.name == "D" and "P(D)" in reader.notation.seen:
         reader.guess("operator", "D is a number, and no derivative", settles)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from lagrotor.paper.source.boxes import Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_scripts import power_of
-from lagrotor.paper.source.rows import UNITS
+from lagrotor.paper.source.rows import DEGREES, UNITS
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, number, product_of
 
 _MOST_DIGITS = 1000
@@ -36,7 +36,7 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     node: Node = Number(_value(reader, text, box))
     if box.sub is not None:
         raise FormulaError(box.at, "a number has an index", "write the letter that it belongs to")
-    if box.sup and len(box.sup) == 1 and (box.sup[0].name in ("circ", "degree", "o")):
+    if box.sup and len(box.sup) == 1 and box.sup[0].name in DEGREES:
         return _degrees(reader, row, behind, node, box)
     node = power_of(reader, node, box)
     if behind < len(row) and row[behind].kind == "percent":

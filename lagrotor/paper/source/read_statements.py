@@ -350,24 +350,30 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
 
 
-_FONT = r"\\(?:math(?:bf|bb|cal|frak|it|rm|scr|sf|tt)|bm|boldsymbol|pmb|operatorname)\*?\s*"
+# A font or an arrow that what follows stands in.
+_ENCLOSING = re.compile(
+    r"(?:\{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)"
+    r"|\\(?:math(?:bf|bb|cal|frak|it|rm|scr|sf|tt)|bm|boldsymbol|pmb|operatorname|vec)\*?\s*\{?)\s*$"
+)
+
+
+def _opened(source: str, at: int) -> int:
+    """Where the fonts and arrows begin that what begins here stands in."""
+    while enclosing := _ENCLOSING.search(source, 0, at):
+        at = enclosing.start()
+    return at
 
 
 def _balanced(source: str, at: int, end: int) -> str:
-    r"""LaTeX of a side with the braces and the font that enclose its ends: {\bf k}_1 and \mathbf{k} + q, not k}_1 and {k} + q."""
-    switch = re.search(rf"\{{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)\s*$|{_FONT}\{{\s*$", source[:at])
-    switch = switch or re.search(r"\\(?:boldsymbol|bm|pmb|mathbf)\s*$", source[:at])
-    if switch:
-        at = switch.start()
+    r"""LaTeX of a side with the braces and fonts that enclose its ends: {\bf k}_1 and \mathbf{k} + q, not k}_1 and {k} + q."""
+    at = _opened(source, at)
     bare = re.sub(r"\\.", "  ", source)
     depth = least = 0
     for sign in bare[at:end]:
         depth += (sign == "{") - (sign == "}")
         least = min(least, depth)
     for _ in range(-least):
-        at = bare.rfind("{", 0, at)
-        if font := re.search(rf"{_FONT}$", source[:at]):
-            at = font.start()
+        at = _opened(source, bare.rfind("{", 0, at))
     for _ in range(depth - least):
         end = bare.find("}", end) + 1 or end
     return source[at:end].strip()

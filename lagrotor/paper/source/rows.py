@@ -17,6 +17,7 @@ _UNIT_NAMES = (
     "µm um pm barn mb"
 )
 UNITS = frozenset(_UNIT_NAMES.split())
+DEGREES = frozenset(("circ", "degree", "o"))  # above a number
 
 
 def strip(row: list[Box]) -> list[Box]:

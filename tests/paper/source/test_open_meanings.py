@@ -193,6 +193,11 @@ def test_digits_in_groups_are_one_number() -> None:
         (r"x = \gamma(1, \beta)s", r"E = \gamma m", "gamma before ( is a function"),
         (r"f = \Omega(g)", "f = O(g)", "no order of magnitude"),
         (r"a = \nabla^2 f", r"(\nabla g)^T b = c", "no matrix of second derivatives"),
+        (
+            r"a = \frac{dt}{dx}",
+            r"\frac{\partial f}{\partial t} + c\frac{\partial f}{\partial x} = 0",
+            "quotient of two steps",
+        ),
     ],
 )
 def test_another_use_in_the_paper_is_a_rival(latex: str, paper: str, words: str) -> None:
@@ -268,7 +273,7 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         r"R = \begin{pmatrix} \cos\theta & -\sin\theta\\ \sin\theta & \cos\theta\end{pmatrix}", r"a = 5\ \text{km}",
         r"(a + b)(a - b) = a^2 - b^2", r"f(x, y) = x + y", r"p_i = m_i v_i", r"(\nabla^2 + k^2) p = 0",
         r"\int_0^1 f(x)\,dx + \int_0^1 g(x)\,dx = \int_0^1\frac{dx}{x}", r"a = \int_V \rho\,dV", r"\vec r = x\vec e_x",
-        r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}",
+        r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}", r"{\rm cos} x = a", r"\mathrm{d}(x^2) = 2x\,\mathrm{d}x",
     ],
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
@@ -286,6 +291,12 @@ def test_a_dot_is_of_numbers_where_the_paper_prints_its_vectors() -> None:
 def test_a_bound_is_a_number_and_a_composition_is_no_factor() -> None:
     assert guesses("a = N b") and not guesses("a = N b", r"c = \sum_{i=1}^N x_i")
     assert guesses(r"E(\phi(E)) = E", r"\phi(E) = a", r"b = \frac{a}{E}", "b = E a")
+
+
+def test_a_mark_says_what_is_read() -> None:
+    assert [mark.partition(" ([")[0] for mark in guesses(r"T = 20^\circ C")] == [
+        "C behind a degree sign is a scale of temperature"
+    ]
 
 
 def test_the_line_that_a_mark_names_settles_it() -> None:
