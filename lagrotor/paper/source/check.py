@@ -272,7 +272,7 @@ class _Checker:
         answer = decided(a, b) if may_agree(a, b) else "nonzero"
         if answer == "zero":
             return HOLDS, f"{text_of(left)} = {text_of(right)} is an identity"
-        ways = [way for both in (False, True) if (way := self._way(left, right, printed, both)).differs(a, b)]
+        ways = [way for way in self._ways(left, right, printed) if way.differs(a, b)]
         for way in ways:
             if agree(way.left, way.right):
                 return HOLDS, f"with {way.named}", *way.used
@@ -287,21 +287,22 @@ class _Checker:
             return "undecided", "the difference is outside what is decided exactly"
         return verdict, why
 
-    def _way(self, left: Node, right: Node, printed: PrintedStatement, both: bool) -> "_Way":
-        """The two sides with premises put in and derivatives taken; both: also for letters that both sides have."""
+    def _ways(self, left: Node, right: Node, printed: PrintedStatement) -> Iterator["_Way"]:
+        """The two sides with derivatives taken and premises put in for letters of one of them; then for those of both, if any."""
         section = self.readings[self.place][0].section
 
         def premises(parts: Iterable[Node]) -> Iterator[PrintedMeaning]:
             return self.given.of(parts, self.place, section, printed)
 
-        put = rounds(left, right, premises, both)
-        opaque = Opaque(self.opaque.names, self.rates)
+        one, both = (rounds(left, right, premises, both) for both in (False, True))
+        for put in (one, both) if both != one else (one,):
+            opaque = Opaque(self.opaque.names, self.rates)
 
-        def value(node: Node) -> Any:
-            return expression_of(_put(node, put), opaque)
+            def value(node: Node, put: list[dict[Node, PrintedMeaning]] = put, opaque: Opaque = opaque) -> Any:
+                return expression_of(_put(node, put), opaque)
 
-        sides = value(left), value(right)
-        return _Way(*sides, put, value, opaque.fixing)
+            sides = value(left), value(right)
+            yield _Way(*sides, put, value, opaque.fixing)
 
     def _are_sure(self, used: list[PrintedMeaning]) -> bool:
         """Whether premises are cited, or all that the section gives; and no word is against them, or begins another case."""
@@ -549,7 +550,7 @@ class _Checker:
     def _differ(self, one: _Read, other: _Read) -> bool:
         """Whether two definitions differ, as they are and with those before put in."""
         left, right = (each.statement.sides[1].node for each in (one, other))
-        ways = (self._way(left, right, other.statement, both) for both in (False, True))
+        ways = self._ways(left, right, other.statement)
         a, b = (sympy_expression(each, self.opaque) for each in (left, right))
         return decided(a, b) == "nonzero" and all(decided(way.left, way.right) == "nonzero" for way in ways)
 

@@ -48,8 +48,15 @@ class SectionMeanings:
             if worded or is_vector(first.node) != is_vector(side.node) or _holds(side.node, first.node):
                 continue
             latex = f"{first.latex} = {side.latex}"
-            for meaning in meanings:
-                self.known[meaning].append(PrintedMeaning(meaning, side.node, name, latex, section, place, statement))
+            values = dict.fromkeys(meanings, side.node)
+            if isinstance(first.node, Letter) and not first.node.vector and isinstance(side.node, Call):
+                once = Call("rate", (side.node,))
+                values |= {
+                    Letter(f"{first.node.name}_dot"): once,
+                    Letter(f"{first.node.name}_ddot"): Call("rate", (once,)),
+                }
+            for meaning, value in values.items():
+                self.known[meaning].append(PrintedMeaning(meaning, value, name, latex, section, place, statement))
 
     def of(self, parts: Iterable[Node], place: int, section: str, but: PrintedStatement) -> Iterator[PrintedMeaning]:
         """For each part that something stands for, the last premise but of a statement itself, of its section first."""

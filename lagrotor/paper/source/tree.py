@@ -309,7 +309,9 @@ def _evaluated(node: Call, opaque: Opaque) -> Any:
         return None
     inner, name, rest = sympy_expression(node.args[0], opaque), node.args[1].name, node.args[2:]
     variable = sp.Symbol(name, real=True)
-    if isinstance(inner, sp.MatrixBase) or has_opaque(inner):
+    if isinstance(inner, sp.MatrixBase) or (
+        has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner))
+    ):
         return None
     if node.name == "Sum":
         ends = [each.value for each in rest if isinstance(each, Number) and each.value.denominator == 1]
@@ -331,11 +333,24 @@ def _evaluated(node: Call, opaque: Opaque) -> Any:
     return None if value is None or value.has(sp.Integral, sp.Derivative, sp.nan, sp.zoo) else value
 
 
+def _apart(derivative: Call, inner: sp.Expr) -> bool:
+    """Whether what stands for itself are functions of other letters than the derivative's: V(r) beside a velocity."""
+    functions = {
+        f"[{text_of(each)}]"
+        for each in walk(derivative.args[0])
+        if isinstance(each, Call)
+        and each.name not in ("Sum", "Derivative", "Integral", "at", "limit", "rate")
+        and not set(letters_of(derivative.args[1])) & set(letters_of(each))
+    }
+    return {symbol.name for symbol in inner.free_symbols if has_opaque(symbol)} <= functions
+
+
 def _rate(inner: Any, opaque: Opaque) -> Any:
     """The derivative by t along the rates of its letters, those without one held fixed; None where it has no rate."""
-    rates = opaque.rates or {}
+    time = sp.Symbol("t", real=True)
+    rates = {**(opaque.rates or {}), time: sp.S.One}
     moving = sorted(inner.free_symbols & rates.keys(), key=str)
-    if has_opaque(inner) or not moving or sp.Symbol("t", real=True) in inner.free_symbols:
+    if has_opaque(inner) or not moving:
         return None
     opaque.fixing |= len(moving) < len(inner.free_symbols)
     return reduce(operator.add, [inner.diff(symbol) * rates[symbol] for symbol in moving])

@@ -611,3 +611,70 @@ def test_a_guess_of_a_name_matters_only_where_something_is_differentiated(tmp_pa
         (r"x'\frac{\partial f}{\partial x} + y = y - x'\frac{\partial f}{\partial x}", "undecided"),
     ):
         assert verdicts(tmp_path, rf"\[ E = {step} \]")[-1] == expected
+
+
+CASES_OF_A_PREMISE = {
+    "given twice": (
+        r"\begin{equation} y = a x\end{equation} for $x>0$; \begin{equation} y = - a x\end{equation} for $x<0$. "
+        r"\begin{equation} z = y + x = x(1 + a)\end{equation}"
+    ),
+    "given with either sign": (
+        r"\begin{equation}\omega = \pm\sqrt{k/m}\end{equation}\begin{equation}\omega = -\sqrt{k/m}\end{equation}"
+        r"\begin{equation} s = \omega t = \sqrt{k/m}\, t\end{equation}"
+    ),
+    "the half of it": (
+        r"\begin{equation} A = 4\pi r^2\end{equation} is the area of the sphere. The hemisphere has half of it: "
+        r"\begin{equation} F = p A = 2\pi r^2 p\end{equation}"
+    ),
+    "another case": (
+        r"\begin{equation} V = -\frac{k}{r}\end{equation} For repulsion, "
+        r"\begin{equation} E = T + V = T + \frac{k}{r}\end{equation}"
+    ),
+    "a count of states": (
+        r"\begin{equation} N = \frac{V k^3}{6\pi^2}\end{equation} With two spins a state: "
+        r"\begin{equation} n = \frac{N}{V} = \frac{k^3}{3\pi^2}\end{equation}"
+    ),
+}
+
+
+@pytest.mark.parametrize("body", CASES_OF_A_PREMISE.values(), ids=CASES_OF_A_PREMISE)
+def test_a_premise_of_another_case_refutes_nothing(tmp_path: Path, body: str) -> None:
+    assert REFUTED not in verdicts(tmp_path, body)
+
+
+def test_the_premise_of_the_same_case_does(tmp_path: Path) -> None:
+    """The twin: one value, and no word of another case."""
+    area = (
+        r"\begin{equation} A = 4\pi r^2\end{equation} is the area. It follows that "
+        r"\begin{equation} F = p A = FACTOR\pi r^2 p\end{equation}"
+    )
+    assert verdicts(tmp_path, area.replace("FACTOR", "2")) == [REFUTED]
+    assert verdicts(tmp_path, area.replace("FACTOR", "4")) == [HOLDS]
+
+
+def test_a_row_that_goes_on_from_a_function_is_judged_by_its_own_step(tmp_path: Path) -> None:
+    body = r"\begin{align} f(x) &= \frac{1}{1+x} - \frac{1}{1-x} \\ &= SIGN\frac{2x}{1-x^2}\end{align}"
+    assert verdicts(tmp_path, body.replace("SIGN", "")) == [REFUTED]
+    assert verdicts(tmp_path, body.replace("SIGN", "-")) == [HOLDS]
+
+
+@pytest.mark.parametrize(
+    ("premise", "right", "slip"),
+    [
+        (r"x = a\cos(\omega t)", r"-a\omega\sin(\omega t)", r"a\omega\sin(\omega t)"),
+        (r"x = b t + l\sin\theta", r"b + l\dot\theta\cos\theta", r"b - l\dot\theta\cos\theta"),
+    ],
+)
+def test_a_rate_is_that_of_what_the_section_gives(tmp_path: Path, premise: str, right: str, slip: str) -> None:
+    body = rf"\begin{{equation}} {premise}\end{{equation}}\begin{{equation}} v = \dot x = RIGHT\end{{equation}}"
+    assert verdicts(tmp_path, body.replace("RIGHT", right)) == [HOLDS]
+    assert verdicts(tmp_path, body.replace("RIGHT", slip)) == [REFUTED]
+
+
+def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) -> None:
+    body = (
+        r"\begin{equation} L = \frac12 m\dot r^2 + \frac12 m r^2\dot\theta^2 - V(r)\end{equation}"
+        r"\begin{equation} J = \frac{\partial L}{\partial\dot\theta} = FACTOR m r^2\dot\theta\end{equation}"
+    )
+    assert verdicts(tmp_path, body.replace("FACTOR", "")) == [HOLDS]
+    assert REFUTED not in verdicts(tmp_path, body.replace(r"V(r)", r"V(r, \dot\theta)"))
