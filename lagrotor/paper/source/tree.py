@@ -325,7 +325,7 @@ def _evaluated(node: Call, opaque: Opaque) -> Any:
     if node.name == "Derivative":
         order = rest[0].value if rest and isinstance(rest[0], Number) else Fraction(len(rest) + 1)
         value = sp.diff(inner, variable, int(order)) if order.denominator == 1 and 0 < order < 20 else None
-    elif len(rest) != 2:
+    elif len(rest) != 2 or inner.has(sp.I):  # what is complex is not decided
         return None
     else:
         value = _in_closed_form(sp.Integral(inner, (variable, *(sympy_expression(each, opaque) for each in rest))))
