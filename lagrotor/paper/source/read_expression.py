@@ -54,9 +54,11 @@ from lagrotor.paper.source.tree import (
 
 def _read_dots(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     """Dots for terms, entries or factors that are left out."""
-    beside = [b.kind for b in (*row[max(place - 1, 0) : place], *row[place + 1 : place + 2])]
-    if len(row) > 1 and (not place or not {*beside} <= {"letter", "bracket", "fraction", "group"}):
-        raise FormulaError(row[place].at, "dots stand for factors", "write them, or as a product")
+    if len(row) > 1:
+        beside = [b.kind for b in (*row[max(place - 1, 0) : place], *row[place + 1 : place + 2])]
+        if len(beside) < 2 or not {*beside} <= {"letter", "bracket", "fraction", "group"}:
+            raise FormulaError(row[place].at, "dots stand for factors", "write them, or as a product")
+        reader.guess("dots", "the dots stand for factors that are left out, and for no part of a list")
     return Call("dots", ()), place + 1
 
 

@@ -336,7 +336,8 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         return Call(box.name, (operand,)), behind
     node, raised = letter_of(reader, row[behind])
     assert isinstance(node, Letter)
-    if not (box.name == "Delta" and row[behind].name == "t"):
+    step = box.name == "Delta" and row[behind].name == "t"  # e^{-i\Delta t} may hold a detuning
+    if not step or reader.exponents or box.name in reader.notation.bare:
         what = f"{box.name} {row[behind].name} is one quantity, a difference, and no product"
         reader.guess("difference", what, f'usual = "difference" or letters = "{box.name}"')
     letter = Letter(f"{box.name}_{node.name}", node.vector)

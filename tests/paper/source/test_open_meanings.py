@@ -159,6 +159,9 @@ SETTLED = [
     (r"a = \frac{1}{|c|}", [], "number of elements"),
     (r"\frac{d}{dx}\left.\frac{f}{x}\right|_{x = a} = 0", [], "taken at a place"),
     (r"R(\theta)\vec F = m\vec a", [], "R of its argument is a number"),
+    (r"P = p_1 p_2\cdots p_n", [], "the dots stand for factors"),
+    (r"M = (a_{11} \dots)", [], "dots stand for factors"),
+    (r"c = e^{-i\Delta t/2}", [], "Delta t is one quantity"),
     (r"T_{ijkl} = -T_{jikl} \text{ and } T_{ijij} = 0", [], "an index of T is not summed over"),
 ]
 
