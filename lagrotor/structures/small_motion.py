@@ -139,7 +139,10 @@ class SmallMotion:
             q, velocity = x[..., : self.dof, :] + 0j, x[..., self.dof :, :]
         if s.ndim > 1:
             return self._in_seconds(s), velocity if self._definite else q
-        vectors = np.where(np.abs(s) > 1, velocity / np.where(s == 0, 1, s), q)
+        unspun = np.sqrt(np.abs(self.stiffness).max(initial=0.0) / np.abs(self.mass).max()) / self.rate
+        vectors = np.where(
+            np.abs(s) > max(unspun, _ZERO), velocity / np.where(s == 0, 1, s), q
+        )  # whose rounding is the less
         s = self._in_seconds(s)
         return self._damped(s, vectors) if self.damping.any() else s, vectors
 
@@ -241,21 +244,38 @@ class SmallMotion:
         return np.vstack([above, np.hstack([one, 0 * one]) + h * above]), h
 
     def _in_seconds(self, s: Matrix) -> Complex:
-        sizes, shapes = np.linalg.eigh(self.stiffness) if self.dof else (np.ones(1), np.eye(1))
-        sizes = np.abs(sizes)
-        none = sizes <= _DEPENDENT * sizes.max(-1, keepdims=True)
-        neutral = none.any(-1, keepdims=True)  # else no root is zero
+        sizes = np.abs(np.linalg.eigvalsh(self.stiffness)) if self.dof else np.ones(1)
+        neutral = (sizes <= _DEPENDENT * sizes.max(-1, keepdims=True)).any(-1, keepdims=True)  # else no root is zero
         if s.ndim == 1 and neutral[0] and not self._definite:
-            C, free = self.damping + self.gyroscopic, shapes[:, none]
-            turned = np.linalg.svd(_dagger(free) @ C @ free, compute_uv=False)
-            if turned[-1] > _DEPENDENT * np.abs(C).max():  # each neutral motion is a single root zero, and no other is
-                s, neutral = s + 0j, np.array([False])
-                s[np.argsort(np.abs(s))[: len(turned)]] = 0
+            s, neutral, slowest = s + 0j, np.array([False]), np.argsort(np.abs(s))
+            free, unturned, unrubbed = self._neutral
+            creeping, held = slowest[free + unrubbed : free + unturned], slowest[free + unturned :]
+            s[slowest[: free + unrubbed]] = 0
+            s[creeping[np.abs(s[creeping]) < _ZERO * (np.abs(s[held[0]]) if len(held) else 1.0)]] = 0
         near = np.maximum(np.abs(s), np.where(neutral, 1.0, _SLOWEST if s.ndim > 1 else 0.0))
-        still = np.abs(s.real) < (np.where(neutral, _ZERO, _DAMPED) if self.damping.any() else _ZERO) * near
+        still = np.abs(s.real) < (_DAMPED if self.damping.any() else _ZERO) * near
         return np.asarray(
             self.rate * (np.where(still, 0, s.real) + 1j * np.where(np.abs(s.imag) < _ZERO * near, 0, s.imag))
         )
+
+    @property
+    def _neutral(self) -> tuple[int, int, int]:
+        """How many displacements nothing pulls at, K v = 0; how many of them spins do not turn into others of them; on how many
+        of these no friction acts either.
+
+        Zero is a root once for each, and once more for each of the last; the second ones' friction makes a root that is slow.
+        """
+        sizes, shapes = np.linalg.eigh(self.stiffness)
+        none = max(_DEPENDENT * np.abs(sizes).max(), _NEUTRAL * np.abs(self.mass).max() * self.pull**2)
+        free = shapes[:, np.abs(sizes) <= none]
+        turned, rubbed = (
+            _dagger(free) @ form @ free / (np.abs(form).max() or 1.0) for form in (self.gyroscopic, self.damping)
+        )
+        unturned, unrubbed = (
+            int((np.linalg.svd(rows, compute_uv=False) <= _DEPENDENT).sum())
+            for rows in (turned, np.vstack([turned, rubbed]))
+        )
+        return free.shape[1], unturned, unrubbed
 
     @property
     def growth(self) -> float:
@@ -266,13 +286,7 @@ class SmallMotion:
     def drifts(self) -> bool:
         """Whether some displacement neither returns nor grows but goes on at its speed: K v = 0, and neither friction nor
         spins act between v and the others that K leaves free, so that zero is a double root of one motion."""
-        if not self.dof:
-            return False
-        sizes, shapes = np.linalg.eigh(self.stiffness)
-        none = max(_DEPENDENT * np.abs(sizes).max(), _NEUTRAL * np.abs(self.mass).max() * self.pull**2)
-        free = shapes[:, np.abs(sizes) <= none]
-        turned = [_dagger(free) @ form @ free / (np.abs(form).max() or 1.0) for form in (self.damping, self.gyroscopic)]
-        return bool(free.size and np.linalg.svd(np.vstack(turned), compute_uv=False)[-1] <= _DEPENDENT)
+        return bool(self.dof and self._neutral[2])
 
 
 @lru_cache(maxsize=64)

@@ -177,6 +177,28 @@ def test_small_growth_beside_fast_rates_keeps_its_digits_or_is_said_to_be_lost()
         lost.stands()
 
 
+def test_a_rate_beside_fast_spins_is_known_where_another_rotor_drifts() -> None:
+    """Rotors that nothing joins, by the hinge h of one √(h/A) and −c/(2 A), by spin G/A; one that nothing holds has the root zero
+    twice. Twin: a hinge so soft that it counts for none."""
+    rotors = Structure([(0, 0), (3, 0), (6, 0)], spins=[0, 3e7, 0], hinge=[8.0, 0, 0], friction=[1e-3, 0, 0])
+    A = coefficients(rotors).A[0]
+    normal = rotors.modes()
+    assert np.unique(normal.rates) == pytest.approx([0, np.sqrt(8.0 / A), 3e7 / A], rel=1e-6)
+    assert np.unique(normal.growth) == pytest.approx([-1e-3 / (2 * A), 0], rel=1e-6)
+    assert (normal.rates == 0).sum() == 3 and not rotors.stands()
+    assert (replace(rotors, hinge=(8.0, 0, 1e-11)).modes().rates == 0).sum() == 3
+    assert (replace(rotors, hinge=(8.0, 0, 1e-3)).modes().rates == 0).sum() == 1
+
+
+def test_what_no_friction_reaches_neither_grows_nor_decays() -> None:
+    """Fast rotors that nothing joins, one braced to the ground and rubbed; twin: friction on the other, too."""
+    rotor, brace = [Rotor(2.4, 1, 2.1, 2.5), Rotor(1.1, 0.74, 0.46, 0.2)], [Brace(1, (0, 3, 1), 335)]
+    for spin in (2.2e6, 2.2e8, 2.2e11):
+        two = Structure([(0, 0), (1, 0)], spins=[spin, -0.43 * spin], rotor=rotor, friction=[0, 2e3], braces=brace)
+        assert (two.modes().growth < 0).sum() == 1
+        assert (replace(two, friction=(1e-3, 2e3)).modes().growth < 0).sum() == 2
+
+
 def test_however_little_friction_reaches_what_falls() -> None:
     """Beside another of 10¹³ times as much; twin: none there."""
     given = {"spins": [30.0, 41.0], "gravity": 9.81, "hinge": [50.0, 0.0]}
