@@ -140,9 +140,8 @@ class SmallMotion:
         if s.ndim > 1:
             return self._in_seconds(s), velocity if self._definite else q
         unspun = np.sqrt(np.abs(self.stiffness).max(initial=0.0) / np.abs(self.mass).max()) / self.rate
-        vectors = np.where(
-            np.abs(s) > max(unspun, _ZERO), velocity / np.where(s == 0, 1, s), q
-        )  # whose rounding is the less
+        quick = np.abs(s) > max(unspun, _ZERO)  # then velocity / s is rounded less than q
+        vectors = np.where(quick, velocity / np.where(s == 0, 1, s), q)
         s = self._in_seconds(s)
         return self._damped(s, vectors) if self.damping.any() else s, vectors
 
@@ -319,9 +318,8 @@ def _at_both_ends(solve: Callable[[Matrix], Any], matrix: Matrix, inverse: Inver
     if s.ndim > 1 or not len(s):
         return s, x
     below, h = inverse()
-    with np.errstate(divide="ignore"):
-        r, y = solve(below)
-        t = h + 1 / r
+    r, y = solve(below)
+    t = np.where(r == 0, np.inf, h + 1 / np.where(r == 0, 1, r))
     least = np.abs(t).min(where=np.abs(t) > _ZERO * h, initial=np.inf)
     if not np.abs(s).max() > _APART * least:
         return s, x
