@@ -363,9 +363,18 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
             names = [b.name for b in letters]
             joined = "".join(" " * (a.end != b.at) + b.name for a, b in pairwise([*letters[:1], *letters])).split()
             spaced = reader.source[side[0].end :].lstrip().startswith(r"\,") and all(len(name) == 1 for name in names)
-            if spaced or {*names[names[:1] == ["mu"] :]} - {"Omega"} <= UNITS or {*joined} <= UNITS:
+            units = {*names[names[:1] == ["mu"] :]} - {"Omega"} <= UNITS or {*joined} <= UNITS
+            if spaced or (units and not _is_no_unit(side, letters, names)):
                 yield "unit", f"{letters[0].name} behind the number is a letter, and no unit", ""
         side = []
+
+
+def _is_no_unit(side: list[Box], letters: list[Box], names: list[str]) -> bool:
+    """Whether letters behind a number are no unit: a litre or a gram has a prefix at most, 2mgl and 2ml² are products."""
+    divided = any(b.name == "/" for b in side) or any(b.sup and b.sup[0].name == "-" for b in letters)
+    litres = "l" in names and (names not in (["l"], ["m", "l"]) or bool(letters[-1].sup))
+    grams = "g" in names and names[:2] != ["k", "g"] and names not in (["g"], ["m", "g"])
+    return not divided and (litres or grams)
 
 
 def _spaces(reader: FormulaReader, row: list[Box]) -> Marks:

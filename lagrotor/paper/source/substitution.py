@@ -43,7 +43,7 @@ class SectionMeanings:
         meanings = [first.node]
         if isinstance(first.node, Call) and all(isinstance(each, Letter) for each in first.node.args):
             meanings.append(Letter(first.node.name))  # H(p, q) = …, where H alone is meant as well
-        for side in others:
+        for side in reversed(others):
             worded = isinstance(side.node, Letter) and r"\text" in side.latex
             if worded or is_vector(first.node) != is_vector(side.node) or _holds(side.node, first.node):
                 continue

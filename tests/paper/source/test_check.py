@@ -563,6 +563,11 @@ WITH_PREMISES = [
         r"T = \frac12 m\mathbf v\cdot\mathbf v = \frac12 m\dot{\mathbf r}\cdot\dot{\mathbf r}",
         r"\frac12 m\dot{\mathbf r}", r"m\dot{\mathbf r}",
     ),
+    (
+        r"\[ L = \frac12 m l^2\dot\theta^2 + m g l\cos\theta \]"
+        r"\[ p = \frac{\partial L}{\partial\dot\theta} = m l^2\dot\theta \]",
+        r"H = p\dot\theta - L = \frac{p^2}{2 m l^2} - m g l\cos\theta", r"- m g l", r"+ m g l",
+    ),
     ("", r"N = \frac{d}{dt}\left(\frac13 m b^2\dot\theta\right) = \frac13 m b^2\ddot\theta", r"= \frac13", r"= -\frac13"),
     ("", r"S = \int_0^a b x\,dx = \frac{a^2 b}{2}", "{a^2", "{a^3"),
     (
