@@ -70,9 +70,10 @@ class SectionMeanings:
                 yield max(near, key=lambda each: (each.section == section, each.place))
 
     def is_given_once(self, premise: PrintedMeaning) -> bool:
-        """Whether its section gives nothing else for the same."""
-        values = {each.value for each in self.known[premise.meaning] if each.section == premise.section}
-        return values == {premise.value}
+        """Whether no other equation of its section gives anything else for the same."""
+        near = [each for each in self.known[premise.meaning] if each.section == premise.section]
+        own = {each.value for each in near if each.statement is premise.statement}
+        return all(each.value in own for each in near)
 
 
 def _is_meaning(node: Node) -> bool:

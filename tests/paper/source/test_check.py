@@ -568,6 +568,14 @@ WITH_PREMISES = [
         r"\[ p = \frac{\partial L}{\partial\dot\theta} = m l^2\dot\theta \]",
         r"H = p\dot\theta - L = \frac{p^2}{2 m l^2} - m g l\cos\theta", r"- m g l", r"+ m g l",
     ),
+    (
+        r"\[ x = r\cos\theta \] \[ y = r\sin\theta \]",
+        r"T = \frac12 m(\dot x^2 + \dot y^2) = \frac12 m(\dot r^2 + r^2\dot\theta^2)", r"+ r^2", r"+ r",
+    ),
+    (
+        r"The motion is $x(t) = A\cos\omega t$.", r"E = \frac12 m\dot x^2 + \frac12 m\omega^2 x^2 = \frac12 m\omega^2 A^2",
+        r"= \frac12 m\omega^2 A", r"= m\omega^2 A",
+    ),
     ("", r"N = \frac{d}{dt}\left(\frac13 m b^2\dot\theta\right) = \frac13 m b^2\ddot\theta", r"= \frac13", r"= -\frac13"),
     ("", r"S = \int_0^a b x\,dx = \frac{a^2 b}{2}", "{a^2", "{a^3"),
     (
@@ -592,6 +600,7 @@ def test_a_slip_is_found_where_the_step_holds_with_what_the_text_gives(
         r"Here $v = l\omega$, and for the other $v = b\omega$. \[ T = m v^2 = \frac12 m l^2\omega^2 \]",
         r"\section{One} $v = l\omega$ \section{Two} \[ T = m v^2 = \frac12 m l^2\omega^2 \]",
         r"\[ v = l\omega \] By symmetry \[ T = m v^2 = \frac12 m l^2\omega^2 \]",
+        r"\[ x = r\cos\theta \] \[ x = b\cos\theta \] \[ T = m\dot x^2 = 2 m r^2\dot\theta^2\sin^2\theta \]",
         r"\[ l\omega = 2 l\omega^2 \] \[ v = l\omega \] \[ T = v = 2 l\omega^2 \]",
         r"\[ A = \frac{\partial f}{\partial x} + b = \frac{\partial f}{\partial y} - b \]",
         r"\[ A = \int_0^1 f(x)\,dx = -\int_0^1 f(x)\,dx = 0 \]",

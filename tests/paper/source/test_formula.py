@@ -403,7 +403,7 @@ def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
     ("latex", "guess"),
     [
         (r"x = e^t", "e is Euler's number"),
-        (r"x = \cos\omega t", "the argument of cos is the product"),
+        (r"x = \cos\nu t", "the argument of cos is the product"),
         (r"x = \sin^{-1} y", "the inverse function"),
         (r"x = \log y", "the natural logarithm"),
         (r"x = \Delta y", "one quantity, a difference"),
@@ -426,6 +426,7 @@ def test_what_custom_settles_is_named_as_a_guess(latex: str, guess: str) -> None
         (r"l = 5\mathrm{m}", "l = 5*unit_m", "upright m behind a number is a unit"),
         (r"l = 5\,\mathrm{m}", "l = 5*unit_m", ""),
         (r"l = 5\,m", "l = 5*m", "a letter, and no unit"),
+        (r"x = \cos\omega t", "x = cos(omega*t)", ""),
         ("V = 2 m g l", "V = 2*m*g*l", ""),
         ("I = 2 m l^2", "I = 2*m*l**2", ""),
         ("V = 2 m l", "V = 2*m*l", "a letter, and no unit"),
