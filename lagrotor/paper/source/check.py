@@ -263,10 +263,9 @@ class _Checker:
 
     def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool) -> tuple[Any, ...]:
         """The verdict on a step, why, and each premise that was put in."""
-        try:
-            a, b = sympy_expression(left, self.opaque), sympy_expression(right, self.opaque)
-        except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
-            return "undecided", f"the two sides cannot be compared: {error}"
+        a, b = self._value(left), self._value(right)
+        if a is None or b is None:
+            return "undecided", "the two sides cannot be compared"
         if a != b and is_large(a, b):
             return LARGE
         answer = decided(a, b) if may_agree(a, b) else "nonzero"
@@ -387,7 +386,7 @@ class _Checker:
 
     def _may_explain(self, statement: PrintedStatement, a: Any, b: Any) -> bool:
         """Whether two sides agree, or may agree, where a statement holds, and are not both zero: it is solved for each letter."""
-        sides = [expression_of(side.node, self.opaque) for side in statement.sides]
+        sides = [self._value(side.node) for side in statement.sides]
         if None in sides or statement.kind != "equation" or any(isinstance(e, sp.MatrixBase) for e in (*sides, a, b)):
             return not self._says_nothing(sides)
         for left, right in pairwise(sides):
@@ -470,16 +469,13 @@ class _Checker:
             first = definition.statement.sides[0].node
             if not isinstance(first, Letter) or len(definition.statement.sides) != 2:
                 continue
-            value = sympy_expression(definition.statement.sides[1].node, self.opaque)
+            value = self._value(definition.statement.sides[1].node)
+            if value is None or isinstance(value, sp.MatrixBase):
+                continue
             for other in named:
                 old = self._difference(other.statement)
                 symbol = sp.Symbol(first.name, real=True)
-                if (
-                    other is definition
-                    or old is None
-                    or symbol not in old.free_symbols
-                    or isinstance(value, sp.MatrixBase)
-                ):
+                if other is definition or old is None or symbol not in old.free_symbols:
                     continue
                 put = old.subs(symbol, value)
                 names = f"({definition.equation.id}) in ({other.equation.id})"
@@ -497,12 +493,10 @@ class _Checker:
     def _difference(self, statement: PrintedStatement) -> sp.Expr | None:
         if statement.kind != "equation" or len(statement.sides) != 2:
             return None
-        try:
-            left, right = (sympy_expression(side.node, self.opaque) for side in statement.sides)
-        except (TypeError, ValueError, ArithmeticError, AttributeError):
+        sides = [self._value(side.node) for side in statement.sides]
+        if None in sides or any(isinstance(side, sp.MatrixBase) for side in sides) or has_opaque(*sides):
             return None
-        vectors = isinstance(left, sp.MatrixBase) or isinstance(right, sp.MatrixBase)
-        return None if vectors or has_opaque(left, right) else left - right
+        return sides[0] - sides[1]
 
     # ---- dimensions and letters
 
@@ -550,9 +544,9 @@ class _Checker:
     def _differ(self, one: _Read, other: _Read) -> bool:
         """Whether two definitions differ, as they are and with those before put in."""
         left, right = (each.statement.sides[1].node for each in (one, other))
-        ways = self._ways(left, right, other.statement)
-        a, b = (sympy_expression(each, self.opaque) for each in (left, right))
-        return decided(a, b) == "nonzero" and all(decided(way.left, way.right) == "nonzero" for way in ways)
+        ways = ((way.left, way.right) for way in self._ways(left, right, other.statement))
+        pairs = chain([(self._value(left), self._value(right))], ways)
+        return all(None not in pair and decided(*pair) == "nonzero" for pair in pairs)
 
     def _letters(self) -> Iterator[StepFinding]:
         """Letters that are defined twice, used before they are given, or have two meanings."""

@@ -24,6 +24,7 @@ from lagrotor.paper.source.rows import (
     derivative_mark,
     has_differential_above,
     is_unit_like,
+    letters_in,
     strip,
     without_thin,
 )
@@ -107,10 +108,6 @@ def _indices_below(box: Box) -> Iterator[list[Box]]:
 
 def _behind(row: list[Box], place: int) -> Box | None:
     return row[place + 1] if place + 1 < len(row) else None
-
-
-def _letters(*held: Box) -> set[str]:
-    return {b.name for b in all_boxes(list(held)) if b.kind == "letter"}
 
 
 def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Marks:
@@ -202,7 +199,7 @@ def _enclosed(reader: FormulaReader, box: Box, before: Box | None, content: list
     if before is not None and before.kind in ("letter", "function"):
         if before.kind == "function" and box.name != "(" and not adds:
             yield "set", f"{box.name} encloses an argument, and no set or class", ""
-    elif commas and (box.name == "(" or commas > 1 or not _letters(*content)):
+    elif commas and (box.name == "(" or commas > 1 or not letters_in(content)):
         yield "list", "the brackets hold components, and no pair, interval or product", ""
     elif box.name != "(" and not commas and not (adds and any(b.kind == "bracket" for b in content)):
         yield "set", f"{box.name} encloses a factor, and is no set, class or whole part", ""
@@ -262,7 +259,7 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "cdot", "the full stop multiplies what it stands between", ""
     elif box.name == "cdot":
         beside = [b for b in (before, after) if b is not None]
-        numbers = any(b.kind in ("number", "root", "function", "nabla") or not _letters(b) for b in beside)
+        numbers = any(b.kind in ("number", "root", "function", "nabla") or not letters_in([b]) for b in beside)
         vectors = all(
             b.kind == "letter" and is_printed_as_vector(b) and (b.name[0].islower() or stem_of(b) in known.crossed)
             for b in beside

@@ -8,14 +8,16 @@ from lagrotor.paper.source.boxes import BIG, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_scripts import letter_of, mark_of, power_of, stands_alone
 from lagrotor.paper.source.rows import (
+    DIVISORS,
     TENSOR,
     VARIABLES,
     all_boxes,
     derivative_mark,
-    has_differential_above,
+    ends_integral,
     is_d,
     is_derivative_operator,
     is_measure,
+    letters_in,
     strip,
     without_thin,
 )
@@ -23,7 +25,6 @@ from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number, wa
 from lagrotor.paper.source.usage import arguments, power_in, simple_argument
 
 _INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a", "b")
-_DIVISORS = ("letter", "group", "bracket", "partial")
 
 
 def behind_function(row: list[Box], place: int) -> int:
@@ -136,12 +137,15 @@ def _mark_derivative(reader: FormulaReader, box: Box, mark: str, operand: list[B
 
 
 def _mark_arguments(reader: FormulaReader, operand: list[Box], variables: list[Box]) -> None:
-    """Mark a derivative of a function whose arguments do not hold what it differentiates by: it is taken there."""
+    """Mark a derivative of a function whose arguments do not hold what it differentiates by: it is taken there.
+
+    Of one argument, only where it is a value of that letter, F(m_0) by m.
+    """
     if len(operand) > 1 and operand[0].kind == "letter" and operand[1].kind == "bracket":
-        held, by = (
-            {b.name for b in all_boxes(part) if b.kind == "letter"} for part in (operand[1].parts[0], variables)
-        )
-        if any(b.kind == "comma" for b in operand[1].parts[0]) and not held & by:
+        by = letters_in(variables)
+        held = [b for b in all_boxes(operand[1].parts[0]) if b.name in by]
+        value = bool(held) and all(b.sub for b in held) and not any(b.sub for b in variables)
+        if value or (not held and any(b.kind == "comma" for b in operand[1].parts[0])):
             what = f"the value of {operand[0].name} is differentiated, and the derivative is not taken there"
             reader.guess("at", what)
 
@@ -158,7 +162,7 @@ def _variables(reader: FormulaReader, under: list[Box], mark: str) -> list[tuple
     found: list[tuple[Node, int]] = []
     place = 0
     while place < len(under):
-        if not is_d(under[place], mark) or place + 1 >= len(under) or under[place + 1].kind not in _DIVISORS:
+        if not is_d(under[place], mark) or place + 1 >= len(under) or under[place + 1].kind not in DIVISORS:
             raise FormulaError(under[place].at, "what is differentiated by is not clear", "write \\frac{d f}{d x}")
         target = under[place + 1]
         if target.kind == "partial":  # \partial \partial_\mu \phi, without its brackets
@@ -227,7 +231,7 @@ def total_derivative_of(reader: FormulaReader, node: Node, variable: Node, order
 
 
 def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
-    r"""\partial_x f, \partial_t^2 u; by itself on a side \partial\Omega, a boundary."""
+    r"""\partial_x f, \partial_t^2 u, \partial^\mu f; by itself on a side \partial\Omega, a boundary."""
     box = row[place]
     after = row[place + 1] if place + 1 < len(row) else box
     body = (
@@ -238,37 +242,24 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
     if body and not (box.sub or box.sup or place or row[2:]):
         reader.guess("boundary", f"∂{after.name} is the boundary of {after.name}")
         return Letter(f"boundary_{after.name}{after.style}"), 2
-    if box.sub is None and [b.name for b in box.sup or ()] and {b.name for b in box.sup or ()} <= {*_INDICES}:
-        return _contravariant(reader, row, place)
-    if box.sub is None:
+    index = box.sub or box.sup or []
+    above = not box.sub and bool(index) and {b.name for b in index} <= {*_INDICES}
+    if not (box.sub or above):
         why = "what ∂ differentiates by is missing"
         raise FormulaError(box.at, why, "write \\partial_x or \\frac{\\partial f}{\\partial x}")
-    if len(box.sub) != 1 or box.sub[0].kind != "letter":
+    if len(index) != 1 or index[0].kind != "letter":
         raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
-    _mark_arguments(reader, without_thin(row[place + 1 :]), box.sub)
-    if box.sub[0].name not in VARIABLES - {"rho"}:
+    _mark_arguments(reader, without_thin(row[place + 1 :]), index)
+    if above or index[0].name not in VARIABLES - {"rho"}:
         reader.guess("index", "the index of ∂ is what it differentiates by")
-    order = _order(reader, box)
-    variable = letter_of(reader, box.sub[0])[0]
+    order = 1 if above else _order(reader, box)
+    variable = Letter(f"x_{index[0].name}") if above else letter_of(reader, index[0])[0]  # \partial^\mu: by x_\mu
     if isinstance(variable, Letter) and variable.name in {*_INDICES} - (reader.notation.bare - reader.lowered):
         variable = Letter(f"x__{variable.name}")  # \partial_\mu is \partial/\partial x^\mu
     if _stands_alone(reader, row, place + 1):
         return Call("operator_derivative", (variable, number(order)) if order > 1 else (variable,)), place + 1
     node, behind = _operand(reader, row, place + 1, box)
     return Call("Derivative", (node, variable, *([number(order)] if order > 1 else []))), behind
-
-
-def _contravariant(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
-    r"""\partial^\mu f, the derivative by x_\mu."""
-    box = row[place]
-    if len(box.sup or ()) != 1:
-        raise FormulaError(box.at, "what ∂ differentiates by is not clear", "write \\frac{\\partial f}{\\partial x}")
-    reader.guess("index", "the index of ∂ is what it differentiates by")
-    variable = Letter(f"x_{box.sup[0].name}")  # type: ignore[index]
-    if _stands_alone(reader, row, place + 1):
-        return Call("operator_derivative", (variable,)), place + 1
-    node, behind = _operand(reader, row, place + 1, box)
-    return Call("Derivative", (node, variable)), behind
 
 
 def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
@@ -382,9 +373,7 @@ def is_open_integral(part: list[Box]) -> bool:
     for place, box in enumerate(part):
         if box.kind == "big" and BIG.get(box.name, "") == "Integral":
             opened += 1
-        elif opened and (
-            has_differential_above(box) or ((box.kind, box.name) == ("letter", "d") and place + 1 < len(part))
-        ):
+        elif opened and ends_integral(box) and (place + 1 < len(part) or box.kind == "fraction"):
             opened -= 1
     return opened > 0
 

@@ -4,7 +4,7 @@ from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_differential
 from lagrotor.paper.source.read_scripts import INDICES, index_parts, letter_of, mark_of, power_of, stands_alone
-from lagrotor.paper.source.rows import UNITS, all_boxes, derivative_mark, is_measure, strip, without_thin
+from lagrotor.paper.source.rows import UNITS, all_boxes, derivative_mark, is_measure, letters_in, strip, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
 from lagrotor.paper.source.usage import (
     ACTED_ON,
@@ -399,17 +399,13 @@ def _mark_constant(reader: FormulaReader, box: Box, after: Box | None) -> None:
         reader.guess("operator", "D is a number, and no derivative", settles)
 
 
-def _letters(row: list[Box]) -> set[str]:
-    return {b.name for b in all_boxes(row) if b.kind == "letter"}
-
-
 def _mark_before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> None:
     """Mark a letter before a bracket: a function of it, or a factor."""
     known = reader.notation
     content = without_thin(bracket.parts[0])
     if box.name in "Oo":
         added = reader.source[: box.at].rstrip().endswith(("+", "-", r"\pm", r"\mp", "−"))
-        if not added or not _letters(bracket.parts[0]):
+        if not added or not letters_in(bracket.parts[0]):
             reader.guess("order", f"{box.name}(…) is an order of magnitude, and no group or function")
         return
     if "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"):
@@ -435,9 +431,9 @@ def _mark_before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> None:
 def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bool | None:
     """True for a function, False for a factor, None where the paper does not say."""
     stem, listed = stem_of(box), any(b.kind == "comma" for b in content)
-    if simple_argument(content) and _letters(content) and not bracket.sup and (listed or len(content) == 1):
+    if simple_argument(content) and letters_in(content) and not bracket.sup and (listed or len(content) == 1):
         numbers = listed and stem in known.factors and any(b.kind == "number" for b in content)  # gamma(1, beta)
-        other = known.called.get(unprimed(box), set()) - _letters(content)
+        other = known.called.get(unprimed(box), set()) - letters_in(content)
         return None if numbers and not other else True
     if stem in known.applied:
         return None if stem in known.factors or bracket.sup else True
@@ -447,7 +443,7 @@ def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bo
 def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
     """Whether the paper has a letter as a number among factors, and never before an argument or differentiated."""
     stem = stem_of(box)
-    held = _letters(content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}  # E(\\phi(E))
+    held = letters_in(content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}  # E(\\phi(E))
     free = not known.is_function(box) and box.name not in _FUNCTIONS and stem in known.factors
     variable = held & {"t", "tau"} or any(held & letters for letters in known.called.values())
     return free and not variable and is_number(known, box)

@@ -18,6 +18,8 @@ _UNIT_NAMES = (
 )
 UNITS = frozenset(_UNIT_NAMES.split())
 DEGREES = frozenset(("circ", "degree", "o"))  # above a number
+# What a derivative is taken by, behind its sign.
+DIVISORS = ("letter", "group", "bracket", "partial")
 
 
 def strip(row: list[Box]) -> list[Box]:
@@ -44,6 +46,11 @@ def all_boxes(row: list[Box]) -> list[Box]:
         else:
             rows.pop()
     return found
+
+
+def letters_in(row: list[Box]) -> set[str]:
+    """The names of the letters of a row and of all that it holds."""
+    return {box.name for box in all_boxes(row) if box.kind == "letter"}
 
 
 def without_thin(row: list[Box]) -> list[Box]:
@@ -153,7 +160,7 @@ def derivative_mark(box: Box) -> str:
     if not over or len(under) < 2:
         return ""
     for mark in ("d", "partial", "D", "delta"):
-        below = ("letter", "group", "bracket", "partial") if mark in ("partial", "delta") else ("letter", "group")
+        below = DIVISORS if mark in ("partial", "delta") else ("letter", "group")
         if is_d(over[0], mark) and is_d(under[0], mark) and under[1].kind in below:
             if mark == "D" and len(over) == 1:
                 continue
