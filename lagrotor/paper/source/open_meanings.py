@@ -18,13 +18,14 @@ from lagrotor.paper.source.read_scripts import INDICES
 from lagrotor.paper.source.read_statements import is_set
 from lagrotor.paper.source.rows import (
     DEGREES,
+    PARTING,
     TENSOR,
     UNITS,
     all_boxes,
     derivative_mark,
     has_differential_above,
     is_unit_like,
-    letters_in,
+    letters_in_row,
     strip,
     without_thin,
 )
@@ -47,7 +48,6 @@ _JOINING = "where with and for if when so then thus hence since but while also l
 _WORDS = frozenset(_JOINING.split())
 # Capitals that are amplitudes before a sine.
 _AMPLITUDES = "ABCFINQRVWXYZ"
-_PARTS = ("relation", "comma", "wide", "text", "arrow")
 Marks = Iterator[tuple[str, str, str]]
 
 
@@ -199,7 +199,7 @@ def _enclosed(reader: FormulaReader, box: Box, before: Box | None, content: list
     if before is not None and before.kind in ("letter", "function"):
         if before.kind == "function" and box.name != "(" and not adds:
             yield "set", f"{box.name} encloses an argument, and no set or class", ""
-    elif commas and (box.name == "(" or commas > 1 or not letters_in(content)):
+    elif commas and (box.name == "(" or commas > 1 or not letters_in_row(content)):
         yield "list", "the brackets hold components, and no pair, interval or product", ""
     elif box.name != "(" and not commas and not (adds and any(b.kind == "bracket" for b in content)):
         yield "set", f"{box.name} encloses a factor, and is no set, class or whole part", ""
@@ -259,7 +259,7 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "cdot", "the full stop multiplies what it stands between", ""
     elif box.name == "cdot":
         beside = [b for b in (before, after) if b is not None]
-        numbers = any(b.kind in ("number", "root", "function", "nabla") or not letters_in([b]) for b in beside)
+        numbers = any(b.kind in ("number", "root", "function", "nabla") or not letters_in_row([b]) for b in beside)
         vectors = all(
             b.kind == "letter" and is_printed_as_vector(b) and (b.name[0].islower() or stem_of(b) in known.crossed)
             for b in beside
@@ -302,7 +302,7 @@ def _text(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     """Evident are a sum over one index with its first and last value or all, a limit, an integral that its differential ends."""
     box, below = row[place], without_thin(row[place].sub or [])
-    rest = row[place + 1 : next((k for k in range(place + 1, len(row)) if row[k].kind in _PARTS), len(row))]
+    rest = row[place + 1 : next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))]
     if "int" not in box.name and any(b.kind == "operator" and b.name in ("+", "-", "pm") for b in rest[1:]):
         yield "reach", f"the {box.name} is of the term that follows it alone", ""
     if box.name in ("sum", "prod"):
@@ -343,7 +343,7 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
         yield from _spaces(reader, row)
     side: list[Box] = []
     for box in [*without_thin(row), Box("relation", "", 0, 0)]:
-        if box.kind not in _PARTS:
+        if box.kind not in PARTING:
             side.append(box)
             continue
         if len(side) < 2 or side[0].kind != "number":
@@ -386,7 +386,7 @@ def _spaces(reader: FormulaReader, row: list[Box]) -> Marks:
             and not closing
         ):
             yield "spaces", "what a space parts are factors, and no list", ""
-    ends = [k for k, b in enumerate(row) if b.kind in _PARTS]
+    ends = [k for k, b in enumerate(row) if b.kind in PARTING]
     for first, last in pairwise(ends):
         middle = row[first + 1 : last] if row[first].kind == row[last].kind == "relation" else []
         space = max((k for k, b in enumerate(middle) if b.kind == "thin"), default=0)
@@ -451,7 +451,7 @@ def _repeated(row: list[Box]) -> Marks:
                 for cell in box.parts:
                     look(cell)
                 terms.append([])
-            elif box.kind in _PARTS or box.name in ("+", "-", "pm", "mp"):
+            elif box.kind in PARTING or box.name in ("+", "-", "pm", "mp"):
                 terms.append([])
             else:
                 terms[-1].append(box)

@@ -17,11 +17,11 @@ from lagrotor.paper.source.rows import (
     is_d,
     is_derivative_operator,
     is_measure,
-    letters_in,
+    letters_in_row,
     strip,
     without_thin,
 )
-from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number, walk
+from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_vector, number, walk
 from lagrotor.paper.source.usage import arguments, power_in, simple_argument
 
 _INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a", "b")
@@ -142,7 +142,7 @@ def _mark_arguments(reader: FormulaReader, operand: list[Box], variables: list[B
     Of one argument, only where it is a value of that letter, F(m_0) by m.
     """
     if len(operand) > 1 and operand[0].kind == "letter" and operand[1].kind == "bracket":
-        by = letters_in(variables)
+        by = letters_in_row(variables)
         held = [b for b in all_boxes(operand[1].parts[0]) if b.name in by]
         value = bool(held) and all(b.sub for b in held) and not any(b.sub for b in variables)
         if value or (not held and any(b.kind == "comma" for b in operand[1].parts[0])):
@@ -200,6 +200,8 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
     node, behind = reader.factor(rest, 0)
     remaining = without_thin(rest[behind:])
     if not remaining:
+        if isinstance(node, Number):
+            reader.guess("reach", "the derivative is of the number that follows it alone")
         return node, len(row)
     if rest[0].kind == "bracket":
         reader.guess("reach", "a derivative acts on the bracket that follows it, not on what is behind")

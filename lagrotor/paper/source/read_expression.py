@@ -31,6 +31,7 @@ from lagrotor.paper.source.read_letter import is_called, read_letter
 from lagrotor.paper.source.read_number import read_number, read_unit
 from lagrotor.paper.source.read_sum import read_sum
 from lagrotor.paper.source.rows import (
+    ENDING,
     TENSOR,
     ends_integral,
     ends_with_bracket,
@@ -62,7 +63,6 @@ def _read_dots(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
     return Call("dots", ()), place + 1
 
 
-_ENDS = ("operator", "relation", "comma", "wide", "text", "arrow")
 Factor = Callable[[FormulaReader, list[Box], int], tuple[Node, int]]
 _FACTORS: dict[str, Factor] = {
     "number": read_number, "unit": read_unit, "letter": read_letter, "bracket": read_bracket, "group": read_group,
@@ -174,7 +174,7 @@ class Grammar(FormulaReader):
         if (
             box.kind == "function"
             and box.name == "Re"
-            and (box.sub or place + 1 >= len(row) or row[place + 1].kind in _ENDS)
+            and (box.sub or place + 1 >= len(row) or row[place + 1].kind in ENDING)
         ):
             self.guess("words", "Re is a number of its own, and no real part")
             reader = read_letter

@@ -6,13 +6,12 @@ from lagrotor.paper.source.boxes import FUNCTIONS, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_letter import is_called
 from lagrotor.paper.source.read_scripts import mark_of
-from lagrotor.paper.source.rows import is_moving
+from lagrotor.paper.source.rows import ENDING, is_moving
 from lagrotor.paper.source.tree import Call, Node, number
 from lagrotor.paper.source.usage import arguments
 
 _ANGLES = ("theta", "phi", "varphi", "psi", "alpha", "beta", "vartheta", "gamma", "chi")
 _NOT_OF_NUMBERS = "det tr Tr diag rank dim arg Re Im max min sup inf ker deg gcd"
-_ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
 
 
 def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
@@ -115,7 +114,7 @@ def _reach(reader: FormulaReader, row: list[Box], start: int, function: Box) -> 
 def _after_one(reader: FormulaReader, only: Box, row: list[Box], end: int, function: Box) -> None:
     """One thing behind a function; what follows a thin space is another factor where it is plain that it is."""
     after = next((b for b in row[end:] if b.kind != "thin"), None)
-    if after is None or after.kind in (*_ENDING, "function", "big"):
+    if after is None or after.kind in (*ENDING, "function", "big"):
         return
     if after.kind == "bracket" and only.kind == "letter":
         if is_called(reader, only, after):

@@ -4,7 +4,16 @@ from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_differential
 from lagrotor.paper.source.read_scripts import INDICES, index_parts, letter_of, mark_of, power_of, stands_alone
-from lagrotor.paper.source.rows import UNITS, all_boxes, derivative_mark, is_measure, letters_in, strip, without_thin
+from lagrotor.paper.source.rows import (
+    ENDING,
+    UNITS,
+    all_boxes,
+    derivative_mark,
+    is_measure,
+    letters_in_row,
+    strip,
+    without_thin,
+)
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
 from lagrotor.paper.source.usage import (
     ACTED_ON,
@@ -18,8 +27,6 @@ from lagrotor.paper.source.usage import (
     unprimed,
     unscripted,
 )
-
-_ENDING = ("operator", "relation", "comma", "wide", "text", "arrow")
 
 # Names that are mostly functions: before a bracket they are no factors.
 _FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
@@ -83,7 +90,7 @@ def _applied(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
         return None
     behind = next((k for k in range(place + 1, len(row)) if row[k].kind != "thin"), place)
     after = row[behind]
-    if behind == place or after.kind in _ENDING:
+    if behind == place or after.kind in ENDING:
         return None
     if after.kind == "bracket" and after.name in ("(", "[", r"\{") and box.sup is None:
         reader.guess("words", f"{box.name} is a function of the bracket that follows it, and no factor")
@@ -405,7 +412,7 @@ def _mark_before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> None:
     content = without_thin(bracket.parts[0])
     if box.name in "Oo":
         added = reader.source[: box.at].rstrip().endswith(("+", "-", r"\pm", r"\mp", "−"))
-        if not added or not letters_in(bracket.parts[0]):
+        if not added or not letters_in_row(bracket.parts[0]):
             reader.guess("order", f"{box.name}(…) is an order of magnitude, and no group or function")
         return
     if "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"):
@@ -431,9 +438,9 @@ def _mark_before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> None:
 def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bool | None:
     """True for a function, False for a factor, None where the paper does not say."""
     stem, listed = stem_of(box), any(b.kind == "comma" for b in content)
-    if simple_argument(content) and letters_in(content) and not bracket.sup and (listed or len(content) == 1):
+    if simple_argument(content) and letters_in_row(content) and not bracket.sup and (listed or len(content) == 1):
         numbers = listed and stem in known.factors and any(b.kind == "number" for b in content)  # gamma(1, beta)
-        other = known.called.get(unprimed(box), set()) - letters_in(content)
+        other = known.called.get(unprimed(box), set()) - letters_in_row(content)
         return None if numbers and not other else True
     if stem in known.applied:
         return None if stem in known.factors or bracket.sup else True
@@ -443,7 +450,9 @@ def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bo
 def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
     """Whether the paper has a letter as a number among factors, and never before an argument or differentiated."""
     stem = stem_of(box)
-    held = letters_in(content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}  # E(\\phi(E))
+    held = (
+        letters_in_row(content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}
+    )  # E(\\phi(E))
     free = not known.is_function(box) and box.name not in _FUNCTIONS and stem in known.factors
     variable = held & {"t", "tau"} or any(held & letters for letters in known.called.values())
     return free and not variable and is_number(known, box)

@@ -18,6 +18,9 @@ _UNIT_NAMES = (
 )
 UNITS = frozenset(_UNIT_NAMES.split())
 DEGREES = frozenset(("circ", "degree", "o"))  # above a number
+# What parts statements, and what ends a product.
+PARTING = ("relation", "comma", "wide", "text", "arrow")
+ENDING = ("operator", *PARTING)
 # What a derivative is taken by, behind its sign.
 DIVISORS = ("letter", "group", "bracket", "partial")
 
@@ -48,7 +51,7 @@ def all_boxes(row: list[Box]) -> list[Box]:
     return found
 
 
-def letters_in(row: list[Box]) -> set[str]:
+def letters_in_row(row: list[Box]) -> set[str]:
     """The names of the letters of a row and of all that it holds."""
     return {box.name for box in all_boxes(row) if box.kind == "letter"}
 

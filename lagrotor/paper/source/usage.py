@@ -12,12 +12,11 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.paper.letters import FUNCTIONS as CALLED
 from lagrotor.paper.source.boxes import Box, FormulaError, boxes
-from lagrotor.paper.source.rows import TENSOR, all_boxes, without_thin
+from lagrotor.paper.source.rows import PARTING, TENSOR, all_boxes, without_thin
 
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
 # What a δ or Δ before it is no factor of: a difference, a variation, a function of the bracket.
 ACTED_ON = ("letter", "bracket", "fraction", "accent", "group", "big", "partial", "nabla", "root")
-_ENDING = ("relation", "comma", "wide", "text", "arrow")
 _OF_NUMBERS = ("sin", "cos", "tan", "ln", "log", "exp")
 # Letters that custom has as numbers, and those of a sign of its own.
 _NUMBERS = frozenset(["e", "i", "pi", "hbar", "ell", "d", "delta", "Delta", "imath", "prime"])
@@ -479,9 +478,9 @@ def is_number(known: Notation, box: Box) -> bool:
 def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
     """A letter that is equal to a matrix or one of R^(m x n), and what a letter is equal to."""
     before, box, after = row[place - 1 : place + 2]
-    if before.kind != "letter" or (place > 1 and row[place - 2].kind not in _ENDING):
+    if before.kind != "letter" or (place > 1 and row[place - 2].kind not in PARTING):
         return
-    end = next((k for k in range(place + 1, len(row)) if row[k].kind in _ENDING), len(row))
+    end = next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))
     found.equal += [(before, row[place + 1 : end])] if box.name in ("=", ":=") else []
     inside = [after, *(each for part in after.parts for each in part)]
     real = box.name == "in" and after.style == "bb" and any(b.name == "times" for b in after.sup or ())

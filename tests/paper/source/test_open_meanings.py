@@ -159,6 +159,7 @@ SETTLED = [
     (r"a = \frac{1}{|c|}", [], "number of elements"),
     (r"\frac{d}{dx}\left.\frac{f}{x}\right|_{x = a} = 0", [], "taken at a place"),
     (r"\frac{\partial F(m_0)}{\partial m} = 0", [], "is not taken there"),
+    (r"a = \frac{d}{dx} 1 - b", [], "of the number that follows it alone"),
     (r"R(\theta)\vec F = m\vec a", [], "R of its argument is a number"),
     (r"P = p_1 p_2\cdots p_n", [], "the dots stand for factors"),
     (r"M = (a_{11} \dots)", [], "dots stand for factors"),
