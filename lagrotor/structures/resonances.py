@@ -347,8 +347,10 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
         order: through which.
 
     Raises:
+        InputError: as `local_hamiltonian`.
         SingularError: where a rate is zero in it that is not.
     """
+    check_upright(s, "normal_form_of")
     form = normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
     if len(signed_rates(small_motion(s), factor)) and 0 in form.frequencies:
         raise SingularError("normal form: beside the fastest rates slow ones are taken for zero: take slower spins")
@@ -608,10 +610,14 @@ def resonant_factors(
         s: the structure.
         orders: of the resonances.
         of: "rates" or "tilts", what a push gives.
+
+    Raises:
+        InputError: where upright breaks a bar's length.
     """
     from scipy.optimize import brentq
 
     check_kind_of_push(of)
+    check_upright(s, "resonant_factors")
     linear = small_motion(s)
     least = spin_threshold(linear)
     if not 0 < least < inf:

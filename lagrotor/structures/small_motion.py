@@ -397,10 +397,12 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
     inertia: False for the limit of fast spins, in which C u' + K u = 0: slow precessions alone, their rates too large by
     `left_out` and by what is of fourth order in 1/spin of themselves. Nash et al., PNAS 112, 14495 (2015).
 
-    Raises InputError where a bar is not as long as its tips are apart when upright, SingularError without inertia where no spin
-    acts.
+    Raises InputError where a bar is not as long as its tips are apart when upright and where inertia is neither True nor False,
+    SingularError without inertia where no spin acts.
     """
     check_upright(s, "modes")
+    if not isinstance(inertia, bool):
+        raise InputError(f"modes: inertia = {inertia!r} must be True or False")
     whole = small_motion(s)
     return modes_of(whole, whole if inertia else whole.without_inertia)
 

@@ -28,7 +28,7 @@ from lagrotor.mechanics.canonical.polynomials import (
 )
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, coefficients
-from lagrotor.structures.small_motion import bar_rows, small_motion
+from lagrotor.structures.small_motion import bar_rows, check_upright, small_motion
 
 Row = list[Polynomial]
 
@@ -59,6 +59,7 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     Raises:
         InputError: where a bar is not as long as its tips are apart when upright, or friction acts.
     """
+    check_upright(s, "local_hamiltonian")
     linear, c = small_motion(s), coefficients(s)
     if linear.damping.any() or c.decay.any():
         raise InputError("local_hamiltonian: friction acts: leave it out, the motion without it has a Hamiltonian")

@@ -5,6 +5,14 @@ import pytest
 
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
+from lagrotor.structures import (
+    bounded_motion,
+    local_hamiltonian,
+    measured_growth,
+    normal_form_of,
+    resonant_factors,
+    sign_patterns,
+)
 
 PAIR = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)], "spins": [1, 1]}
 SQUARE = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "spins": 1.0}
@@ -44,6 +52,20 @@ BAD = [
 def test_it_is_refused_with_the_reason(given, reason) -> None:
     with pytest.raises(InputError, match=reason):
         Structure(**given)
+
+
+@pytest.mark.parametrize(
+    "door", [bounded_motion, local_hamiltonian, measured_growth, normal_form_of, resonant_factors, sign_patterns]
+)
+def test_a_lean_is_refused_in_the_name_of_its_door(door) -> None:
+    with pytest.raises(InputError, match=f"^{door.__name__}: a bar is not as long"):
+        door(Structure(**PAIR | {"bars": [(0, 1, 1.2)]}, gravity=9.81))
+
+
+def test_inertia_is_true_or_false() -> None:
+    assert Structure(**PAIR, hinge=1.0).modes(inertia=True)
+    with pytest.raises(InputError, match="inertia = 'no' must be True or False"):
+        Structure(**PAIR, hinge=1.0).modes(inertia="no")
 
 
 def test_its_neighbours_are_not() -> None:

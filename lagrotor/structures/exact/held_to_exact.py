@@ -8,7 +8,7 @@ from lagrotor.errors import InputError
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.structure_run import simulate_structure
-from lagrotor.structures.small_motion import SmallMotion, modes, small_motion
+from lagrotor.structures.small_motion import SmallMotion, check_upright, modes, small_motion
 
 
 def measured_growth(s: Assembly, folds: float = 3.0) -> float:
@@ -17,8 +17,9 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
     The amplitude is the projection on that mode's left vector, so that no other mode contributes.
 
     Raises:
-        InputError: where nothing grows.
+        InputError: where nothing grows, and where upright breaks a bar's length.
     """
+    check_upright(s, "measured_growth")
     linear, normal = small_motion(s), modes(s)
     root = normal.growth[0] + 1j * normal.rates[0]
     if not root.real > 0:
@@ -35,9 +36,13 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
     """(largest tilt, distance from the linear motion), both over the start's, in an exact run.
 
     The run lasts `turns` periods of the slowest mode, from a random start of size 10⁻⁶.
+
+    Raises:
+        InputError: where upright breaks a bar's length.
     """
     from scipy.linalg import expm
 
+    check_upright(s, "bounded_motion")
     linear, normal = small_motion(s), modes(s)
     rates = normal.rates[normal.rates > 0]
     t = np.linspace(0, 2 * np.pi * turns / rates.min(), 400)
