@@ -15,6 +15,7 @@ from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
+_PEAK = 100.0  # times what a component mostly is, beyond which it does not count for its size
 _PER_TURN = 50  # evaluations that the survey takes for a turn
 _STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
 _LOST = 1e-12  # of the largest velocity, below which another has no digit in the energy
@@ -78,7 +79,16 @@ def motion_scales(
         except StopError as stop:
             evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    return Scales(turn, _sizes(system, values, states, turn), evaluations, bool(stiff))
+    return Scales(turn, _sizes(system, values, _but_for_peaks(states), turn), evaluations, bool(stiff))
+
+
+def _but_for_peaks(states: Array) -> Array:
+    """The states (m, d) of which no component is far larger than it mostly is.
+
+    On its way to infinity a motion is as large at its end as no step before may be wrong by.
+    """
+    mostly = np.median(np.abs(states), 0)
+    return np.asarray(states[(np.abs(states) <= np.where(mostly > 0, _PEAK * mostly, np.inf)).all(1)])
 
 
 def _finite(start: Array, stretch: Stretch) -> Array:
