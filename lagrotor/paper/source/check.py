@@ -278,7 +278,8 @@ class _Checker:
         if answer == "undecided":
             return "undecided", "the difference is outside what is decided exactly"
         verdict, why = self._refuted(left, right, a, b, first)
-        if verdict != REFUTED and not first:
+        taken = isinstance(left, Call) and left.name == "Derivative" and not self._says(_TO_BE_SOLVED)
+        if verdict != REFUTED and (taken or not first):
             for way in ways:
                 if self._are_sure(way.used) and (slip := self._slip_with(left, right, way)):
                     return REFUTED, f"with {way.named} the two sides differ; {slip}", *way.used

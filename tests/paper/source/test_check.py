@@ -685,6 +685,15 @@ def test_a_rate_is_that_of_what_the_section_gives(tmp_path: Path, premise: str, 
     assert verdicts(tmp_path, body.replace("RIGHT", slip)) == [REFUTED]
 
 
+def test_a_derivative_of_what_the_section_gives_is_no_condition(tmp_path: Path) -> None:
+    body = r"\begin{align} f &= x^3 - 3 x \\ \frac{df}{dx} &= 3 x^2 SIGN 3\end{align}"
+    assert verdicts(tmp_path, body.replace("SIGN", "-")) == [HOLDS]
+    assert verdicts(tmp_path, body.replace("SIGN", "+")) == [REFUTED]
+    speed = r"\begin{equation} v = u\frac{r}{R}\end{equation}BEFORE\begin{equation}\frac{dv}{dr} = \frac{2 v}{r}\end{equation}"
+    assert REFUTED in verdicts(tmp_path, speed.replace("BEFORE", "It follows that "))
+    assert REFUTED not in verdicts(tmp_path, speed.replace("BEFORE", "The equation to be solved is "))
+
+
 def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) -> None:
     body = (
         r"\begin{equation} L = \frac12 m\dot r^2 + \frac12 m r^2\dot\theta^2 - V(r)\end{equation}"
