@@ -443,7 +443,11 @@ def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bo
         other = known.called.get(unprimed(box), set()) - letters_in_row(content)
         return None if numbers and not other else True
     if stem in known.applied:
-        return None if stem in known.factors or bracket.sup else True
+        letters = letters_in_row(content) if box.name not in _FUNCTIONS else set()
+        unseen = bool(letters) and not letters & (
+            known.called.get(unprimed(box), set()) | known.called.get(stem, set())
+        )
+        return None if stem in known.factors or bracket.sup or unseen else True
     return False if _is_factor(known, box, content) else None
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.paper.letters import FUNCTIONS as CALLED
 from lagrotor.paper.source.boxes import Box, FormulaError, boxes
-from lagrotor.paper.source.rows import PARTING, TENSOR, all_boxes, without_thin
+from lagrotor.paper.source.rows import PARTING, TENSOR, all_boxes, is_moving, without_thin
 
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
 # What a δ or Δ before it is no factor of: a difference, a variation, a function of the bracket.
@@ -36,9 +36,9 @@ class Notation:
     before what may be an argument; elsewhere, before another than t; factors, in a product; apart, touching no other letter;
     raised, with an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two
     primes. varied: letter → letters that it is differentiated by. seen: ket, operators, order, hessian, P(D), complex,
-    modular, exponent, dot, other time, times. crossed: vectors, beside a cross or a nabla; arrows: letters that are printed
-    as vectors somewhere. equal: letters and what they are equal to. numeric: letters shown to be numbers, below a fraction
-    bar, under a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above where no power can, as in
+    modular, exponent, dot, other time, times, momentum (pi). crossed: vectors, beside a cross or a nabla; arrows: letters that
+    are printed as vectors somewhere. equal: letters and what they are equal to. numeric: letters that are numbers, below a
+    fraction bar, a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above where no power can, as in
     \\partial x^i and T^{ij}, or below \\partial; above, alone above a letter; exponents: letters in powers; entries: x of
     x[n]. made: formula → its boxes, or what stopped them.
     """
@@ -97,8 +97,9 @@ class Notation:
 
     @property
     def pi_is_letter(self) -> bool:
-        """Whether pi has an index or a mark somewhere, or arguments."""
-        return "pi_" in self.called or any(name.startswith("pi") and name != "pi_" for name in self.bare)
+        """Whether pi has an index or a mark somewhere, or arguments, or is a momentum."""
+        marked = any(name.startswith("pi") and name != "pi_" for name in self.bare)
+        return "pi_" in self.called or "momentum" in self.seen or marked
 
 
 def declared_notation(given: Mapping[str, Any], where: str = "paper.toml") -> Notation:
@@ -135,6 +136,9 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
         found.seen.add("times")
     for letter, side in found.equal:
         found.numeric |= _names(letter) if is_value(side, found) else set()
+        rate = any(map(is_moving, side)) if letter.name == "pi" else is_moving(letter)
+        if rate and "pi" in (letter.name, *(b.name for b in side[:1] if len(side) == 1)):
+            found.seen.add("momentum")
     return found
 
 
@@ -525,6 +529,8 @@ def _look_at_derivative(fraction: Box, after: Box | None, found: Notation) -> No
     found.differentiated |= {stem_of(b) for b in operands if b.kind == "letter" or not over[1:]}
     for each in (b for b in under if b.name not in _NUMBERS):
         found.numeric |= _names(each)
+    if any(b.name == "pi" for b in under):
+        found.seen.add("momentum")
     for box in operands:
         found.varied.setdefault(stem_of(box), set()).update(b.name for b in under if b.kind == "letter")
     if over[0].name == "d" and (under[1].name in _TIMES or (under[1].name == "t" and under[1].sub)):

@@ -385,6 +385,8 @@ def test_what_the_paper_shows_elsewhere_settles_a_reading() -> None:
     assert said(r"x = \sfrac{1}{2} y + \nicefrac12") == "x = 1/2*y + 1/2"
     assert said("x = 1{,}500", decimal_comma=True) == "x = 3/2"
     assert "pi is the number or a quantity" in said(r"H = \pi^2 + \phi^2", r"\pi(x) = \dot\phi")
+    for momentum in (r"\pi = \dot\phi", r"\dot\phi = \pi", r"\pi = \frac{\partial L}{\partial\dot\phi}"):
+        assert "pi is the number or a quantity" in said(r"H = \pi^2 + \phi^2", momentum)
     assert said(r"H = 2\pi k", r"\pi(x) = \dot\phi") == "H = 2*pi*k", "a multiple of the number"
     assert said(r"a\delta^3(x - y) = b") == "a*delta__3(x - y) = b"
     assert "Dirac's function or a power" in said(r"a\delta^3(x - y) = b", r"\delta = 1")

@@ -298,6 +298,12 @@ def test_a_bound_is_a_number_and_a_composition_is_no_factor() -> None:
     assert guesses(r"E(\phi(E)) = E", r"\phi(E) = a", r"b = \frac{a}{E}", "b = E a")
 
 
+def test_a_function_of_another_argument_than_the_paper_shows_may_be_a_factor() -> None:
+    (mark,) = guesses(r"E = \omega(n + 1)", r"\omega(k) = c k")
+    assert "omega before ( is a function" in mark
+    assert not guesses(r"E = \omega(k + 1)", r"\omega(k) = c k")
+
+
 def test_a_mark_says_what_is_read() -> None:
     assert [mark.partition(" ([")[0] for mark in guesses(r"T = 20^\circ C")] == [
         "C behind a degree sign is a scale of temperature"
