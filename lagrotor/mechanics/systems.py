@@ -235,8 +235,8 @@ class System(Equations):
         A run that cannot reach its last time is handed back up to where it came; `run.ending` says why, with a LagrotorWarning.
         One also names the time where it passed a position at which its constraints are dependent.
 
-        Steps are as long as the motion allows: a smooth force of t that acts for a thousandth of the run may be passed over
-        without a word. Given as a table or a spline it is not.
+        Steps are as long as the motion allows, but not longer than a force of t acts that is a pulse, or pulses: for more than a
+        ten-thousandth of the run. A briefer one may be passed over; given as a table or a spline it is not.
 
         Args:
             values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,

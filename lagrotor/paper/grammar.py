@@ -43,7 +43,10 @@ def parsed(text: str, names: Mapping[str, Any], where: str, as_written: bool = F
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise InputError(f"{where}: {text!r} cannot be read: {getattr(error, 'msg', error)}") from None
     try:
-        return _Reader(line.encode(), names, as_written).value(tree.body)
+        value = _Reader(line.encode(), names, as_written).value(tree.body)
+        if callable(value) and not isinstance(value, sp.Basic | sp.MatrixBase):
+            raise _RefusalError("it is a function: give it its argument, in brackets")
+        return value
     except _RefusalError as refusal:
         raise InputError(f"{where}: {text!r}: {refusal}") from None
     except (TypeError, AttributeError, ValueError, ArithmeticError, RecursionError) as refusal:

@@ -31,6 +31,7 @@ _APART = 1e4  # the fastest over the slowest root, from which on the slow ones a
 _SHIFT = 0.6  # of the slow rates
 _ROUNDED = 1e-14  # of what a matrix does: less is rounding
 _DAMPED = 1e-10  # of a root with friction, whose real part is then that of the energy's balance
+_ALIKE = 1e-6  # of a size: one that differs by less is as large
 _NEUTRAL = 1e-12  # of the masses and the pull squared: a smaller stiffness is what is left of a sum of zero
 _DEPENDENT = 1e-10  # of the bars' largest singular value: one below it is zero
 
@@ -408,6 +409,11 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
     return modes_of(whole, whole if inertia else whole.without_inertia)
 
 
+def first_largest(sizes: Array) -> Any:
+    """Along the last axis, the first of those that are the largest but for rounding: which it is hangs on no processor."""
+    return (sizes > (1 - _ALIKE) * sizes.max(-1, keepdims=True)).argmax(-1)
+
+
 def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Modes:
     """The normal modes of a linear system, which is the whole one or what it is without inertia; components: of each axis."""
     roots, vectors = linear.waves
@@ -418,7 +424,7 @@ def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Mo
     kept = kept[np.lexsort((roots[kept].imag, -roots[kept].real))]
     shapes = (linear.basis @ vectors[:, kept]).T.reshape(len(kept), -1, components)
     largest = np.abs(shapes).reshape(len(kept), -1)
-    lead = shapes.reshape(len(kept), -1)[np.arange(len(kept)), largest.argmax(1)]
+    lead = shapes.reshape(len(kept), -1)[np.arange(len(kept)), first_largest(largest)]
     shapes = shapes / lead[:, None, None]
     signs = np.where((roots[kept].imag > 0) & (roots[kept].real <= 0), linear.energy_signs(roots, vectors)[kept], 0)
     left_out = np.zeros(len(kept))

@@ -29,7 +29,7 @@ from lagrotor.structures.exact.closing import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
 from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.leaning import constraint_tangents
-from lagrotor.structures.small_motion import check_upright, modes
+from lagrotor.structures.small_motion import check_upright, first_largest, modes
 
 _STEP = 1e-3  # of the monodromy's differences, of fourth order; half of it for Newton's steps, of second
 _CLOSED = 1e-11  # of axes and of rates over the structure's rate: an orbit is closed
@@ -149,7 +149,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
         )
     motion = exact_motion(s)
     c = motion.c
-    lead = int(np.abs(shape).argmax())
+    lead = int(first_largest(np.abs(shape).ravel()))
     shoot = _Shooting(motion, right_hand_side(motion), 3 * (lead // 2) + lead % 2)
     zeros = np.zeros((len(shape), 1))
 

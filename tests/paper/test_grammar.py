@@ -169,6 +169,12 @@ def test_a_formula_is_what_its_operators_make_of_it(pair: tuple[str, sp.Expr]) -
     assert read(text, NAMES, "here") == value
 
 
+@pytest.mark.parametrize("name", ["eye", "sin", "sqrt"])
+def test_a_function_alone_is_refused(name: str) -> None:
+    with pytest.raises(InputError, match="it is a function: give it its argument"):
+        read(name, NAMES, "here")
+
+
 @given(st.text(max_size=40))
 def test_any_text_is_read_or_refused(text: str) -> None:
     with suppress(InputError):

@@ -16,7 +16,7 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
-from lagrotor.mechanics.running.flow import Array, projection_of
+from lagrotor.mechanics.running.flow import Array, Brief, projection_of
 from lagrotor.mechanics.running.function_values import Piece, in_pieces
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -101,8 +101,9 @@ class Switched:
     """A system with events: its smooth part, the surfaces of its jumps, the events, the values of the parameters, the splines
     among them, and the events as they were given.
 
-    scale (N + m,): of each component, for the solver; sizes: of each, zero before they are known. While it is run: the phases
-    that it was in, the endings of its runs, and the times between which a step may hide an event.
+    scale (N + m,): of each component, for the solver; sizes: of each, zero before they are known.
+    brief: what acts briefly by the clock. While it is run: the phases that it was in, the endings of its runs, and the times
+    between which a step may hide an event.
     """
 
     system: Equations
@@ -113,6 +114,7 @@ class Switched:
     sizes: Array
     splines: tuple[Piece, ...] = ()
     shown: tuple[Event | Impact, ...] = ()
+    brief: Brief | None = None
     phases: dict[tuple[Any, ...], Phase] = field(default_factory=dict)
     endings: list[Ending] = field(default_factory=list)
     hidden: list[tuple[float, float]] = field(default_factory=list)
@@ -371,7 +373,9 @@ def _smooth(
     watch = phase.condition_program.along(numbers)
 
     rhs = phase.motion.rhs(*parameter_values(phase.motion, numbers))
-    segment = in_units(Segment(rhs, y, 0.0, times[-1], times, budget=budget, project=project), scale)
+    acts = h.brief and now < h.brief.at + h.brief.reach and now + times[-1] > h.brief.at - h.brief.reach
+    longest = h.brief.longest * min(first, 1.0) if h.brief and acts else np.inf
+    segment = in_units(Segment(rhs, y, 0.0, times[-1], times, longest, budget, project), scale)
     parts, done, solver = [np.empty((0, len(y)))], 0, None
     try:
         for solver in dop853_steps(segment, local / SAFETY, first):

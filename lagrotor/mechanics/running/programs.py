@@ -220,6 +220,34 @@ def velocity_stages(system: Equations) -> list[Stage]:
 
 
 @lru_cache(maxsize=64)
+def clock_program(system: Equations) -> Generated | None:
+    """(t) → the largest parts of the equations of motion that are made of t and parameters alone; None where there are none."""
+    if not depends_on_time(system):
+        return None
+    stages, rates, _ = motion_of_speeds(system)
+    moving = {*system.c.q, *system.c.v, *system.speeds}
+    by_time, clocks, parts = {t}, list[Stage](), dict[sp.Expr, None]()
+    for name, whole in (*stages, *((None, e) for e in (*system.c.v, *rates))):
+        fixed = not whole.free_symbols & moving
+        if name is not None and fixed and whole.free_symbols & by_time:
+            clocks.append((name, whole))
+            by_time.add(name)
+            parts[name] = None
+            continue
+        if name is not None and not fixed:
+            moving.add(name)
+        queue = [whole]
+        while queue:
+            e = queue.pop()
+            if e != t and e.free_symbols & by_time:
+                if e.free_symbols & moving:
+                    queue += e.args
+                else:
+                    parts[e] = None
+    return _program((t,), clocks, list(parts)) if parts else None
+
+
+@lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
     """(q, u, t) → the Jacobi integral."""
     base = _joint_speeds(system) or system

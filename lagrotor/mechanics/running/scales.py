@@ -8,14 +8,27 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.flow import Array, Rhs, Values, projection_of
-from lagrotor.mechanics.running.programs import energy_program, motion_program, parameter_values, velocities_along
+from lagrotor.mechanics.running.flow import Array, Brief, Rhs, Values, projection_of
+from lagrotor.mechanics.running.programs import (
+    clock_program,
+    energy_program,
+    motion_program,
+    parameter_values,
+    velocities_along,
+)
 from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
+_LOOKS, _BRIEF = (
+    20_001,
+    0.25,
+)  # times at which forces of t are looked at, and the part of them at which a brief one acts
+_ACTS = 1e-3  # of its fastest change, beyond which it does
 _PEAK = 100.0  # times what a component mostly is, beyond which it does not count for its size
+_AT_REST = 1e-10  # of the largest value of a component: one that is mostly smaller was at rest
 _PER_TURN = 50  # evaluations that the survey takes for a turn
 _STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
 _LOST = 1e-12  # of the largest velocity, below which another has no digit in the energy
@@ -27,13 +40,14 @@ _QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordina
 class Scales:
     """turn: the time (s) in which the motion typically turns. sizes (N + m,): the largest value of each coordinate and velocity,
     not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them. stiff: whether
-    neighbouring motions are drawn together so fast that a run may be by a stiff method.
+    neighbouring motions are drawn together so fast that a run may be by a stiff method. brief: what acts briefly by the clock.
     """
 
     turn: float
     sizes: Array
     evaluations: int
     stiff: bool = False
+    brief: Brief | None = None
 
     def distance(self, one: Array, other: Array) -> Array:
         """How far apart two runs (n, d) are, (n,): the largest difference of a component over its size."""
@@ -42,12 +56,32 @@ class Scales:
         return np.asarray(np.minimum((np.abs(one[:, :size] - other[:, :size]) / sizes).max(1), 2.0))
 
 
+def brief_force(system: Equations, values: Values, times: Array) -> Brief | None:
+    """What changes by the clock in less than a quarter of the times; None where nothing does."""
+    program, looks = clock_program(system), np.linspace(times[0], times[-1], _LOOKS)
+    longest, acts = np.inf, np.zeros(_LOOKS - 1, bool)
+    for values_of in program.along(values)(looks[:, None], looks) if program else ():
+        size, changes = np.ptp(values_of), np.abs(np.diff(values_of))
+        if np.isfinite(size) and size > 0 and (changes > _ACTS * changes.max()).mean() < _BRIEF:
+            longest = min(longest, float(size / changes.max()))
+            acts |= changes > np.finfo(float).eps * size
+    if not acts.any():
+        return None
+    step, first, last = looks[1] - looks[0], *np.flatnonzero(acts)[[0, -1]]
+    return Brief(float(looks[first] + looks[last + 1]) / 2, float(last - first + 3) * step / 2, float(longest * step))
+
+
 def motion_scales(
-    system: Equations, values: Values, start: Array, times: Array, motion: Integrate | None = None
+    system: Equations,
+    values: Values,
+    start: Array,
+    times: Array,
+    motion: Integrate | None = None,
+    brief: Brief | None = None,
 ) -> Scales:
     """The scales of a motion from a coarse integration over the times, or over what a small budget reaches of them.
 
-    motion: where it is not smooth.
+    motion: where it is not smooth. brief: what acts briefly by the clock.
     """
     span = float(times[-1] - times[0])
     if span == 0:
@@ -56,7 +90,7 @@ def motion_scales(
     size = len(system.c.q) + len(system.speeds)
     guess = size + 2 if smooth else 0  # evaluations of `first_sizes`
     if motion is None:
-        motion = _coarsely(system, values, start, span)
+        motion = _coarsely(system, values, start, span, brief)
     try:
         stretch, reached = motion(start, grid, _COARSE, False, _EVALUATIONS), span
     except StopError as stop:
@@ -74,21 +108,22 @@ def motion_scales(
         evaluations += len(some) * (size + 1)
     if stiff and reached < span:  # DOP853's steps are set by what dies out, not by the motion
         try:
-            stretch = _coarsely(system, values, start, span, lsoda)(start, grid, _COARSE, False, _EVALUATIONS)
+            stretch = _coarsely(system, values, start, span, brief, lsoda)(start, grid, _COARSE, False, _EVALUATIONS)
             states, evaluations, reached = _finite(states, stretch), evaluations + guess + stretch.evaluations, span
         except StopError as stop:
             evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    return Scales(turn, _sizes(system, values, _but_for_peaks(states), turn), evaluations, bool(stiff))
+    return Scales(turn, _sizes(system, values, _but_for_peaks(states), turn), evaluations, bool(stiff), brief)
 
 
 def _but_for_peaks(states: Array) -> Array:
     """The states (m, d) of which no component is far larger than it mostly is.
 
-    On its way to infinity a motion is as large at its end as no step before may be wrong by.
+    On its way to infinity a motion is as large at its end as no step before may be wrong by. What was at rest before has no such
+    size.
     """
-    mostly = np.median(np.abs(states), 0)
-    return np.asarray(states[(np.abs(states) <= np.where(mostly > 0, _PEAK * mostly, np.inf)).all(1)])
+    mostly, largest = np.median(np.abs(states), 0), np.abs(states).max(0)
+    return np.asarray(states[(np.abs(states) <= np.where(mostly > _AT_REST * largest, _PEAK * mostly, np.inf)).all(1)])
 
 
 def _finite(start: Array, stretch: Stretch) -> Array:
@@ -97,7 +132,12 @@ def _finite(start: Array, stretch: Stretch) -> Array:
 
 
 def _coarsely(
-    system: Equations, values: Values, start: Array, span: float, solver: Callable[[Segment, float], Stretch] = dop853
+    system: Equations,
+    values: Values,
+    start: Array,
+    span: float,
+    brief: Brief | None,
+    solver: Callable[[Segment, float], Stretch] = dop853,
 ) -> Integrate:
     n, m, program = len(system.c.q), len(system.speeds), motion_program(system)
     bare = program.rhs(*parameter_values(program, values))
@@ -106,9 +146,10 @@ def _coarsely(
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         since = times - times[0]
-        segment = Segment(bare, start, 0.0, span, since[1:], budget=budget, project=project)
+        problem = Problem(bare, start, budget, project=project)
+        problem = brief.within(problem, times[0]) if brief else problem
         try:
-            return by_units(lambda part, _, tol: solver(part, tol), scale)(segment, False, local)
+            return integrate(problem, since, local, by_units(lambda part, _, tol: solver(part, tol), scale))
         except StopError as stop:
             raise StopError(float(times[0]) + stop.at, stop.reason, stop.reached, cause=stop.cause) from None
 

@@ -21,7 +21,7 @@ from lagrotor.mechanics.running.lyapunov import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
-from lagrotor.mechanics.running.scales import Scales, motion_scales
+from lagrotor.mechanics.running.scales import Scales, brief_force, motion_scales
 from lagrotor.mechanics.running.singular import independence
 from lagrotor.mechanics.running.starts import consistent, rounding_of_start, state_vector
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
@@ -89,7 +89,10 @@ class SystemRun(SampledMotion):
         ):
             raise InputError(f"load: {path} is no run of a system: its states are none: give a file that `save` wrote")
         check_engine(engine, "load")
-        h = replace(with_events(system, values, given), scale=powers_of_two(scales.sizes), sizes=scales.sizes)
+        h = with_events(system, values, given)
+        brief = brief_force(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
+        scales = replace(scales, brief=brief)
+        h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, brief=brief)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
@@ -129,9 +132,10 @@ def simulate_system(
         q, v = _on_constraints(system, values, np.concatenate([q, v]), times)
     check_pole("simulate", system, values, np.concatenate([q, v, [times[0]]]))
     check_inertia("simulate", system, values, np.concatenate([q, v, [times[0]]]))
+    h = replace(h, brief=brief_force(h.phase(h.slipping).system, h.numbers(h.slipping), times))
     if h.smooth:
         start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
-        scales = motion_scales(system, values, start, times)
+        scales = motion_scales(system, values, start, times, brief=h.brief)
     elif engine == "fast":
         raise InputError("simulate: engine='fast' takes no events, and no force that jumps: use engine='core'")
     else:

@@ -10,7 +10,7 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
+from scipy.integrate import simpson, solve_ivp
 from scipy.special import ellipj, ellipk
 
 from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning, SingularError
@@ -612,3 +612,38 @@ def test_every_evaluation_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
         run = system.simulate(values, q, speeds, [0, 10], 1e-4)
         assert run.evaluations == calls
         assert run.at([1, 2.5]).evaluations == calls
+
+
+def bell(s, at, width, exp=np.exp):
+    return exp(-(((s - at) / width) ** 2))
+
+
+BRIEF = {
+    "pulse": (bell(t, 5.1, 0.02, sp.exp), lambda s: bell(s, 5.1, 0.02)),
+    "two": (bell(t, 3, 0.01, sp.exp) - bell(t, 9, 0.02, sp.exp), lambda s: bell(s, 3, 0.01) - bell(s, 9, 0.02)),
+    "step": (sp.tanh((t - 5) / 0.001) + 1, lambda s: np.tanh((s - 5) / 0.001) + 1),
+}
+
+
+@pytest.mark.parametrize("name", BRIEF)
+def test_what_acts_briefly_by_the_clock_is_not_passed_over(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a body at rest, where nothing else limits a step; Duhamel's integral is x(10)."""
+    (x,), (v,) = ANGLE.q, ANGLE.v
+    force, shape = BRIEF[name]
+    system, times = System(ANGLE, v**2 / 2 - x**2 / 2, forces=(force,)), np.linspace(0, 10, 2)
+    s = np.linspace(0, 10, 400_001)
+    with np.errstate(over="ignore"):
+        exact = float(simpson(np.sin(10 - s) * shape(s), x=s))
+    run = system.simulate({}, (0,), (0,), times, tol=1e-7)
+    assert abs(run.q[-1, 0] - exact) <= max(run.error, 1e-9) * np.abs(run.states[:, :2]).max() < 1
+    monkeypatch.setattr(simulation, "brief_force", lambda *_: None)
+    blind = system.simulate({}, (0,), (0,), times, tol=1e-7)
+    assert name == "step" or abs(blind.q[-1, 0] - exact) > 1e3 * max(blind.error, 1e-9) * abs(
+        exact
+    )  # twin: it is missed
+
+
+def test_a_force_that_never_rests_is_not_brief() -> None:
+    (x,), (v,) = ANGLE.q, ANGLE.v
+    run = System(ANGLE, v**2 / 2 - x**2 / 2, forces=(sp.cos(3 * t),)).simulate({}, (0,), (0,), np.linspace(0, 30, 3))
+    assert run.scales.brief is None
