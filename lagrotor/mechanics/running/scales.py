@@ -60,8 +60,9 @@ def brief_force(system: Equations, values: Values, times: Array) -> Brief | None
     """What changes by the clock in less than a quarter of the times; None where nothing does."""
     program, looks = clock_program(system), np.linspace(times[0], times[-1], _LOOKS)
     longest, acts = np.inf, np.zeros(_LOOKS - 1, bool)
-    for values_of in program.along(values)(looks[:, None], looks) if program else ():
-        size, changes = np.ptp(values_of), np.abs(np.diff(values_of))
+    for values_of in _where_known(program.along(values), looks) if program else ():
+        known = values_of[~np.isnan(values_of)]
+        size, changes = np.ptp(known) if len(known) else 0.0, np.nan_to_num(np.abs(np.diff(values_of)))
         if np.isfinite(size) and size > 0 and (changes > _ACTS * changes.max()).mean() < _BRIEF:
             longest = min(longest, float(size / changes.max()))
             acts |= changes > np.finfo(float).eps * size
@@ -69,6 +70,22 @@ def brief_force(system: Equations, values: Values, times: Array) -> Brief | None
         return None
     step, first, last = looks[1] - looks[0], *np.flatnonzero(acts)[[0, -1]]
     return Brief(float(looks[first] + looks[last + 1]) / 2, float(last - first + 3) * step / 2, float(longest * step))
+
+
+def _where_known(along: Callable[[Array, Array], Array], times: Array) -> Array:
+    """What depends on t alone, (k, n) at times (n,); nan where a function of the user's refuses one."""
+    try:
+        return along(times[:, None], times)
+    except (ArithmeticError, ValueError):
+        pass
+    columns: list[Array] = []
+    for time in times:
+        try:
+            columns.append(along(np.array([[time]]), np.array([time]))[:, 0])
+        except (ArithmeticError, ValueError):
+            columns.append(np.full(1, np.nan))
+    most = max(map(len, columns))
+    return np.stack([column if len(column) == most else np.full(most, np.nan) for column in columns], 1)
 
 
 def motion_scales(

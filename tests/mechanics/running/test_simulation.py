@@ -647,3 +647,16 @@ def test_a_force_that_never_rests_is_not_brief() -> None:
     (x,), (v,) = ANGLE.q, ANGLE.v
     run = System(ANGLE, v**2 / 2 - x**2 / 2, forces=(sp.cos(3 * t),)).simulate({}, (0,), (0,), np.linspace(0, 30, 3))
     assert run.scales.brief is None
+
+
+def test_a_function_of_time_that_ends_before_the_run_does_ends_it_in_words() -> None:
+    """It is looked at over the whole run; the pulse before its end is not passed over."""
+    (x,), (v,) = ANGLE.q, ANGLE.v
+    system = System(ANGLE, v**2 / 2 - x**2 / 2, forces=(sp.Function("F")(t),))
+    with pytest.warns(LagrotorWarning, match="ended early"):
+        run = system.simulate(
+            {"F": lambda s: math.sqrt(8 - s) * 0 + bell(s, 5.1, 0.02)}, (0,), (0,), np.linspace(0, 10, 51)
+        )
+    assert run.t[-1] <= 8 and run.q[-1, 0] == pytest.approx(
+        math.sqrt(math.pi) * 0.02 * math.sin(run.t[-1] - 5.1), rel=1e-3
+    )
