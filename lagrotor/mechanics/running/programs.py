@@ -228,13 +228,13 @@ def clock_program(system: Equations) -> Generated | None:
     moving = {*system.c.q, *system.c.v, *system.speeds}
     by_time, clocks, parts = {t}, list[Stage](), dict[sp.Expr, None]()
     for name, whole in (*stages, *((None, e) for e in (*system.c.v, *rates))):
-        fixed = not whole.free_symbols & moving
-        if name is not None and fixed and whole.free_symbols & by_time:
-            clocks.append((name, whole))
-            by_time.add(name)
-            parts[name] = None
+        if name is not None and not whole.free_symbols & moving:
+            clocks.append((name, whole))  # of parameters alone, too: another may be made of it
+            if whole.free_symbols & by_time:
+                by_time.add(name)
+                parts[name] = None
             continue
-        if name is not None and not fixed:
+        if name is not None:
             moving.add(name)
         queue = [whole]
         while queue:
