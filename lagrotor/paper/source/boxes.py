@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from string import ascii_letters
+from typing import NoReturn
 
 from lagrotor.paper.source.tokens import BRACES, Token, tokenize
 
@@ -34,7 +35,7 @@ STYLES = {
     "bf": "bold", "it": "", "cal": "cal", "bfseries": "bold", "text": "", "textbf": "bold", "operatorname": "", "mathbbm": "bb",
     "bold": "bold",
 }  # fmt: skip
-_SWITCHES = ("rm", "bf", "it", "cal", "bfseries", "mathrm@")
+_SWITCHES = ("rm", "bf", "it", "cal", "bfseries")
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth", "sech", "csch", "exp")},
     **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arcsinh": "asinh", "arccosh": "acosh", "arctanh": "atanh"},
@@ -63,15 +64,15 @@ RELATIONS = {
     "colon": ":",
 }  # fmt: skip
 ARROWS = {"Rightarrow", "implies", "iff", "Leftrightarrow", "Longrightarrow", "Longleftrightarrow", "therefore", "because",
-          "impliedby", "Leftarrow", "leadsto", "land", "lor", "wedge@"}  # fmt: skip
+          "impliedby", "Leftarrow", "leadsto", "land", "lor"}  # fmt: skip
 _WIDE = ("quad", "qquad")
 _THIN = (",", ";", ":", " ", ">", "thinspace", "medspace", "thickspace", "enspace", "enskip", "\n", "nobreakspace")
 _NOTHING = (
     "!", "displaystyle", "textstyle", "scriptstyle", "scriptscriptstyle", "limits", "nolimits", "negthinspace", "nobreak",
     "allowbreak", "strut", "null", "/", "mathop", "mathrel", "mathbin", "mathord", "mathopen", "mathclose", "mathpunct",
     "mathinner", "relax", "hfill", "hfil", "hskip", "kern", "mkern", "notag", "nonumber", "leavevmode", "noindent", "centering",
-    "small", "footnotesize", "large", "Large", "normalsize", "tiny", "scriptsize", "ignorespaces", "left.", "right.", "it@",
-    "upshape", "rmfamily", "normalfont", "textstyle@", "par", "qedhere", "protect", "break", "penalty", "raggedright",
+    "small", "footnotesize", "large", "Large", "normalsize", "tiny", "scriptsize", "ignorespaces",
+    "upshape", "rmfamily", "normalfont", "par", "qedhere", "protect", "break", "penalty", "raggedright",
     "begingroup", "endgroup",
 )  # fmt: skip
 _DOTS = ("dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotso", "dotsm", "hdots")
@@ -90,7 +91,7 @@ _CLOSE = set(_OPEN.values())
 _MATRICES = ("matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "psmallmatrix",
              "bsmallmatrix", "pmatrix*", "bmatrix*")  # fmt: skip
 ROWS = ("aligned", "split", "gathered", "alignedat", "multlined", "align", "align*", "gather", "gather*", "eqnarray*", "eqnarray",
-        "IEEEeqnarraybox", "rcases@", "equation", "equation*")  # fmt: skip
+        "IEEEeqnarraybox", "equation", "equation*")  # fmt: skip
 _PAIRS = ("aligned", "alignedat", "align", "align*", "split")
 _CASES = ("cases", "dcases", "cases*", "dcases*", "rcases", "numcases")
 _MOST = 200  # brackets within brackets
@@ -152,8 +153,8 @@ class _Reader:
         self.latex, self.items, self.place, self.depth = latex, _items(latex), 0, 0
         self.angles = 0  # angle brackets that are open, in which a bar parts a bra from a ket
 
-    def stop(self, what: str, help_: str) -> None:
-        item = self.items[min(self.place, len(self.items) - 1)] if self.items else Token("text", "", 0)
+    def stop(self, what: str, help_: str) -> NoReturn:
+        item = self.items[min(self.place, len(self.items) - 1)]
         raise FormulaError(item.at, f"{item.text} {what}", help_)
 
     def peek(self) -> Token | None:
@@ -176,9 +177,9 @@ class _Reader:
         if item is None:
             self.place -= 1
             self.stop("has no argument", "write it in braces")
-        elif item.kind == "open":
+        if item.kind == "open":
             return self.group(style)
-        if item is not None and item.text.isdecimal():
+        if item.text.isdecimal():
             self.take()
             return [Box("number", item.text, item.at, item.at + 1)]
         return self.single(style)
@@ -200,27 +201,22 @@ class _Reader:
         item = self.peek()
         if item is None or item.kind != "open":
             return self.take().text if item else ""
-        start, depth = item.at + 1, 0
-        while (item := self.peek()) is not None:
-            self.take()
-            depth += BRACES.get(item.kind, 0)
-            if depth == 0:
-                return self.latex[start : item.at]
-        return self.latex[start:]
+        return self.enclosed("}")
 
     def bracketed(self) -> str | None:
         """An optional argument as it stands."""
         item = self.peek()
-        if item is None or item.text != "[":
-            return None
-        start = item.at + 1
-        depth = 0
+        return self.enclosed("]") if item is not None and item.text == "[" else None
+
+    def enclosed(self, closing: str) -> str:
+        """What stands between the sign that comes next and the one that closes it."""
+        start, depth = self.take().at + 1, 0
         while (item := self.peek()) is not None:
             self.take()
-            depth += BRACES.get(item.kind, 0)
-            if item.text == "]" and depth == 0:
+            if item.text == closing and depth == 0:
                 return self.latex[start : item.at]
-        return None
+            depth += BRACES.get(item.kind, 0)
+        return self.latex[start:]
 
     def sequence(self, ends: tuple[str, ...], style: str = "") -> list[Box]:
         """Boxes until one of the ends comes next."""
@@ -235,7 +231,7 @@ class _Reader:
                 continue
             if item.kind == "close" or item.text == r"\right" or (item.text in _CLOSE and item.text not in "]"):
                 break
-            if item.kind == "command" and item.text[1:] in _SWITCHES and item.text[1:] in STYLES:
+            if item.kind == "command" and item.text[1:] in _SWITCHES:
                 self.take()
                 style = STYLES[item.text[1:]] or "upright"
                 continue
@@ -249,22 +245,12 @@ class _Reader:
             elif item.text in ("'", "’", "′"):
                 self.take()
                 self.prime(found, item)
-            elif (
-                item.kind == "open"
-                and self.latex[item.at : item.at + 3] == "{,}"
-                and found
-                and found[-1].kind == "number"
-            ):
+            elif self.latex.startswith("{,}", item.at) and found and found[-1].kind == "number":
                 self.comma_in_number(found)
             else:
                 self.extend(found, style)
-                if (
-                    len(found) > 2
-                    and (stop := found[-2]).name == "."
-                    and stop.kind == "comma"
-                    and _multiplies(found[-3:])
-                ):
-                    found[-2] = replace(stop, kind="operator", name="cdot")
+                if len(found) > 2 and _multiplies(*found[-3:]):
+                    found[-2] = replace(found[-2], kind="operator", name="cdot")
         self.depth -= 1
         return found
 
@@ -313,8 +299,6 @@ class _Reader:
     def script(self, found: list[Box]) -> None:
         item = self.take()
         _as_letters(found)
-        if item.text == "_" and len(found) > 1 and found[-1].kind == "thin" and found[-2].sup and not found[-2].sub:
-            found.pop()  # \Lambda^\mu\,_\nu
         target = found[-1] if found else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
             why = f"{item.text} has nothing before it"
@@ -349,9 +333,12 @@ class _Reader:
         if item.kind == "open":
             self.place -= 1
             return self.group(style)
+        if text in ("|", r"\vert"):
+            ket = not self.angles and self.first_ahead((text, r"\langle", r"\rangle", "=")) == r"\rangle"
+            return [self.ket(item) if ket else Box("bar", "|", item.at, self.end)]
         if item.kind == "command":
             return self.command(item, style)
-        if item.kind in ("align",):
+        if item.kind == "align":
             return []
         if item.kind in ("math", "param", "stray", "raw"):
             self.place -= 1
@@ -363,8 +350,6 @@ class _Reader:
             return [self.number(item)]
         if text in _OPEN:
             return [self.bracket(text, item)]
-        if text == "|" and not self.angles and self.first_ahead(("|", r"\langle", r"\rangle", "=")) == r"\rangle":
-            return [self.ket(item)]
         if text == ":" and (after := self.peek()) is not None and after.text == "=":
             self.take()
             return [Box("relation", ":=", item.at, self.end)]
@@ -372,7 +357,6 @@ class _Reader:
             return [Box(*_BESIDE[text], item.at, self.end)]
         self.place -= 1
         self.stop("is not known", "write it in LaTeX")
-        return []
 
     def number(self, item: Token) -> Box:
         digits = item.text
@@ -387,9 +371,6 @@ class _Reader:
 
     def command(self, item: Token, style: str) -> list[Box]:
         name = item.text[1:]
-        if name == "vert":
-            ket = not self.angles and self.first_ahead((r"\vert", r"\langle", r"\rangle", "=")) == r"\rangle"
-            return [self.ket(item) if ket else Box("bar", "|", item.at, self.end)]
         if name in _NOTHING:
             return self.nothing(name)
         if name in ACCENTS:
@@ -406,7 +387,6 @@ class _Reader:
             return self.styled(name, item)
         self.place -= 1
         self.stop("is not known", "write what it stands for, or define it by \\newcommand")
-        return []
 
     def nothing(self, name: str) -> list[Box]:
         """Take a command that prints nothing, with its length where it has one."""
@@ -488,7 +468,6 @@ class _Reader:
         if after is None:
             self.place -= 1
             self.stop("has no bracket", "write one")
-            return []
         if name != "left":
             if after.text in ("|", r"\|", r"\vert", r"\Vert"):
                 self.take()
@@ -545,7 +524,8 @@ class _Reader:
 
     def _frac(self, item: Token, style: str) -> list[Box]:
         over, under = self.argument(), self.argument()
-        return [Box("fraction", "", item.at, self.end, [over, under])]
+        kind = "binomial" if item.text.endswith("binom") else "fraction"
+        return [Box(kind, "", item.at, self.end, [over, under])]
 
     def _sqrt(self, item: Token, style: str) -> list[Box]:
         degree = self.bracketed()
@@ -584,10 +564,6 @@ class _Reader:
                 self.plain()
                 return [row for row in rows if any(row)]
 
-    def _binom(self, item: Token, style: str) -> list[Box]:
-        over, under = self.argument(), self.argument()
-        return [Box("binomial", "", item.at, self.end, [over, under])]
-
     def _overset(self, item: Token, style: str) -> list[Box]:
         label = self.plain()
         base = self.argument(style)
@@ -611,39 +587,35 @@ class _Reader:
         self.plain()
         return [Box("relation", "->", item.at, self.end)]
 
-    def _substack(self, item: Token, style: str) -> list[Box]:
-        raise FormulaError(item.at, r"\substack is not read", "write the condition in one line")
+    def _unread(self, item: Token, style: str) -> list[Box]:
+        way_out = "write the condition in one line" if item.text == r"\substack" else "keep it aside"
+        raise FormulaError(item.at, f"{item.text} is not read", way_out)
 
-    def _label(self, item: Token, style: str) -> list[Box]:
+    def _passed_over(self, item: Token, style: str) -> list[Box]:
         self.plain()
-        return []
-
-    def _hspace(self, item: Token, style: str) -> list[Box]:
-        self.plain()
-        return [Box("thin", "", item.at, self.end)]
+        return [Box("thin", "", item.at, self.end)] if item.text == r"\hspace" else []
 
     def _line_end(self, item: Token, style: str) -> list[Box]:
         """A line of a display that has one line only: TeX passes over it."""
         self.bracketed()
         return [Box("wide", "", item.at, self.end)]
 
-    def _pmod(self, item: Token, style: str) -> list[Box]:
-        raise FormulaError(item.at, r"\pmod is not read", "keep it aside")
-
 
 def _joins(before: Box, made: Box, style: str) -> bool:
-    """Whether an upright letter goes on with the word before it, or a number with the number."""
-    if before.kind != made.kind or before.sub is not None or before.sup is not None:
-        return False
-    word = made.kind == "letter" and made.upright and len(made.name) == 1 and before.upright and not before.marks
-    return made.kind == "number" or (style == "upright" and word)
+    """Whether an upright letter goes on with the word before it."""
+    letters = before.kind == made.kind == "letter" and before.upright and made.upright and len(made.name) == 1
+    return style == "upright" and letters and before.sub is None and before.sup is None and not before.marks
 
 
-def _multiplies(row: list[Box]) -> bool:
+def is_printed_as_vector(box: Box) -> bool:
+    """Whether a letter is printed as a vector: bold or with an arrow."""
+    return box.style == "bold" or "vec" in box.marks or "under" in box.marks
+
+
+def _multiplies(left: Box, stop: Box, right: Box) -> bool:
     r"""Whether a full stop stands between two vectors or \nabla without a space: \nabla.\vec u."""
-    sides = row[0], row[2]
-    plain = all(b.kind == "nabla" or b.style == "bold" or {"vec", "under"} & {*b.marks} for b in sides)
-    return plain and row[0].end == row[1].at and row[1].end == row[2].at
+    between = (stop.kind, stop.name) == ("comma", ".") and left.end == stop.at and stop.end == right.at
+    return between and all(b.kind == "nabla" or is_printed_as_vector(b) for b in (left, right))
 
 
 def _as_letters(row: list[Box]) -> None:
@@ -715,19 +687,18 @@ _SIGNS: dict[str, tuple[str, str]] = {
     **{"∂": ("partial", ""), "∇": ("nabla", ""), "∞": ("infinity", "")},
     **{rf"\{name}": sign for name, sign in _COMMANDS.items()},
 }
-_BESIDE = {"|": ("bar", "|"), ":": ("operator", ":"), ".": ("comma", ".")}  # what they are depends on what follows
+_BESIDE = {":": ("operator", ":"), ".": ("comma", ".")}  # what they are depends on what follows
 Form = Callable[[_Reader, Token, str], list[Box]]
 _FORMS: dict[str, Form] = {
-    **dict.fromkeys(("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac"), _Reader._frac),
+    **dict.fromkeys(
+        ("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac", "binom", "dbinom", "tbinom"), _Reader._frac
+    ),
     "sqrt": _Reader._sqrt,
     "begin": _Reader._begin,
-    **dict.fromkeys(("binom", "dbinom", "tbinom"), _Reader._binom),
     **dict.fromkeys(("overset", "stackrel", "underset"), _Reader._overset),
     **dict.fromkeys(("underbrace", "overbrace"), _Reader._underbrace),
     **dict.fromkeys(("xrightarrow", "xleftarrow"), _Reader._xrightarrow),
-    "substack": _Reader._substack,
-    **dict.fromkeys(("label", "cite", "vspace", "tag"), _Reader._label),
-    "hspace": _Reader._hspace,
+    **dict.fromkeys(("substack", "pmod"), _Reader._unread),
+    **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._passed_over),
     "\\": _Reader._line_end,
-    "pmod": _Reader._pmod,
 }

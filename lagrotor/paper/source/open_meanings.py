@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 
-from lagrotor.paper.source.boxes import FUNCTIONS, Box
+from lagrotor.paper.source.boxes import FUNCTIONS, Box, is_printed_as_vector
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_letter import is_called
 from lagrotor.paper.source.read_scripts import INDICES
@@ -32,7 +32,6 @@ from lagrotor.paper.source.rows import (
 from lagrotor.paper.source.usage import (
     is_number,
     is_plain_letter,
-    is_printed_as_vector,
     power_in,
     stem_of,
     touch,

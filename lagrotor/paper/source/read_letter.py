@@ -87,6 +87,9 @@ def _applied(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
             return _call(reader, box, bracket), place + 2
         _check_square(box, bracket.parts[0])
     if not (box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK):
+        enclosing = bracket is not None and bracket.name in ("[", r"\{") and box.name not in "Oo"
+        if bracket is not None and enclosing and _evidence(reader.notation, box, bracket) is None:
+            _mark_applied(reader, box, bracket, False)
         return None
     behind = next((k for k in range(place + 1, len(row)) if row[k].kind != "thin"), place)
     after = row[behind]
@@ -100,17 +103,30 @@ def _applied(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
 
 
 def _is_function(reader: FormulaReader, row: list[Box], place: int) -> bool:
-    """Whether a letter is a function of the round bracket behind it. Raises FormulaError where custom does not say."""
-    box = row[place]
-    called = is_called(reader, box, row[place + 1])
-    settles = f'functions = "{box.name}" or letters = "{box.name}"'
-    if called is None and (called := _called_by_custom(reader, row, place)) is not None:
-        what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
-        reader.guess("bracket", f"{box.name} before ( is {what}", settles)
+    """Whether a letter is a function of the round bracket behind it, marked where that is not evident.
+
+    Raises FormulaError where custom does not say.
+    """
+    box, bracket = row[place], row[place + 1]
+    called = is_called(reader, box, bracket)
+    if called is None:
+        called = _called_by_custom(reader, row, place)
+    elif box.name in "Oo" or _evidence(reader.notation, box, bracket) is called:
+        return called
     if called is None:
         why = f"whether {box.name}(…) is a function or a product is open"
-        raise FormulaError(box.at, why, f"write \\cdot, or in paper.toml [notation] {settles}")
+        raise FormulaError(box.at, why, f"write \\cdot, or in paper.toml [notation] {_settled(box)}")
+    _mark_applied(reader, box, bracket, called)
     return called
+
+
+def _settled(box: Box) -> str:
+    return f'functions = "{box.name}" or letters = "{box.name}"'
+
+
+def _mark_applied(reader: FormulaReader, box: Box, bracket: Box, called: bool) -> None:
+    what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
+    reader.guess("bracket", f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}", _settled(box))
 
 
 def _is_functional(box: Box, inside: list[Box]) -> bool:
@@ -172,7 +188,7 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return True
     if {box.name, key, plain} & known.letters or bracket.sub:
         return False
-    if any(b.kind == "comma" and b.name != "." for b in content) or (box.name == "O" and box.sup is None):
+    if any(b.kind == "comma" for b in content) or box.name == "O":
         return True
     if given_at(bracket):
         return True
@@ -185,11 +201,10 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return None
     if simple_argument(content) and (bracket.sup is None or (evidence is not None and len(top) == 1)):
         return True if evidence is not None or any(b.kind == "letter" for b in top) else None
-    if evidence is None and top and all(b.kind == "number" or b.name == "/" for b in top):  # zeta(3/2)
-        return None
     if evidence is None:
-        late = bool(top) and top[0].kind == "letter" and top[0].name == "t"  # x(t - tau)
-        return None if late or box.primes or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
+        numbers = all(b.kind == "number" or b.name == "/" for b in top)  # zeta(3/2)
+        late = top[0].kind == "letter" and top[0].name == "t"  # x(t - tau)
+        return None if numbers or late or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
     own = {b.name for b in top if b.kind == "letter"}
     if several:
         return True if key not in known.bare else None
@@ -211,14 +226,14 @@ def _called_by_custom(reader: FormulaReader, row: list[Box], place: int) -> bool
     if any(b.kind == "relation" for b in held) or (box.sup is not None and not (evidence and letters & evidence)):
         return None
     if place + 2 < len(row) and row[place + 2].kind == "bracket":  # a(x - b)(x - c)
-        return False if bare else None
+        return False
     if len(content) == 1 and content[0].kind == "letter" and bracket.sup is None:
         return True
     if evidence and letters & evidence:
-        return None if bracket.sup or "0" in index or (bare and content[0].kind == "number") else True
+        return None if bracket.sup or "0" in index or content[0].kind == "number" else True
     if bare and (evidence or any(b.name == box.name for b in content)):
         return False  # theta (theta^2 - 1): no function of itself
-    return None if bare or bracket.sup is not None else True
+    return None if bare else True
 
 
 def given_at(bracket: Box) -> int:
@@ -370,7 +385,7 @@ def _mark_letter(reader: FormulaReader, row: list[Box], place: int) -> None:
     ):
         return  # a unit behind its number
     if after is not None and after.kind == "bracket" and after.name in ("(", "[", r"\{"):
-        _mark_before_bracket(reader, box, after)
+        _mark_order(reader, box, after)
         if box.primes:
             reader.guess("prime", f"{box.name} with a prime is a name, and no derivative")
     if not (box.name.isalnum() and (len(box.name) == 1 or f"\\{box.name}" in GREEK or box.upright)):
@@ -406,48 +421,32 @@ def _mark_constant(reader: FormulaReader, box: Box, after: Box | None) -> None:
         reader.guess("operator", "D is a number, and no derivative", settles)
 
 
-def _mark_before_bracket(reader: FormulaReader, box: Box, bracket: Box) -> None:
-    """Mark a letter before a bracket: a function of it, or a factor."""
-    known = reader.notation
-    content = without_thin(bracket.parts[0])
+def _mark_order(reader: FormulaReader, box: Box, bracket: Box) -> None:
+    """Mark O(…), which may be a group or a function, and what in a paper that has it may be an order of magnitude."""
     if box.name in "Oo":
         added = reader.source[: box.at].rstrip().endswith(("+", "-", r"\pm", r"\mp", "−"))
         if not added or not letters_in_row(bracket.parts[0]):
             reader.guess("order", f"{box.name}(…) is an order of magnitude, and no group or function")
-        return
-    if "order" in known.seen and box.name in ("o", "omega", "Omega", "theta", "Theta"):
+    elif "order" in reader.notation.seen and box.name in ("omega", "Omega", "theta", "Theta"):
         reader.guess("order", f"{box.name} is a function of the bracket, and no order of magnitude")
-    settles = f'functions = "{box.name}" or letters = "{box.name}"'
-    if any({box.name, unprimed(box), stem_of(box)} & said for said in (known.functions, known.letters)):
-        return
-    if bracket.name == "[" and is_entry(reader, box, bracket):
-        return  # marked where it is read
-    called = bracket.name == "(" and is_called(reader, box, bracket)
-    if called is None:
-        return  # marked where it is read
-    if not box.sup and bracket.name == "(":
-        evident = _evidence(known, box, content, bracket)
-    else:
-        listed = any(b.kind == "comma" for b in content)
-        evident = False if not listed and _is_factor(known, box, content) else None
-    if evident is not called:
-        what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
-        reader.guess("bracket", f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}", settles)
 
 
-def _evidence(known: Notation, box: Box, content: list[Box], bracket: Box) -> bool | None:
-    """True for a function, False for a factor, None where the paper does not say."""
-    stem, listed = stem_of(box), any(b.kind == "comma" for b in content)
+def _evidence(known: Notation, box: Box, bracket: Box) -> bool | None:
+    """True for a function of the bracket, False for a factor, None where neither author nor paper says."""
+    stem, content = stem_of(box), without_thin(bracket.parts[0])
+    if any(said := [bool({box.name, unprimed(box), stem} & names) for names in (known.functions, known.letters)]):
+        return said[0]
+    listed = any(b.kind == "comma" for b in content)
+    if box.sup or bracket.name != "(":
+        return False if not listed and _is_factor(known, box, content) else None
     if simple_argument(content) and letters_in_row(content) and not bracket.sup and (listed or len(content) == 1):
         numbers = listed and stem in known.factors and any(b.kind == "number" for b in content)  # gamma(1, beta)
         other = known.called.get(unprimed(box), set()) - letters_in_row(content)
         return None if numbers and not other else True
     if stem in known.applied:
         letters = letters_in_row(content) if box.name not in _FUNCTIONS else set()
-        unseen = bool(letters) and not letters & (
-            known.called.get(unprimed(box), set()) | known.called.get(stem, set())
-        )
-        return None if stem in known.factors or bracket.sup or unseen else True
+        seen = known.called.get(unprimed(box), set()) | known.called.get(stem, set())
+        return None if stem in known.factors or bracket.sup or (letters and not letters & seen) else True
     return False if _is_factor(known, box, content) else None
 
 

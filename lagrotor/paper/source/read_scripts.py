@@ -3,7 +3,7 @@
 import re
 from dataclasses import replace
 
-from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
+from lagrotor.paper.source.boxes import GREEK, Box, FormulaError, is_printed_as_vector
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.rows import TENSOR, UNITS, VARIABLES, all_boxes, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
@@ -11,7 +11,6 @@ from lagrotor.paper.source.usage import (
     index_of,
     is_number,
     is_plain_letter,
-    is_printed_as_vector,
     name_of,
     power_in,
     stem_of,

@@ -39,39 +39,29 @@ class Call:
 
 Node: TypeAlias = Number | Letter | Call
 
-# Operations besides those of arithmetic whose value is a vector or a matrix, or a number made of vectors.
 # Relations as calls, in the condition of a case or of a sum.
 CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
-_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "operator_gradient")
-_CALLED = FUNCTIONS.keys() - {
-    "rate",
-    "diff",
-    "integrate",
-    "diag",
-    "eye",
-    "zeros",
-    "rotation",
-    "Integer",
-    "Float",
-    "Rational",
-}
+# Operations whose value is a vector or a matrix, and those that are one where their first argument is.
+_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "operator_gradient", "inverse")
+_CARRYING_NAMES = (
+    "sum negative quotient Derivative rate bar mean transpose Integral prime limit Sum differential laplacian plus_minus "
+    "minus_plus advection at called delta Delta at_constant"
+)
+_CARRYING = frozenset(_CARRYING_NAMES.split())
+# What a line of the catalogue may call, but in another sense than a print.
+_NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
+_CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
 _MOST_BITS = 20_000  # of a number that is evaluated
 _MOST_ADDED = 40  # terms of a sum that is written out
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
+_KNOWN_NAMES = (
+    "sin cos tan cot sec csc sinh cosh tanh coth sech csch asin acos atan asinh acosh atanh exp log sqrt Abs sign "
+    "factorial"
+)
 # Functions whose identities are decided.
-KNOWN = {
-    **{name: getattr(sp, name) for name in ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth")},
-    **{
-        name: getattr(sp, name)
-        for name in ("asin", "acos", "atan", "asinh", "acosh", "atanh", "exp", "log", "sqrt", "Abs")
-    },
-    "sech": sp.sech,
-    "csch": sp.csch,
-    "sign": sp.sign,
-    "factorial": sp.factorial,
-}
+KNOWN = {name: getattr(sp, name) for name in _KNOWN_NAMES.split()}
 
 
 def number(value: int | str) -> Number:
@@ -101,58 +91,25 @@ def is_constant(letter: Letter) -> bool:
 
 def is_vector(node: Node) -> bool:
     """Whether its value is a vector or a matrix."""
-    if isinstance(node, Letter):
-        return node.vector
-    if isinstance(node, Number):
-        return False
-    if node.name == "product":
+    if not isinstance(node, Call):
+        return isinstance(node, Letter) and node.vector
+    if node.name in ("product", "matmul"):
         return any(map(is_vector, node.args))
-    if node.name == "differential" and len(node.args) > 1:  # d^3 r
-        return False
-    if node.name in (
-        "sum",
-        "negative",
-        "quotient",
-        "Derivative",
-        "rate",
-        "bar",
-        "mean",
-        "transpose",
-        "Integral",
-        "prime",
-        "limit",
-        "Sum",
-        "differential",
-        "laplacian",
-        "plus_minus",
-        "minus_plus",
-        "advection",
-        "at",
-        "called",
-        "delta",
-        "Delta",
-        "at_constant",
-    ):
+    if node.name in _CARRYING and not (node.name == "differential" and len(node.args) > 1):  # d^3 r
         return is_vector(node.args[0])
-    if node.name == "matmul":
-        return any(map(is_vector, node.args))
-    return node.name in (*_VECTORS, "inverse") or node.name.split("_")[0].removesuffix("prime").endswith(
-        ("bold", "vec", "under")
-    )
+    stem = node.name.split("_")[0].removesuffix("prime")
+    return node.name in _VECTORS or stem.endswith(("bold", "vec", "under"))
 
 
 def may_be_vector(node: Node) -> bool:
     """Whether a factor of it is a letter with a hat, or the divergence of what is printed in bold."""
-    if isinstance(node, Letter):
-        return "hat" in node.name and node.name[0].islower()
-    if isinstance(node, Number):
-        return False
+    if not isinstance(node, Call):
+        return isinstance(node, Letter) and "hat" in node.name and node.name[0].islower()
     if node.name == "divergence":
         return isinstance(node.args[0], Letter) and "bold" in node.args[0].name
-    inner = node.args[:1] if node.name in ("quotient", "negative", "Derivative", "rate") else node.args
+    first = node.args[:1] if node.name in ("quotient", "negative", "Derivative", "rate") else ()
     test = all if node.name == "sum" else any
-    carried = ("quotient", "negative", "Derivative", "rate", "product", "sum")
-    return node.name in carried and test(is_vector(each) or may_be_vector(each) for each in inner)
+    return test(is_vector(n) or may_be_vector(n) for n in (node.args if node.name in ("product", "sum") else first))
 
 
 def is_printed_zero(node: Node) -> bool:
@@ -176,15 +133,12 @@ def is_numeric(node: Node) -> bool:
 
 def is_matrix(node: Node) -> bool:
     """Whether a node is a matrix: a bold capital, a matrix as it is written, a transposed one."""
-    if isinstance(node, Letter):
-        return node.vector and node.name[0].isupper() and "bold" in node.name
-    if isinstance(node, Number):
-        return False
-    if node.name == "product":
-        return any(map(is_matrix, node.args))
-    return node.name in ("matrix", "transpose", "inverse", "matmul") or (
-        node.name in ("sum", "negative") and is_matrix(node.args[0])
-    )
+    if not isinstance(node, Call):
+        return isinstance(node, Letter) and node.vector and node.name[0].isupper() and "bold" in node.name
+    if node.name in ("sum", "negative"):
+        return is_matrix(node.args[0])
+    own = node.name in ("matrix", "transpose", "inverse", "matmul")
+    return own or (node.name == "product" and any(map(is_matrix, node.args)))
 
 
 def is_scalar(node: Node) -> bool:
@@ -204,15 +158,9 @@ def is_operator(node: Node) -> bool:
 
 def in_catalogue(node: Node) -> bool:
     """Whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
-    return all(
-        isinstance(each, Number)
-        or (
-            each.name != "imaginary_unit"
-            if isinstance(each, Letter)
-            else each.name in _ARITHMETIC or each.name in _CALLED
-        )
-        for each in walk(node)
-    )
+    each = list(walk(node))
+    names = {part.name for part in each if isinstance(part, Call)}
+    return names <= {*_ARITHMETIC, *_CALLED} and Letter("imaginary_unit") not in each
 
 
 def text_of(node: Node) -> str:
@@ -394,12 +342,10 @@ def _transparent(node: Call) -> bool:
 
 def _column(node: Node) -> bool:
     """Whether it is a vector of three components."""
-    if isinstance(node, Letter):
-        return node.vector
-    if isinstance(node, Number):
-        return False
-    if node.name in ("sum", "cross"):
-        return all(map(_column, node.args))
+    if not isinstance(node, Call):
+        return isinstance(node, Letter) and node.vector
     if node.name in ("negative", "quotient"):
         return _column(node.args[0])
+    if node.name in ("sum", "cross"):
+        return all(map(_column, node.args))
     return node.name == "product" and sum(map(is_vector, node.args)) == 1 and any(map(_column, node.args))

@@ -11,7 +11,7 @@ from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.paper.letters import FUNCTIONS as CALLED
-from lagrotor.paper.source.boxes import Box, FormulaError, boxes
+from lagrotor.paper.source.boxes import Box, FormulaError, boxes, is_printed_as_vector
 from lagrotor.paper.source.rows import PARTING, TENSOR, all_boxes, is_moving, without_thin
 
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
@@ -229,11 +229,6 @@ def _named(box: Box, marks: list[str], primes: int, index: Iterable[str], raised
     if rates:
         name += f"_{'d' * rates}ot"
     return f"{name}_" if name in CALLED or iskeyword(name) else name
-
-
-def is_printed_as_vector(box: Box) -> bool:
-    """Whether a letter is printed as a vector: bold or with an arrow."""
-    return box.style == "bold" or "vec" in box.marks or "under" in box.marks
 
 
 def index_of(box: Box) -> list[str] | None:
