@@ -44,9 +44,7 @@ def _shown(expander: Expander, token: Token) -> bool:
 
 def _numbered(expander: Expander, token: Token) -> bool:
     r"""\@arabic\c@equation and \number\value{section} as classes write them."""
-    following = expander.peek()
-    counted = following is not None and (following.text.startswith(r"\c@") or following.text in (r"\value", "{"))
-    if not counted:
+    if not any(map(expander.begins, (r"\c@", r"\value", "{"))):
         return False
     given = expander.argument()
     by_name = latex_of(given).strip() == r"\value"

@@ -6,6 +6,8 @@ from itertools import pairwise
 # The classes that have chapters, in which equations are numbered by chapter.
 _CHAPTERED = "book report memoir scrbook scrreprt ctexbook ctexrep extbook extreport tufte-book"
 _WITH_CHAPTERS = frozenset(_CHAPTERED.split())
+_ROMAN = {"m": 1000, "cm": 900, "d": 500, "cd": 400, "c": 100, "xc": 90, "l": 50, "xl": 40, "x": 10,
+          "ix": 9, "v": 5, "iv": 4, "i": 1}  # fmt: skip
 _SECTIONS = ("part", "chapter", "section", "subsection", "subsubsection", "paragraph", "subparagraph")
 
 
@@ -100,18 +102,7 @@ class Counters:
 
 def _roman(value: int) -> str:
     found = ""
-    marks = (
-        (1000, "m"),
-        (900, "cm"),
-        (500, "d"),
-        (400, "cd"),
-        (100, "c"),
-        (90, "xc"),
-        (50, "l"),
-        (40, "xl"),
-        (10, "x"),
-    )
-    for size, mark in (*marks, (9, "ix"), (5, "v"), (4, "iv"), (1, "i")):
+    for mark, size in _ROMAN.items():
         found += mark * (value // size)
         value %= size
     return found

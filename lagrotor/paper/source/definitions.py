@@ -53,7 +53,7 @@ def _def(expander: Expander, token: Token) -> bool:
 
 def _let(expander: Expander, token: Token) -> bool:
     target, source = next_name(expander), next_name(expander)
-    if source is not None and source.kind == "text" and source.text.startswith("="):
+    if source is not None and source.text.startswith("="):
         expander.push(plain(source.text[1:].lstrip(), source.at))
         source = next_name(expander)
     if source is not None and source.kind == "text" and len(source.text) > 1:

@@ -18,7 +18,7 @@ from lagrotor.paper.source.unknown_environments import UnknownEnvironments
 # Each row of these is an equation with a number of its own; the others have one number.
 _ROWS_WORDS = "align gather eqnarray alignat flalign xalignat xxalignat IEEEeqnarray numcases subnumcases"
 _ROWS = frozenset(_ROWS_WORDS.split())
-_ENVIRONMENTS = (*_ROWS, "equation", "multline", "displaymath", "dmath", "math@")
+_ENVIRONMENTS = (*_ROWS, "equation", "multline", "displaymath", "dmath")
 _PAIRS = ("align", "alignat", "flalign", "xalignat", "xxalignat")  # in which every second & begins another equation
 _WITH_ARGUMENT = ("alignat", "xalignat", "xxalignat", "IEEEeqnarray", "numcases", "subnumcases")
 _NEVER = ("displaymath", "xxalignat")
@@ -152,18 +152,12 @@ class _Walker:
 
     def read(self) -> None:
         for token in self.expander.tokens():
-            if token.kind == "command":
-                if token.text == r"\end":
-                    if (name := self._name()) != "document":
-                        self.unknown.end(name, token.at)
-                    elif not self.expander.leave_file(token.at):
-                        break
-                    continue
-                self._command(token)
-            elif token.kind == "math" and self.body:
-                self._math(token)
-            elif token.kind == "text":
-                self._text(token.text)
+            if token.text != r"\end":
+                self._take(token)
+            elif (name := self.expander.name()) != "document":
+                self.unknown.end(name, token.at)
+            elif not self.expander.leave_file(token.at):
+                break
         else:
             if self.whole and self.body:
                 self.expander.macros.fault(len(self.expander.starts[0][3]) - 1, "", r"\end{document} is missing")
@@ -176,21 +170,29 @@ class _Walker:
             rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in self.expander.loaded
         )
 
-    def _name(self) -> str:
-        return latex_of(self.expander.argument()).strip()
+    def _take(self, token: Token) -> None:
+        """What a token of the text does."""
+        if token.kind == "command":
+            self._command(token)
+        elif token.text == "$$" and self.body:
+            self._display("displaymath", token, "$$", starred=True)
+        elif token.kind == "math" and self.body:
+            self._inline("$", token)
+        elif token.kind == "text":
+            self._text(token.text)
 
     def _command(self, token: Token) -> None:
         name = token.text[1:]
         if name in ("begin", *_LEVELS):
             self.expander.stepped = ""  # what a label in the text refers to
         if name == "begin":
-            self._begin(self._name(), token)
+            self._begin(self.expander.name(), token)
         elif name in _LEVELS and self.body:
             star = self.expander.star()
             self.expander.optional()
             self._section(name, latex_of(self.expander.argument()), star)
         elif name == "label" and self.expander.stepped:
-            self.found.labels.setdefault(self._name(), self.expander.stepped)
+            self.found.labels.setdefault(self.expander.name(), self.expander.stepped)
         elif name in ("title", "author"):
             self._title_page(name)
         elif name == "[":
@@ -206,7 +208,7 @@ class _Walker:
         elif name == "mathtoolsset":
             self.only_cited = "showonlyrefs" in latex_of(self.expander.argument())
         elif name in ("eqref", "refeq", "ref", "cref", "Cref", "autoref"):
-            labels = [label.strip() for label in self._name().split(",")]
+            labels = [label.strip() for label in self.expander.name().split(",")]
             self.cited += labels
             self.referred.update(labels if name in ("eqref", "refeq") else ())
 
@@ -232,7 +234,7 @@ class _Walker:
             self.counters.begin_appendix()
         elif name == "empheq":
             self.expander.optional()
-            inner = self._name()
+            inner = self.expander.name()
             self._display(inner.split("=")[0].rstrip("*"), token, "empheq", starred="*" in inner)
         elif name.rstrip("*") in _ENVIRONMENTS and self.body:
             if name.rstrip("*") in _WITH_ARGUMENT:
@@ -246,8 +248,9 @@ class _Walker:
             self._display(name.rstrip("*"), token, name, name.endswith("*"), lead, options)
             if lettered is not None:
                 self._end_subequations(lettered)
-        elif name in ("math",):
-            self._inline_environment()
+        elif name == "math":
+            self._inline(r"\end", token)
+            self.expander.name()
         elif self.body:
             self.unknown.begin(name, token.at)
 
@@ -282,20 +285,16 @@ class _Walker:
         before = len(self.found.equations)
         for token in self.expander.tokens():
             if token.text == r"\end":
-                name = self._name()
+                name = self.expander.name()
                 if name == end:
                     return
                 if name == "document":
                     return self.expander.push(tokenize(r"\end{document}", token.at))
                 self.unknown.end(name, token.at)
             elif token.text == r"\label" and len(self.found.equations) == before:
-                self.found.labels.setdefault(self._name(), self.parent)
-            elif token.kind == "command":
-                self._command(token)
-            elif token.kind == "math":
-                self._math(token)
-            elif token.kind == "text":
-                self._text(token.text)
+                self.found.labels.setdefault(self.expander.name(), self.parent)
+            else:
+                self._take(token)
 
     def _text(self, text: str) -> None:
         """The words of a paragraph stand by the display before them and by the one behind."""
@@ -325,12 +324,6 @@ class _Walker:
 
     # ---- formulas
 
-    def _math(self, token: Token) -> None:
-        if token.text == "$$":
-            self._display("displaymath", token, "$$", starred=True)
-        else:
-            self._inline("$", token)
-
     def _inline(self, end: str, begin: Token) -> None:
         found: list[Token] = []
         macros = self.expander.macros
@@ -352,12 +345,6 @@ class _Walker:
         r"""Whether a token is the \begin of a display."""
         return token.text == r"\begin" and self.expander.following().rstrip("*") in _ENVIRONMENTS
 
-    def _inline_environment(self) -> None:
-        for token in self.expander.tokens():
-            if token.text == r"\end":
-                self._name()
-                return
-
     def _display(
         self, kind: str, token: Token, end: str, starred: bool, lead: list[Token] | None = None, options: str = ""
     ) -> None:
@@ -374,7 +361,8 @@ class _Walker:
             depth += NESTING.get(part.text, 0)
             braces += BRACES.get(part.kind, 0)
             if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or part.text in _BETWEEN):
-                if self._ended(part) and by_rows and (part.text not in _BETWEEN or _has_text(row.tokens)):
+                self._pass_end(part)
+                if by_rows and (part.text not in _BETWEEN or _has_text(row.tokens)):
                     self._finish(row, by_rows)
                     rows.append(row)
                     row = Row(numbered=numbered)
@@ -399,7 +387,7 @@ class _Walker:
             if part.text == r"\end":
                 if self.expander.level is not None and self.expander.level < level:
                     if begin.text == r"\begin":
-                        self._name()
+                        self.expander.name()
                         return None
                     self.expander.level = None
                     self.expander.push([part])
@@ -427,18 +415,15 @@ class _Walker:
             macros.fault(begin.at, begin.text, f"{begin.text} is not closed")
             macros.close_to(level)
 
-    def _ended(self, part: Token) -> bool:
+    def _pass_end(self, part: Token) -> None:
         r"""Take the star and the space behind \\, the text of \intertext."""
         if part.text in _BETWEEN:
             self.expander.argument()
-            return True
+            return
         self.expander.star()
-        following = self.expander.peek()
-        if following is not None and following.kind == "text" and following.text.startswith("["):
-            given = self.expander.optional()
-            if given is not None and not re.search(r"\d|\\", latex_of(given)):
-                self.expander.push([Token("text", f"[{latex_of(given)}]", part.at)])
-        return True
+        given = latex_of(self.expander.optional() or ()) if self.expander.begins("[") else ""
+        if given and not re.search(r"\d|\\", given):  # no length: the row begins with it
+            self.expander.push([Token("text", f"[{given}]", part.at)])
 
     def _taken(self, part: Token, row: Row) -> bool:
         """Whether a command of a row says something of its number only."""
@@ -450,11 +435,10 @@ class _Walker:
                 shown = latex_of(self.expander.expand(self.expander.argument()))
                 row.tag = _plain_number(re.sub(r"\\(?:eq)?ref\{([^{}]*)\}", self._number_of, shown))
             else:
-                rest = self.expander.argument()
-                row.tag = _plain_number(latex_of(rest))
-                if row.tag == "" or (rest and rest[0].text == "("):
-                    more = self.expander.next()
-                    row.tag = _plain_number((latex_of(rest) + (more.text if more else "")).strip())
+                shown = latex_of(self.expander.argument())
+                if shown == "(" and (more := self.expander.next()) is not None:
+                    shown += more.text
+                row.tag = _plain_number(shown.strip())
             return True
         if name in _NO_NUMBER:
             self._withdraw(row)
@@ -464,7 +448,7 @@ class _Walker:
             row.numbered = True
             return True
         if name == r"\label":
-            row.labels.append(self._name())
+            row.labels.append(self.expander.name())
             return True
         if name in (r"\raisetag", r"\displaybreak", r"\allowdisplaybreaks", r"\vspace", r"\noalign"):
             if name == r"\displaybreak":
@@ -654,19 +638,15 @@ def _letters(count: int) -> str:
     return (_letters((count - 1) // 26) if count > 26 else "") + chr(ord("a") + (count - 1) % 26)
 
 
+_MARKS = {r"\ast": "*", r"\star": "*", r"\ddagger": "‡", r"\dagger": "†", r"^\prime": "'", r"\prime": "'"}
+
+
 def _plain_number(text: str) -> str:
     """A number without dollar signs, braces and brackets around it: $3'$ is 3'."""
     text = re.sub(r"\\(?:ensuremath|text|mathrm|textbf|textit|rm|bf|it)(?![A-Za-z])|[${}]", "", text)
-    text = (
-        text.replace(r"\ast", "*")
-        .replace(r"\star", "*")
-        .replace(r"\ddagger", "‡")
-        .replace(r"\dagger", "†")
-        .replace(r"^\prime", "'")
-        .replace(r"\prime", "'")
-        .strip()
-    )
-    return re.sub(r"^\((.*)\)$", r"\1", text).strip()
+    for mark, sign in _MARKS.items():
+        text = text.replace(mark, sign)
+    return re.sub(r"^\((.*)\)$", r"\1", text.strip()).strip()
 
 
 def _plain(text: str) -> str:

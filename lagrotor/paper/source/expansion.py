@@ -167,8 +167,6 @@ class Expander(TokenStream):
         if letter in "oOdD":
             given = self.optional() if letter in "oO" else self.delimited("(", ")")
             return given if given is not None else default if letter in "OD" else [NO_VALUE]
-        if letter in "gG" and ((following := self.peek()) is None or following.kind != "open"):
-            return default if letter == "G" else [NO_VALUE]
         return self.argument()
 
     def printed(self, counter: str) -> str:
@@ -184,10 +182,7 @@ class Expander(TokenStream):
         for constant, value in ((r"\z@", "0"), (r"\@ne", "1"), (r"\tw@", "2"), (r"\m@ne", "-1")):
             text = text.replace(constant, value)
         text = re.sub(r"\\c@(\w+)", lambda m: str(self.counters.values.get(m[1], 0)), text)
-        total = 0
-        for sign, digits in re.findall(r"([+-]?)\s*(\d+)", text):
-            total += -int(digits) if sign == "-" else int(digits)
-        return total
+        return sum(int(sign + digits) for sign, digits in re.findall(r"([+-]?)\s*(\d+)", text))
 
 
 def _spec(text: str) -> Iterator[tuple[str, list[Token]]]:

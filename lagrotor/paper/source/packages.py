@@ -32,29 +32,27 @@ def _between(left: str, right: str) -> Package:
     def take(expander: Expander) -> Iterable[Token]:
         expander.star()
         expander.optional()
-        expander.skip_spaces()
-        following = expander.peek()
-        if following is not None and re.fullmatch(r"\\[bB]igg?", following.text):
-            expander.next()
+        _pass_size(expander)
         return tokenize(rf"\left{left} {latex_of(expander.argument())} \right{right}")
 
     return take
 
 
+def _pass_size(expander: Expander) -> None:
+    r"""Take \big before a bracket, which grows by itself."""
+    expander.skip_spaces()
+    if (following := expander.peek()) is not None and re.fullmatch(r"\\[bB]igg?", following.text):
+        expander.next()
+
+
 def _quantity(expander: Expander) -> Iterable[Token]:
     r"""\qty(…), \qty[…], \qty|…|, \qty{…}; \qty{9.81}{m/s} of siunitx where two arguments in braces follow."""
     expander.star()
-    expander.skip_spaces()
-    following = expander.peek()
-    if following is not None and re.fullmatch(r"\\[bB]igg?", following.text):
-        expander.next()
-        following = expander.peek()
-    if following is not None and following.kind == "open":
-        inside = expander.argument()
-        after = expander.peek()
-        if after is not None and after.kind == "open" and "siunitx" in expander.loaded:
-            return _with_unit(latex_of(inside), expander.argument())
-        return tokenize(rf"\left\{{ {latex_of(inside)} \right\}}")
+    _pass_size(expander)
+    if (inside := _braced(expander)) is not None:
+        if "siunitx" in expander.loaded and expander.begins("{"):
+            return _with_unit(inside, expander.argument())
+        return tokenize(rf"\left\{{ {inside} \right\}}")
     for left, right in (("(", ")"), ("[", "]"), ("|", "|")):
         if (given := expander.delimited(left, right)) is not None:
             return tokenize(rf"\left{left} {latex_of(given)} \right{right}")
@@ -69,11 +67,10 @@ def _derivative(mark: str, two: bool = False) -> Package:
         order = latex_of(expander.optional() or ()).strip()
         first = latex_of(expander.argument())
         rest: list[str] = []
-        while len(rest) < (2 if mark == r"\partial" and not order and not two else 1) and _is_braced(expander):
+        while len(rest) < (2 if mark == r"\partial" and not order and not two else 1) and expander.begins("{"):
             rest.append(latex_of(expander.argument()))
         if not rest:
-            following = expander.peek()
-            inside = expander.delimited("(", ")") if following and following.text[:1] == "(" else None
+            inside = expander.delimited("(", ")") if expander.begins("(") else None
             operand = "" if inside is None else rf"\left( {latex_of(inside)} \right)"
             return tokenize(_quotient(mark, "", [(first, order)], order) + operand)
         return tokenize(_quotient(mark, first, [(each, order) for each in rest], order or str(len(rest)), slash))
@@ -90,9 +87,9 @@ def _quotient(mark: str, of: str, by: list[tuple[str, str]], order: str, slash: 
     return rf"\frac{{{mark}{power} {of}}}{{{below}}}"
 
 
-def _is_braced(expander: Expander) -> bool:
-    following = expander.peek()
-    return following is not None and following.kind == "open"
+def _braced(expander: Expander) -> str | None:
+    """What is in braces where these come next."""
+    return latex_of(expander.argument()) if expander.begins("{") else None
 
 
 def _listed_derivative(mark: str, package: str) -> Package:
@@ -126,8 +123,7 @@ def _listed_derivative(mark: str, package: str) -> Package:
         if package == "diffcoeff":
             held = expander.optional()
         at = rf"_{{{latex_of(held)}}}" if held is not None else ""
-        following = expander.peek()
-        if at or (package == "derivative" and following is not None and following.text == "_"):
+        if at or (package == "derivative" and expander.begins("_")):
             made = rf"\left({made}\right)" if mark == r"\partial" else rf"\left.{made}\right|"
         return tokenize(made + at)
 
@@ -154,7 +150,7 @@ def _differential(expander: Expander) -> Iterable[Token]:
     r"""\dd x, \dd{x}, \dd[3]{x}, \dd(x); \odif{x,y} of derivative, \dl{x,y} of diffcoeff."""
     order = latex_of(expander.optional() or ()).strip().removeprefix("order").lstrip(" =")
     head = rf"\,\mathrm{{d}}^{{{order}}}" if order else r"\,\mathrm{d}"
-    if not _is_braced(expander):
+    if not expander.begins("{"):
         return tokenize(f"{head} ")
     return tokenize("".join(f"{head} {each}" for each in latex_of(expander.argument()).split(",")))
 
@@ -169,10 +165,7 @@ def _operator(body: str) -> Package:
     r"""\grad f, \curl{E}, \div(…)."""
 
     def take(expander: Expander) -> Iterable[Token]:
-        following = expander.peek()
-        if following is not None and following.kind == "open":
-            return tokenize(rf"{body} {latex_of(expander.argument())}")
-        return tokenize(f"{body} ")
+        return tokenize(f"{body} {_braced(expander) or ''}")
 
     return take
 
@@ -181,10 +174,7 @@ def _function(name: str) -> Package:
     r"""\sin(x), \sin[2](x) of physics: the optional argument is a power."""
 
     def take(expander: Expander) -> Iterable[Token] | None:
-        following = expander.next()
-        if following is not None:
-            expander.push([following])
-        if following is None or following.kind != "text" or not following.text.startswith("["):
+        if not expander.begins("["):
             return None
         power = latex_of(expander.optional() or ())
         return [Token("command", name, 0), *tokenize(f"^{{{power}}}")]
@@ -194,8 +184,7 @@ def _function(name: str) -> Package:
 
 def _text(expander: Expander) -> Iterable[Token] | None:
     r"""\text{\boldmath $u$} is \boldsymbol{u}, \text{$u$} is {u}; other words stay."""
-    following = expander.peek()
-    if following is None or following.kind != "open":
+    if not expander.begins("{"):
         return None
     inside = expander.argument()
     formula = re.fullmatch(r"\{?\s*(\\boldmath)?\s*\{?\s*\$([^$]*)\$\s*\}*", latex_of(inside).strip())
@@ -283,10 +272,8 @@ def _between_states(expander: Expander) -> Iterable[Token]:
     r"""\expval{A}, \expval{A}{\psi} of physics."""
     expander.star()
     inner = latex_of(expander.argument())
-    following = expander.peek()
-    if following is None or following.kind != "open":
+    if (state := _braced(expander)) is None:
         return tokenize(rf"\left\langle {inner} \right\rangle ")
-    state = latex_of(expander.argument())
     return tokenize(rf"\left\langle {state} \middle| {inner} \middle| {state} \right\rangle ")
 
 
@@ -294,8 +281,7 @@ def _product_of_states(expander: Expander) -> Iterable[Token]:
     r"""\braket{a}{b} of physics, \braket{a|b} of braket."""
     expander.star()
     bra = latex_of(expander.argument())
-    following = expander.peek()
-    ket = latex_of(expander.argument()) if following is not None and following.kind == "open" else ""
+    ket = _braced(expander)
     parts = [bra, ket] if ket else re.split(r"(?<!\\)\||\\(?:mid|vert)(?![A-Za-z])", bra)
     inside = r" \middle| ".join(parts)
     return tokenize(rf"\left\langle {inside} \right\rangle ")
@@ -338,8 +324,7 @@ _PHYSICS: dict[str, Package] = {
         for word in ("and", "or", "if", "for", "since", "with", "then")
     },
     r"\qc": _is(r",\quad "),
-    r"\var": _is(r"\delta "),
-    r"\variation": _is(r"\delta "),
+    **dict.fromkeys((r"\var", r"\variation"), _is(r"\delta ")),
     r"\matrixquantity": _between("(", ")"),
     r"\mqty": lambda expander: _matrix(expander),
     r"\pmqty": _as(r"\begin{pmatrix}#1\end{pmatrix}"),
@@ -367,7 +352,7 @@ def _matrix(expander: Expander) -> Iterable[Token]:
 
 
 _SIUNITX: dict[str, Package] = {
-    **dict.fromkeys((r"\SI",), _si),
+    r"\SI": _si,
     r"\num": _num,
     **dict.fromkeys((r"\si", r"\unit"), _only_unit),
     r"\ang": _as(r"#1^\circ "),
@@ -398,36 +383,20 @@ _SMALL: dict[str, Package] = {
     r"\coloneqq": _is(":= "),
     r"\vcentcolon": _is(":"),
     r"\eqqcolon": _is("=: "),
-    r"\mathclap": _as("#1"),
-    r"\mathllap": _as("#1"),
-    r"\mathrlap": _as("#1"),
-    r"\smashoperator": _as("#1"),
-    r"\Aboxed": _as(r"#1"),
-    r"\boxed": _as(r"#1"),
-    r"\fbox": _as(r"#1"),
-    r"\mathstrut": _is(""),
-    r"\overset@": _is(""),
+    **dict.fromkeys((r"\mathclap", r"\mathllap", r"\mathrlap", r"\smashoperator", r"\lefteqn"), _as("#1")),
+    **dict.fromkeys((r"\Aboxed", r"\boxed", r"\fbox"), _as("#1")),
+    **dict.fromkeys((r"\hspace", r"\mspace", r"\phantom", r"\hphantom"), _as(r"\,")),
+    **dict.fromkeys((r"\vspace", r"\vphantom", r"\color"), _as("")),
+    **dict.fromkeys((r"\mathstrut", r"\displaylimits", r"\hfil"), _is("")),
+    **dict.fromkeys((r"\dif", r"\diff"), _is(r"\,\mathrm{d}")),
     r"\textcolor": _as("#2", 2),
-    r"\color": _as("", 1),
-    r"\hspace": _as(r"\,"),
-    r"\vspace": _as(""),
-    r"\mspace": _as(r"\,"),
-    r"\phantom": _as(r"\,"),
-    r"\hphantom": _as(r"\,"),
-    r"\vphantom": _as(""),
     r"\smash": lambda expander: (expander.optional(), expander.argument())[1],
-    r"\displaylimits": _is(""),
     r"\MoveEqLeft": lambda expander: (expander.optional(), ())[1],
     r"\IEEEeqnarraymulticol": _as("#3", 3),
-    r"\hfil": _is(""),
-    r"\dif": _is(r"\,\mathrm{d}"),
-    r"\diff": _is(r"\,\mathrm{d}"),
-    r"\underline@": _is(""),
     **dict.fromkeys((r"\mbox", r"\hbox", r"\textnormal", r"\textrm", r"\textit", r"\text"), _text),
     r"\pmatrix": _as(r"\begin{pmatrix}#1\end{pmatrix}"),
     r"\matrix": _as(r"\begin{matrix}#1\end{matrix}"),
     r"\mathchoice": _as("#1", 4),
-    r"\lefteqn": _as("#1"),
     r"\lbrack": _is("["),
     r"\rbrack": _is("]"),
 }

@@ -30,7 +30,7 @@ def _style(expander: Expander, token: Token) -> bool:
 
 _WITHOUT_EFFECT = (
     r"\long", r"\global", r"\protected", r"\outer", r"\relax", r"\protect", r"\expandafter", r"\makeatletter",
-    r"\makeatother", r"\ensuremath@", r"\xspace",
+    r"\makeatother", r"\xspace",
 )  # fmt: skip
 PRIMITIVES: dict[str, Primitive] = {
     **CONDITIONS,

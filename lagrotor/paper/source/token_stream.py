@@ -156,6 +156,11 @@ class TokenStream:
             self.push([token])
         return token
 
+    def begins(self, sign: str) -> bool:
+        """Whether a sign comes next."""
+        token = self.peek()
+        return token is not None and token.text.startswith(sign)
+
     def argument(self) -> list[Token]:
         """The next argument: what is in braces, or one character or command."""
         self.skip_spaces()
@@ -191,11 +196,10 @@ class TokenStream:
     def delimited(self, opening: str, closing: str) -> list[Token] | None:
         """What is between two characters, such as brackets, where the first comes next; None where it does not."""
         self.skip_spaces()
-        token = self.next()
-        if token is None or token.kind != "text" or not token.text.startswith(opening):
-            self.push([token] if token else [])
+        token = self.peek()
+        if token is None or not token.text.startswith(opening):
             return None
-        self.push(plain(token.text[1:], token.at + 1))
+        self.take(Token("text", opening, 0))
         found: list[Token] = []
         at, braces, depth = token.at, 0, 1
         while (token := self.next()) is not None:
@@ -224,12 +228,10 @@ class TokenStream:
 
     def star(self, mark: str = "*") -> bool:
         """Whether a star, or another mark, comes next, which is taken."""
-        token = self.next()
-        if token is not None and token.kind == "text" and token.text.startswith(mark):
-            self.push(plain(token.text[1:], token.at + 1))
-            return True
-        self.push([token] if token else [])
-        return False
+        if not self.begins(mark):
+            return False
+        self.take(Token("text", mark, 0))
+        return True
 
     def name(self) -> str:
         """An argument as plain text."""
@@ -266,9 +268,10 @@ class TokenStream:
             raise InputError("{}:{}: {}: end it".format(*self.line(at), said))
 
     def take(self, part: Token) -> None:
+        """Take what comes next; of a run of characters, those of this part."""
         token = self.next()
         if token is not None and part.kind == "text" and token.kind == "text" and token.text.startswith(part.text):
-            self.push(plain(token.text[len(part.text) :], token.at))
+            self.push(plain(token.text[len(part.text) :], token.at + len(part.text)))
 
 
 def _tex_inputs() -> list[Path]:
