@@ -106,14 +106,14 @@ def _in_box(
     letters = system.letters | system.push.free_symbols
     if strangers := {name for name in values if isinstance(name, str)} - {*map(str, letters)}:
         raise InputError(f"equilibria: values name {min(strangers)}, which the system does not have: leave it out")
-    numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol(values, letters).items()}
+    numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol("equilibria: values", values, letters).items()}
     still = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
     forces = [put_in(e, still).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
     forces, constraints = (
         [e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}) for e in part]
         for part in (forces, [g.subs(numbers) for g in system.constraints])
     )
-    sides = by_symbol(box, c.q)
+    sides = by_symbol("equilibria: box", box, c.q)
     if {*sides} != {*c.q} or not all(isinstance(side, Sequence) and len(side) == 2 for side in sides.values()):
         raise InputError(f"equilibria: box = {box!r} must be {{coordinate: (least, largest)}} for each of {c.q}")
     edges: Box = {

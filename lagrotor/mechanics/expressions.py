@@ -118,12 +118,12 @@ def vector_of(where: str, given: Any, n: int) -> tuple[sp.Expr, ...]:
     return tuple(expression(f"{where}[{i}]", e) for i, e in enumerate(given))
 
 
-def by_symbol(values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[Any, Any]:
+def by_symbol(where: str, values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[Any, Any]:
     """Values by symbol, where names may stand for symbols. Raises InputError for what is no mapping, and for text."""
     if not isinstance(values, Mapping):
-        raise InputError(f"values = {values!r} must be {{symbol: number, …}}, a dictionary")
+        raise InputError(f"{where} = {values!r} must be a dictionary by symbol, {{symbol: …}}")
     if text := next((f"{key} = {value!r}" for key, value in values.items() if isinstance(value, str)), ""):
-        raise InputError(f"{text} is text: give a number or an expression")
+        raise InputError(f"{where}: {text} is text: give a number or an expression")
     names = {str(s): s for s in symbols}
     return {names.get(str(key), key): value for key, value in values.items()}
 

@@ -71,7 +71,7 @@ class LinearSystem:
         import numpy as np
 
         matrices = (self.mass, self.gyroscopic, self.stiffness, self.basis)
-        parts = [m.subs(by_symbol(values, m.free_symbols)) for m in matrices]
+        parts = [m.subs(by_symbol("modes: values", values, m.free_symbols)) for m in matrices]
         no_letter("modes", set().union(*(m.free_symbols for m in parts)))
         M, C, K, basis = (np.array(m.tolist(), dtype=float) for m in parts)
         d = len(M)

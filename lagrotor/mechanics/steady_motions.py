@@ -152,7 +152,7 @@ def _place(
             f"linearise: inputs {', '.join(strangers)} are no letters of the system's forces or constraints"
         )
     letters = letters - {*c.v} | {*speeds}
-    point = by_symbol(at, letters)
+    point = by_symbol("linearise: at", at, letters)
     if strangers := [str(s) for s in point if s not in letters]:
         raise InputError(
             f"linearise: {', '.join(strangers)} in the point: it gives coordinates, velocities "

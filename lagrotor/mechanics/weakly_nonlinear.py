@@ -69,8 +69,8 @@ class Oscillation:
         from lagrotor.mechanics.running import simulation
 
         letters = self.frequency.free_symbols | self.motion.free_symbols | self.system.motion.free_symbols
-        whole = {**self.values, **by_symbol(values, letters)}
-        known = {s: sp.sympify(x, strict=True) for s, x in by_symbol(whole, letters).items()}
+        whole = {**self.values, **by_symbol("error: values", values, letters)}
+        known = {s: sp.sympify(x, strict=True) for s, x in by_symbol("error: values", whole, letters).items()}
         omega = self.frequency.removeO().subs(known)
         start = self.motion.removeO().subs(_PHASE, 0).subs(known)
         no_letter("error", omega.free_symbols | start.free_symbols)
@@ -131,7 +131,8 @@ def oscillation(
     solved = lindstedt_poincare(residual, [field.zero], [mode], order, field, begins_at=0 if inside else 1)
     bound = sp.O(small ** (order + 1))
     factor, moved = (_written(s, field, _PHASE, small) for s in (solved.frequency, solved.unknowns[0]))
-    frequency = sp.expand(sp.sqrt(K / M) * factor) + bound
+    powers = sp.Poly(factor, small).terms()
+    frequency = sp.Add(*(sp.sqrt(sp.cancel(K / M)) * sp.factor(c) * small**n for (n,), c in powers)) + bound
     return Oscillation(frequency, rest + moved + bound, solved.known_through, small, A, system, values or {})
 
 
@@ -146,7 +147,7 @@ def _terms_about(
     """The coefficients of the equation of q − rest by the powers of small, q, v and a. Without an `amplitude` small is
     no letter of the system, but the size of the motion."""
     (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
-    equation = _with_values(system, system.motion[0], values)
+    equation = _with_values("lindstedt_poincare", system, system.motion[0], values)
     gone = small not in equation.free_symbols
     if amplitude is not None and (gone or str(amplitude) in map(str, equation.free_symbols)):
         wrong = f"small = {small} has a value" if gone else f"amplitude = {amplitude} is a letter of the system"
@@ -234,7 +235,13 @@ class AveragedMotion:
         if given is None or given.shape != (2,) or not np.isfinite(given).all():
             raise InputError(f"averaged: q0 = {q0!r} and v0 = {v0!r} must be finite numbers")
         own = set().union(*(e.free_symbols for e in (*self.rates, *self.state))) - {*self.letters, t}
-        known = {s: float(x) for s, x in by_symbol({**self.values, **by_symbol(values, own)}, own).items() if s in own}
+        known = {
+            s: float(x)
+            for s, x in by_symbol(
+                "averaged: values", {**self.values, **by_symbol("averaged: values", values, own)}, own
+            ).items()
+            if s in own
+        }
         no_letter("averaged", own - known.keys())
         slow = sp.lambdify(self.letters, [e.subs(known) for e in self.rates], "numpy")
         there = sp.lambdify((*self.letters, t), [e.subs(known) for e in self.state], "numpy")
@@ -280,7 +287,7 @@ def averaged(
     if order > _MOST_ORDER:
         raise InputError(f"averaged: order = {order}: 1 or 2 are known")
     (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
-    equation = _with_values(system, system.motion[0], values)
+    equation = _with_values("averaged", system, system.motion[0], values)
     slope = sp.diff(equation, a)
     if small not in equation.free_symbols or a in slope.free_symbols:
         raise InputError(f"averaged: small = {small} must be a letter of the system, at which it is linear when zero")
@@ -402,11 +409,11 @@ def _check_one(where: str, system: Equations, order: int, small: sp.Symbol) -> N
         raise InputError(f"{where}: small = {small!r} must be a symbol, a parameter or the amplitude")
 
 
-def _with_values(system: Equations, e: sp.Expr, values: Mapping[Any, Any] | None) -> sp.Expr:
+def _with_values(where: str, system: Equations, e: sp.Expr, values: Mapping[Any, Any] | None) -> sp.Expr:
     """The expression with values for parameters, decimals as the rationals that they print."""
-    known = by_symbol(values or {}, e.free_symbols)
+    known = by_symbol(f"{where}: values", values or {}, e.free_symbols)
     if strangers := [str(s) for s in known if s not in e.free_symbols]:
-        raise InputError(f"values name {', '.join(strangers)}, which the equation does not have: leave it out")
+        raise InputError(f"{where}: values name {', '.join(strangers)}, which the equation does not have: leave it out")
     put = {s: sp.Rational(str(x)) if isinstance(x, float) else sp.sympify(x, strict=True) for s, x in known.items()}
     return e.subs(put)
 

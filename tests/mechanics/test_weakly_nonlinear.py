@@ -28,6 +28,13 @@ def test_series_of_textbooks() -> None:
     assert sp.expand(pendulum.frequency.removeO() - sp.expand(expected)) == 0
     skew = System(C, v**2 / 2 - x**2 / 2 - x**3 / 3).lindstedt_poincare(order=2, small=eps)
     assert skew.frequency.removeO() == 1 - Q(5, 12) * eps**2
+    R, Omega = sp.symbols("R Omega", positive=True)
+    hoop = System(C, m * R**2 * (v**2 + Omega**2 * sp.sin(x) ** 2) / 2 + m * g * R * sp.cos(x)).lindstedt_poincare(
+        2, eps
+    )
+    nu = sp.sqrt(g / R - Omega**2)  # as a book writes it, without the mass: ν (1 − ε² (g − 4 Ω² R)/(16 ν² R))
+    assert not hoop.frequency.has(m)
+    assert sp.simplify(hoop.frequency.removeO() - nu + eps**2 * (g - 4 * Omega**2 * R) / (16 * nu * R)) == 0
     assert skew.motion.removeO().subs(sp.Symbol("Phi", real=True), 0).expand() == eps  # what the amplitude is
 
 
@@ -103,7 +110,8 @@ def test_what_has_no_such_series_says_why() -> None:
         (lambda: PENDULUM.lindstedt_poincare(0, eps), InputError, "whole number"),
         (lambda: PENDULUM.lindstedt_poincare(2, "eps"), InputError, "must be a symbol"),
         (lambda: PENDULUM.lindstedt_poincare(2, m), DomainError, "no polynomial"),
-        (lambda: PENDULUM.lindstedt_poincare(2, eps, {"zz": 1}), InputError, "zz"),
+        (lambda: PENDULUM.lindstedt_poincare(2, eps, {"zz": 1}), InputError, "lindstedt_poincare: values name zz"),
+        (lambda: PENDULUM.floquet((0,), {m: 1, l: 1, g: 1}, 1), InputError, r"floquet: at = \(0,\) must be"),
         (lambda: DUFFING.lindstedt_poincare(2, eps).error({eps: 0.1}), InputError, "without a value"),
         (lambda: VAN_DER_POL.averaged(3, eps), InputError, "1 or 2"),
         (lambda: PENDULUM.averaged(1, eps), InputError, "must be a letter of the system"),

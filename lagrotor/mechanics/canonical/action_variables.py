@@ -173,7 +173,12 @@ def _in_one_coordinate(
     if not (isfinite(energy) and isfinite(at)):
         raise InputError("libration: energy and at must be finite numbers, in J and as q")
     (q,), (p,) = h.q, h.p
-    H = h.H.xreplace({s: sp.sympify(v, strict=True) for s, v in by_symbol(values or {}, h.H.free_symbols).items()})
+    H = h.H.xreplace(
+        {
+            s: sp.sympify(v, strict=True)
+            for s, v in by_symbol("libration: values", values or {}, h.H.free_symbols).items()
+        }
+    )
     if decide_zero(sp.diff(H, p, 3)).answer != "zero" or sp.diff(H, p, 2) == 0:
         raise DomainError(f"libration: H = {H} must be quadratic in {p}")
     no_letter("libration", H.free_symbols - {q, p})

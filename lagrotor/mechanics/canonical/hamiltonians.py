@@ -174,8 +174,10 @@ class Hamiltonian:
             )
         if period is not None:
             return self._about_orbit(order, at, values or {}, detuning, period)
-        point = {s: expression(f"normal_form: {s}", v) for s, v in by_symbol(at, x).items()}
-        letters = by_symbol(values or {}, self.H.free_symbols.union(*(v.free_symbols for v in point.values())))
+        point = {s: expression(f"normal_form: {s}", v) for s, v in by_symbol("normal_form: at", at, x).items()}
+        letters = by_symbol(
+            "normal_form: values", values or {}, self.H.free_symbols.union(*(v.free_symbols for v in point.values()))
+        )
         known = {s: expression(f"normal_form: {s}", v) for s, v in letters.items()}
         H, point = self.H.xreplace(known), {s: v.xreplace(known) for s, v in point.items()}
         if strange := [str(s) for s in point if s not in x]:
@@ -219,12 +221,16 @@ class Hamiltonian:
         if not 0 < duration < float("inf"):
             raise InputError(f"normal_form: period = {period!r} must be a positive time in s")
         x = (*self.q, *self.p)
-        point = {s: expression(f"normal_form: {s}", e) for s, e in by_symbol(at, (*x, *self.v, t)).items()}
+        point = {
+            s: expression(f"normal_form: {s}", e) for s, e in by_symbol("normal_form: at", at, (*x, *self.v, t)).items()
+        }
         if strange := [str(s) for s in point if s not in {*x, *self.v, t}]:
             raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}, {self.v} and t")
         if missing := [str(s) for s in self.q if s not in point and self.H.has(s)]:
             raise InputError(f"normal_form: {', '.join(missing)} without a value: the start needs each coordinate's")
-        letters = by_symbol(values, self.H.free_symbols.union(*(e.free_symbols for e in point.values())))
+        letters = by_symbol(
+            "normal_form: values", values, self.H.free_symbols.union(*(e.free_symbols for e in point.values()))
+        )
         known = {s: expression(f"normal_form: {s}", e) for s, e in letters.items()}
         H, point = self.H.xreplace(known), {s: e.xreplace(known) for s, e in point.items()}
         no_letter("normal_form", (H.free_symbols - {*x, t}).union(*(e.free_symbols for e in point.values())))

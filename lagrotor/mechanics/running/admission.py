@@ -51,7 +51,10 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
                 f"{where}: values name {name}, which the system does not have{near(name, letters) or known}: leave it out"
             )
         _check_sign(where, letter, value)
-    put = {s: sp.sympify(value, strict=True) for s, value in by_symbol(values, letters.values()).items()}
+    put = {
+        s: sp.sympify(value, strict=True)
+        for s, value in by_symbol(f"{where}: values", values, letters.values()).items()
+    }
     for body in system.bodies:
         check_body(where, body, put)
     check_friction(where, put_in(system.dissipation, put), system.c)

@@ -133,7 +133,7 @@ def _rates(
         mine = {**values, **{name: x for name, x in known.items() if name in own}}
         if turn is None:
             return state_space(system, point, mine, where=where).rates
-        T = put_in(put(turn), by_symbol(period_values, turn.free_symbols))
+        T = put_in(put(turn), by_symbol(f"{where}: values", period_values, turn.free_symbols))
         roots = monodromy_matrix(system, point, mine, T).multipliers
         return np.asarray(np.log(roots + (roots == 0)) / float(T))
 

@@ -131,7 +131,7 @@ def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple
 def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
     """The state of the point; coordinates on which the motion depends are named in it, others are zero."""
     c = system.c
-    point = by_symbol(at, (*c.q, *system.speeds))
+    point = by_symbol(f"{where}: at", at, (*c.q, *system.speeds))
     used, _ = _parts(motion_program(system))
     moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # which may have other names there
     if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
@@ -143,7 +143,7 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
         )
     given = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
     inside = {s for e in given for s in e.free_symbols}
-    letters = {s: x for s, x in by_symbol(values, inside).items() if s in inside}
+    letters = {s: x for s, x in by_symbol(f"{where}: values", values, inside).items() if s in inside}
     try:
         start = np.array([float(e.subs(letters)) for e in given])
     except (TypeError, ValueError):
