@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from math import inf, pi
+from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,7 +29,7 @@ from lagrotor.models.model import (
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import Calibrated
-from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, start_beside
+from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, first_time, start_beside
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Scene
@@ -209,26 +209,16 @@ def trajectory_of(
     # By the clock of the natural units the last time is off by rounding.
     ending = replace(run.ending, at=float(times[-1])) if run.ending.kind == "end" else run.ending
     return Trajectory(
-        scene=scene,
-        model=model,
-        why=why,
-        t=times[:n],
-        axes=seen.axes,
-        rates=seen.rates * units.rate,
-        momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
-        errors=run.errors,
-        horizon=run.horizon,
-        evaluations=run.evaluations,
-        ending=ending,
-    )
+        **run.known | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=seen.axes,
+        rates=seen.rates * units.rate, momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
+    )  # fmt: skip
 
 
 def _direct(scene: Scene, model: str, why: str, times: Array, closed: ClosedMotion, tol: float) -> Trajectory:
     since = times - times[0]
     axes, rates = closed.motion(since)
     errors = closed.errors(since) if closed.errors else np.full(len(times), closed.error)
-    unkept = np.flatnonzero(~(errors <= tol))
-    horizon = float(times[unkept[0]]) if len(unkept) else inf
+    horizon = first_time(times, ~(errors <= tol))
     return Trajectory(
         scene=scene, model=model, why=why, t=times, axes=axes, rates=rates, momenta=constant_momenta(scene, len(times)),
         errors=errors, horizon=horizon, evaluations=closed.evaluations, ending=Ending("end", float(times[-1])),

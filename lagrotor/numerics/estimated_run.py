@@ -124,11 +124,11 @@ class EstimatedRun:
     ending: Ending
     local: float
     loosened: float
-    _read: Callable[[Array], Array] = field(repr=False)
 
-    def read(self, times: Array) -> Array:
-        """States (m, d) at any times (m,) within the run, as exact as it: integrated from where it was watched before each."""
-        return self._read(times)
+    @property
+    def known(self) -> dict[str, Any]:
+        """The fields of a `Run`, by name."""
+        return {name: getattr(self, name) for name in ("t", "errors", "horizon", "evaluations", "ending")}
 
     def by_clock(self, begin: float, unit: float) -> "EstimatedRun":
         """The same run by a clock (s) that shows `begin` where this one shows 0, its unit of time `unit` s."""
@@ -136,12 +136,9 @@ class EstimatedRun:
         def at(time: float) -> float:
             return begin + unit * time
 
-        def read(times: Array) -> Array:
-            return self.read((times - begin) / unit)
-
         ending = replace(self.ending, at=at(self.ending.at))
         parts: dict[str, Any] = {"t": begin + unit * self.t, "horizon": at(self.horizon), "loosened": at(self.loosened)}
-        return replace(self, ending=ending, _read=read, **parts)
+        return replace(self, ending=ending, **parts)
 
     def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2) -> None:
         """A LagrotorWarning where `tol` is not kept, or the run ended early."""
@@ -447,7 +444,7 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
         errors = estimated_errors(
             parts[-1], tight.local, course.turns(t[:m]), bool(course.refused), evolution.independent, slacks[-1]
         )
-        lost = _first(t[:m], (errors > LOST.value) & together)
+        lost = first_time(t[:m], (errors > LOST.value) & together)
         if lost < inf or stop:
             break
     apart = np.concatenate([np.empty(0), *parts])
@@ -542,26 +539,20 @@ def _whole(course: _Course, best: _Comparison, tol: float) -> Generator[Leg, Str
         ending = Ending("singular" if words else stop.cause, stop.at, words or stop.reason.rstrip("."))
     loosened = float(course.stages[best.stages - 1][-1]) if run.local > best.tight.local else inf
 
-    def reread(times: Array) -> Array:
-        at = np.clip(np.searchsorted(t, times, side="right") - 1, 0, len(t) - 1)
-        again = np.empty((len(times), states.shape[1]))
-        for i in np.unique(at):
-            here = at == i
-            wanted = np.unique(times[here])
-            local = run.local if t[i] >= loosened else best.tight.local
-            grid = wanted if wanted[0] == t[i] else np.append(t[i], wanted)
-            part = evolution.integrate(states[i], grid, local, False, inf) if grid[-1] > t[i] else None
-            rows = part.states if part else states[i : i + 1]
-            again[here] = rows[np.searchsorted(grid, times[here])]
-        return again
-
     return EstimatedRun(
-        t[read], states[read], errors[read], _first(t, errors > tol), course.spent, ending, best.tight.local,
-        loosened, reread,
-    )  # fmt: skip
+        t[read],
+        states[read],
+        errors[read],
+        first_time(t, errors > tol),
+        course.spent,
+        ending,
+        best.tight.local,
+        loosened,
+    )
 
 
-def _first(t: Array, where: NDArray[np.bool_]) -> float:
+def first_time(t: Array, where: NDArray[np.bool_]) -> float:
+    """The first of the times (n,) at which something is so; inf where it is at none."""
     return float(t[np.argmax(where)]) if where.any() else inf
 
 
@@ -576,6 +567,6 @@ def _hopeless(course: _Course, comparison: _Comparison) -> bool:
     if comparison.lost == inf or grown <= 0:
         return False
     t, lost = course.t[: len(comparison.errors)] - begin, comparison.lost - begin
-    early = max(_first(t, comparison.errors > (LOST.value * local) ** 0.5), float(t[1]))
+    early = max(first_time(t, comparison.errors > (LOST.value * local) ** 0.5), float(t[1]))
     by_power = (lost / early) ** (tighter / (grown / 2))
     return lost * max(1 + tighter / grown, by_power) < course.times[-1] - begin

@@ -122,7 +122,6 @@ def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.Monk
 
     def trusting(evolution, times, tol):  # type: ignore[no-untyped-def]
         once = evolution.integrate(evolution.start, times, tol, False, 1e7)
-        read = lambda times: once.states[: len(times)]  # noqa: E731
         return estimated_run.EstimatedRun(
             times,
             once.states,
@@ -132,7 +131,6 @@ def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.Monk
             estimated_run.Ending("end", times[-1]),
             tol,
             np.inf,
-            read,
         )
 
     monkeypatch.setattr(simulating, "estimate_run", trusting)

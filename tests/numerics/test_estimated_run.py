@@ -492,16 +492,9 @@ def test_a_better_run_that_costs_less_is_by_another_method() -> None:
     assert dearer == as_dear and cheaper == pytest.approx(2 * dearer, rel=1e-3)
 
 
-def test_a_run_is_read_at_any_time_by_its_own_integration() -> None:
-    made = Made(share=0.1)
-    run = made.run(1e-6)
-    spent, at = run.evaluations, np.array([0.0, 0.123, 4.0, 9.99, 10.0])
-    read = run.read(at)
-    assert read.shape == (5, 1) and np.abs(read - 1).max() < 1e-6 and run.evaluations == spent
-    assert set(made.locals[2:]) == {run.local}
-    later = run.by_clock(3.0, 2.0)
+def test_a_run_by_another_clock() -> None:
+    later = Made(share=0.1).run(1e-6).by_clock(3.0, 2.0)
     assert later.t.tolist() == (3 + 2 * T).tolist() and later.ending.at == 23
-    assert later.read(3 + 2 * at) == pytest.approx(read, abs=1e-9)
 
 
 def test_between_two_events_that_differ_only_what_is_read_there_is_compared() -> None:

@@ -157,9 +157,8 @@ def simulate_system(
     )
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
-        t=estimate.t, errors=estimate.errors, horizon=estimate.horizon, evaluations=estimate.evaluations + scales.evaluations,
-        ending=estimate.ending, system=system, values=values, tol=tol, engine=engine,
-        scales=scales, states=estimate.states, local=estimate.local, switched=h,
+        **estimate.known | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
+        engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
     )  # fmt: skip
     estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, stacklevel=3)
     if system.multipliers:

@@ -191,7 +191,7 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
             states.append(state)
     n = len(states)
     known = {"errors": np.full(n, nan), "horizon": nan, "evaluations": int(k - counts[0]), "ending": ending}
-    return _run_of(system, times[:n], np.array(states), known)
+    return _run_of(system, np.array(states), known | {"t": times[:n]})
 
 
 def run_solver(
@@ -250,8 +250,7 @@ def run_solver(
     evolution = Evolution(system.state[: 18 * n_b], integrate_from, distance, turn, Patience(50_000, 2_000))
     run = estimate_run(evolution, times, tolerance)
     run.warn_unless_kept("run_solver", tolerance)
-    known = {"errors": run.errors, "horizon": run.horizon, "evaluations": run.evaluations, "ending": run.ending}
-    return _run_of(system, run.t, run.states, known)
+    return _run_of(system, run.states, run.known)
 
 
 def _by_scipy(method: str) -> SegmentSolver:
@@ -339,11 +338,11 @@ def _strength(shock: Shock | None, s: float) -> float:
     return exp(-ratio * ratio)
 
 
-def _run_of(system: RigidBodySystem, t: Array, states: Array, known: dict[str, Any]) -> SpringRun:
+def _run_of(system: RigidBodySystem, states: Array, known: dict[str, Any]) -> SpringRun:
     """A run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
     if len(system.vertices) < 2 or min(len(vertices) for vertices in system.vertices[:2]) < TIP:
         raise InputError("SpringRun: bodies 1 and 2 must be rotors with two vertices; step other systems by hand")
-    n, n_b = len(t), len(system.vertices)
+    n, n_b = len(states), len(system.vertices)
     X, U, L = states[:, : 9 * n_b].reshape(n, 3, n_b, 3).swapaxes(0, 1)
     R = states[:, 9 * n_b : 18 * n_b].reshape(n, n_b, 3, 3)
     Omega = (system.transform(R, system.inverse_inertia[:-1]) @ L[..., None])[..., 0]
@@ -360,7 +359,6 @@ def _run_of(system: RigidBodySystem, t: Array, states: Array, known: dict[str, A
     stretches = np.linalg.norm(system.gaps(*places), axis=-1).T
     momenta = U / system.inverse_mass[:-1]
     return SpringRun(
-        t=t,
         axes=np.array(axes),
         rates=np.array(rates),
         tips=np.array(tips),

@@ -8,7 +8,6 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
-from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +20,7 @@ from lagrotor.models.model import constant_momenta
 from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, chunk_folder, kind_of, run_chunk
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.arrays import check_times
+from lagrotor.numerics.estimated_run import first_time
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
@@ -83,10 +83,9 @@ class Ensemble(Shown):
         if not n:
             raise InputError(f"trajectory: of scene {i} nothing was reached: {self.endings[i]}")
         scene, errors, name = self.scenes[i], self.errors[i, :n], MODELS[self.models[i]]
-        beyond = np.flatnonzero(errors > self.tol)
         return Trajectory(
             scene=scene, model=name, why="one of an ensemble", t=self.t[:n], axes=self.axes[i, :, :n], rates=self.rates[i, :, :n],
-            momenta=constant_momenta(scene, n), errors=errors, horizon=float(self.t[beyond[0]]) if len(beyond) else inf,
+            momenta=constant_momenta(scene, n), errors=errors, horizon=first_time(self.t[:n], errors > self.tol),
             evaluations=int(self.evaluations[i]), ending=self.endings[i],
         )  # fmt: skip
 

@@ -221,9 +221,8 @@ def simulate_structure(
     run.warn_unless_kept("the structure's run", tol)
     axes, velocities = motion.axes_and_rates(run.states).swapaxes(1, 2).copy()
     return StructureRun(
-        structure=s, t=times[: len(run.t)], axes=axes, rates=c.rate * velocities,
-        momenta=c.G[:, None] * np.exp(-c.decay[:, None] * (run.t - begin)), errors=run.errors,
-        horizon=run.horizon, evaluations=run.evaluations, ending=run.ending,
+        **run.known | {"t": times[: len(run.t)]}, structure=s, axes=axes, rates=c.rate * velocities,
+        momenta=c.G[:, None] * np.exp(-c.decay[:, None] * (run.t - begin)),
     )  # fmt: skip
 
 
