@@ -23,16 +23,18 @@ from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
+from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
-from lagrotor.numerics.segment import Segment, SegmentSolver, StopError, Stretch
+from lagrotor.numerics.segment import RightHandSide, Stretch
 from lagrotor.pair.scene import Shock
 
 OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
 _MOST = 12  # bodies beyond which arrays cost less
 _STRAIGHT = link_force, finite_rotation, inertia_transform  # laws that branch on no value
+_TIGHTEST = 2.3e-14  # local error of LSODA, which takes no smaller one
 LOST = 1e100  # a state of this norm has blown up; its energies are still finite
 
 
@@ -194,10 +196,9 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
     return _run_of(system, np.array(states), known | {"t": times[:n]})
 
 
-def run_solver(
-    system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: float = 1e-8, method: str = "LSODA"
-) -> SpringRun:
-    """Move a copy of a system by one of scipy's solvers, the same forces without the error of a fixed step.
+def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: float = 1e-8) -> SpringRun:
+    """Move a copy of a system by LSODA, which changes to a stiff method where damping requires it: the same forces without the
+    error of a fixed step.
 
     State X, U, R, L of every body, with R' = [Omega]× R. The run is cut at the shock's edges, ± 6.5 widths, within which no step
     is longer than the width.
@@ -208,16 +209,12 @@ def run_solver(
         t: the times (n,), s.
         tol: the largest error of the whole run, estimated as of every run: of the places in units of the largest body, and of
             R; a LagrotorWarning says where it is not kept.
-        method: LSODA changes to a stiff method where damping requires it; "Radau" and "BDF" are stiff throughout, "DOP853"
-            nowhere.
 
     Raises:
-        InputError: for bad times, tolerance or method.
+        InputError: for bad times or tolerance.
         IntegrationError: when nothing can be reached.
     """
     times, tolerance = check_times("run_solver", t), check_tolerance(tol)
-    if method not in ("LSODA", "Radau", "BDF", "DOP853"):
-        raise InputError(f"run_solver: method = {method!r} is not one of LSODA, Radau, BDF, DOP853")
     rate, n_b = rate_function(system, shock), len(system.vertices)
     size = max(float(np.linalg.norm(arms, axis=1).max()) for arms in system.vertices) or 1.0
     # Far from zero a clock has few digits for steps.
@@ -236,51 +233,25 @@ def run_solver(
         ]
         return np.maximum(*(np.linalg.norm(part, axis=-1).max(axis=1) for part in apart))
 
-    def free(s: float, y: Array) -> list[float]:
-        return rate(y.tolist(), 0.0)
+    def under(shock: Shock | None) -> RightHandSide:
+        def rhs(s: float, y: Array) -> list[float]:
+            try:
+                return rate(y.tolist(), _strength(shock, s))
+            except OUT_OF_RANGE:
+                return [nan] * len(y)
 
-    def driven(s: float, y: Array) -> list[float]:
-        return rate(y.tolist(), _strength(shock, s))
+        return rhs
 
     def integrate_from(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         longest = COMPANION_STEP if companion else 1.0
-        problem = Problem(free, start, budget, driven if shock else None, at, width, longest, begin=float(times[0]))
-        return integrate(problem, times, local, _by_scipy(method))
+        driven = under(shock) if shock else None
+        problem = Problem(under(None), start, budget, driven, at, width, longest, begin=float(times[0]))
+        return integrate(problem, times, local, lambda segment, _, error: lsoda(segment, max(error / 20, _TIGHTEST)))
 
     evolution = Evolution(system.state[: 18 * n_b], integrate_from, distance, turn, Patience(50_000, 2_000))
     run = estimate_run(evolution, times, tolerance)
     run.warn_unless_kept("run_solver", tolerance)
     return _run_of(system, run.states, run.known)
-
-
-def _by_scipy(method: str) -> SegmentSolver:
-    """scipy's solver of a segment, at a twentieth of the local error."""
-    from scipy.integrate import solve_ivp
-
-    def solve(segment: Segment, pulsed: bool, local: float) -> Stretch:
-        spent, inside, error, run = 0, segment.t_eval, local / 20, None
-
-        def counted(s: float, y: Array) -> list[float]:
-            nonlocal spent
-            spent += 1
-            if spent > segment.budget:
-                raise StopError(segment.left, f"{spent} evaluations spent", evaluations=spent, cause="budget")
-            return segment.rhs(s, y)
-
-        try:
-            run = solve_ivp(
-                counted, (segment.left, segment.right), segment.start, method=method, max_step=segment.longest,
-                t_eval=np.union1d(inside, [segment.right]), rtol=max(error, 2.3e-14), atol=error,
-            )  # fmt: skip
-            reason = run.message
-        except OUT_OF_RANGE as failure:
-            reason = str(failure)
-        if not run or not run.success or not np.isfinite(run.y).all():
-            reason = f"{method}: {reason}; lower S or D, or take a larger tol"
-            raise StopError(segment.left, reason, evaluations=spent)
-        return Stretch(run.y.T[: len(inside)], run.y[:, -1], spent)
-
-    return solve
 
 
 def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> OfState:
