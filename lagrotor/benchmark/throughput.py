@@ -9,9 +9,9 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from lagrotor.models.minimal import MODEL
+from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.sweeps.ensemble import CHUNK, scenes_from_states, sweep
+from lagrotor.models.sweeps.ensemble import CHUNK, sweep
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories, paired_frequency
 from lagrotor.theory.paired_precession.series_orbit import series_orbit

@@ -5,12 +5,12 @@ it about exp(−sqrt(4 pi n)) is left (`mean_error`). A mean rate depends on the
 """
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import DomainError, InputError
+from lagrotor.models.model import scenes_of
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.arrays import check_times
 from lagrotor.pair.scene import Scene
@@ -178,11 +178,7 @@ def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
     around = np.maximum(times[:, None] + turn * (np.arange(_CENTRES) / (_CENTRES - 1) - 0.5), 0.0)
     each, of = np.unique(np.append(around, 0.0), return_inverse=True)
     run, path = simulate(scene, each, "minimal", 1e-9), centre.path(each)
-    starts: Any = [
-        {"axes": tuple(map(tuple, r)), "rates": tuple(map(tuple, v))}
-        for r, v in zip(run.axes.swapaxes(0, 1), run.rates.swapaxes(0, 1), strict=True)
-    ]
-    off = path - [guiding_centre(replace(scene, **start)).place for start in starts]
+    off = path - [guiding_centre(start).place for start in scenes_of(scene, run)]
     off[:, 2] = (off[:, 2] + np.pi) % (2 * np.pi) - np.pi
     return np.asarray(np.abs(off).max(1)[of[:-1]].reshape(around.shape).max(1))
 

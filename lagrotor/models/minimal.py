@@ -5,15 +5,15 @@ Exact for any bar and any k = ell / R. Singular only where an axis lies along th
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import product
 from math import asin, asinh, atan2, cosh, hypot, sin, sinh
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from lagrotor.errors import SingularError
-from lagrotor.models.model import Array, Model, Observed, constant_momenta
+from lagrotor.errors import InputError, SingularError
+from lagrotor.models.model import Array, Model, Observed, constant_momenta, scenes_of
 from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Scene
 
@@ -105,11 +105,16 @@ def _observe(scene: Scene, states: Array) -> Observed:
     return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
 
 
-def scene_at(scene: Scene, state: Array) -> Scene:
-    """The scene, begun in a state of the model (6,)."""
-    seen = MODEL.observe(scene, state[None])
-    axes, rates = (tuple(tuple(map(float, row)) for row in part[:, 0]) for part in (seen.axes, seen.rates))
-    return replace(scene, axes=axes, rates=rates)  # type: ignore[arg-type]
+def scenes_from_states(scene: Scene, states: ArrayLike) -> list[Scene]:
+    """`scene` started from each of the model's states (n, 6): U, chi, alpha and their rates (1/s).
+
+    Every state of the model is on the bar, so no start needs to be brought onto it.
+    Raises InputError for states that are not finite or of another shape, SingularError without a bar.
+    """
+    table = np.asarray(states, dtype=float)
+    if table.ndim != 2 or table.shape[1] != 6 or not np.isfinite(table).all():
+        raise InputError(f"scenes_from_states: states of shape {table.shape} must be finite and of shape (n, 6)")
+    return scenes_of(scene, MODEL.observe(scene, table))
 
 
 def _singular(axes: Array) -> str:

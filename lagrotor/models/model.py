@@ -22,7 +22,7 @@ from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
-from lagrotor.pair.trajectory import momentum_about_joints, tilting_energy
+from lagrotor.pair.trajectory import Trajectory, momentum_about_joints, tilting_energy
 
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
@@ -189,6 +189,12 @@ def _reporting(rate: RightHandSide, progress: Callable[[float], None], at: float
     if bare := getattr(rate, "bare", None):
         reporting.bare = _reporting(bare, progress, at)  # type: ignore[attr-defined]
     return reporting
+
+
+def scenes_of(scene: Scene, seen: Observed | Trajectory) -> list[Scene]:
+    """The scene, begun in each of the states (n,) that are seen."""
+    axes, rates = (part.swapaxes(0, 1).tolist() for part in (seen.axes, seen.rates))
+    return [replace(scene, axes=r, rates=v) for r, v in zip(axes, rates, strict=True)]
 
 
 def constant_momenta(scene: Scene, n: int) -> Array:

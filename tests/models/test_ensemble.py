@@ -11,11 +11,10 @@ from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate, swee
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models import spheres
-from lagrotor.models.minimal import MODEL
+from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.model import integrate_model, natural_units, typical_rate
 from lagrotor.models.sweeps import chunk, ensemble
 from lagrotor.models.sweeps.chunk import MODELS, run_chunk
-from lagrotor.models.sweeps.ensemble import scenes_from_states
 
 T = np.array([0.0, 0.4, 1.0, 2.5])
 UP = ((0, 0, 1), (0, 0, 1))

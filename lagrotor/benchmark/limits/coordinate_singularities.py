@@ -10,11 +10,11 @@ from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.benchmark.scipy_solvers import run_by
 from lagrotor.errors import IntegrationError
 from lagrotor.models import euler, minimal, spheres
+from lagrotor.models.minimal import scenes_from_states
 from lagrotor.models.model import Model, integrate_model
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spheres import CLEARANCE
 from lagrotor.models.spring_link.rigid_body import printed_rotation
-from lagrotor.models.sweeps.ensemble import scenes_from_states
 from lagrotor.pair.scene import Link, Scene
 
 Array = NDArray[np.float64]

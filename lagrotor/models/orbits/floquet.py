@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
-from lagrotor.models.minimal import MODEL, scene_at
+from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import close_arc, flow
 from lagrotor.pair.scene import Scene
@@ -121,7 +121,8 @@ def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
     except FAILURES:  # an arc of Newton's method ends where bar and axes come into line
         time = 0.0
     if time:
-        return replace(orbit, scene=scene_at(scene, start), frequency=copysign(pi / 2 / time, orbit.frequency))
+        (begun,) = scenes_from_states(scene, [start])
+        return replace(orbit, scene=begun, frequency=copysign(pi / 2 / time, orbit.frequency))
     raise DomainError(f"floquet: no orbit with a momentum of {momentum:g} kg m²/s is found; take a smaller one")
 
 

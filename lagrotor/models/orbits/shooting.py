@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, InputError, IntegrationError
-from lagrotor.models.minimal import scene_at
+from lagrotor.models.minimal import scenes_from_states
 from lagrotor.models.orbits.variational import close_arc, flow
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
@@ -140,7 +140,7 @@ class QuarterPeriod:
         # An error of the quarter period's end, brought back to the unknowns at fixed amplitude, and on to the axes.
         slope = self._slope(z)
         off = INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
-        start = scene_at(self.scene, self.state(z))
+        (start,) = scenes_from_states(self.scene, [self.state(z)])
         return ExactOrbit(start, frequency, off * float(np.linalg.norm(slope)), off * abs(frequency / float(z[3])))
 
 
@@ -192,5 +192,6 @@ def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
     )
     if time:
         turned = float(through(start, time).end[2])
-        return UprightOrbit(scene_at(replace(scene, shock=None), start), pi / time, turned / time)
+        (begun,) = scenes_from_states(replace(scene, shock=None), [start])
+        return UprightOrbit(begun, pi / time, turned / time)
     raise DomainError(f"upright_orbit: no orbit of amplitude {r0:g} is found; take a smaller one")

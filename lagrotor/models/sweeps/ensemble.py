@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError, LagrotorWarning
-from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import constant_momenta
 from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, chunk_folder, kind_of, run_chunk
 from lagrotor.numerics.any_run import Ending
@@ -179,17 +178,3 @@ def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iter
     finally:
         for future in futures:
             future.cancel()
-
-
-def scenes_from_states(scene: Scene, states: ArrayLike) -> list[Scene]:
-    """`scene` started from each of the minimal model's states (n, 6): U, chi, alpha and their rates (1/s).
-
-    Every state of the minimal model is on the bar, so no start needs to be brought onto it.
-    Raises InputError for states that are not finite or of another shape, SingularError without a bar.
-    """
-    table = np.asarray(states, dtype=float)
-    if table.ndim != 2 or table.shape[1] != 6 or not np.isfinite(table).all():
-        raise InputError(f"scenes_from_states: states of shape {table.shape} must be finite and of shape (n, 6)")
-    seen = MODEL.observe(scene, table)
-    axes, rates = (part.swapaxes(0, 1).tolist() for part in (seen.axes, seen.rates))
-    return [replace(scene, axes=r, rates=v) for r, v in zip(axes, rates, strict=True)]
