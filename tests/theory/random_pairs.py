@@ -13,7 +13,7 @@ from lagrotor.models.linear import pair_modes
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import natural_units
 from lagrotor.models.sweeps.batch_dop853 import march_swarm
-from lagrotor.models.sweeps.chunk import _swarm
+from lagrotor.models.sweeps.ensemble import _swarm
 from lagrotor.numerics.estimated_run import Leg
 from lagrotor.numerics.segment import StopError
 

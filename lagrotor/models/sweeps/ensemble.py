@@ -1,4 +1,5 @@
-"""Many scenes at once: the minimal model on arrays, every trajectory with its own step, in chunks that a cache holds.
+"""Many scenes at once: the minimal model on arrays, every trajectory with its own step, each held to the contract of runs as it
+is alone, in chunks that a cache holds.
 
 A chunk is one call of `run_chunk`, which needs nothing but its arguments: any executor of `concurrent.futures` can run
 it, on this machine or on others.
@@ -8,24 +9,32 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
-from pathlib import Path
+from math import pi
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lagrotor.errors import InputError, LagrotorWarning
-from lagrotor.models.model import constant_momenta
-from lagrotor.models.sweeps.chunk import MODELS, Array, Chunk, chunk_folder, kind_of, run_chunk
+from lagrotor.errors import InputError, IntegrationError, LagrotorError, LagrotorWarning, SingularError
+from lagrotor.models.minimal import MODEL, Kind, program, rhs_on_arrays
+from lagrotor.models.model import PACE, NaturalUnits, check_range, constant_momenta, natural_units
+from lagrotor.models.simulate import evolution_of, simulate, trajectory_of
+from lagrotor.models.sweeps.batch_dop853 import Array, Index, Rates, Swarm, march_swarm
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.estimated_run import first_time
+from lagrotor.numerics.estimated_run import Evolution, Leg, Patience, estimate_runs, first_time
 from lagrotor.numerics.integrate import check_engine, check_tolerance
+from lagrotor.numerics.segment import StopError, Stretch
+from lagrotor.numerics.taylor import march_lanes
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.shown import Shown, scientific
 
 CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one evaluation needs stay in the cache
+MODELS = ("minimal", "spheres", "none")
+# Three times what motions take at a tolerance of 1e-13 that stay clear of singular positions.
+_PATIENCE = Patience(5_000, 250 * 2 * pi)
+_MOST_ROWS = 4_000_000  # states of all that are run side by side, at the times at which they are watched: 200 MB
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -97,7 +106,6 @@ def sweep(
     chunk: int = CHUNK,
     executor: Executor | None = None,
     engine: str = "core",
-    folder: str | Path | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Ensemble:
     """Run every scene from its start, which holds at t[0], and read it at the times `t` (m,) in s.
@@ -109,48 +117,36 @@ def sweep(
         engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
         chunk: trajectories at a time.
         executor: where chunks run; here, one after another, when None.
-        folder: an existing folder for the finished chunks; a later sweep with the same arguments runs only those that are missing
-            or damaged.
         progress: called with the number of trajectories done and of all, after each chunk.
 
     Raises:
-        InputError: for bad arguments, no scene, or a folder with a chunk of another sweep.
+        InputError: for bad arguments, or no scene.
     """
     times, tolerance, members = check_times("sweep", t), check_tolerance(tol), _checked(scenes, chunk, engine)
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
-    target = None if folder is None else chunk_folder(folder, members, times, tolerance, chunk, engine)
-    shape = (len(members), 2, len(times), 3)
-    (axes, rates), errors = np.empty((2, *shape)), np.empty((len(members), len(times)))
-    evaluations, models = np.zeros((2, len(members)), np.int64)
-    endings = [Ending()] * len(members)
-    done, begin = 0, float(times[0])
-
-    def keep(number: int, result: Chunk) -> None:
-        nonlocal done
-        for values, part in zip((axes, rates, errors, evaluations, models), result[:-1], strict=True):
-            values[parts[number]] = part
-        for i, ending in zip(parts[number], result.endings, strict=True):
-            endings[i] = replace(ending, at=begin + ending.at)
+    work = {n: ([members[i] for i in part], times, tolerance, engine) for n, part in enumerate(parts)}
+    whole, endings, done = _not_run(members, times, tolerance), dict[int, Ending](), 0
+    for number, result in _run(work, executor):
+        for name in ("axes", "rates", "errors", "evaluations", "models"):
+            getattr(whole, name)[parts[number]] = getattr(result, name)
+        endings |= zip(parts[number], result.endings, strict=True)
         done += len(parts[number])
         if progress is not None:
             progress(done, len(members))
-
-    work: dict[int, tuple[list[Scene], Array, float, str]] = {}
-    for number, part in enumerate(parts):
-        if target and (stored := target.read(number, (len(part), *shape[1:]))):
-            keep(number, stored)
-        else:
-            work[number] = [members[i].since(begin) for i in part], times - begin, tolerance, engine
-    for number, result in _run(work, executor):
-        if target:
-            target.write(number, result)
-        keep(number, result)
-    whole = Ensemble(members, times, axes, rates, errors, tolerance, evaluations, models, tuple(endings))
+    whole = replace(whole, endings=tuple(ending for _, ending in sorted(endings.items())))
     if missed := int((~(whole.error <= tolerance)).sum()):
         said = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
         warnings.warn(said, LagrotorWarning, stacklevel=2)
     return whole
+
+
+def _not_run(scenes: Sequence[Scene], times: Array, tol: float) -> Ensemble:
+    """The ensemble of which nothing is reached."""
+    n, m = len(scenes), len(times)
+    axes, rates = np.full((2, n, 2, m, 3), np.nan)
+    none, spent = np.full(n, MODELS.index("none")), np.zeros(n, np.int64)
+    return Ensemble(tuple(scenes), times, axes, rates, np.full((n, m), np.nan), tol, spent, none, (Ending(),) * n)
 
 
 def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, ...]:
@@ -165,7 +161,7 @@ def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, .
     return members
 
 
-def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iterator[tuple[int, Chunk]]:
+def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iterator[tuple[int, Ensemble]]:
     """Chunks with their numbers, as they are finished; here, one after another, without an executor."""
     if executor is None:
         for number, arguments in work.items():
@@ -178,3 +174,116 @@ def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iter
     finally:
         for future in futures:
             future.cancel()
+
+
+@dataclass(frozen=True, eq=False)
+class _Member:
+    """A scene that the minimal model can hold, in its own units."""
+
+    number: int
+    scene: Scene
+    units: NaturalUnits
+    evolution: Evolution
+
+
+def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) -> Ensemble:
+    """The work of one process: a few thousand scenes at once by `minimal`, those that it cannot hold by `spheres`.
+
+    Every run is within `tol` by its estimate, or has the best there is.
+    """
+    chunk, begin = _not_run(scenes, times, tol), float(times[0])
+    scenes, times, endings = [scene.since(begin) for scene in scenes], times - begin, list(chunk.endings)
+    groups: dict[Kind, list[_Member]] = {}
+    for i, scene in enumerate(scenes):
+        units = natural_units(replace(scene, shock=scene.shock_until(float(times[-1]))))
+        try:
+            if kind := kind_of(units.scene):
+                check_range(MODEL, units.scene)
+                end = float(times[-1] * units.rate)
+                evolution = evolution_of(MODEL, units.scene, end, _PATIENCE, engine, bounded=True)
+                evolution = replace(evolution, independent=units.scene.shock is None)
+                groups.setdefault(kind, []).append(_Member(i, scene, units, evolution))
+        except LagrotorError:  # badly conditioned at the start
+            continue
+    runs = dict[int, Trajectory]()
+    for kind, members in groups.items():
+        runs |= _by_minimal(kind, members, times, tol, engine, chunk.evaluations)
+    for i, scene in enumerate(scenes):
+        try:
+            run = runs.get(i) or _alone(scene, times, tol)
+        except (IntegrationError, SingularError) as refusal:
+            endings[i] = Ending("stopped", begin, str(refusal))
+            continue
+        reached = len(run.t)
+        chunk.evaluations[i] += run.evaluations
+        chunk.axes[i, :, :reached], chunk.rates[i, :, :reached] = run.axes, run.rates
+        chunk.errors[i, :reached], chunk.models[i] = run.errors, MODELS.index(run.model)
+        endings[i] = replace(run.ending, at=begin + run.ending.at)
+    return replace(chunk, endings=tuple(endings))
+
+
+def _alone(scene: Scene, times: Array, tol: float) -> Trajectory:
+    with warnings.catch_warnings():  # what is not kept is said once for all
+        warnings.simplefilter("ignore", LagrotorWarning)
+        return simulate(scene, times, "spheres", tol)
+
+
+def kind_of(scene: Scene) -> Kind | None:
+    """Which program runs the scene; None where the minimal model has no coordinates for it."""
+    if scene.link is None or max(abs(r[0]) for r in scene.axes) > 1 - 1e-12:
+        return None
+    return MODEL.kind(scene, True)[0]
+
+
+def _by_minimal(
+    kind: Kind, members: list[_Member], times: Array, tol: float, engine: str, evaluations: NDArray[np.int64]
+) -> dict[int, Trajectory]:
+    """The runs of scenes of one kind that reach their end, by number; `evaluations` (n,) is given what the others took."""
+    runs = dict[int, Trajectory]()
+    rows = len(times) + max(65 + len(member.evolution.watch) for member in members)
+    together = max(1, _MOST_ROWS // rows)
+    for first in range(0, len(members), together):
+        part = members[first : first + together]
+        scenes = [member.units.scene for member in part]
+        columns = np.array([MODEL.kind(scene, True)[1] for scene in scenes]).T
+        swarm = _swarm(kind, scenes, columns)
+
+        def integrate(
+            legs: Mapping[int, Leg], columns: Array = columns, swarm: Swarm = swarm
+        ) -> Mapping[int, Stretch | StopError]:
+            return march_lanes(program(*kind), columns, legs) if engine == "fast" else march_swarm(swarm, legs)
+
+        estimates = estimate_runs(
+            [one.evolution for one in part], [times * one.units.rate for one in part], tol, integrate
+        )
+        for member, run in zip(part, estimates, strict=True):
+            if isinstance(run, IntegrationError) or run.ending.early:
+                evaluations[member.number] += run.evaluations
+            else:
+                run, units = run.by_clock(0.0, 1 / member.units.rate), member.units
+                runs[member.number] = trajectory_of(member.scene, units, "minimal", "", times, run)
+    return runs
+
+
+def _swarm(kind: Kind, scenes: list[Scene], columns: Array) -> Swarm:
+    """The scenes of one kind, in natural units, as arrays."""
+    body, function = kind[2], rhs_on_arrays(*kind)
+    at, width, force = np.zeros(len(scenes)), np.zeros(len(scenes)), np.zeros((3, len(scenes)))
+    if body:
+        shocks = [scene.shock for scene in scenes if scene.shock]
+        at, width = np.array([s.at for s in shocks]), np.array([s.width for s in shocks])
+        force = np.array([s.force for s in shocks]).T
+
+    def rates(who: Index) -> Rates:
+        # What all share goes in as a number: numbers among themselves cost nothing beside arrays.
+        given = [float(c[0]) if (c == c[0]).all() else c[who] for c in columns]
+        push, broad = force[:, who], width[who]
+
+        def into(s: Array, y: Array, out: Array) -> None:
+            pulse = push * np.exp(-((s / broad) ** 2)) if body else ()
+            for row, values in zip(out, function(*y, *given, *pulse), strict=True):
+                row[:] = values
+
+        return into
+
+    return Swarm(rates, PACE, at, width)
