@@ -182,6 +182,11 @@ def resonances(
     return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
 
 
+def first_resonance(s: Assembly, of: Of = "rates") -> Resonance | None:
+    """The one that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
+    return next((r for r in resonances(s, of=of) if r.falls), None)
+
+
 def _by_slower_spins(
     s: Assembly, rates: Array, factor: float, times: float, orders: Sequence[int], of: Of
 ) -> tuple[Resonance, ...] | None:
@@ -439,7 +444,7 @@ def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
     check_upright(s, "largest_push")
     if small_motion(s).growth > 0:
         return LargestPush(0.0, "it falls to first order", None, of)
-    first = next((r for r in resonances(s, of=of) if r.falls), None)
+    first = first_resonance(s, of)
     trusted = trusted_push(s, of=of)
     if first is None or first.push() > trusted:
         behind = f"no resonance falls from less; beyond, an axis tilts by more than {_TRUSTED}"

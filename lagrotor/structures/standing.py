@@ -19,6 +19,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, friction_undoes, spin_threshold, stiffness_in_masses
 from lagrotor.structures.exact.exact_motion import exact_motion
+from lagrotor.structures.exact.structure_run import start_state
 from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.holding import hold_time
 from lagrotor.structures.resonances import (
@@ -29,7 +30,7 @@ from lagrotor.structures.resonances import (
     check_kind_of_push,
     checked_push,
     fall_time_along,
-    resonances,
+    first_resonance,
     signed_rates,
     trusted_push,
     window_of,
@@ -96,7 +97,7 @@ class Standing(Shown):
     @cached_property
     def resonance(self) -> Resonance | None:
         """The resonance that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
-        return next((r for r in resonances(self.structure) if r.falls), None)
+        return first_resonance(self.structure)
 
     @cached_property
     def _too_near(self) -> bool:
@@ -136,9 +137,7 @@ class Standing(Shown):
 
     def _falls_by(self, of: Of) -> Resonance | None:
         check_kind_of_push(of)
-        return (
-            self.resonance if of == "rates" else next((r for r in resonances(self.structure, of=of) if r.falls), None)
-        )
+        return self.resonance if of == "rates" else first_resonance(self.structure, of)
 
     def window(self, push: float, of: Of = "rates") -> tuple[float, float] | None:
         """The factors on all spins, about these, between which a push of that size may fall.
@@ -309,18 +308,12 @@ def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-
     """
     from scipy.integrate import solve_ivp
 
-    motion, N = exact_motion(s), len(s.joints)
-    rate = motion.c.rate
+    motion, rate = exact_motion(s), coefficients(s).rate
     check_kind_of_push(of)
-    given = finite_array("measured_fall: push", push, (N, 2))
-    axes, rates = np.array(motion.c.upright), np.zeros((N, 3))
-    if of == "tilts":
-        if not np.hypot(*given.T).max() < 0.95:
-            raise InputError("measured_fall: push: an axis is tilted by the sine 0.95 or more at the start")
-        axes = np.column_stack([given, np.sqrt(1 - np.square(given).sum(1))])
-    else:
-        rates[:, :2] = given / rate
-    start = motion.project(np.concatenate([axes, rates]).ravel())
+    given = finite_array("measured_fall: push", push, (len(s.joints), 2))
+    if of == "tilts" and not np.hypot(*given.T).max() < 0.95:
+        raise InputError("measured_fall: push: an axis is tilted by the sine 0.95 or more at the start")
+    start = start_state(motion, *((given, None) if of == "tilts" else (None, given)))
 
     def fallen(_: float, y: Array) -> float:
         return float(np.hypot(*motion.axes_and_rates(y)[0, 0, :, :2].T).max()) - 0.95

@@ -134,7 +134,7 @@ def test_no_run_takes_ten_times_a_plain_dop853_that_is_as_exact() -> None:
         run = s.simulate(**given, tol=tol)  # type: ignore[arg-type]
         error = max(float(np.linalg.norm(run.axes - axes, axis=-1).max()), 1e-15)
         motion = exact_motion(s)
-        start = structure_run._start(motion, given["tilt"], given["rates"])  # type: ignore[arg-type]
+        start = structure_run.start_state(motion, given["tilt"], given["rates"])  # type: ignore[arg-type]
         t, n = motion.c.rate * (run.t - run.t[0]), len(axes)
         for local in 10.0 ** -np.arange(1, 14, 0.5):
             alone = solve_ivp(

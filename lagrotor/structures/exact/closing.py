@@ -66,25 +66,20 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
     N, B = len(c.R), len(c.i)
     if not B:
         return None
-    across = tangents(r)
-    first, second = pulls(c, r)
-    rows = np.concatenate([np.arange(B), np.arange(B)]).repeat(2)
-    columns = (2 * np.concatenate([c.i, c.j])[:, None] + [0, 1]).ravel()
-    scale = np.repeat(c.ell, 2)
-    entries = np.concatenate(
-        [np.einsum("bk,bkm->bm", part, across[end]).ravel() / scale for part, end in ((first, c.i), (second, c.j))]
-    )
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.linalg import splu
+
+    ends = np.concatenate([c.i, c.j])
+    pull, axes = np.concatenate(pulls(c, r)) / np.tile(c.ell, 2)[:, None], r[ends]
+    across = pull - (pull * axes).sum(1, keepdims=True) * axes
+    columns = 3 * ends[:, None] + [0, 1, 2]
+    sparse = csr_matrix((across.ravel(), (np.repeat(np.tile(np.arange(B), 2), 3), columns.ravel())), shape=(B, 3 * N))
     if 2 * N <= _DENSE:
-        G = np.zeros((B, 2 * N))
-        np.add.at(G, (rows, columns), entries)
+        G = sparse.toarray()
         sizes = np.linalg.svd(G, compute_uv=False)
         if sizes[-1] > _DEPENDENT * sizes[0]:
             return None
         return next(k for k in range(B) if np.linalg.matrix_rank(G[: k + 1], tol=_DEPENDENT * sizes[0]) <= k)
-    from scipy.sparse import csr_matrix
-    from scipy.sparse.linalg import splu
-
-    sparse = csr_matrix((entries, (rows, columns)), shape=(B, 2 * N))
     try:
         factors = splu((sparse @ sparse.T).tocsc(), diag_pivot_thresh=0.0)
     except RuntimeError:  # exactly singular
@@ -92,11 +87,3 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
     pivots = np.abs(factors.U.diagonal())
     small = pivots < _DEPENDENT * pivots.max()
     return int(factors.perm_c.argsort()[np.argmax(small)]) if small.any() else None
-
-
-def tangents(r: Array) -> Array:
-    """Two unit vectors across each axis as columns, (N, 3, 2); e_x and e_y where it is upright."""
-    first = np.cross(np.array([0.0, 1.0, 0.0]), r)
-    lengths = np.linalg.norm(first, axis=1, keepdims=True)
-    first = np.where(lengths > 1e-6, first / np.where(lengths > 1e-6, lengths, 1), [1.0, 0.0, 0.0])
-    return np.stack([first, np.cross(r, first)], axis=2)

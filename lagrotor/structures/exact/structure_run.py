@@ -199,7 +199,7 @@ def simulate_structure(
     c = motion.c
     conserved = not (any(drives) or c.decay.any() or c.friction.any() or c.damping.any())
     evolution = Evolution(
-        _start(motion, tilt, rates),
+        start_state(motion, tilt, rates),
         _integration(s, motion, engine),
         motion.distance,
         turn=2 * pi,
@@ -250,8 +250,8 @@ def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
     return by_steps
 
 
-def _start(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
-    """The state (r, r'/rate) on the constraints."""
+def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
+    """The state (r, r'/rate) on the constraints, of what `simulate_structure` is given."""
     N = len(motion.c.R)
     x = _vectors("tilt", tilt, N)
     if x.shape[1] == 2:
