@@ -11,7 +11,7 @@ from lagrotor import Link, Rotor, Structure
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.numerics import estimated_run
 from lagrotor.structures import exact_motion, right_hand_side
-from lagrotor.structures.exact import structure_run
+from lagrotor.structures.exact.closing import start_state
 from tests.structures.extended import exact
 
 PLANS = (
@@ -134,7 +134,7 @@ def test_no_run_takes_ten_times_a_plain_dop853_that_is_as_exact() -> None:
         run = s.simulate(**given, tol=tol)  # type: ignore[arg-type]
         error = max(float(np.linalg.norm(run.axes - axes, axis=-1).max()), 1e-15)
         motion = exact_motion(s)
-        start = structure_run.start_state(motion, given["tilt"], given["rates"])  # type: ignore[arg-type]
+        start = start_state(motion, given["tilt"], given["rates"])  # type: ignore[arg-type]
         t, n = motion.c.rate * (run.t - run.t[0]), len(axes)
         for local in 10.0 ** -np.arange(1, 14, 0.5):
             alone = solve_ivp(

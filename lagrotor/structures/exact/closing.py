@@ -1,12 +1,14 @@
-"""Whether the bars can close, and what degrees of freedom they leave."""
+"""Whether the bars can close, what degrees of freedom they leave, and where on them a run starts."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from lagrotor.errors import ConstraintError, InputError
+from lagrotor.errors import ConstraintError, InputError, SingularError
+from lagrotor.numerics.arrays import finite_array
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.exact.forces import off_constraints, pulls
+from lagrotor.structures.exact.forces import off_constraints, pulls, stretches
 
 _DENSE = 400  # unknowns up to which ranks are found by singular values
 _DEPENDENT = 1e-9  # of the largest: a smaller singular value (beyond _DENSE: pivot) is zero
@@ -87,3 +89,46 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
     pivots = np.abs(factors.U.diagonal())
     small = pivots < _DEPENDENT * pivots.max()
     return int(factors.perm_c.argsort()[np.argmax(small)]) if small.any() else None
+
+
+def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
+    """The state (r, r'/rate) on the constraints, of tilt and rates as `simulate_structure` takes them."""
+    N = len(motion.c.R)
+    x = _vectors("tilt", tilt, N)
+    if x.shape[1] == 2:
+        height = 1 - (x**2).sum(1)
+        if (height < 0).any():
+            raise InputError(f"simulate: tilt of rotor {int(np.argmin(height))} exceeds 1, the sine of a right angle")
+        r = np.column_stack([x, np.sqrt(height)])
+    else:
+        r = x / np.linalg.norm(x, axis=1, keepdims=True)
+    r = close_bars(motion, r)
+    with np.errstate(all="ignore"):
+        pointless = ~np.isfinite(stretches(motion.c, r)[0]).all(1)
+    if pointless.any():
+        raise SingularError(
+            f"simulate: braces[{int(np.argmax(pointless))}] begins with both ends at one place, where it pulls in no direction: "
+            "start elsewhere"
+        )
+    v = _vectors("rates", rates, N)
+    if v.shape[1] == 2:
+        safe = np.where(np.abs(r[:, 2]) > 1e-6, r[:, 2], np.inf)
+        v = np.column_stack([v, -(r[:, :2] * v).sum(1) / safe])
+    y = np.concatenate([r.ravel(), v.ravel() / motion.c.rate])
+    start = np.concatenate([r.ravel(), motion.project(y)[3 * N :]])
+    if not np.isfinite(start).all():
+        raise SingularError(
+            "simulate: the constraints are dependent at this tilt (bar and axes in line): start elsewhere"
+        )
+    return start
+
+
+def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
+    if given is None:
+        return np.zeros((N, 2))
+    vectors = finite_array(f"simulate: {name}", given)
+    if vectors.shape not in ((N, 2), (N, 3)):
+        raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {vectors.shape}")
+    if vectors.size == 3 * N and name == "tilt" and not (np.linalg.norm(vectors, axis=1) > 0).all():
+        raise InputError("simulate: tilt holds a vector of length zero")
+    return vectors
