@@ -33,7 +33,7 @@ STYLES = {
     "mathrm": "", "mathbf": "bold", "boldsymbol": "bold", "mathcal": "cal", "mathscr": "scr", "mathfrak": "frak",
     "mathbb": "bb", "mathit": "", "mathsf": "sf", "mathtt": "tt", "mathnormal": "", "symbf": "bold", "mathds": "bb", "rm": "",
     "bf": "bold", "it": "", "cal": "cal", "bfseries": "bold", "text": "", "textbf": "bold", "operatorname": "", "mathbbm": "bb",
-    "bold": "bold",
+    "bold": "bold", "symbfit": "bold", "symbfup": "bold", "symcal": "cal", "symscr": "scr", "symbb": "bb", "symfrak": "frak",
 }  # fmt: skip
 _SWITCHES = ("rm", "bf", "it", "cal", "bfseries")
 FUNCTIONS = {
@@ -300,6 +300,14 @@ class _Reader:
         item = self.take()
         _as_letters(found)
         target = found[-1] if found else None
+        if target is not None and target.kind == "text" and item.text == "^" and _is_unit(target.name):  # \text{W/m}^2
+            above = self.argument()
+            if all(b.kind == "number" or b.name == "-" for b in above):
+                found[-1] = replace(
+                    target, kind="unit", name=f"{target.name}^{{{''.join(b.name for b in above)}}}", end=self.end
+                )
+                return
+            raise FormulaError(item.at, "a unit has a power that is no number", "write it in braces, \\mathrm{m^2}")
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
             why = f"{item.text} has nothing before it"
             raise FormulaError(item.at, why, "write the letter that the script belongs to")
@@ -427,7 +435,8 @@ class _Reader:
         )
         if word is not None:
             stripped = word.strip()
-            if name in ("text", "textbf") and word != "d" and stripped not in FUNCTIONS:
+            bold = name == "textbf" and len(stripped) == 1  # m\textbf{a}
+            if name in ("text", "textbf") and word != "d" and stripped not in FUNCTIONS and not bold:
                 self.plain()
                 return [Box("text", stripped, item.at, self.end)] if stripped else [Box("thin", "", item.at, self.end)]
             if re.fullmatch(r"[A-Za-z]{2,}", stripped):

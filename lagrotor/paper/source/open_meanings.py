@@ -143,7 +143,8 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
     else:
         held = without_thin(box.parts[0]) if box.kind == "fraction" and not derivative_mark(box) else []
     for each in held:
-        if each.kind == "letter" and not is_number(known, each):
+        stepping = each.name in ("Delta", "delta") and [b.kind for b in each.sub or ()] == ["letter"]  # \Delta_\mu f
+        if each.kind == "letter" and (stepping or not is_number(known, each)):
             settles = f'letters = "{each.name}"'
             yield "operator", f"{each.name} is a factor of what follows, and no operator on it", settles
             return
@@ -200,7 +201,12 @@ def _enclosed(reader: FormulaReader, box: Box, before: Box | None, content: list
             yield "set", f"{box.name} encloses an argument, and no set or class", ""
     elif commas and (box.name == "(" or commas > 1 or not letters_in_row(content)):
         yield "list", "the brackets hold components, and no pair, interval or product", ""
-    elif box.name != "(" and not commas and not (adds and any(b.kind == "bracket" for b in content)):
+    elif (
+        box.name != "("
+        and box.closing != "."
+        and not commas
+        and not (adds and any(b.kind == "bracket" for b in content))
+    ):
         yield "set", f"{box.name} encloses a factor, and is no set, class or whole part", ""
     elif single and single.kind == "fraction" and "modular" in reader.notation.seen:
         yield "fraction", "the bracket holds a fraction, and no symbol of Legendre", ""

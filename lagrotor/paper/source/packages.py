@@ -146,6 +146,13 @@ def _groups(tokens: list[Token]) -> Iterable[list[Token]]:
     return parts
 
 
+def _indices(expander: Expander) -> Iterable[Token]:
+    r"""\Gamma\indices{^k_i_j} of tensor as \Gamma^{k}_{i j}."""
+    held = re.findall(r"([_^])\s*(\{[^{}]*\}|\\[A-Za-z]+|\S)", latex_of(expander.argument()))
+    rows = {sign: " ".join(part.strip("{}") for each, part in held if each == sign) for sign in "^_"}
+    return tokenize("".join(f"{sign}{{{row}}}" for sign, row in rows.items() if row))
+
+
 def _differential(expander: Expander) -> Iterable[Token]:
     r"""\dd x, \dd{x}, \dd[3]{x}, \dd(x); \odif{x,y} of derivative, \dl{x,y} of diffcoeff."""
     order = latex_of(expander.optional() or ()).strip().removeprefix("order").lstrip(" =")
@@ -389,6 +396,8 @@ _SMALL: dict[str, Package] = {
     **dict.fromkeys((r"\vspace", r"\vphantom", r"\color"), _as("")),
     **dict.fromkeys((r"\mathstrut", r"\displaylimits", r"\hfil"), _is("")),
     **dict.fromkeys((r"\dif", r"\diff"), _is(r"\,\mathrm{d}")),
+    r"\tcbhighmath": lambda expander: (expander.optional(), expander.argument())[1],
+    r"\indices": _indices,
     r"\textcolor": _as("#2", 2),
     r"\smash": lambda expander: (expander.optional(), expander.argument())[1],
     r"\MoveEqLeft": lambda expander: (expander.optional(), ())[1],

@@ -34,6 +34,8 @@ def read_bracket(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         return Call("at_constant", (reader.expression(content), *held)), place + 1
     if pair == (".", "|") or (pair == ("[", "]") and box.sub and box.sup):
         return _evaluated(reader, box, content), place + 1
+    if pair == (r"\{", ".") and len(content) == 1 and content[0].kind in ("matrix", "rows"):
+        return read_cases(reader, content, 0)[0], place + 1
     if pair not in _ENCLOSED:
         raise FormulaError(box.at, f"{box.name} … {box.closing} is not read", "write brackets that belong together")
     node = _ENCLOSED[pair](reader, box)
@@ -42,10 +44,13 @@ def read_bracket(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
     return power_of(reader, node, box), place + 1
 
 
+_NAMED = ("mean", "ket", "bra", "length", "norm", "inner", "commutator", "poisson")  # by an index
+
+
 def _indexed(reader: FormulaReader, node: Node, box: Box) -> Node:
-    """A state or a mean that is named by its index, |0⟩_A; a component of a vector, (a × b)_i."""
+    """A state, a mean or a norm that is named by its index, |0⟩_A; a component of a vector, (a × b)_i."""
     index = index_parts(reader, box)
-    if isinstance(node, Call) and node.name in ("mean", "ket", "bra"):
+    if isinstance(node, Call) and node.name in _NAMED:
         return Call("_".join((node.name, *index)), node.args)
     rising = isinstance(node, Number) or (isinstance(node, Letter) and len(node.name) == 1)  # (a)_n = a(a + 1)…
     component = is_vector(node) or (not rising and {*"".join(index)} <= {*"ijklmnabpqrs0123456789"})

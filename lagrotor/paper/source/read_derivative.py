@@ -22,9 +22,9 @@ from lagrotor.paper.source.rows import (
     without_thin,
 )
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_vector, number, walk
-from lagrotor.paper.source.usage import arguments, power_in, simple_argument
+from lagrotor.paper.source.usage import arguments, index_of, name_of, power_in, simple_argument
 
-_INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a", "b")
+_INDICES = (*TENSOR, "alpha", "beta", "gamma", "i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
 
 
 def behind_function(row: list[Box], place: int) -> int:
@@ -98,7 +98,7 @@ def _derivative(reader: FormulaReader, row: list[Box], place: int, mark: str) ->
     box = row[place]
     over, under = (without_thin(part) for part in box.parts)
     order = _order(reader, over[0])
-    variables = _variables(reader, under, mark)
+    variables = _variables(reader, under, mark, order)
     if sum(n for _, n in variables) != order:
         raise FormulaError(box.at, "the orders of the derivative differ", "write the same order above and below")
     operand = over[1:]
@@ -158,7 +158,7 @@ def _order(reader: FormulaReader, box: Box) -> int:
     raise FormulaError(box.at, "the order of the derivative is no number", "write a number")
 
 
-def _variables(reader: FormulaReader, under: list[Box], mark: str) -> list[tuple[Node, int]]:
+def _variables(reader: FormulaReader, under: list[Box], mark: str, order: int = 0) -> list[tuple[Node, int]]:
     found: list[tuple[Node, int]] = []
     place = 0
     while place < len(under):
@@ -173,9 +173,14 @@ def _variables(reader: FormulaReader, under: list[Box], mark: str) -> list[tuple
         elif target.kind != "letter":
             variable, times = reader.expression(target.parts[0]), _order(reader, target)
         else:
-            marked = mark_of(reader, target) is not None
-            variable = letter_of(reader, target if marked and target.sup else replace(target, sup=None))[0]
-            times = 1 if marked and target.sup else _order(reader, target)
+            raised = mark_of(reader, target)
+            if raised is None and order == 1 and target.sup and all(b.kind == "letter" for b in target.sup):
+                raised = index_of(replace(target, sub=target.sup, sup=None))  # of a first derivative, no order
+                reader.guess("mark", f"the superscript of {target.name} is part of the name")
+            variable = letter_of(reader, replace(target, sup=None))[0]
+            if raised and isinstance(variable, Letter):
+                variable = Letter(name_of(target, index_of(target) or (), raised), variable.vector)
+            times = 1 if raised and target.sup else _order(reader, target)
         found.append((variable, times))
         place += 2
     return found
@@ -256,7 +261,8 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         reader.guess("index", "the index of ∂ is what it differentiates by")
     order = 1 if above else _order(reader, box)
     variable = Letter(f"x_{index[0].name}") if above else letter_of(reader, index[0])[0]  # \partial^\mu: by x_\mu
-    if isinstance(variable, Letter) and variable.name in {*_INDICES} - (reader.notation.bare - reader.lowered):
+    base = index[0].name if isinstance(variable, Letter) and not (above or index[0].sub) else ""
+    if base in {*_INDICES} - (reader.notation.bare - reader.lowered) and isinstance(variable, Letter):
         variable = Letter(f"x__{variable.name}")  # \partial_\mu is \partial/\partial x^\mu
     if _stands_alone(reader, row, place + 1):
         return Call("operator_derivative", (variable, number(order)) if order > 1 else (variable,)), place + 1

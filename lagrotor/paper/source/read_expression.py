@@ -162,7 +162,7 @@ class Grammar(FormulaReader):
             return product_of([*(each for each in factors if not is_vector(each)), Call("dot", tuple(vectors))])
         if len(vectors) > 1:
             return _matrices(factors, row)
-        if _is_contracted(row, self.notation.upper | (self.above or set())):
+        if _is_contracted(row, (self.notation.upper - self.notation.exponents) | (self.above or set())):
             return Call("contraction", tuple(factors))
         return product_of(factors)
 

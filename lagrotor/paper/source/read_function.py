@@ -150,9 +150,9 @@ def _within(reader: FormulaReader, run: list[Box], function: Box) -> int:
         first = letters[0].name if letters else ""
         ends = letters and letters[-1].name in ("t", "tau", "x", "y", "z", "s", "theta", "phi", "varphi")
         begins = first not in (*reader.notation.angles, *_ANGLES[:4], "vartheta", "x", "y", "z", "r", "t")
-        if ends and begins and (len(letters) <= 2 or kept[0].kind == "number"):
-            if [first.lower(), *(b.name for b in letters[1:])] == ["omega", "t"]:  # of a rate and the time
-                return len(run)
-            reader.guess("argument", f"the argument of {function.name} is the product that follows it")
+        spelled = FUNCTIONS.get(function.name) not in ("log", "log10", "exp") and first not in _ANGLES  # cos qa
+        if begins and ((ends and (len(letters) <= 2 or kept[0].kind == "number")) or (len(letters) == 2 and spelled)):
+            if [first.lower(), *(b.name for b in letters[1:])] != ["omega", "t"]:  # of a rate and the time
+                reader.guess("argument", f"the argument of {function.name} is the product that follows it")
             return len(run)
     raise FormulaError(run[0].at, f"where the argument of {function.name} ends is open", "write it in brackets")

@@ -287,8 +287,11 @@ def _pi(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] |
         return None
     counted = place and row[place - 1].kind == "number"  # 2 pi
     if known.pi_is_letter and "pi" not in known.numbers and not counted:
-        why = "whether pi is the number or a quantity is open"
-        raise FormulaError(box.at, why, 'write in paper.toml [notation] numbers = "pi" or letters = "pi"')
+        settles = 'numbers = "pi" or letters = "pi"'
+        if "momentum" in known.seen or "pi_" in known.called:
+            why = "whether pi is the number or a quantity is open"
+            raise FormulaError(box.at, why, f"write in paper.toml [notation] {settles}")
+        reader.guess("pi", "pi is the number, and no quantity", settles)
     return power_of(reader, Letter("pi"), box), place + 1
 
 
@@ -456,6 +459,6 @@ def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
     held = (
         letters_in_row(content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}
     )  # E(\\phi(E))
-    free = not known.is_function(box) and box.name not in _FUNCTIONS and stem in known.factors
+    free = not known.is_function(box) and box.name not in _FUNCTIONS and stem in known.factors and box.style != "cal"
     variable = held & {"t", "tau"} or any(held & letters for letters in known.called.values())
     return free and not variable and is_number(known, box)

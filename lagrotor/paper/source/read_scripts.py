@@ -245,7 +245,14 @@ def _check_power(reader: FormulaReader, box: Box) -> None:
     if len(names) == len(row) > 1 and (len(set(names)) < len(names) or set(names) <= set("xyz")):
         why = f"whether {' '.join(names)} are upper indices or a power is open"
         raise FormulaError(row[0].at, why, "write the power with \\cdot, or the indices below")
-    if len(row) == 1 and box.sub is not None and row[0].kind == "letter" and row[0].name.isupper() and not row[0].marks:
+    transposes = [b.name for b in row] == ["T"] and "T" not in known.bare | known.letters
+    if (
+        len(row) == 1
+        and box.sub
+        and row[0].kind == "letter"
+        and row[0].name.isupper()
+        and not (row[0].marks or transposes)
+    ):
         why = f"whether {row[0].name} is a mark or a power is open"
         raise FormulaError(row[0].at, why, "write brackets around the power")
     if len(row) == 1 and row[0].kind == "number" and row[0].name == "0":

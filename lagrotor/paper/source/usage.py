@@ -39,8 +39,8 @@ class Notation:
     modular, exponent, dot, other time, times, momentum (pi). crossed: vectors, beside a cross or a nabla; arrows: letters that
     are printed as vectors somewhere. equal: letters and what they are equal to. numeric: letters that are numbers, below a
     fraction bar, a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above where no power can, as in
-    \\partial x^i and T^{ij}, or below \\partial; above, alone above a letter; exponents: letters in powers; entries: x of
-    x[n]. made: formula → its boxes, or what stopped them.
+    \\partial x^i and T^{ij}, or below \\partial; above, alone above a letter; exponents: letters in powers; paired: g of g_{ij};
+    pairs: letter → letters of g^{ab}; entries: x of x[n]. made: formula → its boxes, or what stopped them.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -70,6 +70,8 @@ class Notation:
     upper: set[str] = field(default_factory=set)
     above: set[str] = field(default_factory=set)
     exponents: set[str] = field(default_factory=set)
+    paired: set[str] = field(default_factory=set)
+    pairs: dict[str, set[str]] = field(default_factory=dict)
     entries: set[str] = field(default_factory=set)
     equal: list[tuple[Box, list[Box]]] = field(default_factory=list)
     varied: dict[str, set[str]] = field(default_factory=dict)
@@ -126,6 +128,8 @@ def notation_of(formulas: Iterable[str], said: Notation | None = None) -> Notati
         _look(row, found)
     if found.imaginary:
         found.seen.add("complex")
+    for stem, names in found.pairs.items():  # of what has two indices below no power stands above
+        (found.upper if stem in found.paired else found.exponents).update(names)
     found.upper |= {  # what is no factor anywhere, and stands below as well or in a theory of tensors
         name
         for name in found.above & {*TENSOR, *found.lowered} - found.exponents
@@ -189,11 +193,13 @@ def power_in(box: Box) -> bool:
 def upper_index(known: Notation, box: Box) -> list[str]:
     """The letters above, where the paper has each as an index above and none in a power; empty where they are none."""
     row = without_thin(box.sup or []) if box.name != "e" else []
-    if [b.name for b in row] == ["0"] and box.kind == "letter" and known.upper & {*TENSOR}:
+    if [b.name for b in row] == ["0"] and box.kind == "letter" and (box.sub or box.marks or known.upper & {*TENSOR}):
         return ["0"]
-    plain = all(b.kind == "letter" and not (b.sub or b.sup or b.marks or b.primes or b.upright) for b in row)
-    names = [b.name for b in row]
-    return names if plain and {*names} <= known.upper - known.exponents - known.letters else []
+    plain = all(b.kind == "letter" and not (b.sub or b.sup or b.marks or b.upright) for b in row)
+    names = {b.name for b in row}
+    label = names - {"T"} if box.sub and len(row) == 1 and row[0].name.isupper() else set()  # \phi^A_i and no A
+    upper = (known.upper | (label - known.bare - known.numeric)) - known.exponents - known.letters
+    return [b.name + "prime" * b.primes for b in row] if plain and names <= upper else []
 
 
 def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
@@ -389,22 +395,28 @@ def _look_above(box: Box, found: Notation) -> None:
     """Letters above and below of which the place says whether they are indices or powers."""
     if box.kind in ("partial", "nabla") and box.sub and len(box.sub) == 1:
         found.upper |= {b.name for b in box.sub} & _ABOVE
+    if box.kind == "letter" and box.sub and sum(b.kind == "letter" for b in box.sub) > 1:
+        found.paired.add(stem_of(box))
     if box.sup:
         above = without_thin(box.sup)
         names = {b.name for b in above if b.kind == "letter" and not b.upright}
         power = box.kind != "letter" or len(above) > 1 or box.name in ("d", "e")
-        if power and not (len(names) == len(above) > 1 and (names <= set("ijkl") or names <= set(TENSOR))):
-            found.exponents |= {b.name for b in _printed_large(above) if b.kind == "letter"}
-        elif power:
+        listed = box.kind == "letter" and box.name not in ("d", "e") and len(names) == len(above) > 1
+        if listed and (names <= set("ijkl") or names <= set(TENSOR)):
             found.upper |= names
+        elif listed and len(names) == 2 and names <= set("abcdefijklmnpqrs"):
+            found.pairs.setdefault(stem_of(box), set()).update(names)
+        elif power:
+            large = {b.name for b in _printed_large(above) if b.kind == "letter"}
+            found.exponents |= large - ({"i", "j"} if box.name == "e" else set())  # the imaginary unit
         elif len(names) == len(above) == 1 and not (above[0].sub or above[0].sup or above[0].primes):
             pair = box.sub and len(box.sub) == 1 and is_plain_letter(box.sub[0])
             found.above |= names & {*TENSOR, *"abcijk", *("pqrs" if pair else "")}
     if box.kind == "fraction":
         over, under = (without_thin(part) for part in box.parts)
         if over and under and over[0].kind == under[0].kind == "partial" and over[0].sup is None:
-            found.upper |= {b.name for each in under[1:2] for b in each.sup or () if is_plain_letter(b)} & _ABOVE
-            found.upper |= {b.name for each in under[1:2] for b in each.sup or () if b.name in TENSOR}
+            raised = [b for each in under[1:2] for b in each.sup or () if b.kind == "letter"]
+            found.upper |= {b.name for b in raised if not (b.sub or b.sup)} & _ABOVE
 
 
 def _printed_large(row: list[Box]) -> list[Box]:
