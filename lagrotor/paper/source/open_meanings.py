@@ -344,8 +344,7 @@ _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
 
 def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
     """Factors that are set apart by a space, and units in italics."""
-    if any(box.kind == "thin" for box in row):
-        yield from _spaces(reader, row)
+    yield from _spaces(reader, row)
     side: list[Box] = []
     for box in [*without_thin(row), Box("relation", "", 0, 0)]:
         if box.kind not in PARTING:
@@ -398,7 +397,10 @@ def _spaces(reader: FormulaReader, row: list[Box]) -> Marks:
         left = [b.kind for b in middle[space + 1 :]] in (["letter"], ["letter", "bracket"]) and middle[
             space + 1
         ].name != "d"
-        if space and left and middle[space - 1].kind in ("letter", "bracket"):
+        derived = [b.kind for b in middle[-2:]] == ["fraction", "letter"] and bool(
+            derivative_mark(middle[-2])
+        )  # u = df/dy v = …
+        if derived or (space and left and middle[space - 1].kind in ("letter", "bracket")):
             yield "spaces", "what a space parts are factors, and no left side", ""
     names = [b.name for b in row if b.kind == "relation"]
     between = row[next((k for k, b in enumerate(row) if b.name == "="), 0) :]
