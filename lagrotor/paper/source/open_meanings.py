@@ -264,6 +264,7 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "cdot", "the full stop multiplies what it stands between", ""
     elif box.name == "cdot":
         beside = [b for b in (before, after) if b is not None]
+        along = after is not None and after.kind == "nabla" and before is not None and not is_printed_as_vector(before)
         numbers = any(b.kind in ("number", "root", "function", "nabla") or not letters_in_row([b]) for b in beside)
         vectors = all(
             b.kind == "letter" and is_printed_as_vector(b) and (b.name[0].islower() or stem_of(b) in known.crossed)
@@ -271,7 +272,7 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         )
         letters = [c for b in beside for c in all_boxes([b]) if c.kind == "letter"]
         plain = known.arrows and not (known.raised or known.upper)  # vectors are marked, and these are none
-        if not (
+        if along or not (
             numbers or vectors or (plain and all(is_number(known, c) and c.name not in known.arrows for c in letters))
         ):
             yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""

@@ -178,7 +178,9 @@ def _mark_index(reader: FormulaReader, box: Box) -> None:
     below = without_thin(box.sub or [])
     names = [b.name if b.kind == "comma" or is_plain_letter(b) else "" for b in below]
     behind = names[names.index(",") + 1 :] if "," in names else []
-    if names[:1] == [","] or (0 < len(behind) < 3 and all(names) and "".join(names).replace(",", "").islower()):
+    several = len(below) > 2 and (names[0] or len(below[0].name) > 1)  # \sigma_{11,1} and N_{I,1}, but no a_{1,2}
+    by = several and below[-2].name == "," and below[-1].name in ("1", "2", "3")
+    if by or names[:1] == [","] or (0 < len(behind) < 3 and all(names) and "".join(names).replace(",", "").islower()):
         reader.guess("index", f"the comma in the index of {box.name} parts indices, and is no derivative")
     elif any(b.kind in ("operator", "relation", "bracket") and b.name not in ("+", "-", "/") for b in below):
         reader.guess("index", f"the index of {box.name} is part of the name")
