@@ -4,6 +4,7 @@
     coordinates = "theta"
     L = "m*R**2*theta_dot**2/2 + m*g*R*cos(theta)"
     constraints = []                        # each is zero
+    where = ["omega_0**2 = g/R"]            # what the text says of letters that L does not have
 
     [system.derives]                        # id → what the printed quantity is
     "1" = "L"
@@ -12,9 +13,13 @@
     "4" = "momentum theta"                  # ∂L/∂θ̇
     "5" = "frequency at theta = 0"          # ω of small oscillations, of several: frequency 2 at …; frequency^2: ω²
     "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ = 0, or a multiple of it
+    "7" = "integral"                        # F with dF/dt = 0 along every motion, as energies and momenta have
+
+The constraints, their rates and what `where` says are premises of every verdict, and named in those that need them. A letter of a
+print of which nothing is said is refused: what it stands for decides whether the print is right.
 
 The text is parsed by the reader of expressions; nothing in it runs. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
-§§1.4, 2.4, 2.7, 6.2.
+§§1.4, 2.4, 2.6, 2.7, 6.2.
 """
 
 import json
@@ -30,6 +35,7 @@ import sympy as sp
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
 from lagrotor.files import write_text
+from lagrotor.mechanics.expressions import shortest
 from lagrotor.mechanics.lagrangian import (
     Coordinates,
     coordinates,
@@ -43,13 +49,14 @@ from lagrotor.mechanics.lagrangian import (
 from lagrotor.mechanics.systems import System
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.letters import read
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.printed import paper_notation
 from lagrotor.paper.source.tree import in_catalogue, text_of
 
-_KEYS = ("coordinates", "L", "constraints", "derives")
+_KEYS = ("coordinates", "L", "constraints", "where", "derives")
 _KIND = re.compile(
-    r"(L|energy)|(momentum|acceleration|motion)(?: +([A-Za-z_]\w*))?|(frequency)(\^2)?(?: +(\d+))?(?: +at +(.*))?"
+    r"(L|energy|integral)|(momentum|acceleration|motion)(?: +([A-Za-z_]\w*))?|(frequency)(\^2)?(?: +(\d+))?(?: +at +(.*))?"
 )
 
 
@@ -60,37 +67,76 @@ class StatedSystem:
     c: Coordinates
     L: sp.Expr
     constraints: tuple[sp.Expr, ...]
+    where: tuple[sp.Eq, ...]
     derives: Mapping[str, str]
     names: Mapping[str, Any]
-    where: str
+    place: str
     paper: Catalogue
 
     def __getitem__(self, identifier: str) -> sp.Expr:
         if identifier not in self.derives:
             raise InputError(
-                f"{self.where}: derives: equation {identifier} is not there: it has {', '.join(self.derives)}"
+                f"{self.place}: derives: equation {identifier} is not there: it has {', '.join(self.derives)}"
             )
         said = self.derives[identifier]
         match = _KIND.fullmatch(_one_line(said))
         if match is None:
             raise InputError(
-                f"{self.where}: derives: {said!r} is not known: L, energy, momentum q, acceleration q, motion q, "
-                "or frequency at q = 0"
+                f"{self.place}: derives: {said!r} is not known: L, energy, integral, momentum q, acceleration q, "
+                "motion q, or frequency at q = 0"
             )
+        self._check_letters(identifier)
         whole, kind, name, _, squared, which, point = match.groups()
+        if whole == "integral":
+            return self._conserved(identifier)
         if whole:
-            return self.L if whole == "L" else energy(self.L, self.c)
+            return self.L if whole == "L" else shortest(energy(self.L, self.c))
         if kind:
             derived = self._of_coordinate(kind, name or "")
-            return self._as_printed(identifier, derived) if kind == "motion" else derived
+            return shortest(self._as_printed(identifier, derived) if kind == "motion" else derived)
         square = self._squared_frequency(int(which or 1), point or "")
         return square if squared else sp.sqrt(square)
+
+    @cached_property
+    def premises(self) -> tuple[Premise, ...]:
+        """What every print may use: the constraints, which hold at all times, and what is said of letters."""
+        kept = [sp.Eq(e, 0) for g in self.constraints for e in (g, total_derivative(g, self.c))]
+        return (
+            *([Premise("the constraints hold", where=tuple(kept))] if kept else []),
+            *(Premise("as the text says", where=(each,)) for each in self.where),
+        )
+
+    def _check_letters(self, identifier: str) -> None:
+        """Raise InputError where a print has a letter of which the system says nothing."""
+        said: tuple[sp.Basic, ...] = (self.L, *self.constraints, *self.where, *self.c.q, *self.c.v, *self.c.a)
+        known = set[sp.Basic]().union(*(e.free_symbols for e in said))
+        left = self._left_side(identifier) or sp.S.Zero
+        for line in self.paper.lines(identifier):
+            letters = set[sp.Basic]().union(left.free_symbols, *(e.free_symbols for e in line.members))
+            if strangers := sorted(str(s) for s in letters - known - {line.small}):
+                raise InputError(
+                    f"{self.place}: derives: {identifier} is printed with {strangers[0]}, of which the system says nothing: say "
+                    f'what it is, as in where = ["{strangers[0]} = …"], or leave the equation out here'
+                )
+
+    def _conserved(self, identifier: str) -> sp.Expr:
+        """A printed F less what it has changed by after a short time: F itself where dF/dt = 0 along every motion."""
+        line = self.paper.lines(identifier)[0]
+        F = line.members[0] if line.members else sp.S.Zero
+        if not F.has(*self.c.q, *self.c.v):
+            raise InputError(
+                f"{self.place}: derives: {identifier}: {F} depends on no coordinate or velocity: leave it out here"
+            )
+        rate = total_derivative(F, self.c).xreplace(dict(zip(self.c.a, self.accelerations, strict=True)))
+        if decide_equal(rate, sp.S.Zero).answer == "zero":
+            return F
+        return F - sp.Symbol("tau", positive=True) * shortest(rate)
 
     def _of_coordinate(self, kind: str, which: str) -> sp.Expr:
         place = next((n for n, q in enumerate(self.c.q) if q.name == which), None)
         if place is None:
             known = ", ".join(map(str, self.c.q))
-            raise InputError(f"{self.where}: derives: {kind} {which or '?'}: the coordinates are {known}")
+            raise InputError(f"{self.place}: derives: {kind} {which or '?'}: the coordinates are {known}")
         rows: dict[str, Callable[[], sp.Matrix]] = {
             "momentum": lambda: momenta(self.L, self.c),
             "motion": lambda: euler_lagrange(self.L, self.c),
@@ -105,7 +151,7 @@ class StatedSystem:
             if line.members[-1] != 0:
                 return motion  # F = m a, a name for it
             raise InputError(
-                f"{self.where}: derives: {identifier} is printed as … = 0, and its left side is no single expression in the "
+                f"{self.place}: derives: {identifier} is printed as … = 0, and its left side is no single expression in the "
                 "coordinates: leave it out here"
             )
         missing = left - line.members[0]
@@ -116,13 +162,13 @@ class StatedSystem:
     def _left_side(self, identifier: str) -> sp.Expr | None:
         """The left side of a print as an expression in the coordinates; None where it is none."""
         entries = self.paper.equations
-        notation = paper_notation((e.latex for e in entries.values()), self.paper.about.notation, self.where)
+        notation = paper_notation((e.latex for e in entries.values()), self.paper.about.notation, self.place)
         reading = read_formula(entries[identifier].line[0]["quantity"], notation)
         sides = [side.node for statement in reading.statements for side in statement.sides]
         if len(sides) != 1 or not in_catalogue(sides[0]):
             return None
         try:
-            left = read(text_of(sides[0]), self.names, self.where)
+            left = read(text_of(sides[0]), self.names, self.place)
         except InputError:  # it has a letter of its own
             return None
         return left if left.has(*self.c.q, *self.c.v, *self.c.a) else None
@@ -138,7 +184,7 @@ class StatedSystem:
         rows, unknown = sp.Matrix([*motion, *kept]), sp.Matrix([*self.c.a, *multipliers])
         matrix = rows.jacobian(unknown)
         solved = linear_solve(
-            matrix, -rows.subs(dict.fromkeys(unknown, 0)), f"{self.where}: its equations of motion are singular"
+            matrix, -rows.subs(dict.fromkeys(unknown, 0)), f"{self.place}: its equations of motion are singular"
         )
         return sp.Matrix(solved[: len(self.c.q)])
 
@@ -147,12 +193,12 @@ class StatedSystem:
         at: dict[sp.Symbol, sp.Expr] = {}
         for each in filter(None, (part.strip() for part in point.split(","))):
             name, _, value = each.partition("=")
-            at[read(name.strip(), self.names, self.where)] = read(value.strip() or "0", self.names, self.where)
+            at[read(name.strip(), self.names, self.place)] = read(value.strip() or "0", self.names, self.place)
         still = dict.fromkeys(self.c.q, sp.S.Zero) | at
         modes = System(self.c, self.L, constraints=self.constraints).linearise(still).modes()
         squares = list(dict.fromkeys(sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0))
         if not 0 < which <= len(squares):
-            raise InputError(f"{self.where}: derives: there is no frequency {which}: the system has {len(squares)}")
+            raise InputError(f"{self.place}: derives: there is no frequency {which}: the system has {len(squares)}")
         return sorted(squares, key=sp.default_sort_key)[which - 1]
 
 
@@ -176,11 +222,21 @@ def stated_system(paper: Catalogue) -> StatedSystem:
         c,
         read(given["L"], names, f"{where}: L"),
         tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ())),
+        tuple(_relation(each, names, f"{where}: where") for each in given.get("where", ())),
         given.get("derives", {}),
         names,
         where,
         paper,
     )
+
+
+def _relation(text: str, names: Mapping[str, Any], where: str) -> sp.Eq:
+    """left = right, of two expressions. Raises InputError for anything else."""
+    sides = str(text).split("=")
+    if len(sides) != 2:
+        raise InputError(f"{where}: {text!r} must be one equation: left = right")
+    left, right = (read(side.strip(), names, where) for side in sides)
+    return sp.Eq(left, right, evaluate=False)
 
 
 def stated(script: str) -> StatedSystem:
@@ -204,7 +260,7 @@ _CELL = """
 # ## ({title}): {said}
 
 # %%
-verdict({id}, system[{id}])
+verdict({id}, system[{id}]{premises})
 """
 
 
@@ -219,11 +275,13 @@ def write_derivation(paper: Catalogue) -> Path:
         _ = system[identifier]
         if not paper.equation(identifier).line:
             raise InputError(
-                f"{system.where}: derives: {identifier} has no printed line, its print was kept aside: write it as an "
+                f"{system.place}: derives: {identifier} has no printed line, its print was kept aside: write it as an "
                 "[[equation.line]] in equations.toml, or leave it out here"
             )
+    premises = ", premises=system.premises" if system.premises else ""
     text = _HEAD + "".join(
-        _CELL.format(title=_one_line(i), said=_one_line(said), id=json.dumps(i)) for i, said in system.derives.items()
+        _CELL.format(title=_one_line(i), said=_one_line(said), id=json.dumps(i), premises=premises)
+        for i, said in system.derives.items()
     )
     folder = paper.folder / "derivations"
     folder.mkdir(exist_ok=True)

@@ -74,23 +74,6 @@ def test_the_derivation_is_written_from_the_text(folder: Path) -> None:
     assert (folder / "derivations" / "s_system.py").read_text(encoding="utf-8") == script
 
 
-def test_constraints_are_kept_by_multipliers(folder: Path) -> None:
-    about = folder / "paper.toml"
-    text = about.read_text(encoding="utf-8")
-    system = """[system]
-coordinates = "x y"
-L = "m*(x_dot**2 + y_dot**2)/2 - m*g*y"
-constraints = ["(x**2 + y**2 - R**2)/2"]
-[system.derives]
-"3" = "acceleration x"
-"""
-    about.write_text(text[: text.index("[system]")] + system, encoding="utf-8")
-    found = stated_system(Catalogue(folder))["3"]
-    s = {symbol.name: symbol for symbol in found.free_symbols}
-    x, y, speed = s["x"], s["y"], s["x_dot"] ** 2 + s["y_dot"] ** 2
-    assert (found - x * (s["g"] * y - speed) / (x**2 + y**2)).simplify() == 0
-
-
 # Prints of the motion of θ, which is m (R²θ̈ − …) = 0, and what the derivation makes of each.
 MOTIONS = [
     (r"\ddot\theta + \frac{g}{R}\sin\theta - \Omega^2\sin\theta\cos\theta = 0", "holds"),
@@ -122,6 +105,86 @@ def test_an_equation_of_motion_may_be_printed_as_any_multiple(latex: str, answer
     assert Paper(folder).audit("1").verdict == answer
 
 
+FOUCAULT = r"""\documentclass{article}\begin{document}
+\begin{equation} \ddot x - 2 w \dot y + \omega_0^2 x = 0 \end{equation}
+\begin{equation} \ddot y - 2 w \dot x + \omega_0^2 y = 0 \end{equation}
+\begin{equation} J = m (x \dot y - y \dot x) + m w (x^2 + y^2) \end{equation}
+\begin{equation} K = m (x \dot y - y \dot x) + \frac{m w}{2} (x^2 + y^2) \end{equation}
+\end{document}"""
+FOUCAULTS_SYSTEM = """
+[system]
+coordinates = "x y"
+L = "m*(x_dot**2 + y_dot**2)/2 + m*w*(x*y_dot - y*x_dot) - m*g*(x**2 + y**2)/(2*l)"
+where = ["omega_0**2 = g/l"]
+[system.derives]
+1 = "motion x"
+2 = "motion y"
+3 = "integral"
+4 = "integral"
+"""
+
+
+def stated_paper(folder: Path, source: str, system: str, letters: str = "") -> Catalogue:
+    """A paper from a source, its equations confirmed, with a system stated as text; letters: more names for symbols.py."""
+    (folder.parent / "paper.tex").write_text(source, encoding="utf-8")
+    begin_paper(folder, folder.parent / "paper.tex")
+    about, names = folder / "paper.toml", folder / "symbols.py"
+    about.write_text(about.read_text(encoding="utf-8") + system, encoding="utf-8")
+    more = (f'{x} = GLOSSARY.letter("{x}", "?", "?", real=True)\n' for x in letters.split())
+    names.write_text(names.read_text(encoding="utf-8") + "".join(more), encoding="utf-8")
+    confirm(folder, [*Catalogue(folder).equations])
+    return Catalogue(folder)
+
+
+def test_what_the_text_says_of_a_letter_is_a_premise_and_any_integral_may_be_printed(tmp_path: Path) -> None:
+    """The plane of a pendulum's swing turns: ω₀ is no letter of L, J is no energy and no momentum."""
+    paper = stated_paper(tmp_path / "mine", FOUCAULT, FOUCAULTS_SYSTEM, "g l")
+    write_derivation(paper)
+    verdicts = {v.id: v for v in Paper(paper.folder).audit()}
+    assert {i: v.verdict for i, v in verdicts.items()} == {
+        "1": "holds-if",
+        "2": "refuted",
+        "3": "holds",
+        "4": "refuted",
+    }
+    assert [premise.formula for premise in verdicts["1"].premises] == ["ω₀² = g/l"]
+
+
+def test_a_letter_of_which_nothing_is_said_is_refused(tmp_path: Path) -> None:
+    """A true equation was refuted at some value of ω₀."""
+    silent = FOUCAULTS_SYSTEM.replace('where = ["omega_0**2 = g/l"]', "")
+    with pytest.raises(InputError, match="1 is printed with omega_0, of which the system says nothing"):
+        write_derivation(stated_paper(tmp_path / "mine", FOUCAULT, silent, "g l"))
+
+
+ON_A_CIRCLE = r"""\documentclass{article}\begin{document}
+\begin{equation} \ddot x = \frac{x (g y - \dot x^2 - \dot y^2)}{l^2} \end{equation}
+\begin{equation} E = \frac{m}{2} (\dot x^2 + \dot y^2) + m g y \end{equation}
+\begin{equation} J = m (x \dot y - y \dot x) \end{equation}
+\end{document}"""
+
+
+def test_what_is_printed_by_the_constraint_holds_if_it_does(tmp_path: Path) -> None:
+    """l² for x² + y²: it was refuted off the circle."""
+    system = """
+[system]
+coordinates = "x y"
+L = "m*(x_dot**2 + y_dot**2)/2 - m*g*y"
+constraints = ["x**2 + y**2 - l**2"]
+[system.derives]
+1 = "acceleration x"
+2 = "integral"
+3 = "integral"
+"""
+    paper = stated_paper(tmp_path / "mine", ON_A_CIRCLE, system)
+    write_derivation(paper)
+    derived = stated_system(paper)["1"]
+    x, y, vx, vy, g = (next(s for s in derived.free_symbols if s.name == name) for name in "x y x_dot y_dot g".split())
+    assert (derived - x * (g * y - vx**2 - vy**2) / (x**2 + y**2)).simplify() == 0
+    verdicts = {v.id: v.verdict for v in Paper(paper.folder).audit()}
+    assert verdicts == {"1": "holds-if", "2": "holds-if", "3": "refuted"}
+
+
 def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path) -> None:
     edit(folder / "equations.toml", "members = [", 'members = ["0", ')
     edit(folder / "paper.toml", '"1" = "L"', '"1" = "motion theta"')
@@ -137,6 +200,7 @@ def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path
         ('coordinates = "theta"', 'coordinate = "theta"', "'coordinate' means nothing here"),
         ('"acceleration theta"', '"acceleration phi"', "the coordinates are theta"),
         ('"energy"', '"action"', "'action' is not known"),
+        ("coordinates =", 'where = ["g"]\ncoordinates =', "must be one equation"),
         ("theta_dot**2 +", "__import__('os') +", "no part of an expression|is not defined"),
         ('"7" = "acceleration theta"', '"9" = "energy"', "'9' is not in the catalogue"),
     ],
