@@ -6,10 +6,10 @@ from lagrotor.about import __version__ as __version__
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
-    from lagrotor.models.orbits.continuation import orbit_family as orbit_family
     from lagrotor.models.orbits.floquet import floquet as floquet
     from lagrotor.models.orbits.precession import paired_scene as paired_scene
     from lagrotor.models.orbits.precession import precession_orbit as precession_orbit
+    from lagrotor.models.orbits.shooting import orbit_family as orbit_family
     from lagrotor.models.simulate import simulate as simulate
     from lagrotor.models.sweeps.ensemble import sweep as sweep
     from lagrotor.pair.initial_conditions import consistent_scene as consistent_scene

@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from lagrotor.models.mean_motion import turning_rate as turning_rate
     from lagrotor.models.mean_motion import wandering_rate as wandering_rate
     from lagrotor.models.model import conservation_defect as conservation_defect
-    from lagrotor.models.orbits.continuation import OrbitFamily as OrbitFamily
-    from lagrotor.models.orbits.continuation import trace_family as trace_family
     from lagrotor.models.orbits.floquet import slow_frequency_error as slow_frequency_error
     from lagrotor.models.orbits.periodic_orbit import fourier_orbit as fourier_orbit
     from lagrotor.models.orbits.periodic_orbit import parting as parting
+    from lagrotor.models.orbits.shooting import OrbitFamily as OrbitFamily
     from lagrotor.models.orbits.shooting import UprightOrbit as UprightOrbit
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
+    from lagrotor.models.orbits.shooting import trace_family as trace_family
     from lagrotor.models.orbits.shooting import upright_orbit as upright_orbit
     from lagrotor.models.spring_link.rigid_body import RigidBody as RigidBody
     from lagrotor.models.spring_link.rigid_body import finite_rotation as finite_rotation

@@ -185,13 +185,9 @@ def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
 
 def _time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     """As `time_to_wander`; inf where it is not reached."""
-    response = shock_response(scene)
-    if scene.shock is None or response.frequency == 0:
-        raise InputError("time_to_wander: the scene needs a shock and a spin")
-    turn = 2 * np.pi / response.frequency
-    begin = scene.shock.end
-    t = np.arange(begin, begin + longest + 6 * turn, turn / _SAMPLES)
-    values = simulate(scene, [0.0, *t], "minimal", 1e-9).after(begin).axes[..., 0].mean(0)
+    run = run_after(scene, 6 + int(np.ceil(longest * shock_response(scene).frequency / (2 * np.pi))), 1e-9)
+    t, values, shock = run.t, run.axes[..., 0].mean(0), scene.shock
+    assert shock is not None
     u = (np.arange(6 * _SAMPLES) + 0.5) / (6 * _SAMPLES)
     weight = np.exp(-1 / (u * (1 - u)))
     mean = np.convolve(values, weight / weight.sum(), "valid")
@@ -203,4 +199,4 @@ def _time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     if i == 0:
         raise DomainError(f"the bound {bound:g} is reached within the first swings: take a larger one")
     share = (bound - abs(mean[i - 1])) / (abs(mean[i]) - abs(mean[i - 1]))
-    return float(centre[i - 1] + share * (centre[i] - centre[i - 1]) - scene.shock.at)
+    return float(centre[i - 1] + share * (centre[i] - centre[i - 1]) - shock.at)

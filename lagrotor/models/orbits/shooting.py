@@ -1,8 +1,9 @@
-"""Periodic orbits of the exact model found by shooting: Newton's method takes the exact Jacobian of the flow.
+"""Periodic orbits of the exact model found by shooting, and their family: Newton's method takes the exact Jacobian of the flow.
 
 Of the paired precession of opposite spins the axes are parallel at Phi = 0 in the x-z plane and turn through it (chi = alpha = 0,
 U' = 0, x = r_0); a quarter period later the symmetries put U = alpha = 0, chi' = 0. Unknown are u = artanh r_0, chi'(0),
-alpha'(0) (in units of Omega_0) and the quarter period's phase Omega_0 t.
+alpha'(0) (in units of Omega_0) and the quarter period's phase Omega_0 t. The family is followed from small amplitudes to its end
+by steps along the curve of orbits, not along r0, so that a turn of the family is passed and not mistaken for its end.
 
 About upright, with spins that are not opposite, x swings between ±r_0, and the orbit closes up to a turn: at Phi = 0 and half a
 turn later the axes are parallel and U is stationary at ±artanh r_0. Unknown are chi'(0), alpha'(0) and the time of half a turn.
@@ -19,6 +20,7 @@ from lagrotor.models.minimal import scenes_from_states
 from lagrotor.models.orbits.variational import close_arc, flow
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
+from lagrotor.shown import Shown
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import shape_of
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
@@ -31,6 +33,8 @@ _LAST_MISS = 1e-8  # before a step of Newton's method, which squares it
 # Tolerance of the flow until the conditions are missed by less than _NEAR: a quarter of the cost.
 _COARSE, _NEAR = 1e-9, 1e-5
 _SAME_SLOPE = 1e-6  # distance within which the Jacobian is taken for the same
+_START, _LARGEST = 0.05, 0.99  # amplitudes of a family
+_STEP, _MOST = 0.1, 200  # the first step along the curve; orbits
 _NO_STEP = 1e-5  # steps along the family shorter than this mean that it turns or ends
 FAILURES = (DomainError, IntegrationError, np.linalg.LinAlgError, ValueError)
 
@@ -124,7 +128,7 @@ class QuarterPeriod:
             if tangent[0] < 0.02 or step < _NO_STEP:
                 raise DomainError(
                     f"the periodic orbit of r0 = {r0:g}: the family turns or ends at {np.tanh(z[0]):.6g}; take a smaller "
-                    "amplitude, or follow the turn by lagrotor.models.orbits.continuation.trace_family"
+                    "amplitude, or follow the turn by lagrotor.models.trace_family"
                 )
             u = min(goal, z[0] + step)
             try:
@@ -157,6 +161,98 @@ def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     z = family.follow(None, abs(r0))
     # Of −r0: the same orbit half a period later.
     return family.orbit(z * np.array([copysign(1, r0), copysign(1, r0), 1.0, 1.0]))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OrbitFamily(Shown):
+    """Orbits along the family: amplitudes r0 (n,), frequencies (rad/s) (n,), unknowns (n, 4), and why it stopped.
+
+    `turns`: amplitudes at which the family turns back in r0 (largest r0 of the two branches that meet there).
+    """
+
+    curve: QuarterPeriod
+    amplitudes: Array
+    frequencies: Array
+    unknowns: Array
+    turns: tuple[float, ...]
+    reason: str
+
+    def summary(self) -> dict[str, str]:
+        """How many orbits, from where to where, name → words."""
+        return {
+            "orbits": str(len(self.amplitudes)),
+            "amplitudes": f"{self.amplitudes.min():.6g} to {self.amplitudes.max():.6g}",
+            "frequencies [rad/s]": f"{self.frequencies.min():.6g} to {self.frequencies.max():.6g}",
+            "turns back at": ", ".join(f"{turn:.6g}" for turn in self.turns) or "nowhere",
+            "ended": self.reason,
+        }
+
+    def orbit(self, index: int) -> ExactOrbit:
+        """The orbit number `index`, as a scene that starts on it, with its error."""
+        return self.curve.orbit(self.unknowns[index])
+
+    @property
+    def frequency_errors(self) -> Array:
+        """Bounds of the frequencies' errors (rad/s), (n,)."""
+        return np.array([self.orbit(i).frequency_error for i in range(len(self.amplitudes))])
+
+
+def trace_family(scene: Scene) -> OrbitFamily:
+    """Follow the family from r0 = 0.05 until it ends, r0 reaches 0.99, or 200 orbits are found.
+
+    Steps along the curve grow from 0.1 to five times that, and are halved where Newton's method fails.
+    The family is said to end where steps below 1e-5 fail: the period or the speed grows without bound, or the orbit
+    reaches a singular position.
+
+    Raises:
+        InputError: unless the spins are opposite.
+    """
+    curve = QuarterPeriod(scene)
+    z = curve.correct(curve.linear(atanh(_START)), np.array([1.0, 0, 0, 0]), atanh(_START))
+    along = curve.tangent(z, np.array([1.0, 0, 0, 0]))
+    points, turns, reason, length = [z], [], f"{_MOST} orbits found", _STEP
+    while len(points) < _MOST:
+        try:
+            ahead = curve.correct(z + length * along, along, float(along @ z + length))
+            turned = curve.tangent(ahead, along)
+            if turned @ along < 0.9:
+                raise DomainError("orbit_family: the step turned too far")
+        except FAILURES:
+            length /= 2
+            if length < 1e-5:
+                reason = "no orbit beyond: steps along the curve fail"
+                break
+            continue
+        if turned[0] * along[0] < 0:
+            turns.append(float(np.tanh(max(z[0], ahead[0]))))
+        z, along, length = ahead, turned, min(5 * _STEP, 1.3 * length)
+        points.append(z)
+        if abs(np.tanh(z[0])) > _LARGEST:
+            reason = f"r0 reached {_LARGEST:g}"
+            break
+    return _family(curve, np.array(points), tuple(turns), reason)
+
+
+def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) -> OrbitFamily:
+    """The orbits at the given increasing amplitudes r0 (n,), each found from the one before.
+
+    Raises:
+        InputError: unless the spins are opposite.
+        DomainError: when an amplitude is outside (0, 1), not above the one before, or past the first turn or the end of the
+            family.
+    """
+    curve = QuarterPeriod(scene)
+    wanted = np.asarray(amplitudes, float)
+    if wanted.ndim != 1 or not len(wanted) or wanted[0] <= 0 or wanted[-1] >= 1 or (np.diff(wanted) <= 0).any():
+        raise DomainError("orbit_family: amplitudes must increase within (0, 1)")
+    points: list[Array] = []
+    for r0 in wanted:
+        points.append(curve.follow(points[-1] if points else None, float(r0)))
+    return _family(curve, np.array(points), (), "all amplitudes found")
+
+
+def _family(curve: QuarterPeriod, points: Array, turns: tuple[float, ...], reason: str) -> OrbitFamily:
+    return OrbitFamily(curve, np.tanh(points[:, 0]), pi / 2 * curve.natural / points[:, 3], points, turns, reason)
 
 
 @dataclass(frozen=True)
