@@ -7,10 +7,10 @@ it about exp(−sqrt(4 pi n)) is left (`mean_error`). A mean rate depends on the
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError, InputError
-from lagrotor.models.model import scenes_of
+from lagrotor.models.model import Array, scenes_of
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.arrays import check_times
 from lagrotor.pair.scene import Scene
@@ -21,7 +21,6 @@ from lagrotor.theory.drift_after_shock import cancelling_force
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.shock_response import shock_response
 
-Array = NDArray[np.float64]
 _SAMPLES = 32  # a turn of the swing
 _AT_ENDS = 185.51  # 2 sqrt(pi)/(e Z), Z = 0.0070298584
 _ROUNDED = 1e-15

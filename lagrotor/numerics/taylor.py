@@ -18,14 +18,20 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
 from lagrotor.numerics.estimated_run import Leg
-from lagrotor.numerics.segment import Projection, Segment, SegmentSolver, StopError, Stretch, states_on_constraints
+from lagrotor.numerics.segment import (
+    Array,
+    Projection,
+    Segment,
+    SegmentSolver,
+    StopError,
+    Stretch,
+    states_on_constraints,
+)
 
-Array = NDArray[np.float64]
 _CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, that rounds nothing
 MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with

@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, SingularError, near
@@ -27,13 +26,12 @@ from lagrotor.mechanics.equations import Equations, push_left, rows_left
 from lagrotor.mechanics.expressions import longer, unknown_functions, with_jets
 from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t, total_derivative
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
-from lagrotor.mechanics.running.function_values import FunctionValue, jet_name
+from lagrotor.mechanics.running.function_values import Array, FunctionValue, jet_name
 from lagrotor.mechanics.running.sweeps import swept_energy, swept_equations
 from lagrotor.numerics.codegen import Program, Stage, operations, solve_symmetric, tangent_program
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.printers import compile_program, rhs_source
 
-Array = NDArray[np.float64]
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
 _OWN = ("s", "y", "t", "I", "Q", "rate", "bare", "make", "pulse", "width", "LOST", "OutsideError")  # of generated code
 _REDUCED = 600  # operations of a Lagrangian up to which a tree is not followed in the velocities of its joints

@@ -4,13 +4,12 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.running.function_values import Array
 from lagrotor.mechanics.running.programs import Generated, energy_program, mass_program, rows_program
 from lagrotor.shown import scientific
 
-Array = NDArray[np.float64]
 _SINGULAR = 1e-6  # least eigenvalue of the mass matrix over that at the start; least cosine of the constraints' normals
 _TAKES_PART = 0.2  # component of a direction from which on a coordinate is named
 

@@ -19,12 +19,11 @@ from numpy.typing import NDArray
 from lagrotor.errors import DomainError
 from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, exact_orbit
-from lagrotor.models.orbits.variational import close_arc, flow
+from lagrotor.models.orbits.variational import Array, close_arc, flow
 from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
 from lagrotor.theory.averaged_motion import slow_frequency
 
-Array = NDArray[np.float64]
 # Bound of the trace's error, relative to the size of the monodromy; held by tests/theory/test_paired_stability.py.
 _INTEGRATED = 1e-13
 # What reversed time does to the state, about the start and about the end of a quarter of a turn.

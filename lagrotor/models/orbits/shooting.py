@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError, InputError, IntegrationError
 from lagrotor.models.minimal import scenes_from_states
-from lagrotor.models.orbits.variational import close_arc, flow
+from lagrotor.models.orbits.variational import Array, close_arc, flow
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
@@ -25,7 +25,6 @@ from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import shape_of
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 
-Array = NDArray[np.float64]
 # Bound of the error of a quarter period integrated at the tightest tolerance, relative to the flow's derivative; calibrated
 # by tests/models/test_orbit_errors.py, against collocation.
 INTEGRATED = 3e-14

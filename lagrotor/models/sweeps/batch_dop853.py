@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 
 from lagrotor.numerics.estimated_run import Leg
 from lagrotor.numerics.pulse import COMPANION_STEP, PULSE_REACH
-from lagrotor.numerics.segment import StopError, Stretch
+from lagrotor.numerics.segment import Array, StopError, Stretch
 
-Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 # (s (n,), y (d, n), into (d, n)): writes y' into its last argument. Made anew for those who are left.
 Rates = Callable[[Array, Array, Array], None]
