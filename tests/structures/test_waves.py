@@ -13,7 +13,6 @@ from lagrotor.structures import (
     long_wave_speeds,
     polygon_ring,
     square,
-    square_octagon,
     straight_row,
     zigzag,
 )
@@ -115,17 +114,6 @@ def test_the_straight_row_has_a_wave_across_its_bars_alone() -> None:
 def test_the_square_net_moves_along_whole_rows_and_columns_alone() -> None:
     assert square(spins=10.0).dispersion([[0.3, 1.0], [0, 1.0], [1.0, 0], [0, 0]]).dof.tolist() == [0, 1, 1, 2]
     assert not square(spins=10.0).dispersion([[0.3, 1.0]]).gaps
-
-
-@settings(max_examples=15, deadline=None)
-@given(st.lists(st.floats(5, 40), min_size=4, max_size=4), st.tuples(st.floats(0.3, 3), st.floats(0.3, 3)))
-def test_the_group_velocity_is_the_slope_of_the_bands(spins: list[float], q: tuple[float, float]) -> None:
-    pattern = square_octagon((0.3, 0.2), spins=spins, hinge=50.0, link=HEAVY)
-    h, steps = 1e-5, np.array(pattern.steps)
-    there = np.array([q, *(np.add(q, sign * h * e) for e in np.eye(2) for sign in (1, -1))])
-    rates = pattern.dispersion(there).rates
-    slopes = np.stack([(rates[1] - rates[2]) / 2 / h, (rates[3] - rates[4]) / 2 / h], axis=1) @ steps
-    assert pattern.dispersion([q]).velocity[0] == pytest.approx(slopes, abs=1e-4)
 
 
 def test_waves_under_weight_fall_where_the_spins_act_too_little_and_stand_elsewhere() -> None:

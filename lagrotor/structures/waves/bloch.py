@@ -40,10 +40,6 @@ class Bloch:
         small = np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0)
         return _wave_sum(q, self.apart, self.parts), np.where(small, 0, rows)
 
-    def slopes(self, q: Array, k: int) -> tuple[Matrix, Matrix]:
-        """Their derivatives by q_k."""
-        return _wave_sum(q, self.apart, self.parts, k), _wave_sum(q, self.away, self.rows, k)
-
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
         """Of the wave numbers q (n_q, d) those at which the bars leave equally many degrees of freedom, by their places in q,
         and the linear systems there."""
@@ -55,10 +51,9 @@ class Bloch:
             yield places, motion if self.inertia else motion.without_inertia
 
 
-def _wave_sum(q: Array, steps: Array, parts: Array, k: int | None = None) -> Matrix:
-    """The sum of exp(i q . n) X_n, or its derivative by q_k."""
-    phases = np.exp(1j * q @ steps.T)
-    return np.asarray(np.tensordot(phases if k is None else 1j * steps[:, k] * phases, parts, 1))
+def _wave_sum(q: Array, steps: Array, parts: Array) -> Matrix:
+    """The sum of exp(i q . n) X_n."""
+    return np.asarray(np.tensordot(np.exp(1j * q @ steps.T), parts, 1))
 
 
 def bloch(p: Cell) -> Bloch:

@@ -1,4 +1,4 @@
-"""Bands of a pattern: rates against wave number, growth, gaps, group velocity, zero bands, long-wave speed."""
+"""Bands of a pattern: rates against wave number, growth, gaps, zero bands, long-wave speed."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.small_motion import SmallMotion
-from lagrotor.structures.waves.bloch import Bloch, bloch
+from lagrotor.structures.waves.bloch import bloch
 from lagrotor.structures.waves.cell import Cell
 
 _SAME = 1e-9  # of the largest rate: a difference below it is none
@@ -59,19 +59,6 @@ class Dispersion(Shown):
                 gaps.append((float(top), float(low[k])))
             top = max(top, high[k])
         return tuple(gaps)
-
-    @property
-    def velocity(self) -> Array:
-        """Group velocity, (n_q, n_bands, 2), m/s: the steps weighed by dω/dq of each; zero where the rate is.
-
-        Where bands cross it is a mean of theirs. Of waves without friction that stand.
-        """
-        b, steps = bloch(self.pattern), np.array(self.pattern.steps)
-        velocities = np.full((*self.rates.shape, 2), np.nan)
-        for q, f, rates, shapes, row in zip(self.q, self.dof, self.rates, self.shapes, velocities, strict=True):
-            u = shapes[:f].reshape(f, 2 * len(self.pattern.joints))
-            row[:f] = np.stack([_slopes(b, q, k, rates[:f], u) for k in range(len(q))], axis=1) @ steps
-        return velocities
 
     @property
     def falls(self) -> bool:
@@ -145,23 +132,6 @@ def _faster(s: Complex, shapes: Complex) -> tuple[Array, Array, Complex]:
     kept = np.lexsort((s.real, -s.imag), axis=-1)[:, s.shape[-1] // 2 :]
     s = np.take_along_axis(s, kept, -1)
     return 0.0 - s.imag, s.real, np.take_along_axis(shapes, kept[..., None], -2)
-
-
-def _slopes(b: Bloch, q: Array, k: int, rates: Array, shapes: Complex) -> Array:
-    """dω/dq_k of each wave, (f,): −x†(dL/dq)x / x†(dL/dω)x, L the matrix of u and the bars' multipliers, x its null vector.
-
-    Of D = −ω² M − iω C + K with D u + A† λ = 0 (Hellmann & Feynman with constraints).
-    """
-    (M, C, G, K), A = b.at(q)
-    (dM, dC, dG, dK), dA = b.slopes(q, k)
-    u, w = shapes.T, rates
-    forces = -(w**2) * (M @ u) - 1j * w * ((C + G) @ u) + K @ u
-    multipliers = -np.linalg.pinv(A.conj().T, rcond=1e-10) @ forces
-    change = -(w**2) * (dM @ u) - 1j * w * ((dC + dG) @ u) + dK @ u
-    moved = (u.conj() * change).sum(0) + 2 * (multipliers.conj() * (dA @ u)).sum(0).real
-    norm = (u.conj() * (-2 * w * (M @ u) - 1j * ((C + G) @ u))).sum(0)
-    sound = (w != 0) & (np.abs(norm) > _SAME * np.abs((u.conj() * (M @ u)).sum(0)) * b.rate)
-    return np.asarray(np.where(sound, -moved / np.where(sound, norm, 1), 0).real)
 
 
 def long_wave_speeds(p: Cell, direction: ArrayLike = (1.0,)) -> Array:
