@@ -17,8 +17,9 @@ from scipy.integrate import solve_ivp
 from lagrotor import simulate
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.numerics.calibrated import LOST
-from lagrotor.structures import exact_motion, right_hand_side
+from lagrotor.structures import exact_motion
 from lagrotor.structures.exact import structure_run
+from lagrotor.structures.exact.written_out import right_hand_side
 
 FINE = np.arange(1, 65) / 64
 ROUNDED = 1e-13  # a true error below which told over true says nothing of the estimate: it is rounding

@@ -9,8 +9,6 @@ if TYPE_CHECKING:
     from lagrotor.models.drift_error import cancelling_force_error as cancelling_force_error
     from lagrotor.models.drift_error import toppling_error as toppling_error
     from lagrotor.models.drift_error import wander_error as wander_error
-    from lagrotor.models.linear import linear_error as linear_error
-    from lagrotor.models.linear import linear_run as linear_run
     from lagrotor.models.linear import shock_response_error as shock_response_error
     from lagrotor.models.mean_motion import exact_cancelling_force as exact_cancelling_force
     from lagrotor.models.mean_motion import guiding_centre_error as guiding_centre_error
@@ -21,10 +19,8 @@ if TYPE_CHECKING:
     from lagrotor.models.mean_motion import time_to_wander as time_to_wander
     from lagrotor.models.mean_motion import turning_rate as turning_rate
     from lagrotor.models.mean_motion import wandering_rate as wandering_rate
-    from lagrotor.models.model import conservation_defect as conservation_defect
     from lagrotor.models.orbits.floquet import slow_frequency_error as slow_frequency_error
     from lagrotor.models.orbits.paired_fit import fourier_orbit as fourier_orbit
-    from lagrotor.models.orbits.paired_fit import parting as parting
     from lagrotor.models.orbits.shooting import OrbitFamily as OrbitFamily
     from lagrotor.models.orbits.shooting import UprightOrbit as UprightOrbit
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
@@ -32,19 +28,12 @@ if TYPE_CHECKING:
     from lagrotor.models.orbits.shooting import upright_orbit as upright_orbit
     from lagrotor.models.spring_link.rigid_body import RigidBody as RigidBody
     from lagrotor.models.spring_link.rigid_body import finite_rotation as finite_rotation
-    from lagrotor.models.spring_link.rigid_body import inertia_transform as inertia_transform
-    from lagrotor.models.spring_link.rigid_body import printed_inertia_transform as printed_inertia_transform
-    from lagrotor.models.spring_link.rigid_body import printed_rotation as printed_rotation
-    from lagrotor.models.spring_link.rigid_body import rotation_between as rotation_between
     from lagrotor.models.spring_link.run import SpringRun as SpringRun
     from lagrotor.models.spring_link.run import run_solver as run_solver
     from lagrotor.models.spring_link.run import run_steps as run_steps
     from lagrotor.models.spring_link.system import RigidBodySystem as RigidBodySystem
-    from lagrotor.models.spring_link.system import join_bar as join_bar
     from lagrotor.models.spring_link.system import link_force as link_force
-    from lagrotor.models.spring_link.system import paper_bodies as paper_bodies
     from lagrotor.models.spring_link.system import paper_system as paper_system
-    from lagrotor.models.spring_link.system import printed_link_force as printed_link_force
     from lagrotor.models.spring_link.system import step_limit as step_limit
     from lagrotor.models.sweeps.ensemble import Ensemble as Ensemble
 

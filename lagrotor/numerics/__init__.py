@@ -6,7 +6,6 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program as Program
-    from lagrotor.numerics.codegen import Stage as Stage
     from lagrotor.numerics.codegen import operations as operations
     from lagrotor.numerics.curves import best_harmonics as best_harmonics
     from lagrotor.numerics.curves import harmonics_at as harmonics_at
@@ -16,12 +15,8 @@ if TYPE_CHECKING:
     from lagrotor.numerics.curves import spectrum as spectrum
     from lagrotor.numerics.curves import swing as swing
     from lagrotor.numerics.curves import turn_means as turn_means
-    from lagrotor.numerics.integrate import Problem as Problem
     from lagrotor.numerics.printers import compile_program as compile_program
-    from lagrotor.numerics.printers import program_source as program_source
-    from lagrotor.numerics.rotations import between_samples as between_samples
     from lagrotor.numerics.rotations import body_rotations as body_rotations
     from lagrotor.numerics.rotations import skew_matrix as skew_matrix
-    from lagrotor.numerics.rotations import turn_between as turn_between
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -12,23 +12,18 @@ if TYPE_CHECKING:
     from lagrotor.structures.absorbers import spins_worst_case as spins_worst_case
     from lagrotor.structures.critical_spins import sign_patterns as sign_patterns
     from lagrotor.structures.document import read_structure as read_structure
-    from lagrotor.structures.document import structure_of as structure_of
-    from lagrotor.structures.document import toml_of as toml_of
     from lagrotor.structures.document import write_structure as write_structure
     from lagrotor.structures.exact.exact_motion import exact_motion as exact_motion
     from lagrotor.structures.exact.held_to_exact import bounded_motion as bounded_motion
     from lagrotor.structures.exact.held_to_exact import measured_growth as measured_growth
     from lagrotor.structures.exact.structure_run import StructureRun as StructureRun
-    from lagrotor.structures.exact.written_out import right_hand_side as right_hand_side
     from lagrotor.structures.gallery import GALLERY as GALLERY
     from lagrotor.structures.gallery import example as example
     from lagrotor.structures.pictures import draw_plan as draw_plan
     from lagrotor.structures.resonances import Resonance as Resonance
-    from lagrotor.structures.resonances import normal_form_of as normal_form_of
     from lagrotor.structures.resonances import resonant_factors as resonant_factors
     from lagrotor.structures.standing import measured_fall as measured_fall
     from lagrotor.structures.upright_hamiltonian import local_hamiltonian as local_hamiltonian
-    from lagrotor.structures.waves.bloch import bloch as bloch
     from lagrotor.structures.waves.chern import chern_numbers as chern_numbers
     from lagrotor.structures.waves.dispersion import dispersion as dispersion
     from lagrotor.structures.waves.dispersion import long_wave_speeds as long_wave_speeds

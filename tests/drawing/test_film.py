@@ -16,7 +16,8 @@ from lagrotor.drawing import Camera
 from lagrotor.drawing.film import SIZE, frame_times
 from lagrotor.drawing.wheel import place_points, wheel
 from lagrotor.errors import InputError, LagrotorError
-from lagrotor.numerics import between_samples, body_rotations, turn_between
+from lagrotor.numerics import body_rotations
+from lagrotor.numerics.rotations import between_samples, turn_between
 from lagrotor.pair import SCENES
 from lagrotor.theory.natural_frequency import natural_frequency
 

@@ -9,9 +9,10 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, paired_scene, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning
-from lagrotor.models import closed_form, conservation_defect, euler, fourier_orbit, minimal, parting
+from lagrotor.models import closed_form, euler, fourier_orbit, minimal
 from lagrotor.models import simulate as simulating
-from lagrotor.models.model import natural_units, pulse_nodes, typical_rate
+from lagrotor.models.model import conservation_defect, natural_units, pulse_nodes, typical_rate
+from lagrotor.models.orbits.paired_fit import parting
 from lagrotor.numerics import estimated_run
 from lagrotor.numerics.segment import StopError
 from tests.models.one_integration import observed

@@ -11,8 +11,8 @@ from scipy.linalg import expm
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import DomainError, LagrotorError, SingularError
-from lagrotor.models import linear, linear_error, linear_run
-from lagrotor.models.linear import LINEAR_MARGIN, pair_modes
+from lagrotor.models import linear
+from lagrotor.models.linear import LINEAR_MARGIN, linear_error, linear_run, pair_modes
 from lagrotor.models.minimal import MODEL
 from lagrotor.numerics import measured_order
 from lagrotor.theory import impulse_matrices

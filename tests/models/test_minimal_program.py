@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from lagrotor.mechanics import bias, mass_matrix
 from lagrotor.models.programs.minimal_program import _curve as bar_stages
 from lagrotor.models.programs.minimal_program import _Stages, observation, program
-from lagrotor.numerics import Program, Stage, compile_program, operations
-from lagrotor.numerics.codegen import solve_symmetric
+from lagrotor.numerics import Program, compile_program, operations
+from lagrotor.numerics.codegen import Stage, solve_symmetric
 from lagrotor.pair import bar_curve, mercator_axis, mercator_lagrangian, minimal_embedding
 from lagrotor.pair.notation import G_1, G_2, MERCATOR, MINIMAL, a, b, k
 

@@ -12,7 +12,7 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.mechanics import project_velocity
-from lagrotor.models import linear_error
+from lagrotor.models.linear import linear_error
 
 UPRIGHT = Scene((10, -10))
 TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2

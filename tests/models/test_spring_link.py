@@ -16,20 +16,20 @@ from lagrotor.models import (
     RigidBody,
     RigidBodySystem,
     finite_rotation,
-    inertia_transform,
-    join_bar,
     link_force,
-    paper_bodies,
     paper_system,
-    printed_inertia_transform,
-    printed_link_force,
-    printed_rotation,
-    rotation_between,
     run_solver,
     run_steps,
     step_limit,
 )
+from lagrotor.models.spring_link.rigid_body import (
+    inertia_transform,
+    printed_inertia_transform,
+    printed_rotation,
+    rotation_between,
+)
 from lagrotor.models.spring_link.run import rate_function, step_function
+from lagrotor.models.spring_link.system import join_bar, paper_bodies, printed_link_force
 from lagrotor.numerics import skew_matrix
 
 ZERO, ONE = np.zeros(3), np.eye(3)

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from lagrotor.numerics import Program, program_source
+from lagrotor.numerics import Program
 from lagrotor.numerics.generated import GeneratedFunction, function_of
+from lagrotor.numerics.printers import program_source
 from tests.numerics.renew_generated import derived_files, kept_functions
 
 x, y = sp.symbols("x y", real=True)

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.numerics import Problem, adams
+from lagrotor.numerics import adams
 from lagrotor.numerics import integrate as module
 from lagrotor.numerics import lsoda as solver
 from lagrotor.numerics.calibrated import DETOUR
-from lagrotor.numerics.integrate import check_tolerance, integrate
+from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
 from lagrotor.numerics.segment import Array, RightHandSide, Segment, StopError, Stretch
 
 ENOUGH = 1e6

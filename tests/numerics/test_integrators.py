@@ -8,13 +8,13 @@ import pytest
 
 from lagrotor import Link, Scene, consistent_scene, simulate
 from lagrotor.models import minimal, spheres
-from lagrotor.numerics import Problem, compile_program
+from lagrotor.numerics import compile_program
 from lagrotor.numerics import lsoda as lsoda_module
 from lagrotor.numerics.adams import _piece as piece
 from lagrotor.numerics.adams import adams, adams_order, adams_weights
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.generated import function_of
-from lagrotor.numerics.integrate import integrate
+from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.printers import rhs_source
 from lagrotor.numerics.segment import Array, Segment, StopError

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from lagrotor.errors import InputError
-from lagrotor.numerics import between_samples, measured_order
+from lagrotor.numerics import measured_order
+from lagrotor.numerics.rotations import between_samples
 
 
 def circles(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -12,8 +12,8 @@ from lagrotor.models import minimal, spheres
 from lagrotor.models import simulate as simulating
 from lagrotor.models.model import integrate_model
 from lagrotor.models.programs.minimal_program import program
-from lagrotor.numerics import Problem, taylor
-from lagrotor.numerics.integrate import integrate
+from lagrotor.numerics import taylor
+from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.segment import Stretch
 from lagrotor.numerics.taylor import taylor_order, taylor_solver
 from lagrotor.pair import SHOCK_PAIRED

@@ -6,7 +6,6 @@ import pytest
 from lagrotor import Rotor
 from lagrotor.errors import InputError
 from lagrotor.structures import (
-    bloch,
     border_packet,
     chern_numbers,
     edge_waves,
@@ -16,6 +15,7 @@ from lagrotor.structures import (
     straight_row,
     way_round,
 )
+from lagrotor.structures.waves.bloch import bloch
 
 SPRINGS = {"spring": 50.0, "hinge": 200.0}
 BARS = {"move": (0.3, 0.3), "hinge": 200.0}

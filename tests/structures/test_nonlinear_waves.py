@@ -9,16 +9,9 @@ import pytest
 from lagrotor import Link, Pattern, Rotor
 from lagrotor.errors import InputError
 from lagrotor.numerics import measured_order
-from lagrotor.structures import (
-    honeycomb,
-    local_hamiltonian,
-    normal_form_of,
-    polygon_ring,
-    square,
-    straight_row,
-    wave_amplitude,
-)  # fmt: skip
+from lagrotor.structures import honeycomb, local_hamiltonian, polygon_ring, square, straight_row, wave_amplitude
 from lagrotor.structures.coefficients import coefficients
+from lagrotor.structures.resonances import normal_form_of
 from lagrotor.structures.small_motion import small_motion
 
 

@@ -5,14 +5,8 @@ import pytest
 
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
-from lagrotor.structures import (
-    bounded_motion,
-    local_hamiltonian,
-    measured_growth,
-    normal_form_of,
-    resonant_factors,
-    sign_patterns,
-)
+from lagrotor.structures import bounded_motion, local_hamiltonian, measured_growth, resonant_factors, sign_patterns
+from lagrotor.structures.resonances import normal_form_of
 
 PAIR = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)], "spins": [1, 1]}
 SQUARE = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "spins": 1.0}

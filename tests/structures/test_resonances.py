@@ -12,17 +12,9 @@ from lagrotor.mechanics.canonical import normal_forms
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.numerics import measured_order
-from lagrotor.structures import (
-    exact_motion,
-    example,
-    holding,
-    local_hamiltonian,
-    measured_fall,
-    normal_form_of,
-    resonant_factors,
-)
+from lagrotor.structures import exact_motion, example, holding, local_hamiltonian, measured_fall, resonant_factors
 from lagrotor.structures.exact.forces import off_constraints
-from lagrotor.structures.resonances import _new_coordinates, _outweighs, trusted_push
+from lagrotor.structures.resonances import _new_coordinates, _outweighs, normal_form_of, trusted_push
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
 WEIGHT = {"gravity": 9.81, "load": 2.0}

@@ -10,8 +10,9 @@ from scipy.integrate import solve_ivp
 from lagrotor import Link, Rotor, Structure
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.numerics import estimated_run
-from lagrotor.structures import exact_motion, right_hand_side
+from lagrotor.structures import exact_motion
 from lagrotor.structures.exact.closing import start_state
+from lagrotor.structures.exact.written_out import right_hand_side
 from tests.structures.extended import exact
 
 PLANS = (
