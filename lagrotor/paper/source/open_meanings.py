@@ -143,7 +143,8 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
     else:
         held = without_thin(box.parts[0]) if box.kind == "fraction" and not derivative_mark(box) else []
     for each in held:
-        stepping = each.name in ("Delta", "delta") and [b.kind for b in each.sub or ()] == ["letter"]  # \Delta_\mu f
+        # steps, variations, products of a field with a form, covariant differentials: \Delta_\mu f, i_\xi\omega, d_A F
+        stepping = each.name in ("Delta", "delta", "i", "iota", "d") and [b.kind for b in each.sub or ()] == ["letter"]
         if each.kind == "letter" and (stepping or not is_number(known, each)):
             settles = f'letters = "{each.name}"'
             yield "operator", f"{each.name} is a factor of what follows, and no operator on it", settles
@@ -395,13 +396,11 @@ def _spaces(reader: FormulaReader, row: list[Box]) -> Marks:
     for first, last in pairwise(ends):
         middle = row[first + 1 : last] if row[first].kind == row[last].kind == "relation" else []
         space = max((k for k, b in enumerate(middle) if b.kind == "thin"), default=0)
-        left = [b.kind for b in middle[space + 1 :]] in (["letter"], ["letter", "bracket"]) and middle[
-            space + 1
-        ].name != "d"
-        derived = [b.kind for b in middle[-2:]] == ["fraction", "letter"] and bool(
-            derivative_mark(middle[-2])
-        )  # u = df/dy v = …
-        if derived or (space and left and middle[space - 1].kind in ("letter", "bracket")):
+        behind = middle[space + 1 :] if space else []
+        if not space and [b.kind for b in middle[-2:]] == ["fraction", "letter"] and letters_in_row(middle[-2:-1]):
+            typed = reader.source[middle[-2].end : middle[-1].at].isspace()  # u = \frac{x}{r} v = \frac{y}{r}
+            behind = middle[-1:] if typed else []
+        if [b.kind for b in behind] in (["letter"], ["letter", "bracket"]) and behind[0].name != "d":
             yield "spaces", "what a space parts are factors, and no left side", ""
     names = [b.name for b in row if b.kind == "relation"]
     between = row[next((k for k, b in enumerate(row) if b.name == "="), 0) :]

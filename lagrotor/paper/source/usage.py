@@ -374,6 +374,7 @@ def _look_about(row: list[Box], found: Notation) -> None:
             found.seen.add("complex")
         if box.kind == "function" and box.name in ("det", "tr", "Tr", "rank", "ker", "diag") and after is not None:
             inside = without_thin(after.parts[0]) if after.kind == "bracket" else [after]
+            found.seen |= {"hessian"} if any(b.kind == "nabla" and b.sup for b in inside) else set()
             found.matrices |= {
                 stem_of(b) for b in inside if b.kind == "letter" and (len(inside) == 1 or b.name.isupper())
             }
