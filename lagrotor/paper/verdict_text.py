@@ -29,6 +29,7 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     rows += [("line", ": ".join(filter(None, (line_text(line), point_text(line))))) for line in wrong]
     rows += [("right", line) for line in _lines(statement.correction)]
     rows += [("derived", line) for line in _lines(uncorrected(verdict), "derived")]
+    rows += [("letters", _unsaid(name)) for name in _not_derived(uncorrected(verdict))]
     rows += [("correction", verdict.correction_verdict)] if verdict.correction_verdict else []
     rows += [("if", readable(premise.with_formula)) for premise in verdict.premises]
     rows += [("domain", relation_text(relation)) for relation in verdict.domain]
@@ -44,6 +45,22 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     rows.append(("derived in", paper.derived_in(verdict.id) or "?"))
     head = f"{entry.id}  {readable(entry.title)}: {verdict.verdict}{order}"
     return "\n".join([head, *(f"  {name:<11}{text}" for name, text in rows)])
+
+
+def _not_derived(relations: Iterable[Relation]) -> list[str]:
+    """The names of letters of prints that nothing derived has."""
+
+    def names(side: Any) -> set[str]:
+        return {str(s) for s in getattr(side, "expression", side).free_symbols}
+
+    return sorted({name for r in relations for name in names(r.printed) - names(r.derived)})
+
+
+def _unsaid(name: str) -> str:
+    return (
+        f"{readable(name)} is printed, and not derived: where the text says what it stands for, write "
+        f'letters = {{ {name} = "…" }}'
+    )
 
 
 def _printed(entry: Equation) -> list[str]:

@@ -8,6 +8,7 @@ import pytest
 from lagrotor.errors import InputError, LagrotorError, ScriptError
 from lagrotor.paper import Paper
 from lagrotor.paper.scripts import beside
+from lagrotor.paper.verdict_text import in_words
 
 PAPERS = beside("papers")
 
@@ -49,6 +50,20 @@ def test_what_is_not_derived_is_not_yet_judged_and_counted_so(folder: Path) -> N
         Paper(folder).audit("1.2")
     with pytest.raises(InputError, match=r"'1\.3' is not in the paper"):
         audit["1.3"]
+
+
+def test_a_printed_letter_that_nothing_derived_has_is_named(folder: Path) -> None:
+    """ω₀² for g/l is refuted at some value of ω₀: the terminal says which letter, and where its meaning is written."""
+    with (folder / "symbols.py").open("a", encoding="utf-8") as file:
+        file.write('omega_0 = GLOSSARY.letter("omega_0", "rate of small swings", "1/s", positive=True)\n')
+    edit(folder / "equations.toml", "-g/l*theta", "-omega_0**2*theta")
+    paper = Paper(folder)
+    verdict = paper.audit("1.1")
+    assert verdict.verdict == "refuted" and "ω₀ is printed, and not derived" in in_words(verdict, paper)
+    edit(folder / "equations.toml", 'section = "1"\n', 'section = "1"\nletters = { omega_0 = "sqrt(g/l)" }\n')
+    paper = Paper(folder)
+    verdict = paper.audit("1.1")
+    assert verdict.verdict == "holds-to-order" and "not derived" not in in_words(verdict, paper)
 
 
 def test_claims_figures_and_letters_may_be_left_out(folder: Path) -> None:
