@@ -9,7 +9,7 @@ one change of sign, factor or power makes them agree: a slip, not a law.
 
 import re
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from itertools import chain, pairwise
@@ -25,8 +25,9 @@ from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula, with_progress
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
+from lagrotor.paper.source.settled import ANY_BASE, is_of_argument, is_settled, other_arguments
 from lagrotor.paper.source.slips import change_to_agree, constant_value
-from lagrotor.paper.source.substitution import PrintedMeaning, SectionMeanings, put_for, rounds
+from lagrotor.paper.source.substitution import WANTED, PrintedMeaning, SectionMeanings, put_for, rounds
 from lagrotor.paper.source.tree import (
     KNOWN,
     Call,
@@ -56,16 +57,23 @@ _UNKNOWN = re.compile(r"(\\(?:[A-Za-z@]+|begin\{[^{}]*\})) is not known")
 _RELATION = re.compile(r"=|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
 # What the text says where two sides agree only under a condition.
 _CONDITIONS = re.compile(
-    r"\b(?:modulo|up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*|by parts|boundary terms?"
-    r"|relabel\w*|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|vanish\w*|on.shell|constraint)\b",
+    r"\b(?:modulo|(?<!add )(?<!adds )(?<!sum )up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*|by parts|boundary terms?"
+    r"|relabel\w*|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|on.shell|constraint)\b"
+    r"|\bvanish\w*\b(?!\s+(?:at|for|when|if)\b(?!\s+(?:infinity|the|large|both|each)))",
     re.IGNORECASE,
 )
-# Where the sentence of an equation begins a case of its own, for which what stands before need not hold; □: the equation.
+# Where the sentence of an equation begins a case of its own, for which what stands before need not hold, unless it is with a
+# premise itself; □: the equation, ◦: a premise.
+_OPENING = re.compile(
+    r"(?:^|[.;:]|\b(?:and|but|while|whereas|then)\b)\s*(?:for|if|with|when|at|on|in|near|along|after|under|as)\b[^.;:□◦]*[.;:,]?\s*□",
+    re.IGNORECASE,
+)
 _CASES = re.compile(
-    r"(?:^|[.;:]|\b(?:and|but|while|whereas|then)\b)\s*(?:for|if|with|when|at|on|in|near|along|after|under|as)\b[^.;:□]*[.;:,]?\s*□"
-    r"|\b(?:now|half|halves|twice|double\w*|instead|opposite|other|another|special|cases?)\b",
-    re.IGNORECASE,
+    r"\b(?:now|half|halves|twice|double\w*|instead|opposite|other|another|special|cases?)\b", re.IGNORECASE
 )
+# The end of the sentence of another display, and the beginning of one, which end with the equation or begin behind it.
+_BEFORE, _BEHIND = re.compile(r"^\s*[a-z][^.;!?□]*[.;!?]"), re.compile(r"([.;:!?□]\s*)[A-Z][^.;:!?□]*$")
+_FORMULA = re.compile(r"\$[^$]*\$")
 _TO_BE_SOLVED = re.compile(
     r"\b(?:if|when\w*|where|unless|until|only|satisf\w*|sol[uv]\w*|roots?|condition\w*|equations?|require\w*|must|equilibri\w*)\b",
     re.IGNORECASE,
@@ -80,11 +88,6 @@ _DOTTED = re.compile(r"(\w+?)_(d*)ot")
 # What it says where a letter has a meaning of its own.
 _GIVES = re.compile(r"\bwhere\s*□|□[\s,.]*(?:is|are) (?:the|an?)\b|\b(?:defin|call|denot|let\b)", re.IGNORECASE)
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
-# The one guess that verdicts rest on: that log is the natural logarithm.
-_ANY_BASE = "log is"
-# Guesses of what has a name; it stands for itself whatever it is, where nothing is differentiated or integrated.
-_OF_NAMES = re.compile(r"with a dot is its rate|is (?:a|part of the) name, and no derivative")
-_PLAIN = frozenset((*KNOWN, "sum", "product", "quotient", "power", "negative", "dot", "cross", "norm", "column"))
 
 
 @dataclass(frozen=True)
@@ -221,24 +224,32 @@ class _Checker:
                 continue
             if relation not in ("=", ":=") or (step == 1 and not self._identity(left.node, right.node)):
                 continue
-            verdict, why, *used = bounded(self._step, left.node, right.node, printed, step == 1)
-            if verdict in (HOLDS, REFUTED) and (guess := self._guess_of(left, right, used)):
+            verdict, why, *used = bounded(self._step, left.node, right.node, printed, step == 1, last)
+            if verdict in (HOLDS, REFUTED) and (guess := self._open(verdict, left, right, used, printed)):
                 verdict, why = "undecided", f"{why}; but it is a guess that {guess}"
             if step > 1 or verdict in (HOLDS, REFUTED, NO_IDENTITY):
                 yield self._finding(each, step, right, verdict, why)
 
-    def _guess_of(self, left: Side, right: Side, used: list[PrintedMeaning]) -> str:
-        """The guess that the reading of two sides, or of a premise, rests on, each read by itself; nothing where none does."""
+    def _open(
+        self, verdict: str, left: Side, right: Side, used: list[PrintedMeaning], printed: PrintedStatement
+    ) -> str:
+        """The guess that a verdict on two sides, with premises, rests on, each read by itself; nothing where none does."""
         whole = self.readings[self.place][1]
         if not _guess(whole) and not used:
             return ""
         alone = read_formula(f"{left.latex} = {right.latex}", self.notation)
         same = alone.whole and [side.node for side in alone.statements[0].sides] == [left.node, right.node]
-        readings = [alone if same else whole, *(read_formula(each.latex, self.notation) for each in used)]
+        own = (alone if same else whole).guesses
+        guesses = (*own, *(each for one in used for each in read_formula(one.latex, self.notation).guesses))
         nodes = (left.node, right.node, *(each.value for each in used))
-        plain = all(n.name in _PLAIN for node in nodes for n in walk(node) if isinstance(n, Call))
-        guesses = (each for reading in readings for each in reading.guesses if not each.startswith(_ANY_BASE))
-        return next((each for each in guesses if not (plain and _OF_NAMES.search(each))), "")
+        for each in guesses:
+            if is_of_argument(each) and (verdict == REFUTED or each not in own):
+                others = other_arguments(left.node, right.node) if each in own else ()
+                if each not in own or any(bounded(self._step, *o, printed, False, False)[0] == HOLDS for o in others):
+                    return each
+            elif not is_settled(each, nodes):
+                return each
+        return ""
 
     def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """A row that continues the one before, with the last side of that row in its place."""
@@ -259,10 +270,13 @@ class _Checker:
         """Whether the first step may be an identity: no letter stands alone, a number beside functions alone."""
         of_functions = any(isinstance(each, Call) and each.name in KNOWN for each in walk(left))
         beside = bool(letters_of(right)) or (of_functions and isinstance(right, Number) and right.value != 0)
-        return isinstance(left, Call) and not isinstance(right, Letter) and beside
+        rate = isinstance(left, Letter) and (dotted := _DOTTED.fullmatch(left.name)) is not None
+        if rate and any(_DOTTED.sub(r"\1", name) == dotted[1] for name in letters_of(right)):
+            return False  # an equation of motion
+        return (rate or isinstance(left, Call)) and not isinstance(right, Letter) and beside
 
-    def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool) -> tuple[Any, ...]:
-        """The verdict on a step, why, and each premise that was put in."""
+    def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool, last: bool) -> tuple[Any, ...]:
+        """The verdict on a step, why, and each premise that was put in; first and last: of its chain."""
         a, b = self._value(left), self._value(right)
         if a is None or b is None:
             return "undecided", "the two sides cannot be compared"
@@ -278,24 +292,32 @@ class _Checker:
         if answer == "undecided":
             return "undecided", "the difference is outside what is decided exactly"
         verdict, why = self._refuted(left, right, a, b, first)
-        taken = isinstance(left, Call) and left.name == "Derivative" and not self._says(_TO_BE_SOLVED)
-        if verdict != REFUTED and (taken or not first):
+        if verdict != REFUTED and (not first or (self._is_taken(left, last) and not self._says(_TO_BE_SOLVED))):
             for way in ways:
-                if self._are_sure(way.used) and (slip := self._slip_with(left, right, way)):
+                if self._are_sure(way.used, printed) and (slip := self._slip_with(left, right, way)):
                     return REFUTED, f"with {way.named} the two sides differ; {slip}", *way.used
         if verdict == REFUTED and decided(a, b) != "nonzero":
             return "undecided", "the difference is outside what is decided exactly"
         return verdict, why
 
+    def _is_taken(self, left: Node, last: bool) -> bool:
+        """Whether a side is worked out from what is given, so that its first equation is no condition."""
+        of_given = isinstance(left, Letter) or left.name in ("Derivative", "Integral") or self.given.is_called(left)
+        return of_given or not last
+
     def _ways(self, left: Node, right: Node, printed: PrintedStatement) -> Iterator["_Way"]:
-        """The two sides with derivatives taken and premises put in for letters of one of them; then for those of both, if any."""
+        """The two sides with derivatives taken and premises put in: for letters of the one, of the other, of both."""
         section = self.readings[self.place][0].section
 
         def premises(parts: Iterable[Node]) -> Iterator[PrintedMeaning]:
             return self.given.of(parts, self.place, section, printed)
 
-        one, both = (rounds(left, right, premises, both) for both in (False, True))
-        for put in (one, both) if both != one else (one,):
+        tried: list[list[dict[Node, PrintedMeaning]]] = []
+        for wanted in WANTED:
+            put = rounds(left, right, premises, wanted)
+            if put in tried:
+                continue
+            tried.append(put)
             opaque = Opaque(self.opaque.names, self.rates)
 
             def value(node: Node, put: list[dict[Node, PrintedMeaning]] = put, opaque: Opaque = opaque) -> Any:
@@ -304,18 +326,23 @@ class _Checker:
             sides = value(left), value(right)
             yield _Way(*sides, put, value, opaque.fixing)
 
-    def _are_sure(self, used: list[PrintedMeaning]) -> bool:
+    def _are_sure(self, used: list[PrintedMeaning], printed: PrintedStatement) -> bool:
         """Whether premises are cited, or all that the section gives; and no word is against them, or begins another case."""
         each = self.readings[self.place][0]
         cited = {f"({read.equation.id})" for label in each.cites for read in self.labelled[label]}
-        return not (self._says(_CONDITIONS) or self._says(_CASES)) and all(
-            premise.name in cited or (premise.section == each.section and self.given.is_given_once(premise))
+        names = {premise.name for premise in used}
+        case = not names & cited and self._says(_OPENING, names)
+        return not (case or self._says(_CONDITIONS) or self._says(_CASES)) and all(
+            premise.name in cited or (premise.section == each.section and self.given.is_given_once(premise, printed))
             for premise in used
         )
 
-    def _says(self, condition: re.Pattern[str]) -> str:
-        words = condition.search(self.source.words.get(self.readings[self.place][0].id, ""))
-        return words[0] if words else ""
+    def _says(self, condition: re.Pattern[str], premises: Collection[str] = ()) -> str:
+        """What the sentence of an equation says; in conditions the words of its paragraph since the last one."""
+        words = self.source.words.get(self.readings[self.place][0].id, "")
+        words = _BEHIND.sub(r"\1", _FORMULA.sub(lambda m: "◦" if m[0] in premises else " ", words))
+        found = condition.search(words if condition is _CONDITIONS else _BEFORE.sub("", words))
+        return found[0] if found else ""
 
     def _slip_with(self, left: Node, right: Node, way: "_Way") -> str | None:
         """The one change of the right side with which it is the left one, the premises put in."""
@@ -530,7 +557,7 @@ class _Checker:
         letters = Counter(name for read, _, _ in broken for name in _letters_of(read.statement))
         for read, why, near in broken:
             alone = all(letters[name] == 1 for name in _letters_of(read.statement))
-            if near or (alone and not _GIVES.search(self.source.words.get(read.equation.id, ""))):
+            if near or (alone and not _GIVES.search(_FORMULA.sub(" ", self.source.words.get(read.equation.id, "")))):
                 yield self._finding(read.equation, 0, None, UNITS, why)
 
     def _values(self) -> Iterator[tuple[str, list[Node], None]]:
@@ -637,7 +664,7 @@ def _without_values(statement: PrintedStatement) -> list[Node]:
 
 def _guess(reading: Reading) -> str:
     """The guess that a reading rests on; nothing where it rests on none."""
-    return next((each for each in reading.guesses if not each.startswith(_ANY_BASE)), "")
+    return next((each for each in reading.guesses if not each.startswith(ANY_BASE)), "")
 
 
 def _proportional(a: sp.Expr, b: sp.Expr) -> bool:

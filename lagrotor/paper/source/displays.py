@@ -339,7 +339,9 @@ class _Walker:
                 self.expander.push([token])
                 return
             found.append(token)
-        self.found.inline.setdefault(latex_of(found).strip(), self.section)
+        latex = latex_of(found).strip()
+        self.found.inline.setdefault(latex, self.section)
+        self._text(f" ${latex}$ ")
 
     def _is_display(self, token: Token) -> bool:
         r"""Whether a token is the \begin of a display."""

@@ -52,6 +52,12 @@ def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]
         return
     if node.name in _TAKEN_FOR:
         yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
+        yield Call("power", (node, Number(Fraction(2)))), f"{text_of(node)} squared"
+        for factor, said in ((Fraction(2), "doubled"), (Fraction(1, 2), "halved")):
+            yield (
+                _with(node, 0, Call("product", (Number(factor), *node.args))),
+                f"the argument of {text_of(node)} {said}",
+            )
     if node.name == "sum":
         for place, term in enumerate(node.args):
             other = term.args[0] if isinstance(term, Call) and term.name == "negative" else Call("negative", (term,))

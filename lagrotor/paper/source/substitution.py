@@ -1,11 +1,12 @@
 """What the text gives before a step: letters and unknown functions by what stands for them, to be put into the two sides."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from lagrotor.paper.source.read_statements import PrintedStatement
-from lagrotor.paper.source.tree import KNOWN, Call, Letter, Node, is_vector, letters_of, walk
+from lagrotor.paper.source.tree import KNOWN, Call, Letter, Node, Number, is_vector, letters_of, product_of, walk
 
 _MEMORY = 60  # displays back to which a step may refer
 _MOST_ROUNDS = 4  # of putting in: what stands for a letter may have letters that others stand for
@@ -28,52 +29,107 @@ class PrintedMeaning:
     place: int
     statement: PrintedStatement
 
+    @property
+    def is_a_root(self) -> bool:
+        """Whether its sign is taken and not printed: of x by x² = y."""
+        return (
+            self.value != self.statement.sides[-1].node and isinstance(self.value, Call) and self.value.name == "sqrt"
+        )
+
 
 @dataclass
 class SectionMeanings:
     """The premises before a place, by what they give."""
 
     known: defaultdict[Node, list[PrintedMeaning]] = field(default_factory=lambda: defaultdict(list))
+    functions: defaultdict[str, list[PrintedMeaning]] = field(default_factory=lambda: defaultdict(list))
 
     def add(self, statement: PrintedStatement, name: str, section: str, place: int) -> None:
         """Take over what an equation gives: its left side by each other one, the last first."""
         first, *others = statement.sides
-        if statement.kind != "equation" or not _is_meaning(first.node):
+        if statement.kind != "equation":
             return
-        meanings = [first.node]
-        if isinstance(first.node, Call) and all(isinstance(each, Letter) for each in first.node.args):
-            meanings.append(Letter(first.node.name))  # H(p, q) = …, where H alone is meant as well
         for side in reversed(others):
             worded = isinstance(side.node, Letter) and r"\text" in side.latex
-            if worded or is_vector(first.node) != is_vector(side.node) or _holds(side.node, first.node):
+            if worded or is_vector(first.node) != is_vector(side.node):
                 continue
             latex = f"{first.latex} = {side.latex}"
-            values = dict.fromkeys(meanings, side.node)
-            if isinstance(first.node, Letter) and not first.node.vector and isinstance(side.node, Call):
-                once = Call("rate", (side.node,))
-                values |= {
-                    Letter(f"{first.node.name}_dot"): once,
-                    Letter(f"{first.node.name}_ddot"): Call("rate", (once,)),
-                }
-            for meaning, value in values.items():
-                self.known[meaning].append(PrintedMeaning(meaning, value, name, latex, section, place, statement))
+            for meaning, value in _values(first.node, side.node):
+                if not _holds(value, meaning):
+                    made = PrintedMeaning(meaning, value, name, latex, section, place, statement)
+                    self.known[meaning].append(made)
+                    if isinstance(meaning, Call) and meaning.name not in (*_ARITHMETIC, *_BINDING):
+                        self.functions[meaning.name].append(made)
 
     def of(self, parts: Iterable[Node], place: int, section: str, but: PrintedStatement) -> Iterator[PrintedMeaning]:
         """For each part that something stands for, the last premise but of a statement itself, of its section first."""
         for part in parts:
             near = [
                 each
-                for each in self.known.get(part, ())
+                for each in self.known.get(part) or self._called(part)
                 if each.statement is not but and (each.place >= place - _MEMORY or each.section == section)
             ]
             if near:
                 yield max(near, key=lambda each: (each.section == section, each.place))
 
-    def is_given_once(self, premise: PrintedMeaning) -> bool:
-        """Whether no other equation of its section gives anything else for the same."""
-        near = [each for each in self.known[premise.meaning] if each.section == premise.section]
+    def _called(self, part: Node) -> list[PrintedMeaning]:
+        """What a function, or its derivative by a prime, is at other arguments than those by which it is given."""
+        if not isinstance(part, Call) or part.name in KNOWN:
+            return []
+        name = part.name.removesuffix("prime").removesuffix("prime")
+        order = (len(part.name) - len(name)) // len("prime")
+        made = []
+        for each in self.functions.get(name, ()):
+            of = each.meaning.args if isinstance(each.meaning, Call) else ()
+            if len(of) != len(part.args) or (order and len(of) > 1) or not all(isinstance(a, Letter) for a in of):
+                continue
+            value = each.value
+            for _ in range(order):
+                value = Call("Derivative", (value, of[0]))
+            if part.args != of:
+                at = Call("at", (value, *of, *part.args))
+                value = at if order else put_for(value, dict(zip(of, part.args, strict=True)))
+            made.append(replace(each, meaning=part, value=value))
+        return made
+
+    def is_called(self, node: Node) -> bool:
+        """Whether a node is a function at other arguments than those by which it is given, or its derivative."""
+        return node not in self.known and bool(self._called(node))
+
+    def is_given_once(self, premise: PrintedMeaning, but: PrintedStatement) -> bool:
+        """Whether no equation of its section but a statement itself gives anything else for the same."""
+        given = self.known.get(premise.meaning) or self._called(premise.meaning)
+        near = [each for each in given if each.section == premise.section and each.statement is not but]
         own = {each.value for each in near if each.statement is premise.statement}
         return all(each.value in own for each in near)
+
+
+def _values(left: Node, right: Node) -> Iterator[tuple[Node, Node]]:
+    """What a side gives, and its value: itself, its rates; the rate or derivative of which a product is made."""
+    if _is_meaning(left):
+        yield left, right
+        if isinstance(left, Call) and all(isinstance(each, Letter) for each in left.args):
+            yield Letter(left.name), right  # H(p, q) = …, where H alone is meant as well
+        if isinstance(left, Letter) and not left.vector and isinstance(right, Call):
+            once = Call("rate", (right,))
+            yield Letter(f"{left.name}_dot"), once
+            yield Letter(f"{left.name}_ddot"), Call("rate", (once,))
+    elif isinstance(left, Call) and left.name == "power" and _is_meaning(left.args[0]):
+        yield left, right
+        if left.args[1] == Number(Fraction(2)):
+            yield left.args[0], Call("sqrt", (right,))
+    elif isinstance(left, Call) and left.name == "product" and not is_vector(left):
+        yield left, right
+        moving = [each for each in left.args if _is_rate(each)]
+        if len(moving) == 1:  # m d²x/dt² = F
+            rest = [each for each in left.args if each is not moving[0]]
+            yield moving[0], Call("quotient", (right, product_of(rest)))
+
+
+def _is_rate(node: Node) -> bool:
+    return (
+        node.name.endswith("dot") if isinstance(node, Letter) else isinstance(node, Call) and node.name == "Derivative"
+    )
 
 
 def _is_meaning(node: Node) -> bool:
@@ -112,22 +168,37 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
     return Call(node.name, tuple(put_for(each, values) for each in node.args))
 
 
-def rounds(
-    left: Node, right: Node, premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]], both: bool
-) -> list[dict[Node, PrintedMeaning]]:
-    """What is put into two sides, round by round; each part once: x by y and y by x would go on without end.
+def _without(parts: Collection[Node], others: Collection[Node]) -> list[Node]:
+    return [each for each in parts if each not in others]
 
-    both: also what the two sides share.
-    """
+
+# The parts that are put in, of the left side and of the right: those of one alone, so that the letters of the other stay;
+# those that the two do not share; all. x = f(y) and y = g(x) put into the two sides at once would exchange them.
+WANTED: tuple[Callable[[Collection[Node], Collection[Node]], list[Node]], ...] = (
+    _without,
+    lambda left, right: _without(right, left),
+    lambda left, right: [*_without(left, right), *_without(right, left)],
+    lambda left, right: [*left, *_without(right, left)],
+)
+
+
+def rounds(
+    left: Node,
+    right: Node,
+    premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]],
+    wanted: Callable[[Collection[Node], Collection[Node]], list[Node]],
+) -> list[dict[Node, PrintedMeaning]]:
+    """What is put into two sides, round by round; nothing into what stands for it: x by y and y by x would go on without end."""
     put: list[dict[Node, PrintedMeaning]] = []
-    done: set[Node] = set()
+    above: defaultdict[Node, set[Node]] = defaultdict(set)  # what a part came in with
     for _ in range(_MOST_ROUNDS):
-        parts = [dict.fromkeys(_free(side)) for side in (left, right)]
-        wanted = [each for each in {**parts[0], **parts[1]} if both or not (each in parts[0] and each in parts[1])]
-        new = {each.meaning: each for each in premises(wanted) if each.meaning not in done}
+        parts = (dict.fromkeys(_free(side)) for side in (left, right))
+        new = {each.meaning: each for each in premises(wanted(*parts)) if each.meaning not in above[each.meaning]}
         if not new:
             break
-        done |= new.keys()
+        for meaning, each in new.items():
+            for part in walk(each.value):
+                above[part] |= {meaning, *above[meaning]}
         put.append(new)
         left, right = (put_for(side, {key: each.value for key, each in new.items()}) for side in (left, right))
     return put

@@ -253,7 +253,7 @@ def _evaluated(node: Call, opaque: Opaque) -> Any:
         return sp.Matrix([sympy_expression(each, opaque) for each in node.args])
     if node.name == "rate" and opaque.rates is not None and isinstance(node.args[0], Call):
         return _rate(sympy_expression(node.args[0], opaque), opaque)
-    if node.name not in ("Sum", "Derivative", "Integral") or not isinstance(node.args[1], Letter):
+    if node.name not in ("Sum", "Derivative", "Integral", "at") or not isinstance(node.args[1], Letter):
         return None
     inner, name, rest = sympy_expression(node.args[0], opaque), node.args[1].name, node.args[2:]
     variable = sp.Symbol(name, real=True)
@@ -261,6 +261,8 @@ def _evaluated(node: Call, opaque: Opaque) -> Any:
         has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner))
     ):
         return None
+    if node.name == "at":
+        return None if len(rest) != 1 else inner.subs(variable, sympy_expression(rest[0], opaque))
     if node.name == "Sum":
         ends = [each.value for each in rest if isinstance(each, Number) and each.value.denominator == 1]
         indexed = any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
