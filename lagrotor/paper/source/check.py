@@ -19,7 +19,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import agreement_order
-from lagrotor.errors import LagrotorError
+from lagrotor.errors import LagrotorError, WorkError
 from lagrotor.paper.source.compared import LARGE, agree, bounded, decided, expression_of, is_large, may_agree
 from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
@@ -57,9 +57,9 @@ _UNKNOWN = re.compile(r"(\\(?:[A-Za-z@]+|begin\{[^{}]*\})) is not known")
 _RELATION = re.compile(r"=|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
 # What the text says where two sides agree only under a condition.
 _CONDITIONS = re.compile(
-    r"\b(?:modulo|(?<!add )(?<!adds )(?<!sum )up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*|by parts|boundary terms?"
-    r"|relabel\w*|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|on.shell|constraint)\b"
-    r"|\bvanish\w*\b(?!\s+(?:at|for|when|if)\b(?!\s+(?:infinity|the|large|both|each)))",
+    r"\b(?:modulo|(?<!add )(?<!adds )(?<!sum )up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*"
+    r"|by parts|boundary terms?|relabel\w*|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|on.shell"
+    r"|constraint)\b|\bvanish\w*\b(?!\s+(?:at|for|when|if)\b(?!\s+(?:infinity|the|large|both|each)))",
     re.IGNORECASE,
 )
 # Where the sentence of an equation begins a case of its own, for which what stands before need not hold, unless it is with a
@@ -219,12 +219,15 @@ class _Checker:
         for step in range(1 if statement is printed else 2, len(sides)):
             left, right, relation = sides[step - 1], sides[step], statement.relations[step - 1]
             last = step == len(sides) - 1
-            if statement.order is not None and last and step > 1:
-                yield from self._order(each, step, left, right, statement.order)
+            of_order = statement.order is not None and last and step > 1
+            if not of_order and (
+                relation not in ("=", ":=") or (step == 1 and not self._identity(left.node, right.node))
+            ):
                 continue
-            if relation not in ("=", ":=") or (step == 1 and not self._identity(left.node, right.node)):
-                continue
-            verdict, why, *used = bounded(self._step, left.node, right.node, printed, step == 1, last)
+            if of_order:
+                verdict, why, *used = bounded(self._order, left.node, right.node, statement.order)
+            else:
+                verdict, why, *used = bounded(self._step, left.node, right.node, printed, step == 1, last)
             if verdict in (HOLDS, REFUTED) and (guess := self._open(verdict, left, right, used, printed)):
                 verdict, why = "undecided", f"{why}; but it is a guess that {guess}"
             if step > 1 or verdict in (HOLDS, REFUTED, NO_IDENTITY):
@@ -247,7 +250,7 @@ class _Checker:
                 others = other_arguments(left.node, right.node) if each in own else ()
                 if each not in own or any(bounded(self._step, *o, printed, False, False)[0] == HOLDS for o in others):
                     return each
-            elif not is_settled(each, nodes):
+            elif not is_settled(each, nodes, [one.meaning for one in used]):
                 return each
         return ""
 
@@ -270,10 +273,10 @@ class _Checker:
         """Whether the first step may be an identity: no letter stands alone, a number beside functions alone."""
         of_functions = any(isinstance(each, Call) and each.name in KNOWN for each in walk(left))
         beside = bool(letters_of(right)) or (of_functions and isinstance(right, Number) and right.value != 0)
-        rate = isinstance(left, Letter) and (dotted := _DOTTED.fullmatch(left.name)) is not None
-        if rate and any(_DOTTED.sub(r"\1", name) == dotted[1] for name in letters_of(right)):
+        dotted = _DOTTED.fullmatch(left.name) if isinstance(left, Letter) else None
+        if dotted and any(_DOTTED.sub(r"\1", name) == dotted[1] for name in letters_of(right)):
             return False  # an equation of motion
-        return (rate or isinstance(left, Call)) and not isinstance(right, Letter) and beside
+        return (bool(dotted) or isinstance(left, Call)) and not isinstance(right, Letter) and beside
 
     def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool, last: bool) -> tuple[Any, ...]:
         """The verdict on a step, why, and each premise that was put in; first and last: of its chain."""
@@ -292,18 +295,22 @@ class _Checker:
         if answer == "undecided":
             return "undecided", "the difference is outside what is decided exactly"
         verdict, why = self._refuted(left, right, a, b, first)
-        if verdict != REFUTED and (not first or (self._is_taken(left, last) and not self._says(_TO_BE_SOLVED))):
+        if verdict != REFUTED and (
+            not first or (self._is_taken(left, printed, last) and not self._says(_TO_BE_SOLVED))
+        ):
             for way in ways:
                 if self._are_sure(way.used, printed) and (slip := self._slip_with(left, right, way)):
+                    if "sign" in slip and any(each.is_a_root for each in way.used):
+                        continue  # of x by x² = y the sign is taken
                     return REFUTED, f"with {way.named} the two sides differ; {slip}", *way.used
         if verdict == REFUTED and decided(a, b) != "nonzero":
             return "undecided", "the difference is outside what is decided exactly"
         return verdict, why
 
-    def _is_taken(self, left: Node, last: bool) -> bool:
+    def _is_taken(self, left: Node, printed: PrintedStatement, last: bool) -> bool:
         """Whether a side is worked out from what is given, so that its first equation is no condition."""
-        of_given = isinstance(left, Letter) or left.name in ("Derivative", "Integral") or self.given.is_called(left)
-        return of_given or not last
+        analysed = isinstance(left, Letter) or (isinstance(left, Call) and left.name in ("Derivative", "Integral"))
+        return analysed or not last or self.given.is_called(left, printed)
 
     def _ways(self, left: Node, right: Node, printed: PrintedStatement) -> Iterator["_Way"]:
         """The two sides with derivatives taken and premises put in: for letters of the one, of the other, of both."""
@@ -452,36 +459,26 @@ class _Checker:
         """Whether an equation is an identity, which relates no letters."""
         return None not in sides and all(agree(a, b) for a, b in pairwise(sides))
 
-    def _order(
-        self, each: Displayed, step: int, left: Side, right: Side, order: tuple[str, int]
-    ) -> Iterator[StepFinding]:
+    def _order(self, left: Node, right: Node, order: tuple[str, int]) -> tuple[str, str]:
         """A step that is claimed through an order of a small letter."""
         name, power = order
         small = sp.Symbol(name, real=True)
         try:
-            a, b = sympy_expression(left.node, self.opaque), sympy_expression(right.node, self.opaque)
+            a, b = sympy_expression(left, self.opaque), sympy_expression(right, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
-                return
+                return "undecided", f"the left side has no {name}"
             rates = re.compile(rf"{re.escape(name)}_d+ot")  # of what is small, they are as small
             scaled = {s: small * s for s in a.free_symbols | b.free_symbols if rates.fullmatch(s.name)}
-            term = bounded(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
-        except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError):
-            yield self._finding(each, step, right, "undecided", "the series cannot be compared")
-            return
-        if term is LARGE:
-            yield self._finding(each, step, right, *LARGE)
-        elif term.order is None:
-            yield self._finding(each, step, right, HOLDS, f"through order {power - 1} in {name}")
-        elif has_opaque(a, b):
-            yield self._finding(each, step, right, "undecided", f"derivatives or functions may be small as {name} is")
-        else:
-            yield self._finding(
-                each,
-                step,
-                right,
-                REFUTED,
-                f"the two sides part at order {term.order} in {name}; O({name}**{power}) is claimed",
-            )
+            term = agreement_order(a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
+        except WorkError:
+            raise
+        except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
+            return "undecided", "the series cannot be compared"
+        if term.order is None:
+            return HOLDS, f"through order {power - 1} in {name}"
+        if has_opaque(a, b):
+            return "undecided", f"derivatives or functions may be small as {name} is"
+        return REFUTED, f"the two sides part at order {term.order} in {name}; O({name}**{power}) is claimed"
 
     # ---- equations and what they cite
 

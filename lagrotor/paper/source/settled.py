@@ -4,19 +4,19 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 
+from lagrotor.paper.source.rows import UNITS
 from lagrotor.paper.source.tree import KNOWN, Call, Letter, Node, letters_of, product_of, walk
 
 # The one guess that verdicts rest on: that log is the natural logarithm.
 ANY_BASE = "log is"
-# Of what has a name or is a quantity of its own: it stands for itself whatever it is, where nothing is differentiated or integrated.
-_OF_NAMES = re.compile(
-    r"with a dot is its rate|is (?:a|part of the) name, and no derivative|is a letter, and no unit|angle brackets are a mean"
-)
+# Of what has a name or is a quantity of its own: it stands for itself, whatever it is, where nothing is differentiated.
+_OF_NAMES = re.compile(r"with a dot is its rate|is (?:a|part of the) name, and no derivative|angle brackets are a mean")
 _PLAIN = frozenset(
     (*KNOWN, "sum", "product", "quotient", "power", "negative", "dot", "cross", "norm", "column", "mean")
 )
 _FACTOR = re.compile(r"(\w+) before [(\[\\{]+ is a factor, and no function")
 _NO_OPERATOR = re.compile(r"(\w+) is a factor of what follows, and no operator")
+_NO_UNIT = re.compile(r"(\w+) behind the number is a letter, and no unit")
 _NOT_SUMMED = re.compile(r"the index (\w+) is not summed over")
 # What is an identity with a name in it is one with a product in its place.
 _NO_NAME = re.compile(r"\w+ is a product, and no name")
@@ -24,18 +24,24 @@ _ENCLOSED = ("sqrt", "Abs", "factorial")  # functions whose argument is always p
 _ARGUMENT = re.compile(r"the argument of \w+ (?:is|ends)\b")
 
 
-def is_settled(guess: str, nodes: Sequence[Node]) -> bool:
+def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node] = ()) -> bool:
     """Whether a guess does not matter to a step of these sides and premises.
 
-    An index that is a letter of the step is a number; a factor before a bracket stands elsewhere without one; what might be an operator stands in one order with every other
-    letter, so that it need not commute; where the argument of a function ends is for `other_arguments`.
+    An index that is a letter of the step is a number; a factor before a bracket stands elsewhere without one; what might be an
+    operator stands in one order with every other letter, and need not commute; V' is the derivative where it is put in as that.
+    put: the parts for which premises are put in. Where the argument of a function ends is left to
+    `other_arguments`.
     """
     if guess.startswith(ANY_BASE) or _ARGUMENT.match(guess) or _NO_NAME.match(guess):
         return True
     if index := _NOT_SUMMED.match(guess):
         return any(_stem(name) == index[1] for node in nodes for name in letters_of(node))
+    if any(isinstance(each, Call) and each.name == f"{guess.split()[0]}prime" for each in put):
+        return True
     if _OF_NAMES.search(guess):
         return all(each.name in _PLAIN for node in nodes for each in walk(node) if isinstance(each, Call))
+    if _NO_UNIT.match(guess):  # of quantities alone the numbers may be rounded
+        return any(_stem(name) not in UNITS for node in nodes for name in letters_of(node))
     if factor := _FACTOR.match(guess):
         return any(_stands_alone(factor[1], node) for node in nodes)
     if letter := _NO_OPERATOR.match(guess):
@@ -53,7 +59,7 @@ def other_arguments(left: Node, right: Node) -> Iterator[tuple[Node, Node]]:
     options = [list(dict.fromkeys((side, _shorter(side), _longer(side)))) for side in (left, right)]
     for pair in product(*options):
         if pair != (left, right):
-            yield pair
+            yield pair[0], pair[1]
 
 
 def _stem(name: str) -> str:
@@ -83,7 +89,7 @@ def _ordered(node: Node) -> Iterator[tuple[str, str]]:
         if each.name == "product":
             for one, other in combinations(map(letters_of, each.args), 2):
                 yield from ((a, b) for a, b in product(one, other) if a != b)
-        elif each.name not in ("negative", "quotient") or letters_of(each.args[-1]):
+        elif each.name not in ("negative", "quotient") or (each.name == "quotient" and letters_of(each.args[1])):
             names = letters_of(each)
             yield from ((a, b) for a, b in product(names, names) if a != b)
 

@@ -12,6 +12,7 @@ from lagrotor.paper.source.tree import Call, Letter, Node, Number, has_opaque, t
 
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
+_TWICE = ((Fraction(2), "doubled"), (Fraction(1, 2), "halved"))
 _MOST_SLIPS = 120  # changes that are tried
 
 
@@ -51,19 +52,14 @@ def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]
     if not isinstance(node, Call):
         return
     if node.name in _TAKEN_FOR:
-        yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
-        yield Call("power", (node, Number(Fraction(2)))), f"{text_of(node)} squared"
-        for factor, said in ((Fraction(2), "doubled"), (Fraction(1, 2), "halved")):
-            yield (
-                _with(node, 0, Call("product", (Number(factor), *node.args))),
-                f"the argument of {text_of(node)} {said}",
-            )
+        yield from _of_function(node)
     if node.name == "sum":
         for place, term in enumerate(node.args):
             other = term.args[0] if isinstance(term, Call) and term.name == "negative" else Call("negative", (term,))
             yield _with(node, place, other), f"the sign of {text_of(term)} changed"
-            yield _with(node, place, Call("product", (Number(Fraction(2)), term))), f"{text_of(term)} doubled"
-            yield _with(node, place, Call("quotient", (term, Number(Fraction(2))))), f"{text_of(term)} halved"
+            yield from (
+                (_with(node, place, _times(factor, term)), f"{text_of(term)} {said}") for factor, said in _TWICE
+            )
     if node.name == "power" and isinstance(node.args[1], Number):
         for more in (1, -1):
             yield _with(node, 1, Number(node.args[1].value + more)), f"the power of {text_of(node)} changed by one"
@@ -72,6 +68,18 @@ def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]
     for place, part in enumerate(node.args):
         for changed, said in slips(part, names):
             yield _with(node, place, changed), said
+
+
+def _of_function(node: Call) -> Iterator[tuple[Node, str]]:
+    """Another function for sine or cosine, its square, and twice or half its argument."""
+    yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
+    yield Call("power", (node, Number(Fraction(2)))), f"{text_of(node)} squared"
+    for factor, said in _TWICE:
+        yield Call(node.name, (_times(factor, node.args[0]),)), f"the argument of {text_of(node)} {said}"
+
+
+def _times(factor: Fraction, node: Node) -> Node:
+    return Call("product", (Number(factor), node))
 
 
 def _whole(node: Node) -> Iterator[tuple[Node, str]]:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
+from lagrotor.paper.source.boxes import GREEK
 from lagrotor.paper.source.read_statements import PrintedStatement
 from lagrotor.paper.source.tree import KNOWN, Call, Letter, Node, Number, is_vector, letters_of, product_of, walk
 
@@ -58,23 +59,19 @@ class SectionMeanings:
                 if not _holds(value, meaning):
                     made = PrintedMeaning(meaning, value, name, latex, section, place, statement)
                     self.known[meaning].append(made)
-                    if isinstance(meaning, Call) and meaning.name not in (*_ARITHMETIC, *_BINDING):
+                    if isinstance(meaning, Call) and _is_of_a_letter(meaning.name):
                         self.functions[meaning.name].append(made)
 
     def of(self, parts: Iterable[Node], place: int, section: str, but: PrintedStatement) -> Iterator[PrintedMeaning]:
         """For each part that something stands for, the last premise but of a statement itself, of its section first."""
         for part in parts:
-            near = [
-                each
-                for each in self.known.get(part) or self._called(part)
-                if each.statement is not but and (each.place >= place - _MEMORY or each.section == section)
-            ]
+            near = [each for each in self._given(part, but) if each.place >= place - _MEMORY or each.section == section]
             if near:
                 yield max(near, key=lambda each: (each.section == section, each.place))
 
     def _called(self, part: Node) -> list[PrintedMeaning]:
         """What a function, or its derivative by a prime, is at other arguments than those by which it is given."""
-        if not isinstance(part, Call) or part.name in KNOWN:
+        if not isinstance(part, Call):
             return []
         name = part.name.removesuffix("prime").removesuffix("prime")
         order = (len(part.name) - len(name)) // len("prime")
@@ -92,14 +89,18 @@ class SectionMeanings:
             made.append(replace(each, meaning=part, value=value))
         return made
 
-    def is_called(self, node: Node) -> bool:
-        """Whether a node is a function at other arguments than those by which it is given, or its derivative."""
-        return node not in self.known and bool(self._called(node))
+    def _given(self, part: Node, but: PrintedStatement) -> list[PrintedMeaning]:
+        """What equations but a statement itself give for a part, or else for the function that it is."""
+        near = [each for each in self.known.get(part, ()) if each.statement is not but]
+        return near or [each for each in self._called(part) if each.statement is not but]
+
+    def is_called(self, node: Node, but: PrintedStatement) -> bool:
+        """Whether a node is a function at other arguments than those by which it is given, or its derivative by a prime."""
+        return any(each not in self.known.get(node, ()) for each in self._given(node, but))
 
     def is_given_once(self, premise: PrintedMeaning, but: PrintedStatement) -> bool:
         """Whether no equation of its section but a statement itself gives anything else for the same."""
-        given = self.known.get(premise.meaning) or self._called(premise.meaning)
-        near = [each for each in given if each.section == premise.section and each.statement is not but]
+        near = [each for each in self._given(premise.meaning, but) if each.section == premise.section]
         own = {each.value for each in near if each.statement is premise.statement}
         return all(each.value in own for each in near)
 
@@ -124,6 +125,12 @@ def _values(left: Node, right: Node) -> Iterator[tuple[Node, Node]]:
         if len(moving) == 1:  # m d²x/dt² = F
             rest = [each for each in left.args if each is not moving[0]]
             yield moving[0], Call("quotient", (right, product_of(rest)))
+
+
+def _is_of_a_letter(name: str) -> bool:
+    """Whether a function has a letter for its name, and is no operation such as a mean."""
+    stem = name.split("_")[0]
+    return len(stem) == 1 or (rf"\{stem}" in GREEK and stem.lower() != "delta")
 
 
 def _is_rate(node: Node) -> bool:

@@ -586,12 +586,82 @@ WITH_PREMISES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("before", "step", "part", "slip"), WITH_PREMISES)
+# The same in passages of textbooks, where single equations are worked out from what is given.
+PASSAGES = {
+    "the velocity of a pendulum": (
+        r"\begin{align} x &= l\sin\theta, \\ y &= -l\cos\theta .\end{align} The velocities follow by differentiation,",
+        r"\dot y = l\dot\theta\sin\theta", "= l", "= -l",
+    ),
+    "the force of a pendulum": (
+        r"\[ L = \frac12 m l^2\dot\theta^2 + m g l\cos\theta \] The momentum is $p$, and the force",
+        r"\frac{\partial L}{\partial\theta} = -m g l\sin\theta", "-m", "m",
+    ),
+    "a cyclic angle": (
+        r"\[ p_\varphi = m l^2\sin^2\theta\,\dot\varphi \] is conserved, and the energy becomes",
+        r"E = \frac12 m l^2(\dot\theta^2 + \sin^2\theta\,\dot\varphi^2) = \frac12 m l^2\dot\theta^2"
+        r" + \frac{p_\varphi^2}{2 m l^2\sin^2\theta}", r"m l^2\sin^2\theta}", r"m l^2\sin\theta}",
+    ),
+    "the angular momentum put in": (
+        r"The angular momentum is $\ell = \mu r^2\dot\phi$. Solving for $\dot\phi = \ell/(\mu r^2)$ we write the energy as",
+        r"E = \frac12\mu\dot r^2 + \frac12\mu r^2\dot\phi^2 = \frac12\mu\dot r^2 + \frac{\ell^2}{2\mu r^2}", r"{2\mu", r"{\mu",
+    ),
+    "an effective potential": (
+        r"\[ U(r) = \frac{\ell^2}{2\mu r^2} - \frac{k}{r} \] Its derivative is",
+        r"\frac{dU}{dr} = -\frac{\ell^2}{\mu r^3} + \frac{k}{r^2} \] which vanishes at $r_0$. \[ r_0 = \frac{\ell^2}{\mu k}",
+        r"{\mu r^3}", r"{\mu r^2}",
+    ),
+    "a rate put into a rate": (
+        r"\begin{align}\dot\omega_1 &= -\Omega\omega_2, \\ \dot\omega_2 &= \Omega\omega_1 .\end{align} Once more,",
+        r"\ddot\omega_1 = -\Omega\dot\omega_2 = -\Omega^2\omega_1", r"\Omega^2", r"\Omega^3",
+    ),
+    "the equation of motion put in": (
+        r"With the equation of motion $m\ddot x = -k x - b\dot x$ the power becomes",
+        r"\frac{dE}{dt} = \dot x(m\ddot x + k x) = -b\dot x^2", "-b", "b",
+    ),
+    "beats": (
+        "By the addition theorem this is",
+        r"y = A(\cos\omega_1 t + \cos\omega_2 t)"
+        r" = 2A\cos\left(\frac{\omega_1 + \omega_2}{2}t\right)\cos\left(\frac{\omega_1 - \omega_2}{2}t\right)",
+        r"- \omega_2}{2}", r"- \omega_2}{1}",
+    ),
+    "a standing wave": (
+        "On a string", r"y = A\sin(kx - \omega t) + A\sin(kx + \omega t) = 2A\sin kx\cos\omega t", r"kx\cos", r"kx\sin",
+    ),
+    "a group velocity": (
+        r"\[ \omega^2 = g k + \frac{\sigma}{\rho}k^3 \] and the group velocity",
+        r"v_g = \frac{d\omega}{dk} = \frac{g + 3\sigma k^2/\rho}{2\omega}", r"{2\omega}", r"{\omega}",
+    ),
+    "heats of a cycle": (
+        r"\begin{align} Q_1 &= N k T_1\ln\frac{V_2}{V_1}, \\ Q_2 &= N k T_2\ln\frac{V_2}{V_1} .\end{align} The work is",
+        r"W = Q_1 - Q_2 = N k(T_1 - T_2)\ln\frac{V_2}{V_1}", "T_1 - T_2", "T_1 + T_2",
+    ),
+    "an enthalpy": (
+        r"An ideal gas has $U = \frac{f}{2} N k T$ and $p V = N k T$. The enthalpy is",
+        r"H = U + p V = \frac{f + 2}{2} N k T", "f + 2", "f - 2",
+    ),
+    "probabilities": (
+        r"\begin{align} r &= \frac{k - q}{k + q}, \\ t &= \frac{2k}{k + q} .\end{align} They add up to one:",
+        r"T = \frac{q}{k}t^2 = \frac{4kq}{(k + q)^2}", "{4kq", "{2kq",
+    ),
+    "a variance": (
+        r"\[ \langle n\rangle = N p \] \[ \langle n^2\rangle = N p(1 - p) + N^2 p^2 \] and the variance is",
+        r"\sigma^2 = \langle n^2\rangle - \langle n\rangle^2 = N p(1 - p)", "(1 - p)", "(1 + p)",
+    ),
+    "the derivative of a function by a prime": (
+        r"The potential is $V(r) = a r^4 - b r^2$. Its slope is", r"V'(r) = 4 a r^3 - 2 b r", "- 2 b", "+ 2 b",
+    ),
+    "a function elsewhere": (
+        r"The potential is $V(r) = a r^4 - b r^2$. There", r"V(c) = a c^4 - b c^2", "- b", "+ b",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("before", "step", "part", "slip"), [*WITH_PREMISES, *PASSAGES.values()])
 def test_a_slip_is_found_where_the_step_holds_with_what_the_text_gives(
     before: str, step: str, part: str, slip: str, tmp_path: Path
 ) -> None:
     assert verdicts(tmp_path, rf"{before} \[ {step} \]")[-1] == HOLDS
-    assert verdicts(tmp_path, rf"{before} \[ {step.replace(part, slip)} \]")[-1] == REFUTED
+    assert step.count(part) == 1 and verdicts(tmp_path, rf"{before} \[ {step.replace(part, slip)} \]")[-1] == REFUTED
 
 
 @pytest.mark.parametrize(
@@ -701,3 +771,21 @@ def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) ->
     )
     assert verdicts(tmp_path, body.replace("FACTOR", "")) == [HOLDS]
     assert REFUTED not in verdicts(tmp_path, body.replace(r"V(r)", r"V(r, \dot\theta)"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"The solution is $x = A\cos\omega t$. \[ \ddot x = -\omega_0^2 x \]",  # the equation of motion
+        r"\[ x = A\cos\omega t \] \[ E = \dot x^2 + \omega_0^2 x^2 = \omega_0^2 A^2 \]",
+        r"Here $\omega^2 = k/m$. \[ v = a\omega = - a\sqrt{k/m} \]",  # the root of either sign
+        r"\[ V(r) = a r^2 \] \[ V(r) = - a r^2 \]",
+        r"\[ E = A B = -B A \]",  # operators
+        r"\[ f = \sin^2 x/2 = \frac{1 - \cos x}{2} \]",
+        r"\[ x = r\cos\phi \] \[ r = 2 x \] \[ E = x^2 = \frac14 r^2 \]",
+        r"\[ y = a x^2 \] For the other branch \[ \frac{dy}{dx} = -2 a x \]",
+        r"\[ y = a x^2 \] To be solved is the equation \[ \frac{dy}{dx} = -2 a x \]",
+    ],
+)
+def test_what_may_be_a_law_another_case_or_another_reading_refutes_nothing(text: str, tmp_path: Path) -> None:
+    assert REFUTED not in verdicts(tmp_path, text)
