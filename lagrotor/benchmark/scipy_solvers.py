@@ -107,7 +107,7 @@ def on_minimal(engine: Solver, sees_shock: bool = True) -> Prepare:
     def prepare(scene: Scene, t_eval: Array) -> Runner:
         end = float(t_eval[-1])
         problem = problem_of(minimal.MODEL, scene)
-        longest = problem.width if problem.driven and sees_shock else np.inf
+        longest = scene.shock.width if scene.shock and sees_shock else np.inf
         segment = Segment(
             rhs=problem.driven or problem.free,
             start=problem.start,

@@ -13,7 +13,8 @@ Mechanics, §§12, 19.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 import sympy as sp
@@ -164,3 +165,30 @@ def linear_solve(A: sp.Matrix, B: sp.Matrix, refusal: str) -> sp.Matrix:
     if decide_zero(determinant).answer == "zero":
         raise SingularError(refusal)
     return A.adjugate(method="berkowitz") * B / determinant
+
+
+def clock_parts(
+    stages: Iterable[tuple[sp.Symbol, sp.Expr]], outputs: Iterable[sp.Expr], moving: AbstractSet[sp.Basic]
+) -> tuple[list[tuple[sp.Symbol, sp.Expr]], list[sp.Expr]]:
+    """The largest parts of stages, and of outputs made of them, that are made of t and parameters alone; and the stages that
+    these are made of. moving: what is no parameter."""
+    moving, by_time = {*moving}, {t}
+    clocks, parts = list[tuple[sp.Symbol, sp.Expr]](), dict[sp.Expr, None]()
+    for name, whole in (*stages, *((None, e) for e in outputs)):
+        if name is not None and not whole.free_symbols & moving:
+            clocks.append((name, whole))  # of parameters alone, too: another may be made of it
+            if whole.free_symbols & by_time:
+                by_time.add(name)
+                parts[name] = None
+            continue
+        if name is not None:
+            moving.add(name)
+        queue = [whole]
+        while queue:
+            e = queue.pop()
+            if e != t and e.free_symbols & by_time:
+                if e.free_symbols & moving:
+                    queue += e.args
+                else:
+                    parts[e] = None
+    return clocks, list(parts)

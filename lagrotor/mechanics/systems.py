@@ -235,8 +235,9 @@ class System(Equations):
         A run that cannot reach its last time is handed back up to where it came; `run.ending` says why, with a LagrotorWarning.
         One also names the time where it passed a position at which its constraints are dependent.
 
-        Steps are as long as the motion allows, but not longer than a force of t acts that is a pulse, or pulses: for more than a
-        ten-thousandth of the run. A briefer one may be passed over; given as a table or a spline it is not.
+        Steps are as long as the motion allows, but short where a function of t alone changes faster than it mostly does: in
+        pulses and at steps that are longer than a ten-thousandth of the run. A briefer pulse may be passed over, as may one of
+        t and q together; given as a table or a spline it is not.
 
         Args:
             values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.pulse import COMPANION_STEP
+from lagrotor.numerics.pulse import pulse_windows
 from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory, momentum_about_joints, tilting_energy
@@ -221,8 +221,7 @@ def problem_of(
         budget=budget,
         driven=model.rate(scene, True, bounded) if shock else None,
         at=shock.at if shock else 0.0,
-        width=shock.width if shock else 0.0,
-        longest=COMPANION_STEP if companion else 1.0,
+        windows=pulse_windows(shock.width, companion) if shock else (),
         project=model.projection(scene) if model.projection else None,
         typical_rate=typical_rate(scene),
         time_to_singular=model.time_to_singular if scene.link else None,

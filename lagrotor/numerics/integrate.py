@@ -11,7 +11,7 @@ from lagrotor.numerics.adams import adams
 from lagrotor.numerics.calibrated import CROSSOVER, DETOUR, LSODA_SAFETY
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.pulse import segments
+from lagrotor.numerics.pulse import Window, segments
 from lagrotor.numerics.segment import (
     Array,
     OutsideError,
@@ -30,14 +30,14 @@ Engine = Literal["core", "fast"]
 
 @dataclass(frozen=True)
 class Problem:
-    """y' = free(s, y), or driven(s, y) within the pulse centred `at` with `width`; y = start at t = `begin`; s = t − at.
+    """y' = free(s, y), or driven(s, y), where it is another, within `windows`; y = start at t = `begin`; s = t − at.
 
     `project` brings a state (d,), or states (d, n), back onto their constraints; `budget` is how many evaluations the
     run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
     no step is longer than half of `time_to_singular` of the state where it begins.
 
     Attributes:
-        longest: in the pulse no step is longer than this many widths.
+        windows: of s, where something acts briefly, one after the other; within no step is longer than each says.
     """
 
     free: RightHandSide
@@ -45,8 +45,7 @@ class Problem:
     budget: float
     driven: RightHandSide | None = None
     at: float = 0.0
-    width: float = 0.0
-    longest: float = 1.0
+    windows: tuple[Window, ...] = ()
     project: Projection | None = None
     typical_rate: float = 0.0
     time_to_singular: Callable[[Array], float] | None = None
@@ -69,8 +68,8 @@ def check_engine(engine: str, caller: str = "simulate") -> None:
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
     """Integrate from `begin` through increasing `times` with a local error `tol`; states (n, d) there.
 
-    In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut
-    at the pulse's edges, s = ± 6.5 width; within them no step is longer than `longest` widths, so no tolerance can miss it.
+    In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut at the
+    edges of its windows, in which steps are bounded, so no tolerance can miss what acts there.
     solver: of a segment, where it is not the fastest of the core.
 
     Raises StopError, with the time, its cause and what was reached, when the solver cannot go on or `budget` is spent.
@@ -78,15 +77,16 @@ def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver 
     t_eval = times - problem.at
     begin, end = problem.begin - problem.at, float(t_eval[-1])
     parts, y, spent = [np.repeat(problem.start[None], np.count_nonzero(t_eval == begin), axis=0)], problem.start, 0
-    for left, right, pulsed in segments(begin, end, problem.width if problem.driven else 0.0):
+    for left, right, longest in segments(begin, end, problem.windows):
         if right > left:
+            pulsed = longest < np.inf
             segment = Segment(
                 problem.driven if pulsed and problem.driven else problem.free,
                 y,
                 left,
                 right,
                 t_eval[(t_eval > left) & (t_eval <= right)],
-                problem.longest * problem.width if pulsed else np.inf,
+                longest,
                 problem.budget - spent,
                 problem.project,
                 problem.typical_rate,

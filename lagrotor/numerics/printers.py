@@ -145,11 +145,14 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
     return function
 
 
-def rhs_source(program: Program, states: int, driven: bool = False, bounded: bool = False) -> str:
+def rhs_source(
+    program: Program, states: int, driven: bool = False, bounded: bool = False, clock: int | None = None
+) -> str:
     """Source of parameters → rhs(s, y), for a program whose first `states` arguments are the state.
 
     driven: the last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: where
-    one of the program's `positive` is not positive, OutsideError is raised.
+    one of the program's `positive` is not positive, OutsideError is raised. clock: which of the state is the time; where the last
+    parameter, begin, is given, it is begin + s instead.
     A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; `rhs.bare`, for a solver
     that cannot, raises one of LOST there instead.
     """
@@ -170,12 +173,14 @@ def rhs_source(program: Program, states: int, driven: bool = False, bounded: boo
     within = [f"{show.doprint(e)} > 0" for e in bounds]
     body = [
         f"{', '.join(map(str, state))} = y.tolist()",
+        *([f"if begin is not None: {state[clock]} = begin + s"] if clock is not None else []),
         *(["pulse = exp(-(s / width) ** 2)", *(f"{f} = peak_{f} * pulse" for f in force)] if driven else []),
         *lines,
         *([f"if not ({' and '.join(within)}): raise OutsideError(s)"] if within else []),
         f"return [{', '.join(map(show.doprint, outputs))}]",
     ]
     given = [*map(str, parameters[: len(parameters) - len(force)]), *(f"peak_{f}" for f in force)]
+    given += ["begin=None"] if clock is not None else []
     return rhs_text(body, fixed, [*given, "width"] if driven else given, len(outputs))
 
 

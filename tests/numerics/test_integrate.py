@@ -15,6 +15,7 @@ from lagrotor.numerics import integrate as module
 from lagrotor.numerics import lsoda as solver
 from lagrotor.numerics.calibrated import DETOUR
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
+from lagrotor.numerics.pulse import pulse_windows
 from lagrotor.numerics.segment import Array, RightHandSide, Segment, StopError, Stretch
 
 ENOUGH = 1e6
@@ -38,7 +39,7 @@ def drift(s: float, y: Array) -> list[float]:
 
 def gained(strength: float, at: float, width: float, times: Array, tol: float) -> Array:
     """Momentum at `times` of a free unit mass under the pulse."""
-    problem = Problem(drift, np.zeros(2), ENOUGH, kick(strength, width), at, width)
+    problem = Problem(drift, np.zeros(2), ENOUGH, kick(strength, width), at, pulse_windows(width))
     return integrate(problem, times, tol).states[:, 1]
 
 
@@ -162,7 +163,9 @@ def test_the_start_alone_and_a_late_start() -> None:
     assert only.evaluations == 0
     late = integrate(Problem(oscillate, START, ENOUGH), np.array([2.0, 3.0]), 1e-10).states
     assert late[:, 0] == pytest.approx(np.cos([2, 3]), abs=1e-9)
-    pulsed = integrate(Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 0.3, 0.1), np.array([0.0]), 1e-9)
+    pulsed = integrate(
+        Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 0.3, pulse_windows(0.1)), np.array([0.0]), 1e-9
+    )
     assert pulsed.states.tolist() == [[0, 0]]
 
 
@@ -190,7 +193,9 @@ def test_a_motion_that_blows_up_is_stopped_where_it_does() -> None:
 
 
 def test_the_time_of_the_stop_is_the_scenes_time() -> None:
-    problem = Problem(lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH, lambda s, y: [0.0], at=3.0, width=0.1)
+    problem = Problem(
+        lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH, lambda s, y: [0.0], at=3.0, windows=pulse_windows(0.1)
+    )
     with pytest.raises(IntegrationError, match=r"near t = 0\.5 s"):
         integrate(problem, np.array([9.0]), 1e-9)
 
@@ -264,9 +269,9 @@ def test_what_lsoda_made_before_it_failed_is_kept(monkeypatch: pytest.MonkeyPatc
 
 def test_the_allowance_is_for_the_whole_run() -> None:
     """The segments before, in and after the pulse share it."""
-    problem = Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 2.0, 0.1)
+    problem = Problem(drift, np.zeros(2), ENOUGH, kick(1, 0.1), 2.0, pulse_windows(0.1))
     needed = integrate(problem, np.array([4.0]), 1e-11).evaluations
-    tight = Problem(drift, np.zeros(2), needed / 2, kick(1, 0.1), 2.0, 0.1)
+    tight = Problem(drift, np.zeros(2), needed / 2, kick(1, 0.1), 2.0, pulse_windows(0.1))
     with pytest.raises(IntegrationError, match="evaluations spent"):
         integrate(tight, np.array([4.0]), 1e-11)
 

@@ -19,10 +19,11 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics.canonical.jets import JetSpace, TruncatedSeries, jet_space
 from lagrotor.mechanics.canonical.polynomials import Polynomial
 from lagrotor.mechanics.canonical.return_maps import ReturnMapForm, largest_difference, map_normal_form
-from lagrotor.mechanics.lagrangian import gradient, t
+from lagrotor.mechanics.lagrangian import clock_parts, gradient, t
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.printers import compile_program
+from lagrotor.numerics.pulse import Window, brief_windows
 from lagrotor.numerics.segment import StopError
 
 Array = NDArray[np.float64]
@@ -45,7 +46,20 @@ class _Motion:
         )
         rates = (*gradient(H, x[n:]), *-gradient(H, x[:n]))
         self._rates, self._H = (compile_program(Program((*x, t), (), e), "numpy") for e in (rates, (H,)))
+        _, parts = clock_parts((), rates, {*x})
+        self._drives = compile_program(Program((t,), (), tuple(parts)), "numpy") if parts else None
         self.begin = begin
+
+    def windows(self, duration: float) -> tuple[Window, ...]:
+        """Where a drive acts briefly, by shares of a duration."""
+        drives, begin = self._drives, self.begin
+        if drives is None:
+            return ()
+
+        def along(shares: Array) -> Array:
+            return np.vstack([np.broadcast_to(f, shares.shape) for f in drives(begin + shares * duration)])
+
+        return brief_windows(along, 0.0, 1.0)
 
     def rate(self, X: list[TruncatedSeries], time: float) -> list[TruncatedSeries]:
         return [_jet(f, X[0].space) for f in self._rates(*X, time)]
@@ -63,7 +77,8 @@ class _Motion:
             return np.concatenate([(duration * f).coefficients for f in moving]).tolist()
 
         start = np.concatenate([f.coefficients for f in X])
-        return integrate(Problem(rate, start, _MOST), shares, local).states.reshape(len(shares), len(X), -1)
+        problem = Problem(rate, start, _MOST, windows=self.windows(duration.coefficients[0]))
+        return integrate(problem, shares, local).states.reshape(len(shares), len(X), -1)
 
     def moved(self, X: list[TruncatedSeries], duration: TruncatedSeries, local: float) -> list[TruncatedSeries]:
         return [TruncatedSeries(row, duration.space) for row in self.path(X, duration, local, np.ones(1))[0]]

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
-from lagrotor.numerics.pulse import COMPANION_STEP, PULSE_REACH
+from lagrotor.numerics.pulse import Window, windows_since
 from lagrotor.numerics.segment import Integrate, StopError, Stretch, by_units
 from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_rhs, taylor_solver
 
@@ -23,25 +23,6 @@ Array = NDArray[np.float64]
 Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
 _LIKE = 8.0  # ratio of a component to one below which none is scaled
-
-
-class Brief(NamedTuple):
-    """What acts briefly by the clock, a pulse or a step in a force of t: within `reach` (s) of the time `at`. There no step of a
-    run is longer than `longest` (s), in which it changes by all that it ever does, at its fastest.
-    """
-
-    at: float
-    reach: float
-    longest: float
-
-    def within(self, problem: Problem, begin: float, companion: bool = False) -> Problem:
-        """The problem, whose clock shows 0 at the time `begin`, cut where it begins to act and ends; by the same steps two runs
-        would agree, and be wrong."""
-        width = self.reach / PULSE_REACH
-        share = COMPANION_STEP if companion else 1.0
-        return replace(
-            problem, driven=problem.free, at=self.at - begin, width=width, longest=share * self.longest / width
-        )
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
@@ -101,12 +82,12 @@ def smooth_motion(
     turn: float,
     start: Array,
     stiff: bool,
-    brief: Brief | None,
+    windows: tuple[Window, ...],
 ) -> Integrate:
     """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
 
     The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
-    which it is regular. brief: what acts briefly by the clock.
+    which it is regular. windows: where something acts briefly by the clock.
     """
     program, known = motion_program(system), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states)
@@ -114,28 +95,30 @@ def smooth_motion(
     scale = np.append(powers_of_two(sizes), np.ones(d - known))
     words = singular_position(system, values, start)
 
+    def problem_of(start: Array, budget: float, companion: bool) -> Problem:
+        begin = float(start[-1])
+        return Problem(
+            program.rate(parameters, begin),
+            start,
+            budget,
+            windows=windows_since(begin, windows, companion),
+            project=project,
+            typical_rate=2 * np.pi / turn,
+        )
+
     def by_taylor(start: Array, times: Array, local: float, companion: bool) -> Stretch:
         order = companion_order(local) if companion else taylor_order(local)
         between = turn / 2 if project else np.inf
         # The time is a state, which may grow without end.
         clock = tuple(range(known, d))
-        problem = Problem(program.rhs(*parameters), start, np.inf, project=project)
-        problem = brief.within(problem, start[known], companion) if brief else problem
+        problem = problem_of(start, np.inf, companion)
         solver = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
         return integrate(problem, times, local, solver)
 
     def by_core(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
         for stiff ones may be off by the same."""
-        rate, spent = 2 * np.pi / turn, 0
-        problem = Problem(
-            program.rhs(*parameters),
-            start,
-            budget,
-            project=project,
-            typical_rate=rate,
-        )
-        problem = brief.within(problem, start[known], companion) if brief else problem
+        spent, problem = 0, problem_of(start, budget, companion)
         if companion and stiff and local >= CROSSOVER.value:
             by_dop853 = by_units(lambda segment, _, tol: dop853(segment, tol / 20), scale)
             try:
@@ -154,7 +137,7 @@ def smooth_motion(
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         if len(times) == 1:
             return Stretch(start[None], start, 0)
-        since = times - times[0]
+        since, start = times - times[0], np.append(start[:known], [times[0]] * (d - known))
         try:
             return (
                 by_taylor(start, since, local, companion)

@@ -9,6 +9,7 @@ from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.motion import SampledMotion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_motion
 from lagrotor.numerics.integrate import Problem, integrate
+from lagrotor.numerics.pulse import windows_since
 from lagrotor.shown import Shown
 
 _PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back to length one; for the standard error
@@ -49,7 +50,7 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
             "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not run"
         )
     given, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
-    rhs, d = given.rhs(*parameter_values(given, run.values)), len(given.states) // 2
+    parameters, d = parameter_values(given, run.values), len(given.states) // 2
     project = projection_of(run.system, run.values) if run.system.multipliers else None
     grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
     y = np.concatenate([run.q[0], run.u[0], [run.t[0]] * (d - n)])
@@ -57,7 +58,13 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
     growth = np.zeros(_PIECES)
     for i, h in enumerate(np.diff(grid)):
         tangent = tangent / np.linalg.norm(tangent)
-        problem = Problem(rhs, np.concatenate([y, tangent]), MOST // _PIECES)
+        begin = float(grid[i])
+        problem = Problem(
+            given.rate(parameters, begin),
+            np.concatenate([y, tangent]),
+            MOST // _PIECES,
+            windows=windows_since(begin, run.scales.windows),
+        )
         end = integrate(problem, np.array([h]), max(run.tol, _TIGHTEST)).states[-1]
         y, tangent = end[:d] if project is None else project(end[:d]), end[d:]
         growth[i] = np.log(np.linalg.norm(tangent))

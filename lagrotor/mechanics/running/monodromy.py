@@ -19,9 +19,11 @@ from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.admission import check_values
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import motion_program
+from lagrotor.mechanics.running.scales import clock_windows
 from lagrotor.mechanics.running.state_space import check_smooth, local_slope, motion_slope, point_state, tangent_space
 from lagrotor.mechanics.small_turns import small_states
 from lagrotor.numerics.integrate import Problem, integrate
+from lagrotor.numerics.pulse import windows_since
 
 _LOCAL = (1e-10, 1e-12)  # errors of a step, of the integration that is read last and of the one it is compared with
 _CLOSED = 1e-6  # relative: what an orbit may be open by
@@ -69,7 +71,8 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
         spread = J[:size, :size] @ y[d:].reshape(size, width)
         return [*f.tolist(), *spread.ravel().tolist()]
 
-    whole = Problem(rate, np.concatenate([start, (P @ T).ravel()]), _MOST)
+    windows = windows_since(begin, clock_windows(system, values, begin + np.array([0.0, duration])))
+    whole = Problem(rate, np.concatenate([start, (P @ T).ravel()]), _MOST, windows=windows)
     coarse, fine = (integrate(whole, np.array([duration]), local).states[-1] for local in _LOCAL)
     end = fine[:d]
     last, _, back = local_slope(system, end[:size], *_at(slope(end), size))

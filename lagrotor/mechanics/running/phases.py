@@ -5,8 +5,8 @@ one of its conditions does: a gap or a sliding velocity reaches zero, a reaction
 own steps, as zeros of smooth functions, so none depends on the times at which a run is read.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
@@ -16,7 +16,7 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
-from lagrotor.mechanics.running.flow import Array, Brief, projection_of
+from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.function_values import Piece, in_pieces
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -31,6 +31,7 @@ from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.calibrated import COMPANION_FIRST, MOST_EVENTS
 from lagrotor.numerics.dop853 import dop853_steps
 from lagrotor.numerics.estimated_run import start_beside
+from lagrotor.numerics.pulse import Window, segments, windows_since
 from lagrotor.numerics.segment import Segment, StopError, Stretch, in_units
 from lagrotor.numerics.zeros import zeros_between
 
@@ -102,8 +103,8 @@ class Switched:
     among them, and the events as they were given.
 
     scale (N + m,): of each component, for the solver; sizes: of each, zero before they are known.
-    brief: what acts briefly by the clock. While it is run: the phases that it was in, the endings of its runs, and the times
-    between which a step may hide an event.
+    windows: where something acts briefly by the clock. While it is run: the phases that it was in, the endings of its runs, and
+    the times between which a step may hide an event.
     """
 
     system: Equations
@@ -114,7 +115,7 @@ class Switched:
     sizes: Array
     splines: tuple[Piece, ...] = ()
     shown: tuple[Event | Impact, ...] = ()
-    brief: Brief | None = None
+    windows: tuple[Window, ...] = ()
     phases: dict[tuple[Any, ...], Phase] = field(default_factory=dict)
     endings: list[Ending] = field(default_factory=list)
     hidden: list[tuple[float, float]] = field(default_factory=list)
@@ -372,13 +373,11 @@ def _smooth(
     y = y if project is None else project(y)
     watch = phase.condition_program.along(numbers)
 
-    rhs = phase.motion.rhs(*parameter_values(phase.motion, numbers))
-    acts = h.brief and now < h.brief.at + h.brief.reach and now + times[-1] > h.brief.at - h.brief.reach
-    longest = h.brief.longest * min(first, 1.0) if h.brief and acts else np.inf
-    segment = in_units(Segment(rhs, y, 0.0, times[-1], times, longest, budget, project), scale)
+    rhs = phase.motion.rate(parameter_values(phase.motion, numbers), now)
+    segment = in_units(Segment(rhs, y, 0.0, times[-1], times, np.inf, budget, project), scale)
     parts, done, solver = [np.empty((0, len(y)))], 0, None
     try:
-        for solver in dop853_steps(segment, local / SAFETY, first):
+        for solver in _steps(segment, windows_since(now, h.windows, first < 1), local / SAFETY, first):
             left, right, dense = solver.t_old, solver.t, solver.dense_output()
 
             def curve(s: Array, dense: Any = dense) -> Array:
@@ -408,6 +407,23 @@ def _smooth(
         raise StopError(stop.at, stop.reason, so_far, cause=stop.cause) from None
     assert solver is not None  # a phase that is begun has a length
     return Stretch(np.concatenate(parts), solver.y * scale, solver.nfev), None
+
+
+def _steps(segment: Segment, windows: Sequence[Window], error: float, first: float) -> Iterator[Any]:
+    """As `dop853_steps` has it, by steps that are bounded in windows; evaluations are those of all of the segment."""
+    y, spent = segment.start, 0
+    for left, right, longest in segments(segment.left, segment.right, windows):
+        part = replace(segment, start=y, left=left, right=right, longest=longest, budget=segment.budget - spent)
+        try:
+            for solver in dop853_steps(part, error, first):
+                solver.nfev += spent
+                yield solver
+                solver.nfev -= spent
+        except StopError as stop:
+            stop.evaluations += spent
+            raise
+        solver.nfev += spent
+        y, spent = solver.y, solver.nfev
 
 
 def _first(

@@ -24,7 +24,7 @@ from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.equations import Equations, push_left, rows_left
 from lagrotor.mechanics.expressions import longer, unknown_functions, with_jets
-from lagrotor.mechanics.lagrangian import dependent_rows, jacobian, singular_mass, t, total_derivative
+from lagrotor.mechanics.lagrangian import clock_parts, dependent_rows, jacobian, singular_mass, t, total_derivative
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 from lagrotor.mechanics.running.function_values import Array, FunctionValue, jet_name
 from lagrotor.mechanics.running.sweeps import swept_energy, swept_equations
@@ -33,7 +33,21 @@ from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.printers import compile_program, rhs_source
 
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
-_OWN = ("s", "y", "t", "I", "Q", "rate", "bare", "make", "pulse", "width", "LOST", "OutsideError")  # of generated code
+_OWN = (
+    "s",
+    "y",
+    "t",
+    "I",
+    "Q",
+    "rate",
+    "bare",
+    "make",
+    "pulse",
+    "width",
+    "begin",
+    "LOST",
+    "OutsideError",
+)  # of generated code
 _REDUCED = 600  # operations of a Lagrangian up to which a tree is not followed in the velocities of its joints
 _LONG = 300  # operations of a Lagrangian from which on its equations are made by sweeps
 _STATES = 3  # random ones, at which the rank of a matrix is read off
@@ -73,7 +87,12 @@ class Generated:
     @cached_property
     def rhs(self) -> Callable[..., Any]:
         """parameters → rhs(t, y)."""
-        return function_of(rhs_source(self.program, len(self.states)))
+        clock = self.states.index(t) if t in self.states else None
+        return function_of(rhs_source(self.program, len(self.states), clock=clock))
+
+    def rate(self, parameters: Sequence[Any], begin: float) -> Callable[..., Any]:
+        """rhs(s, y), the time being begin + s: as a state it would be off by the rounding of all steps together."""
+        return self.rhs(*parameters, begin) if t in self.states else self.rhs(*parameters)
 
     @cached_property
     def function(self) -> Callable[..., Any]:
@@ -223,26 +242,8 @@ def clock_program(system: Equations) -> Generated | None:
     if not depends_on_time(system):
         return None
     stages, rates, _ = motion_of_speeds(system)
-    moving = {*system.c.q, *system.c.v, *system.speeds}
-    by_time, clocks, parts = {t}, list[Stage](), dict[sp.Expr, None]()
-    for name, whole in (*stages, *((None, e) for e in (*system.c.v, *rates))):
-        if name is not None and not whole.free_symbols & moving:
-            clocks.append((name, whole))  # of parameters alone, too: another may be made of it
-            if whole.free_symbols & by_time:
-                by_time.add(name)
-                parts[name] = None
-            continue
-        if name is not None:
-            moving.add(name)
-        queue = [whole]
-        while queue:
-            e = queue.pop()
-            if e != t and e.free_symbols & by_time:
-                if e.free_symbols & moving:
-                    queue += e.args
-                else:
-                    parts[e] = None
-    return _program((t,), clocks, list(parts)) if parts else None
+    clocks, parts = clock_parts(stages, (*system.c.v, *rates), {*system.c.q, *system.c.v, *system.speeds})
+    return _program((t,), clocks, parts) if parts else None
 
 
 @lru_cache(maxsize=64)

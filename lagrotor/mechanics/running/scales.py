@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.flow import Array, Brief, Rhs, Values, projection_of
+from lagrotor.mechanics.running.flow import Array, Rhs, Values, projection_of
 from lagrotor.mechanics.running.programs import (
     clock_program,
     energy_program,
@@ -19,14 +19,10 @@ from lagrotor.mechanics.running.programs import (
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.lsoda import lsoda
+from lagrotor.numerics.pulse import Window, brief_windows, windows_since
 from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
-_LOOKS, _BRIEF = (
-    20_001,
-    0.25,
-)  # times at which forces of t are looked at, and the part of them at which a brief one acts
-_ACTS = 1e-3  # of its fastest change, beyond which it does
 _PEAK = 100.0  # times what a component mostly is, beyond which it does not count for its size
 _AT_REST = 1e-10  # of the largest value of a component: one that is mostly smaller was at rest
 _PER_TURN = 50  # evaluations that the survey takes for a turn
@@ -40,14 +36,15 @@ _QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordina
 class Scales:
     """turn: the time (s) in which the motion typically turns. sizes (N + m,): the largest value of each coordinate and velocity,
     not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them. stiff: whether
-    neighbouring motions are drawn together so fast that a run may be by a stiff method. brief: what acts briefly by the clock.
+    neighbouring motions are drawn together so fast that a run may be by a stiff method. windows: where something acts briefly by
+    the clock.
     """
 
     turn: float
     sizes: Array
     evaluations: int
     stiff: bool = False
-    brief: Brief | None = None
+    windows: tuple[Window, ...] = ()
 
     def distance(self, one: Array, other: Array) -> Array:
         """How far apart two runs (n, d) are, (n,): the largest difference of a component over its size."""
@@ -56,20 +53,13 @@ class Scales:
         return np.asarray(np.minimum((np.abs(one[:, :size] - other[:, :size]) / sizes).max(1), 2.0))
 
 
-def brief_force(system: Equations, values: Values, times: Array) -> Brief | None:
-    """What changes by the clock in less than a quarter of the times; None where nothing does."""
-    program, looks = clock_program(system), np.linspace(times[0], times[-1], _LOOKS)
-    longest, acts = np.inf, np.zeros(_LOOKS - 1, bool)
-    for values_of in _where_known(program.along(values), looks) if program else ():
-        known = values_of[~np.isnan(values_of)]
-        size, changes = np.ptp(known) if len(known) else 0.0, np.nan_to_num(np.abs(np.diff(values_of)))
-        if np.isfinite(size) and size > 0 and (changes > _ACTS * changes.max()).mean() < _BRIEF:
-            longest = min(longest, float(size / changes.max()))
-            acts |= changes > np.finfo(float).eps * size
-    if not acts.any():
-        return None
-    step, first, last = looks[1] - looks[0], *np.flatnonzero(acts)[[0, -1]]
-    return Brief(float(looks[first] + looks[last + 1]) / 2, float(last - first + 3) * step / 2, float(longest * step))
+def clock_windows(system: Equations, values: Values, times: Array) -> tuple[Window, ...]:
+    """Where something that is made of the time alone changes faster than it mostly does."""
+    program = clock_program(system)
+    if program is None:
+        return ()
+    along = program.along(values)
+    return brief_windows(lambda looks: _where_known(along, looks), float(times[0]), float(times[-1]))
 
 
 def _where_known(along: Callable[[Array, Array], Array], times: Array) -> Array:
@@ -94,11 +84,11 @@ def motion_scales(
     start: Array,
     times: Array,
     motion: Integrate | None = None,
-    brief: Brief | None = None,
+    windows: tuple[Window, ...] = (),
 ) -> Scales:
     """The scales of a motion from a coarse integration over the times, or over what a small budget reaches of them.
 
-    motion: where it is not smooth. brief: what acts briefly by the clock.
+    motion: where it is not smooth. windows: where something acts briefly by the clock.
     """
     span = float(times[-1] - times[0])
     if span == 0:
@@ -107,7 +97,7 @@ def motion_scales(
     size = len(system.c.q) + len(system.speeds)
     guess = size + 2 if smooth else 0  # evaluations of `first_sizes`
     if motion is None:
-        motion = _coarsely(system, values, start, span, brief)
+        motion = _coarsely(system, values, start, span, windows)
     try:
         stretch, reached = motion(start, grid, _COARSE, False, _EVALUATIONS), span
     except StopError as stop:
@@ -125,12 +115,12 @@ def motion_scales(
         evaluations += len(some) * (size + 1)
     if stiff and reached < span:  # DOP853's steps are set by what dies out, not by the motion
         try:
-            stretch = _coarsely(system, values, start, span, brief, lsoda)(start, grid, _COARSE, False, _EVALUATIONS)
+            stretch = _coarsely(system, values, start, span, windows, lsoda)(start, grid, _COARSE, False, _EVALUATIONS)
             states, evaluations, reached = _finite(states, stretch), evaluations + guess + stretch.evaluations, span
         except StopError as stop:
             evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    return Scales(turn, _sizes(system, values, _but_for_peaks(states), turn), evaluations, bool(stiff), brief)
+    return Scales(turn, _sizes(system, values, _but_for_peaks(states), turn), evaluations, bool(stiff), windows)
 
 
 def _but_for_peaks(states: Array) -> Array:
@@ -153,18 +143,19 @@ def _coarsely(
     values: Values,
     start: Array,
     span: float,
-    brief: Brief | None,
+    windows: tuple[Window, ...],
     solver: Callable[[Segment, float], Stretch] = dop853,
 ) -> Integrate:
     n, m, program = len(system.c.q), len(system.speeds), motion_program(system)
-    bare = program.rhs(*parameter_values(program, values))
+    parameters = parameter_values(program, values)
+    bare = program.rhs(*parameters)
     scale = np.append(first_sizes(bare, start, span, n, m), np.ones(len(start) - n - m))
     project = projection_of(system, values) if system.multipliers else None
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         since = times - times[0]
-        problem = Problem(bare, start, budget, project=project)
-        problem = brief.within(problem, times[0]) if brief else problem
+        rate = program.rate(parameters, float(times[0]))
+        problem = Problem(rate, start, budget, windows=windows_since(times[0], windows), project=project)
         try:
             return integrate(problem, since, local, by_units(lambda part, _, tol: solver(part, tol), scale))
         except StopError as stop:

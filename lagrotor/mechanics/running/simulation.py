@@ -21,7 +21,7 @@ from lagrotor.mechanics.running.lyapunov import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
-from lagrotor.mechanics.running.scales import Scales, brief_force, motion_scales
+from lagrotor.mechanics.running.scales import Scales, clock_windows, motion_scales
 from lagrotor.mechanics.running.singular import independence
 from lagrotor.mechanics.running.starts import consistent, rounding_of_start, state_vector
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
@@ -90,9 +90,9 @@ class SystemRun(SampledMotion):
             raise InputError(f"load: {path} is no run of a system: its states are none: give a file that `save` wrote")
         check_engine(engine, "load")
         h = with_events(system, values, given)
-        brief = brief_force(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
-        scales = replace(scales, brief=brief)
-        h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, brief=brief)
+        windows = clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
+        scales = replace(scales, windows=windows)
+        h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
@@ -132,10 +132,10 @@ def simulate_system(
         q, v = _on_constraints(system, values, np.concatenate([q, v]), times)
     check_pole("simulate", system, values, np.concatenate([q, v, [times[0]]]))
     check_inertia("simulate", system, values, np.concatenate([q, v, [times[0]]]))
-    h = replace(h, brief=brief_force(h.phase(h.slipping).system, h.numbers(h.slipping), times))
+    h = replace(h, windows=clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), times))
     if h.smooth:
         start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
-        scales = motion_scales(system, values, start, times, brief=h.brief)
+        scales = motion_scales(system, values, start, times, windows=h.windows)
     elif engine == "fast":
         raise InputError("simulate: engine='fast' takes no events, and no force that jumps: use engine='core'")
     else:

@@ -24,7 +24,7 @@ from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
 from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.pulse import COMPANION_STEP
+from lagrotor.numerics.pulse import pulse_windows
 from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
@@ -218,7 +218,7 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     rate, n_b = rate_function(system, shock), len(system.vertices)
     size = max(float(np.linalg.norm(arms, axis=1).max()) for arms in system.vertices) or 1.0
     # Far from zero a clock has few digits for steps.
-    at, width = (shock.at, shock.width) if shock else (float(times[0]), 0.0)
+    at = shock.at if shock else float(times[0])
     stiff = np.linalg.eigvalsh(system.joint_mobility())[-1] * system.stiffness if system.joints else 0.0
     turn = (
         2
@@ -243,9 +243,9 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
         return rhs
 
     def integrate_from(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
-        longest = COMPANION_STEP if companion else 1.0
+        windows = pulse_windows(shock.width, companion) if shock else ()
         driven = under(shock) if shock else None
-        problem = Problem(under(None), start, budget, driven, at, width, longest, begin=float(times[0]))
+        problem = Problem(under(None), start, budget, driven, at, windows, begin=float(times[0]))
         return integrate(problem, times, local, lambda segment, _, error: lsoda(segment, max(error / 20, _TIGHTEST)))
 
     evolution = Evolution(system.state[: 18 * n_b], integrate_from, distance, turn, Patience(50_000, 2_000))

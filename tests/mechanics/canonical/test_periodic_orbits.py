@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics import System, coordinates, map_normal_form, t
+from lagrotor.mechanics.canonical import periodic_orbits
 from lagrotor.mechanics.canonical.jets import jet_space
 from lagrotor.mechanics.canonical.polynomials import linear_form, poisson_bracket, polynomial, variable
 from lagrotor.numerics import measured_order
@@ -258,6 +259,21 @@ def test_an_ion_at_rest_in_a_trap():
     plain, ion = trap(1, 1, 1), trap(R(1, 10**25), 10**7, R(1, 1000))
     assert ion.frequencies == pytest.approx(plain.frequencies, rel=1e-10) and ion.stable
     assert ion.twist[0, 0] * 1e-24 == pytest.approx(plain.twist[0, 0], rel=1e-9)
+
+
+def test_a_pulse_by_which_an_oscillator_is_driven_is_not_passed_over(monkeypatch):
+    """x'' = −(1 + 3 δ(t − 3.3)) x, once in 7 s, about its rest: the angle of a period has the cosine cos 7 − 3/2 sin 7."""
+    x, p = symbols = sp.symbols("x p", real=True)
+    width = 0.002
+    pulse = 3 / (width * sp.sqrt(sp.pi)) * sp.exp(-((sp.sin((t - 3.3) * sp.pi / 7) * 7 / sp.pi / width) ** 2))
+    H, rest = p**2 / 2 + (1 + pulse) * x**2 / 2, {x: 0, p: 0, t: 0}
+
+    def cosine():
+        return np.real(periodic_orbits.return_map_form(H, symbols, rest, 7.0, 2, 1e-6).multipliers[0])
+
+    assert cosine() == pytest.approx(cos(7) - 1.5 * sin(7), abs=4 * width)
+    monkeypatch.setattr(periodic_orbits, "brief_windows", lambda *_: ())
+    assert abs(cosine() - cos(7) + 1.5 * sin(7)) > 0.5  # twin
 
 
 def test_hyperbolic_orbits():

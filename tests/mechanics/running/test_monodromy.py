@@ -7,6 +7,7 @@ from scipy.special import ellipk, mathieu_a, mathieu_b
 
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import System, coordinates, t
+from lagrotor.mechanics.running import monodromy
 
 C = coordinates("x")
 (x,), (v,) = C.q, C.v
@@ -55,6 +56,20 @@ def test_a_swing_has_two_multipliers_of_one_at_its_own_period() -> None:
         sorted(np.exp(2 * rates), key=np.imag),
         rtol=1e-9,
     )
+
+
+def test_a_pulse_in_a_coefficient_is_not_passed_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a body at rest, whose steps nothing else bounds: x'' = −(1 + 3 δ(t − 3.3)) x has the trace 2 cos 7 − 3 sin 7."""
+    width = 0.001
+    kicked = System(C, v**2 / 2 - (1 + 3 * sp.exp(-(((t - 3.3) / width) ** 2)) / (width * np.sqrt(np.pi))) * x**2 / 2)
+    exact = 2 * np.cos(7) - 3 * np.sin(7)
+
+    def trace() -> float:
+        return float(kicked.floquet({x: 0, v: 0}, {}, 7).matrix.trace())
+
+    assert trace() == pytest.approx(exact, abs=4 * width)
+    monkeypatch.setattr(monodromy, "clock_windows", lambda *_: ())
+    assert abs(trace() - exact) > 1  # twin
 
 
 def test_a_circle_of_multipliers_has_the_motion_of_its_angle() -> None:
