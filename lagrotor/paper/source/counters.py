@@ -8,6 +8,8 @@ _CHAPTERED = "book report memoir scrbook scrreprt ctexbook ctexrep extbook extre
 _WITH_CHAPTERS = frozenset(_CHAPTERED.split())
 _ROMAN = {"m": 1000, "cm": 900, "d": 500, "cd": 400, "c": 100, "xc": 90, "l": 50, "xl": 40, "x": 10,
           "ix": 9, "v": 5, "iv": 4, "i": 1}  # fmt: skip
+# What stands between the letter of an appendix and the equation's number, in classes that number equations by appendices.
+_APPENDIX = {"revtex": "", "mnras": "", "aastex": "", "elsarticle": ".", "iopart": "."}
 _SECTIONS = ("part", "chapter", "section", "subsection", "subsubsection", "paragraph", "subparagraph")
 
 
@@ -19,14 +21,16 @@ class Counters:
         self.within: dict[str, tuple[str, str]] = {}
         self.resets: dict[str, list[str]] = {}
         self.chapters = self.appendix = self.journal = False
+        self.joint: str | None = None
         for outer, inner in pairwise(_SECTIONS[1:]):
             self.reset_by(inner, outer)
 
     def begin(self, document_class: str) -> None:
         """What a class sets."""
-        self.chapters = document_class in _WITH_CHAPTERS
+        self.chapters = document_class in (*_WITH_CHAPTERS, "amsbook")
         self.journal = document_class.startswith("revtex")
-        if self.chapters:
+        self.joint = next((sign for name, sign in _APPENDIX.items() if document_class.startswith(name)), None)
+        if document_class in _WITH_CHAPTERS:
             self.reset_by("equation", "chapter")
 
     def add(self, name: str, within: str = "") -> None:
@@ -58,12 +62,14 @@ class Counters:
                 self.values[inner] = 0
                 self._reset(inner, (name, *above))
 
-    def begin_appendix(self) -> None:
-        r"""What \appendix does."""
+    def begin_appendix(self, star: bool = False) -> None:
+        r"""What \appendix does; star: \appendix* of revtex, one appendix."""
         self.appendix = True
         for name in ("chapter", "section") if self.chapters else ("section", "subsection"):
             self.values[name] = 0
-        if self.journal:
+        if self.joint is not None:
+            self.joint = "." if star else self.joint
+            self.values["equation"] = self.values["equation"] if self.journal else 0
             self.reset_by("equation", "section")
 
     def printed(self, name: str, printed: Callable[[str], str]) -> str:
@@ -82,10 +88,10 @@ class Counters:
         if name in ("subsection", "subsubsection"):
             outer = "section" if name == "subsection" else "subsection"
             return f"{printed(outer)}.{value}" if not self.journal else self.style(value, "Alph")
-        if name == "equation" and self.chapters and self.values["chapter"] > 0:
+        if name == "equation" and "equation" in self.resets.get("chapter", ()) and self.values["chapter"] > 0:
             return f"{printed('chapter')}.{value}"
-        if name == "equation" and self.journal and self.appendix:
-            return f"{printed('section')}{value}"
+        if name == "equation" and self.joint is not None and self.appendix:
+            return f"{self.style(self.values['section'], 'Alph')}{self.joint}{value}"
         return str(value)
 
     @staticmethod

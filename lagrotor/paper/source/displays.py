@@ -192,7 +192,7 @@ class _Walker:
             self.expander.optional()
             self._section(name, latex_of(self.expander.argument()), star)
         elif name == "label" and self.expander.stepped:
-            self.found.labels.setdefault(self.expander.name(), self.expander.stepped)
+            self.found.labels[self.expander.name()] = self.expander.stepped
         elif name in ("title", "author"):
             self._title_page(name)
         elif name == "[":
@@ -202,7 +202,7 @@ class _Walker:
         elif name in _FAULTS and self.body:
             self.expander.macros.fault(token.at, "", _FAULTS[name])
         elif name == "appendix":
-            self.counters.begin_appendix()
+            self.counters.begin_appendix(self.expander.star())
         elif name in ("frontmatter", "mainmatter", "backmatter"):
             self.numbered_chapters = name == "mainmatter"
         elif name == "mathtoolsset":
@@ -277,7 +277,7 @@ class _Walker:
         """The tokens without a label, which gets the number."""
         source = latex_of(tokens)
         for label in re.findall(r"\\label\{([^{}]*)\}", source):
-            self.found.labels.setdefault(label, number)
+            self.found.labels[label] = number
         return tokenize(re.sub(r"\\label\{[^{}]*\}", "", source))
 
     def _until(self, end: str) -> None:
@@ -292,7 +292,7 @@ class _Walker:
                     return self.expander.push(tokenize(r"\end{document}", token.at))
                 self.unknown.end(name, token.at)
             elif token.text == r"\label" and len(self.found.equations) == before:
-                self.found.labels.setdefault(self.expander.name(), self.parent)
+                self.found.labels[self.expander.name()] = self.parent
             else:
                 self._take(token)
 
@@ -505,7 +505,7 @@ class _Walker:
             source = " ".join(latex_of(row.tokens).split())
             if not source.replace("&", "").strip():
                 for label in row.labels:
-                    self.found.labels.setdefault(label, row.number)
+                    self.found.labels[label] = row.number
                 continue
             if group and self._continues(group, row, source):
                 group.append(row)
@@ -542,7 +542,7 @@ class _Walker:
         labels = [label for row in group for label in row.labels]
         for row in group:
             for label in row.labels:
-                self.found.labels.setdefault(label, row.number or row.referred or number)
+                self.found.labels[label] = row.number or row.referred or number
         if len(sources) > 1:
             latex = r"\begin{aligned} " + r" \\ ".join(sources) + r" \end{aligned}"
         else:
