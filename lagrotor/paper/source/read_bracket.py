@@ -22,16 +22,10 @@ def read_bracket(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
         return made
     if pair == ("(", ")") and len(content) > 2 and content[-1].kind == "nabla" and content[-2].name == "cdot":
         return read_advection(reader, row, place)
-    if (
-        pair == ("(", ")")
-        and box.sub
-        and box.sup is None
-        and len(content) == 1
-        and content[0].kind == "fraction"
-        and derivative_mark(content[0])
-    ):
-        held = [reader.expression(part) for part in arguments(box.sub)]  # (∂S/∂E)_{N,V}
-        return Call("at_constant", (reader.expression(content), *held)), place + 1
+    held = pair == ("(", ")") and box.sub and box.sup is None and [b.kind for b in content] == ["fraction"]
+    if held and box.sub and derivative_mark(content[0]):
+        constant = map(reader.expression, arguments(box.sub))  # (∂S/∂E)_{N,V}
+        return Call("at_constant", (reader.expression(content), *constant)), place + 1
     if pair == (".", "|") or (pair == ("[", "]") and box.sub and box.sup):
         return _evaluated(reader, box, content), place + 1
     if pair == (r"\{", ".") and len(content) == 1 and content[0].kind in ("matrix", "rows"):
@@ -49,7 +43,7 @@ _NAMED = ("mean", "ket", "bra", "length", "norm", "inner", "commutator", "poisso
 
 def _indexed(reader: FormulaReader, node: Node, box: Box) -> Node:
     """A state, a mean or a norm that is named by its index, |0⟩_A; a component of a vector, (a × b)_i."""
-    index = index_parts(reader, box)
+    index = index_parts(box)
     if isinstance(node, Call) and node.name in _NAMED:
         return Call("_".join((node.name, *index)), node.args)
     rising = isinstance(node, Number) or (isinstance(node, Letter) and len(node.name) == 1)  # (a)_n = a(a + 1)…
@@ -177,8 +171,6 @@ _ENCLOSED: dict[tuple[str, str], Callable[[FormulaReader, Box], Node]] = {
 
 def read_group(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
-    if box.sub is not None:
-        raise FormulaError(box.at, "a group has an index", "write it on the letter")
     return power_of(reader, reader.expression(box.parts[0]), box), place + 1
 
 
@@ -197,23 +189,18 @@ def read_binomial(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
 
 
 def read_infinity(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
-    return Letter("oo"), place + 1
+    return power_of(reader, Letter("oo"), row[place]), place + 1
 
 
 def read_accent(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     """A mark over more than a letter: a rate, a mean."""
     box = row[place]
-    if box.sub is not None:
-        raise FormulaError(box.at, "an index follows what is no letter", "write it on the letter")
     inner = reader.expression(box.parts[0])
     if box.name not in ("dot", "ddot"):
         reader.guess("bar", f"the {box.name} over several signs is no conjugate or segment")
-    if box.name == "dot":
-        return power_of(reader, Call("rate", (inner,)), box), place + 1
-    if box.name == "ddot":
-        return power_of(reader, Call("rate", (Call("rate", (inner,)),)), box), place + 1
-    if box.name == "bar":  # a mean, a conjugate
-        return power_of(reader, Call("bar", (inner,)), box), place + 1
+    if box.name in ("dot", "ddot", "bar"):  # a rate; a mean or a conjugate
+        made = Call("bar" if box.name == "bar" else "rate", (inner,))
+        return power_of(reader, Call("rate", (made,)) if box.name == "ddot" else made, box), place + 1
     if box.name == "vec" and isinstance(inner, Call) and all(isinstance(a, Letter) for a in inner.args):
         names = "".join(a.name for a in inner.args if isinstance(a, Letter))
         return Letter(f"{names}vec", True), place + 1
@@ -222,8 +209,6 @@ def read_accent(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
 
 def read_matrix(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
-    if box.sub is not None:
-        raise FormulaError(box.at, "a matrix has an index", "write what it means")
     lines = [[reader.expression(cell) for cell in line.parts] for line in box.parts[0]]
     if not lines or len({len(line) for line in lines}) != 1:
         raise FormulaError(box.at, "the rows of a matrix have different lengths", "write every entry")
@@ -231,12 +216,10 @@ def read_matrix(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         reader.guess("array", f"the {box.name} is a matrix, and no table or symbol")
     elif box.name == "pmatrix" and [len(line) for line in lines] in ([3, 3], [1, 1]):
         reader.guess("array", "the brackets hold a matrix, and no 3j symbol or binomial")
-    if box.name in ("vmatrix",):
-        made = Call("det", tuple(Call("row", tuple(line)) for line in lines))
-        return power_of(reader, made, box), place + 1
-    if len(lines[0]) == 1:
+    if len(lines[0]) == 1 and box.name != "vmatrix":
         return power_of(reader, Call("column", tuple(line[0] for line in lines)), box), place + 1
-    return power_of(reader, Call("matrix", tuple(Call("row", tuple(line)) for line in lines)), box), place + 1
+    rows = tuple(Call("row", tuple(line)) for line in lines)
+    return power_of(reader, Call("det" if box.name == "vmatrix" else "matrix", rows), box), place + 1
 
 
 # Words for all that the other cases are not.

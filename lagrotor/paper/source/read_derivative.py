@@ -78,8 +78,6 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
 
 def read_fraction(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
-    if box.sub is not None:
-        raise FormulaError(box.at, "a fraction has an index", "write it on a letter")
     if marks := derivative_mark(box):
         return _derivative(reader, row, place, marks)
     first, second = (without_thin(part)[:1] for part in box.parts)
@@ -97,7 +95,7 @@ def read_fraction(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
 def _derivative(reader: FormulaReader, row: list[Box], place: int, mark: str) -> tuple[Node, int]:
     box = row[place]
     over, under = (without_thin(part) for part in box.parts)
-    order = _order(reader, over[0])
+    order = _order(over[0])
     variables = _variables(reader, under, mark, order)
     if sum(n for _, n in variables) != order:
         raise FormulaError(box.at, "the orders of the derivative differ", "write the same order above and below")
@@ -107,16 +105,16 @@ def _derivative(reader: FormulaReader, row: list[Box], place: int, mark: str) ->
     if operand:
         node = reader.expression(operand)
     elif _stands_alone(reader, row, behind):
-        orders = [each for variable, times in variables for each in (variable, number(times))]
-        return Call("operator_derivative", tuple(orders[:1] if order == 1 else orders)), behind
+        orders = tuple(each for variable, times in variables for each in (variable, number(times)))
+        return Call("operator_derivative", orders[:1] if order == 1 else orders), behind
     else:
         node, behind = _operand(reader, row, behind, box)
     if len(variables) == 1 and mark != "partial":
-        made = total_derivative_of(reader, node, variables[0][0], order, box)
+        made = _total_derivative(node, variables[0][0], order)
     else:
         made = node
         for variable, times in variables:
-            made = Call("Derivative", (made, variable, *([number(times)] if times > 1 else [])))
+            made = Call("Derivative", (made, *_by(variable, times)))
     return (power_of(reader, made, box) if operand else made), behind
 
 
@@ -150,7 +148,7 @@ def _mark_arguments(reader: FormulaReader, operand: list[Box], variables: list[B
             reader.guess("at", what)
 
 
-def _order(reader: FormulaReader, box: Box) -> int:
+def _order(box: Box) -> int:
     if not box.sup:
         return 1
     if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name.isdigit():
@@ -171,7 +169,7 @@ def _variables(reader: FormulaReader, under: list[Box], mark: str, order: int = 
             variable, times = reader.expression(under[place + 1 : place + 3]), 1
             place += 1
         elif target.kind != "letter":
-            variable, times = reader.expression(target.parts[0]), _order(reader, target)
+            variable, times = reader.expression(target.parts[0]), _order(target)
         else:
             raised = mark_of(reader, target)
             if raised is None and order == 1 and target.sup and all(b.kind == "letter" for b in target.sup):
@@ -180,7 +178,7 @@ def _variables(reader: FormulaReader, under: list[Box], mark: str, order: int = 
             variable = letter_of(reader, replace(target, sup=None))[0]
             if raised and isinstance(variable, Letter):
                 variable = Letter(name_of(target, index_of(target) or (), raised), variable.vector)
-            times = 1 if raised and target.sup else _order(reader, target)
+            times = 1 if raised and target.sup else _order(target)
         found.append((variable, times))
         place += 2
     return found
@@ -224,7 +222,12 @@ def _differential_behind(row: list[Box], place: int) -> int:
     return next((k for k in behind if is_d(row[k], "d") and row[k + 1].kind in ("letter", "group", "thin")), 0)
 
 
-def total_derivative_of(reader: FormulaReader, node: Node, variable: Node, order: int, box: Box) -> Node:
+def _by(variable: Node, order: int) -> tuple[Node, ...]:
+    """What is differentiated by, and how often where that is not once."""
+    return (variable, number(order)) if order > 1 else (variable,)
+
+
+def _total_derivative(node: Node, variable: Node, order: int) -> Node:
     r"""dx/dt as \dot x."""
     if variable == Letter("t") and isinstance(node, Letter) and order <= 2:
         dots = re.search(r"_(d*)dot$", node.name)
@@ -234,18 +237,14 @@ def total_derivative_of(reader: FormulaReader, node: Node, variable: Node, order
             return Letter(f"{stem}_{'d' * (total - 1)}dot", node.vector)
     if variable == Letter("t") and order == 1 and not isinstance(node, Letter):
         return Call("rate", (node,))
-    return Call("Derivative", (node, variable, *([number(order)] if order > 1 else [])))
+    return Call("Derivative", (node, *_by(variable, order)))
 
 
 def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     r"""\partial_x f, \partial_t^2 u, \partial^\mu f; by itself on a side \partial\Omega, a boundary."""
     box = row[place]
     after = row[place + 1] if place + 1 < len(row) else box
-    body = (
-        after.kind == "letter"
-        and after.name[0].isupper()
-        and not (after.sup or after.sub or after.primes or after.marks)
-    )
+    body = after.kind == "letter" and after.name[0].isupper() and not (after.sup or after.sub or after.marks)
     if body and not (box.sub or box.sup or place or row[2:]):
         reader.guess("boundary", f"∂{after.name} is the boundary of {after.name}")
         return Letter(f"boundary_{after.name}{after.style}"), 2
@@ -259,15 +258,15 @@ def read_partial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Nod
     _mark_arguments(reader, without_thin(row[place + 1 :]), index)
     if above or index[0].name not in VARIABLES - {"rho"}:
         reader.guess("index", "the index of ∂ is what it differentiates by")
-    order = 1 if above else _order(reader, box)
+    order = 1 if above else _order(box)
     variable = Letter(f"x_{index[0].name}") if above else letter_of(reader, index[0])[0]  # \partial^\mu: by x_\mu
     base = index[0].name if isinstance(variable, Letter) and not (above or index[0].sub) else ""
     if base in {*_INDICES} - (reader.notation.bare - reader.lowered) and isinstance(variable, Letter):
         variable = Letter(f"x__{variable.name}")  # \partial_\mu is \partial/\partial x^\mu
     if _stands_alone(reader, row, place + 1):
-        return Call("operator_derivative", (variable, number(order)) if order > 1 else (variable,)), place + 1
+        return Call("operator_derivative", _by(variable, order)), place + 1
     node, behind = _operand(reader, row, place + 1, box)
-    return Call("Derivative", (node, variable, *([number(order)] if order > 1 else []))), behind
+    return Call("Derivative", (node, *_by(variable, order))), behind
 
 
 def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
@@ -284,11 +283,11 @@ def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
     if after.kind == "operator" and after.name in ("cdot", "times", "wedge") and box.sup is None:
         node, behind = _operand(reader, row, place + 2, box)
         return Call("divergence" if after.name == "cdot" else "curl", (node, *by)), behind
-    if (box.sup is None or _order(reader, box) == 2) and _stands_alone(reader, row, place + 1):
+    if (box.sup is None or _order(box) == 2) and _stands_alone(reader, row, place + 1):
         return Call("operator_laplacian" if box.sup else "operator_gradient", by), place + 1
     node, behind = _operand(reader, row, place + 1, box)
     if box.sup is not None:
-        if _order(reader, box) != 2:
+        if _order(box) != 2:
             raise FormulaError(box.at, "a power of ∇ is not read", "write the derivatives")
         return Call("laplacian", (node, *by)), behind
     if is_vector(node):

@@ -72,6 +72,13 @@ _FACTORS: dict[str, Factor] = {
 }  # fmt: skip
 
 
+# What has a power at most.
+_WITHOUT_INDEX = {
+    "infinity": "∞", "root": "a root", "binomial": "a binomial", "group": "a group", "accent": "what is no letter",
+    "matrix": "a matrix", "fraction": "a fraction",
+}  # fmt: skip
+
+
 class Grammar(FormulaReader):
     """Sums of products of factors."""
 
@@ -85,16 +92,12 @@ class Grammar(FormulaReader):
         part: list[Box] = []
         for place, box in enumerate(row):
             if box.kind == "operator" and box.name in ("+", "-", "pm", "mp"):
-                if not part:
-                    if terms or (place and not (sign == "+" and not terms)):
-                        raise FormulaError(box.at, "two signs follow each other", "write brackets around the second")
+                last = part[-1] if part else None
+                if (last is None and (terms or sign != "+")) or (last and last.kind == "operator" and last.name != "!"):
+                    raise FormulaError(box.at, "two signs follow each other", "write brackets around the second")
+                if last is None:
                     sign = box.name
                     continue
-                if part[-1].kind == "operator" and part[-1].name != "!":
-                    if box.name in ("+", "-") and part[-1].name in ("cdot", "times"):
-                        part.append(box)  # a factor with its sign: 3 \cdot -2
-                        continue
-                    raise FormulaError(box.at, "two signs follow each other", "write brackets around the second")
                 if is_open_integral(part) and any(map(ends_integral, row[place:])):
                     part.append(box)
                     continue
@@ -127,8 +130,7 @@ class Grammar(FormulaReader):
                 groups[-1][1].append(box)
         made: Node | None = None
         for place, (operator, part) in enumerate(groups):
-            more = place + 1 < len(groups)
-            made = _joined(self, made, operator, part, more, groups[place - 1][1] if place else [])
+            made = _joined(self, made, operator, part, groups[place - 1][1] if place else [])
         assert made is not None
         return made
 
@@ -179,12 +181,10 @@ class Grammar(FormulaReader):
             self.guess("words", "Re is a number of its own, and no real part")
             reader = read_letter
         if reader is None:
-            why = f"{self.source[box.at : box.end] or box.name} is not read here"
+            why = f"{self.source[box.at : box.end]} is not read here"
             raise FormulaError(box.at, why, "write what it stands for")
-        if box.kind in ("infinity", "root", "binomial") and (
-            box.sub is not None or (box.sup and box.kind == "infinity")
-        ):
-            raise FormulaError(box.at, f"{self.source[box.at : box.end]} has an index", "give it a letter of its own")
+        if box.sub is not None and box.kind in _WITHOUT_INDEX:
+            raise FormulaError(box.at, f"{_WITHOUT_INDEX[box.kind]} has an index", "write it on the letter")
         node, behind = reader(self, row, place)
         while behind < len(row) and row[behind].name == "!":
             twice = behind + 1 < len(row) and row[behind + 1].name == "!"
@@ -205,7 +205,7 @@ def _added(reader: FormulaReader, terms: list[tuple[str, list[Box]]]) -> Node:
         made.append(term)
     if len(made) == 1:
         return made[0]
-    _check_sums(reader, terms)
+    _check_sums(terms)
     kinds = {is_vector(each) for each in made if not is_printed_zero(each) and each != Call("dots", ())}
     if len(kinds) > 1 and all(is_vector(n) or may_be_vector(n) for n in made):
         reader.guess("vector", "what has a hat, or is the divergence of a tensor, is a vector")
@@ -214,7 +214,7 @@ def _added(reader: FormulaReader, terms: list[tuple[str, list[Box]]]) -> Node:
     return Call("sum", tuple(made))
 
 
-def _check_sums(reader: FormulaReader, terms: list[tuple[str, list[Box]]]) -> None:
+def _check_sums(terms: list[tuple[str, list[Box]]]) -> None:
     """A term behind a sum that has its index: whether the sum ends before it is not clear."""
     indices: set[str] = set()
     for _, part in terms:
@@ -226,9 +226,7 @@ def _check_sums(reader: FormulaReader, terms: list[tuple[str, list[Box]]]) -> No
                 indices |= {s.name for s in box.sub if s.kind == "letter"}
 
 
-def _joined(
-    reader: FormulaReader, made: Node | None, operator: str, part: list[Box], more: bool, before: list[Box]
-) -> Node:
+def _joined(reader: FormulaReader, made: Node | None, operator: str, part: list[Box], before: list[Box]) -> Node:
     if operator == "/":
         part, before = strip(part), strip(before)
         if (
@@ -247,16 +245,11 @@ def _joined(
         if is_vector(right):
             raise FormulaError(part[0].at, "a vector is divided by", "write its length")
         return Call("quotient", (made, right))
-    sign = None
-    if part and part[0].kind == "operator" and part[0].name in ("+", "-"):
-        sign, part = part[0].name, part[1:]
     if operator == "cdot" and made is not None and is_vector(made) and strip(part):
         advection = read_along(reader, made, strip(part))
         if advection is not None:
             return advection
     right = reader.product(strip(part))
-    if sign == "-":
-        right = Call("negative", (right,))
     if made is None:
         return right
     return _vector_product(made, operator, right, part[0].at, before)

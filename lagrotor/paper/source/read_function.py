@@ -61,10 +61,8 @@ def _applied(reader: FormulaReader, name: str, box: Box, inner: tuple[Node, ...]
 
 def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[Node, ...], int]:
     """The arguments of a function: a bracket, or what follows it as custom has it."""
-    behind = place + 1
-    while behind < len(row) and row[behind].kind == "thin":
-        behind += 1
-    if behind >= len(row):
+    behind = next((k for k in range(place + 1, len(row)) if row[k].kind != "thin"), None)
+    if behind is None:
         raise FormulaError(row[place].at, f"{row[place].name} has no argument", "write it in brackets")
     first = row[behind]
     if first.kind == "bracket" and first.name in ("(", "[", r"\{"):
@@ -78,8 +76,8 @@ def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[
     if first.kind == "bracket" and first.name in ("|", r"\|", r"\lvert", r"\vert") and first.sup is None:
         return (reader.factor(row, behind)[0],), behind + 1
     if first.kind == "function" and row[place].name != "arg":  # \ln\cosh x; \arg\min is one word
-        node, end = reader.factor(row, behind)
-        return (node,), end
+        node, behind = reader.factor(row, behind)
+        return (node,), behind
     end = _reach(reader, row, behind, row[place])
     for box in row[behind:end]:
         if box.sup is not None and mark_of(reader, box) is None:
@@ -96,11 +94,8 @@ def _reach(reader: FormulaReader, row: list[Box], start: int, function: Box) -> 
             break
         end += 1
     run = row[start:end]
-    after = next((b for b in row[end:] if b.kind != "thin"), None)
     if not run:
         raise FormulaError(row[start].at, f"the argument of {function.name} is not clear", "write it in brackets")
-    while run and run[-1].kind == "letter" and after is not None and after.kind == "bracket" and len(run) > 1:
-        break
     if len(run) == 1:
         _after_one(reader, run[0], row, end, function)
         return end
@@ -117,10 +112,8 @@ def _after_one(reader: FormulaReader, only: Box, row: list[Box], end: int, funct
     if after is None or after.kind in (*ENDING, "function", "big"):
         return
     if after.kind == "bracket" and only.kind == "letter":
-        if is_called(reader, only, after):
-            why = f"whether the bracket belongs to the argument of {function.name} is open"
-            raise FormulaError(after.at, why, "write brackets")
-        if after.name == "(" and only.name not in _ANGLES and only.name not in reader.notation.angles:
+        angle = only.name in _ANGLES or only.name in reader.notation.angles
+        if is_called(reader, only, after) or (after.name == "(" and not angle):
             why = f"whether the bracket belongs to the argument of {function.name} is open"
             raise FormulaError(after.at, why, "write brackets")
         reader.guess("argument", f"the argument of {function.name} ends before the bracket")

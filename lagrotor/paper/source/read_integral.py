@@ -19,7 +19,7 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
         return Call("Integral", (reader.expression(rest), _region(reader, box))), len(row)
     reader.integrating += 1
     try:
-        end, before = _differential_at(reader, rest, box)
+        end, before = _differential_at(rest, box)
         if before:  # \int dx f(x): the differential comes first
             variable = read_differential(reader, without_thin(rest), 0)
             if variable is None:
@@ -71,7 +71,7 @@ def _further(reader: FormulaReader, row: list[Box], place: int) -> tuple[list[No
         place = made[1]
 
 
-def _differential_at(reader: FormulaReader, rest: list[Box], box: Box) -> tuple[int, bool]:
+def _differential_at(rest: list[Box], box: Box) -> tuple[int, bool]:
     """Where the integral's differential ends, and whether it comes first."""
     inner = 0
     first = next((k for k, b in enumerate(rest) if b.kind != "thin"), None)
@@ -97,12 +97,9 @@ def _taken_out(node: Node, box: Box) -> tuple[Node, Node]:
     if isinstance(node, Call):
         if node.name == "differential":
             return number(1), node
-        if node.name == "negative":
+        if node.name in ("negative", "quotient"):
             inner, found = _taken_out(node.args[0], box)
-            return Call("negative", (inner,)), found
-        if node.name == "quotient":
-            inner, found = _taken_out(node.args[0], box)
-            return Call("quotient", (inner, node.args[1])), found
+            return Call(node.name, (inner, *node.args[1:])), found
         if node.name in ("product", "matmul"):
             for place, each in enumerate(node.args):
                 if _holds(each):
@@ -110,22 +107,16 @@ def _taken_out(node: Node, box: Box) -> tuple[Node, Node]:
                     rest = [*node.args[:place], *([] if inner == number(1) else [inner]), *node.args[place + 1 :]]
                     ordered = node.name == "matmul" and len(rest) > 1
                     return Call("matmul", tuple(rest)) if ordered else product_of(rest or [number(1)]), found
-        if node.name == "sum" and _holds(node.args[-1]):
-            inner, found = _taken_out(node.args[-1], box)
-            return Call("sum", (*node.args[:-1], inner)), found
-        if node.name in ("dot", "cross") and _holds(node.args[-1]) and not _vector_differential(node.args[-1]):
-            inner, found = _taken_out(node.args[-1], box)
+        if node.name in ("sum", "dot", "cross") and _holds(last := node.args[-1]):
+            if node.name != "sum" and _vector_differential(last):  # F·dr
+                return node, next(filter(is_differential, walk(last)))
+            inner, found = _taken_out(last, box)
             return Call(node.name, (*node.args[:-1], inner)), found
-        if node.name in ("dot", "cross") and _holds(node.args[-1]):
-            differential = next(
-                each for each in walk(node.args[-1]) if isinstance(each, Call) and each.name == "differential"
-            )
-            return node, differential
     raise FormulaError(box.at, "the differential is no factor of what is integrated", "write it at the end")
 
 
 def _vector_differential(node: Node) -> bool:
-    """Whether the differential is of a vector, as in F·dr."""
+    """Whether the differential is of a vector."""
     return any(is_differential(each) and is_vector(each) for each in walk(node))
 
 

@@ -270,7 +270,7 @@ def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
     if not raised and [each.kind for each in box.sup or ()] == ["letter"]:  # Y_l^m(θ, φ)
         why = f"whether {box.sup[0].name} is an upper index or a power is open"  # type: ignore[index]
         raise FormulaError(box.at, why, "write both indices below, or brackets around the power")
-    name = name_of(box, index_parts(reader, box), mark_of(reader, box) or ())
+    name = name_of(box, index_parts(box), mark_of(reader, box) or ())
     if tuple(given) == (Letter("t"),) and "t" not in reader.bound and stem_of(box) not in reader.notation.elsewhere:
         node: Node = named
     else:

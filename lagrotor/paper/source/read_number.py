@@ -39,13 +39,12 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if box.sup and len(box.sup) == 1 and box.sup[0].name in DEGREES:
         return _degrees(reader, row, behind, node, box)
     node = power_of(reader, node, box)
-    if behind < len(row) and row[behind].kind == "percent":
-        return Call("quotient", (node, number(100))), behind + 1
     unit = behind + 1 if behind < len(row) and row[behind].kind == "thin" else behind
-    if unit < len(row) and row[unit].kind in ("unit", "text") and row[unit].name in ("%", r"\%"):
+    after = row[unit] if unit < len(row) else box
+    if after.name in ("%", r"\%"):
         return Call("quotient", (node, number(100))), unit + 1
-    if unit < len(row) and row[unit].kind in ("unit", "text"):
-        return product_of([node, _units(reader, row[unit])]), unit + 1
+    if after.kind in ("unit", "text"):
+        return product_of([node, _units(after)]), unit + 1
     factors = [node]
     while unit < len(row) and row[unit].upright and row[unit].name in UNITS and row[unit].sub is None:
         if unit == behind and len(row[unit].name) == 1 and len(factors) == 1:
@@ -83,14 +82,14 @@ def _value(reader: FormulaReader, text: str, box: Box) -> Fraction:
         if not all(len(each.partition(".")[0]) == 3 for each in groups):
             raise FormulaError(box.at, f"{text} is no number", "write a decimal point")
         return Fraction(whole + "".join(groups))
-    return Fraction(text if not text.startswith(".") else f"0{text}")
+    return Fraction(text)
 
 
 def read_unit(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     raise FormulaError(row[place].at, "upright letters are no letter of a formula", "write \\text{…} for words")
 
 
-def _units(reader: FormulaReader, box: Box) -> Node:
+def _units(box: Box) -> Node:
     """A unit such as m/s^2 as letters unit_m, unit_s."""
     name = re.sub(r"/\(([^()/]*)\)$", r"/\1", box.name)  # kJ/(kg K)
     parts = _UNIT.findall(name)

@@ -33,7 +33,7 @@ def stands_alone(reader: FormulaReader, sign: str) -> bool:
     return re.search(rf"(?<![A-Za-z\\]){re.escape(sign)}(?![A-Za-z]){ends}", shown) is not None
 
 
-def index_parts(reader: FormulaReader, box: Box) -> list[str]:
+def index_parts(box: Box) -> list[str]:
     found = index_of(box)
     if found is None:
         part = (box.sub or [box])[0]
@@ -69,7 +69,7 @@ def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
         names = [b.name + b.style for b in row if b.kind != "comma"]
         return names if all(name.isalnum() for name in names) else None
     upper = upper_index(reader.notation, box)
-    if not upper and _labels_vector(reader, box, row):
+    if not upper and _labels_vector(box, row):
         reader.guess("mark", f"the superscript of the vector {box.name} is part of the name")
         return index_of(replace(box, sub=row, sup=None))
     if not upper and _is_raised(reader, box, row):
@@ -80,7 +80,7 @@ def mark_of(reader: FormulaReader, box: Box) -> list[str] | None:
     return upper if upper and not {*upper} & {*reader.bound} - {*TENSOR} else None
 
 
-def _labels_vector(reader: FormulaReader, box: Box, row: list[Box]) -> bool:
+def _labels_vector(box: Box, row: list[Box]) -> bool:
     """Whether what stands above a vector is no power: a number but 2, a step n + 1, a letter."""
     small = is_printed_as_vector(box) and (box.name[0].islower() or "vec" in box.marks)
     kinds = {b.kind for b in row}
@@ -145,7 +145,7 @@ def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
         _mark_superscript(reader, box)
     if raised is None and box.sup is not None:
         _check_power(reader, box)
-    index = index_parts(reader, box)
+    index = index_parts(box)
     if len(spelled := reader.notation.spelled.get("_".join((box.name, *index)), ())) > 1:
         prints = " and ".join(f"{box.name}_{{{each}}}" for each in sorted(spelled))
         raise FormulaError(box.at, f"whether {prints} are one letter is open", "give one of them another index")
