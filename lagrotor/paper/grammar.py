@@ -6,6 +6,7 @@ known; what is not in the grammar is refused before anything is built.
 """
 
 import ast
+import operator
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import accumulate
@@ -17,9 +18,7 @@ from lagrotor.errors import InputError
 
 # Numbers that would take longer to write down than anybody reads: of digits, and powers of numbers.
 _MOST_CHARACTERS, _MOST_DIGITS, _MOST_POWER, _MOST_ROWS, _MOST_BRACKETS = 20_000, 400, 1000, 50, 100
-_SIGNS: dict[type, str] = {
-    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**",
-}  # fmt: skip
+_SIGNS: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
 # Called with evaluate=False where a text is kept as it is written.
 _KEPT = {sp.sin, sp.cos, sp.tan, sp.exp, sp.log, sp.sqrt, sp.Abs, sp.sinh, sp.cosh, sp.tanh, sp.asin, sp.acos, sp.atan}
 _SIZED = {sp.eye, sp.zeros}
@@ -164,12 +163,8 @@ class _Reader:
 
 _SAME: dict[Any, Any] = {sp.Add: ast.Add | ast.Sub, sp.Mul: ast.Mult | ast.Div}
 _OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
-    "+": lambda a, b: a + b,
-    "-": lambda a, b: a - b,
-    "*": lambda a, b: a * b,
-    "/": lambda a, b: a / b,
-    "**": lambda a, b: a**b,
-}
+    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "**": operator.pow,
+}  # fmt: skip
 
 
 def _check_power(base: Any, exponent: Any) -> None:

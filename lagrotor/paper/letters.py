@@ -75,17 +75,15 @@ def integral(body: sp.Expr, *over: Any) -> sp.Expr:
     return sp.Integral(body, *over) if definite else sp.integrate(body, *over)
 
 
+_OF_SYMPY = (
+    "sin cos tan exp log sqrt Abs sinh cosh tanh asin acos atan asinh acosh atanh atan2 sign factorial besselj "
+    "eye diag zeros diff pi oo Integer Float Rational"
+)
 # What a printed line may call.
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{f.__name__: f for f in (rotation, cross, cross_matrix, dot, norm, rate, inverse, column)},
-    **{
-        name: getattr(sp, name)
-        for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "Abs", "sinh", "cosh", "tanh", "asin", "acos", "atan")
-    },
-    **{name: getattr(sp, name) for name in ("asinh", "acosh", "atanh", "atan2", "sign", "factorial", "besselj")},
-    **{name: getattr(sp, name) for name in ("eye", "diag", "zeros", "diff")},
+    **{name: getattr(sp, name) for name in _OF_SYMPY.split()},
     "integrate": integral,
-    **{name: getattr(sp, name) for name in ("pi", "oo", "Integer", "Float", "Rational")},
 }
 
 

@@ -31,6 +31,11 @@ class Formula:
         return rf"$\displaystyle {self.tex}$"
 
 
+def left_out(small: sp.Symbol, order: int) -> str:
+    """+ O(small**(order + 1)), in LaTeX."""
+    return rf" + O\left({latex(small ** (order + 1))}\right)"
+
+
 @dataclass(frozen=True)
 class Remark:
     """Something that a derivation found besides the judged equations: a heading and what was found, with its numbers."""
@@ -63,7 +68,7 @@ class Step:
     @property
     def tex(self) -> str:
         """The equations below each other, as LaTeX."""
-        end = rf" + O\left({latex(self.small)}^{{{(self.order or 0) + 1}}}\right)" if self.small is not None else ""
+        end = left_out(self.small, self.order or 0) if self.small is not None else ""
         lines = [f"{line}{end}" for line in self.written] or [
             f"{name} &= {latex(right)}{end}" for name, (_, right) in zip(self.names, self.pairs, strict=True)
         ]

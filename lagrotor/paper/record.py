@@ -5,7 +5,6 @@ Blocks stand in the order of their ids, so that two authors who judge different 
 
 import hashlib
 import json
-import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
@@ -15,6 +14,7 @@ from typing import Any
 from lagrotor.errors import LagrotorError
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.claim_tests import Result
+from lagrotor.paper.scripts import by_numbers
 from lagrotor.paper.theorems import Theorem
 from lagrotor.paper.verdicts import LineVerdict, Verdict
 
@@ -112,7 +112,7 @@ def recorded(file: Path) -> dict[str, OnRecord]:
 def record_text(rows: Mapping[str, OnRecord]) -> str:
     """A record as TOML: a block for each id, in their order, and in it a line for each item."""
     blocks = []
-    for identifier in sorted(rows, key=_in_order):
+    for identifier in sorted(rows, key=by_numbers):
         row, lines = rows[identifier], [f"[{_quoted(identifier)}]"]
         for field in fields(row):
             value = getattr(row, field.name)
@@ -124,10 +124,6 @@ def record_text(rows: Mapping[str, OnRecord]) -> str:
                 lines.append(f"{field.name} = []")
         blocks.append("\n".join(lines) + "\n")
     return "\n".join(blocks)
-
-
-def _in_order(identifier: str) -> list[tuple[int, str]]:
-    return [(int(number or 0), text) for number, text in re.findall(r"(\d*)(\D*)", identifier)]
 
 
 def _quoted(text: str) -> str:
@@ -153,20 +149,16 @@ def _changes_of(identifier: str, now: OnRecord | None, before: OnRecord | None) 
         ):  # their digits differ from machine to machine; that they are there is in parts and lines
             continue
         if old is not None and old != new:
-            different.append(f"{identifier}: {_WORDS[field.name]}: recorded {_said(old)}, found {_said(new)}")
+            different.append(
+                f"{identifier}: {_WORDS.get(field.name, field.name)}: recorded {_said(old)}, found {_said(new)}"
+            )
     return different
 
 
 _WORDS = {
     "printed": "the print has changed (its digest)",
     "uses": "the equations that it uses",
-    "premises": "premises",
-    "domain": "domain",
-    "lines": "lines",
-    "correction": "correction",
-    "dimensions": "dimensions",
-    "parts": "parts",
-}
+}  # else the field's name
 
 
 def _said(value: Any) -> str:

@@ -74,7 +74,7 @@ class Scripts:
     def names(self, kind: Kind, prefix: str = "") -> list[str]:
         """Stems of the scripts in a folder that begin with `prefix`, in order, t2 before t10."""
         stems = (path.stem for path in (self.base / kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
-        return sorted(stems, key=lambda stem: [(int(n or 0), text) for n, text in re.findall(r"(\d*)(\D*)", stem)])
+        return sorted(stems, key=by_numbers)
 
     def executed(self, kind: Kind, stem: str) -> Script:
         """Run one script, once. Raises ScriptError with the file and the line where it fails."""
@@ -127,6 +127,11 @@ class Scripts:
                     raise InputError(f"{stem}.py:{line}: a verdict on {identifier} is in {first} already")
                 places[identifier] = stem, line
         return places
+
+
+def by_numbers(name: str) -> list[tuple[int, str]]:
+    """The key by which names are in order: t2 before t10, 3.2 before 3.10."""
+    return [(int(number or 0), text) for number, text in re.findall(r"(\d*)(\D*)", name)]
 
 
 class _Elsewhere(dict[str, Any]):

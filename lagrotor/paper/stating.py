@@ -11,13 +11,12 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError, NotProved, ProofError
-from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.form import Form
 from lagrotor.paper.hypotheses import hypotheses
 from lagrotor.paper.letters import Letters, Line, components
 from lagrotor.paper.premises import Premise, with_meanings
-from lagrotor.paper.proof import Formula
+from lagrotor.paper.proof import Formula, left_out
 from lagrotor.paper.theorems import Theorem, can_prove, verify
 from lagrotor.paper.verdicts import Relation, Series, Side, Statement
 
@@ -52,11 +51,6 @@ class Stated:
 def _rest(side: Side) -> str:
     """What is left out of a series, in LaTeX."""
     return left_out(side.small, side.order) if isinstance(side, Series) else ""
-
-
-def left_out(small: sp.Symbol, order: int) -> str:
-    """+ O(small**(order + 1)), in LaTeX."""
-    return rf" + O\left({latex(small ** (order + 1))}\right)"
 
 
 def verdict(

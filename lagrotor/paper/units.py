@@ -197,10 +197,7 @@ class _Reader:
             return self._ratio(self.of(e.expr), below)
         if isinstance(e, sp.Integral):
             return self._product([e.function, *(limit[0] for limit in e.limits)])
-        if isinstance(e, sp.sign):
-            self.of(e.args[0])
-            return _ONE
-        if isinstance(e, sp.atan2):
+        if isinstance(e, sp.sign | sp.atan2):
             self._common(e.args)
             return _ONE
         if isinstance(e, sp.Function):

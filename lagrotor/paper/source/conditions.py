@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 from lagrotor.paper.source.definitions import next_name
 from lagrotor.paper.source.expansion import NO_VALUE, Expander, Package, Primitive
-from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
+from lagrotor.paper.source.tokens import Token, latex_of, tokenize
 
 _TRUE = ("iftrue", "ifmmode", "ifpdf", "ifPDFTeX")
 _FALSE = ("iffalse", "ifdraft", "ifluatex", "ifxetex", "ifLuaTeX", "ifXeTeX")
@@ -42,30 +42,22 @@ def _else(expander: Expander, token: Token) -> bool:
 
 
 def _compared(expander: Expander) -> bool:
+    """Whether two numbers compare as \\ifnum says; what they are made of is taken."""
     found: list[Token] = []
-    while (token := expander.next()) is not None:
+    while len(found) < 13 and (token := expander.next()) is not None:
         found.append(token)
-        if token.kind == "text" and re.search(r"[<>=]\s*-?\d+\s", token.text):
+        if token.text in (r"\relax", r"\z@", r"\@ne", r"\tw@") or re.search(r"[<>=]\s*-?\d+\s", token.text):
             break
-        if token.kind == "command" and token.text in (r"\relax", r"\z@", r"\@ne", r"\tw@"):
-            break
-        if len(found) > 12:
-            break
-    for place, token in enumerate(found):
-        if token.kind == "text" and (sign := re.search(r"[<>=]", token.text)):
-            relation = sign[0]
-            left_tokens = [*found[:place], Token("text", token.text[: sign.start()], token.at)]
-            right = re.match(r"\s*-?\d+\s?", token.text[sign.end() :])
-            right_text = right[0] if right else ""
-            rest = token.text[sign.end() + len(right_text) :]
-            right_tokens = [Token("text", right_text, token.at)] if right else found[place + 1 :]
-            if right:
-                expander.push([*plain(rest, token.at), *found[place + 1 :]])
-            a, b = expander.number(left_tokens), expander.number(right_tokens)
-            return {"<": a < b, ">": a > b, "=": a == b}[relation]
-    expander.push(found)
-    expander.notes.append(r"\ifnum is taken as false")
-    return False
+    left, sign, right = re.match(r"([^<>=]*)([<>=]?)(.*)", latex_of(found), re.DOTALL).groups()  # type: ignore[union-attr]
+    if not sign:
+        expander.push(found)
+        expander.notes.append(r"\ifnum is taken as false")
+        return False
+    if digits := re.match(r"\s*-?\d+\s?", right):
+        rest, right = right[digits.end() :], digits[0]
+        expander.push(tokenize(rest, found[-1].at + len(found[-1].text) - len(rest)))
+    a, b = (expander.number(tokenize(side)) for side in (left, right))
+    return {"<": a < b, ">": a > b, "=": a == b}[sign]
 
 
 def _same(expander: Expander, first: Token, second: Token) -> bool:

@@ -16,6 +16,7 @@ _DISPLAY = re.compile(
     r"(?<!\\)\$\$((?:(?!\n\s*\n\s*(?:[A-Za-z]{3,}[\s,.:]|#)).)*?)(?<!\\)\$\$[ \t]*(\n?[ \t]*\((?P<label>[\w:.\-]+)\))?",
     re.DOTALL,
 )
+_ENVIRONMENT = re.compile(r"\\begin\{(equation|align|gather|multline|eqnarray)(\*?)\}(.*?)\\end\{\1\2\}", re.DOTALL)
 _HEADING = re.compile(r"^(#{1,6})[ \t]+(.*?)[ \t#]*$", re.MULTILINE)
 _LEVELS = ("section", "subsection", "subsubsection")
 _LARGEST = 20  # MB, of which the tokens take some GB
@@ -71,8 +72,7 @@ def markdown_as_latex(text: str) -> str:
     text = _DISPLAY.sub(lambda m: keep(_displayed(m[1], m["label"] or ""), m[0]), text)
     text = re.sub(r"(?<!\\)\$\$", lambda m: keep(rf"\{UNCLOSED} ", m[0]), text)
     text = re.sub(r"\\\\\[(.*?)\\\\\]", lambda m: keep(rf"\[{m[1]}\]", m[0]), text, flags=re.DOTALL)
-    environments = r"\\begin\{(equation|align|gather|multline|eqnarray)(\*?)\}.*?\\end\{\1\2\}"
-    text = re.sub(environments, lambda m: keep(m[0], m[0]), text, flags=re.DOTALL)
+    text = _ENVIRONMENT.sub(lambda m: keep(m[0], m[0]), text)
     text = _INLINE.sub(lambda m: keep(rf"\({m[1]}\)", m[0]), text)
     text = _HEADING.sub(lambda m: keep(_heading(m[1], m[2], text), m[0]), text)
     text = re.sub(r"[\\%#&$_^{}~]", " ", text)
@@ -101,9 +101,7 @@ def _fenced(info: str, body: str) -> str:
 
 def _displayed(body: str, label: str) -> str:
     """A display; one with a label in brackets has a number: the label, where it is one, else the next."""
-    inner = re.match(
-        r"\s*\\begin\{(equation|align|gather|multline|eqnarray)(\*?)\}(.*)\\end\{\1\2\}\s*$", body, re.DOTALL
-    )
+    inner = _ENVIRONMENT.fullmatch(body.strip())
     if inner and not label:
         if r"\label" in body or r"\tag" in body:
             return body

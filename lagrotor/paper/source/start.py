@@ -270,15 +270,11 @@ def _equation(row: Mapping[str, Any]) -> Iterator[str]:
 
 def _value(key: str, value: Any) -> str:
     """A TOML value."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, int | float):
-        return str(value)
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_text(str(k))} = {_value('', v)}" for k, v in value.items()) + " }"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_value("", each) for each in value) + "]"
-    return _latex(value) if key in ("latex", "quantity", "lead", "changed") else _text(str(value))
+    return _latex(value) if key in ("latex", "quantity", "lead", "changed") else _text(value)
 
 
 def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
@@ -361,8 +357,8 @@ def _letter(name: str) -> str:
     return f'{name} = GLOSSARY.letter("{name}", "?", "?", real=True)'
 
 
-def _text(value: str) -> str:
-    """A TOML string."""
+def _text(value: str | float) -> str:
+    """A string, a number, true or false in TOML."""
     return json.dumps(value, ensure_ascii=False)
 
 
