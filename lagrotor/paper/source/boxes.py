@@ -105,6 +105,11 @@ class FormulaError(Exception):
         self.at, self.what, self.help = at, what, help_
 
 
+def left_open(box: "Box", what: str, help_: str) -> FormulaError:
+    """The stop at a box of which the print does not say whether it is this."""
+    return FormulaError(box.at, f"whether {what} is open", help_)
+
+
 @dataclass(slots=True)
 class Box:
     """One thing as it is printed, from `at` to `end` in the LaTeX.

@@ -3,9 +3,19 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 
-from lagrotor.paper.source.boxes import Box
+from lagrotor.paper.source.boxes import Box, FormulaError, left_open
 from lagrotor.paper.source.tree import Node
 from lagrotor.paper.source.usage import Notation
+
+
+def settled(name: str, *keys: str) -> str:
+    """The lines of [notation] by one of which the author says what a letter is."""
+    return " or ".join(f'{key} = "{name}"' for key in keys)
+
+
+def asked(box: Box, what: str, *keys: str) -> FormulaError:
+    """The stop at a letter of which the author is to say whether it is this."""
+    return left_open(box, what, f"write in paper.toml [notation] {settled(box.name, *keys)}")
 
 
 @dataclass

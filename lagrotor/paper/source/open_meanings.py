@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 from lagrotor.paper.source.boxes import FUNCTIONS, Box, is_printed_as_vector
-from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.formula_reader import FormulaReader, settled
 from lagrotor.paper.source.read_letter import is_called
 from lagrotor.paper.source.read_scripts import INDICES
 from lagrotor.paper.source.read_statements import is_set
@@ -26,6 +26,7 @@ from lagrotor.paper.source.rows import (
     has_differential_above,
     is_unit_like,
     letters_in_row,
+    parted,
     strip,
     without_thin,
 )
@@ -58,12 +59,9 @@ def mark_open_meanings(reader: FormulaReader, row: list[Box]) -> None:
 
 def _lists(row: list[Box]) -> Marks:
     """Bounds of several, as in 0 < x, y < 1, and what continues the display before."""
-    parts: list[list[Box]] = [[]]
-    for box in without_thin(row):
-        parts += [[]] if box.kind == "comma" else []
-        parts[-1].append(box)
+    parts = parted(without_thin(row), "comma")
     bounds = [any(b.kind == "relation" and b.name in _BOUNDS for b in part) for part in parts]
-    if any(a and b and part[1].kind != "wide" for a, b, part in zip(bounds, bounds[1:], parts[1:], strict=False)):
+    if any(a and b and part[0].kind != "wide" for a, b, part in zip(bounds, bounds[1:], parts[1:], strict=False)):
         yield "list", "each bound holds for what is beside it alone", ""
     if row and row[0].kind == "operator" and row[0].name == "+":
         yield "continued", "the display begins with its sign, and continues none", ""
@@ -96,9 +94,7 @@ def _row(reader: FormulaReader, row: list[Box]) -> Marks:
 
 def _indices_below(box: Box) -> Iterator[list[Box]]:
     """What stands below a sum but plain indices, 0 and x' of 0 < x' < 1; what a set or a pair ⟨ij⟩ lists, one by one."""
-    ends = [k for k, b in enumerate(box.sub or ()) if b.kind in ("relation", "comma")]
-    for first, last in pairwise([-1, *ends, len(box.sub or ())]):
-        part = without_thin((box.sub or [])[first + 1 : last])
+    for part in map(without_thin, parted(box.sub or [], "relation", "comma")):
         if len(part) == 1 and part[0].name in (r"\langle", r"\{", r"\lbrace"):
             part = [b for b in part[0].parts[0] if b.kind != "comma"]
         if not all(is_plain_letter(b) for b in part):
@@ -118,27 +114,15 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
             yield "matrix", f"{box.name} of its argument is a number, and no matrix", ""
         amplitude = after.kind == "function" and after.name in FUNCTIONS and box.name in _AMPLITUDES and not box.marks
         bracketed = after.kind == "bracket" and after.name in ("(", "[", r"\{")
-        if (
-            box.name in ("Sigma", "Pi")
-            and after.kind == "letter"
-            and is_number(known, box)
-            and not (box.sub or bracketed)
-        ):
-            yield (
-                "sum",
-                f"{box.name} is a factor of what follows, and no sum or product over it",
-                f'letters = "{box.name}"',
-            )
+        if box.name in ("Sigma", "Pi") and after.kind == "letter" and is_number(known, box):
+            what = f"{box.name} is a factor of what follows, and no sum or product over it"
+            yield "sum", what, settled(box.name, "letters")
         named = box.upright and (box.name in UNITS or box.name in FUNCTIONS)
         held = [] if amplitude or bracketed or named else [box]
     elif box.kind == "bracket" and box.name in ("(", "[", r"\{"):
         held = without_thin(box.parts[0])
         applied = [stem_of(b) for b in held if b.kind == "letter"]
-        if (
-            after.kind == "bracket"
-            and applied
-            and all(s in known.applied or s in known.differentiated for s in applied)
-        ):
+        if after.kind == "bracket" and applied and {*applied} <= known.applied | known.differentiated:
             yield "bracket", "the brackets side by side are factors, and none is an argument", ""
     else:
         held = without_thin(box.parts[0]) if box.kind == "fraction" and not derivative_mark(box) else []
@@ -146,8 +130,8 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
         # steps, variations, products of a field with a form, covariant differentials: \Delta_\mu f, i_\xi\omega, d_A F
         stepping = each.name in ("Delta", "delta", "i", "iota", "d") and [b.kind for b in each.sub or ()] == ["letter"]
         if each.kind == "letter" and (stepping or not is_number(known, each)):
-            settles = f'letters = "{each.name}"'
-            yield "operator", f"{each.name} is a factor of what follows, and no operator on it", settles
+            what = f"{each.name} is a factor of what follows, and no operator on it"
+            yield "operator", what, settled(each.name, "letters")
             return
         if each.kind in ("nabla", "partial") or (each.kind == "fraction" and derivative_mark(each)):
             return
@@ -217,12 +201,8 @@ def _enclosed(reader: FormulaReader, box: Box, before: Box | None, content: list
 
 def _magnitude(reader: FormulaReader, content: list[Box]) -> Marks:
     known, letters = reader.notation, [b for b in all_boxes(content) if b.kind == "letter"]
-    only = (
-        content[0]
-        if len(content) == 1 and content[0].kind == "letter" and not is_printed_as_vector(content[0])
-        else None
-    )
-    shown = only is None or stem_of(only) in known.factors or stem_of(only) in known.numeric
+    only = content[0] if len(content) == 1 and content[0].kind == "letter" else None
+    shown = not only or is_printed_as_vector(only) or stem_of(only) in known.factors | known.numeric
     if any(b.kind == "comma" for b in content) or not (shown and all(is_number(known, b) for b in letters)):
         yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
 
@@ -238,12 +218,7 @@ def _bar(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Marks:
     """Labels of kets that are no single sign, and means outside quantum mechanics."""
-    parts: list[list[Box]] = [[]]
-    for each in content:
-        if each.kind in ("bar", "comma"):
-            parts.append([])
-        else:
-            parts[-1].append(each)
+    parts = parted(content, "bar", "comma")
     if "|" not in (box.name, box.closing) and len(parts) == 1 and "ket" not in reader.notation.seen:
         yield "mean", "angle brackets are a mean, and nothing that is generated", ""
     if len(parts) > 1 and not any(b.kind == "bar" for b in content) and box.name not in ("|",):
@@ -267,15 +242,12 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         beside = [b for b in (before, after) if b is not None]
         along = after is not None and after.kind == "nabla" and before is not None and not is_printed_as_vector(before)
         numbers = any(b.kind in ("number", "root", "function", "nabla") or not letters_in_row([b]) for b in beside)
-        vectors = all(
-            b.kind == "letter" and is_printed_as_vector(b) and (b.name[0].islower() or stem_of(b) in known.crossed)
-            for b in beside
-        )
-        letters = [c for b in beside for c in all_boxes([b]) if c.kind == "letter"]
+        small = all(b.name[:1].islower() or stem_of(b) in known.crossed for b in beside)
+        vectors = small and all(b.kind == "letter" and is_printed_as_vector(b) for b in beside)
+        letters = [c for c in all_boxes(beside) if c.kind == "letter"]
         plain = known.arrows and not (known.raised or known.upper)  # vectors are marked, and these are none
-        if along or not (
-            numbers or vectors or (plain and all(is_number(known, c) and c.name not in known.arrows for c in letters))
-        ):
+        plain = plain and all(is_number(known, c) and c.name not in known.arrows for c in letters)
+        if along or not (numbers or vectors or plain):
             yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""
     elif box.name in ("pm", "mp") and any(
         b.kind in ("unit", "text") or (b.upright and len(b.name) > 1) for b in row[place:]
@@ -319,18 +291,14 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
             yield "sum", f"what {box.name} runs over is as it is written", ""
     elif box.name == "int":
         last = next((k for k, b in enumerate(rest) if b.kind == "big" or has_differential_above(b)), len(rest))
-        last = next(
-            (k + 1 for k, b in enumerate(rest[:last]) if (b.kind, b.name, b.sup) == ("letter", "d", None)), last
-        )
+        ends = (k + 1 for k, b in enumerate(rest[:last]) if (b.kind, b.name, b.sup) == ("letter", "d", None))
+        last = next(ends, last)
         behind = rest[last + 1] if last + 1 < len(rest) else None
         domain = len(below) == 1 and below[0].kind == "letter" and below[0].name[0].isupper()  # a body, its surface
         if bool(box.sub) != bool(box.sup) and not domain:
             yield "integral", "the integral is over what is written below it", ""
-        if (
-            last >= len(rest)
-            or rest[last].kind == "big"
-            or (behind is not None and behind.kind in (*_FACTORS, "number"))
-        ):
+        followed = behind is not None and behind.kind in (*_FACTORS, "number")
+        if last >= len(rest) or rest[last].kind == "big" or followed:
             yield "integral", "what follows the differential is integrated, and no factor of the whole", ""
     elif box.name != "lim":
         yield "integral", f"\\{box.name} is an integral over what is written below it", ""
@@ -347,13 +315,8 @@ _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
 def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
     """Factors that are set apart by a space, and units in italics."""
     yield from _spaces(reader, row)
-    side: list[Box] = []
-    for box in [*without_thin(row), Box("relation", "", 0, 0)]:
-        if box.kind not in PARTING:
-            side.append(box)
-            continue
+    for side in parted(without_thin(row), *PARTING):
         if len(side) < 2 or side[0].kind != "number":
-            side = []
             continue
         if side[-1].kind == "fraction" and side[-2].kind == "number":  # 9.81 m/s^2
             side[-1:] = [b for part in side[-1].parts for b in part]
@@ -369,7 +332,6 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
             units = {*names[names[:1] == ["mu"] :]} - {"Omega"} <= UNITS or {*joined} <= UNITS
             if spaced or (units and not _is_no_unit(side, letters, names)):
                 yield "unit", f"{letters[0].name} behind the number is a letter, and no unit", ""
-        side = []
 
 
 def _is_no_unit(side: list[Box], letters: list[Box], names: list[str]) -> bool:
@@ -385,12 +347,8 @@ def _spaces(reader: FormulaReader, row: list[Box]) -> Marks:
         sides = row[place - 1].kind, row[place + 1].kind
         wide = box.kind == "thin" and reader.source[box.at : box.end] not in (r"\,", r"\!")
         closing = row[place + 1].name == "d" and any("int" in b.name for b in row[:place] if b.kind == "big")
-        if (
-            wide
-            and all(kind in (*_FACTORS, "number", "thin") for kind in sides)
-            and row[place + 1].kind != "big"
-            and not closing
-        ):
+        factors = {*sides} <= {*_FACTORS, "number", "thin"} and sides[1] != "big"
+        if wide and factors and not closing:
             yield "spaces", "what a space parts are factors, and no list", ""
     ends = [k for k, b in enumerate(row) if b.kind in PARTING]
     for first, last in pairwise(ends):
@@ -417,9 +375,8 @@ def _names(reader: FormulaReader, row: list[Box]) -> Marks:
         if run and not (letter and touch(run[-1], box)):
             name = "".join(each.name for each in run)
             called = box.kind == "bracket" and box.name == "(" and is_called(reader, run[-1], box) is True
-            product = (
-                set(name) <= reader.notation.apart and len(name) < 4 and not (name[0].isupper() and name[1:].islower())
-            )
+            word = len(name) > 3 or (name[0].isupper() and name[1:].islower())
+            product = not word and set(name) <= reader.notation.apart
             if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not product):
                 yield "name", f"{name} is a product, and no name", ""
             run = []
@@ -442,9 +399,8 @@ def _matrices(row: list[Box]) -> Marks:
             if any(b.kind == "letter" and not is_printed_as_vector(b) for b in inner):
                 yield "matrix", "the letter between two vectors is a number, and no matrix", ""
             product = []
-    if any(
-        a.kind == b.kind == "letter" and is_printed_as_vector(a) and is_printed_as_vector(b) for a, b in pairwise(row)
-    ):
+    vector = [b.kind == "letter" and is_printed_as_vector(b) for b in row]
+    if (True, True) in pairwise(vector):
         yield "matrix", "two that are printed as vectors side by side are matrices", ""
 
 

@@ -4,12 +4,12 @@ import re
 from collections.abc import Callable
 from itertools import pairwise
 
-from lagrotor.paper.source.boxes import Box, FormulaError
+from lagrotor.paper.source.boxes import Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import read_advection, read_operators
 from lagrotor.paper.source.read_scripts import index_parts, letter_of, power_of
 from lagrotor.paper.source.read_statements import read_statement
-from lagrotor.paper.source.rows import all_boxes, derivative_mark, strip, without_thin
+from lagrotor.paper.source.rows import all_boxes, derivative_mark, parted, strip, without_thin
 from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node, Number, is_matrix, is_vector, number
 from lagrotor.paper.source.usage import arguments
 
@@ -60,7 +60,7 @@ def _bars(reader: FormulaReader, box: Box) -> Node:
     if isinstance(inner, Letter) and is_matrix(inner):
         reader.guess("bars", f"|{inner.name}| is a length, no determinant")
     elif is_matrix(inner):
-        raise FormulaError(box.at, "whether the bars are a determinant or a length is open", "write \\det")
+        raise left_open(box, "the bars are a determinant or a length", "write \\det")
     return Call("norm" if is_vector(inner) else "Abs", (inner,))
 
 
@@ -74,10 +74,9 @@ def _angles(reader: FormulaReader, box: Box) -> Node:
     content = without_thin(box.parts[0])
     bars = [k for k, b in enumerate(content) if b.kind == "bar"]
     if bars and bars[0] and not any(content[k].sub or content[k].sup for k in bars):
-        parts = [content[a + 1 : b] for a, b in pairwise([-1, *bars, len(content)])]
-        return Call("braket", tuple(_label(reader, each) for part in parts for each in arguments(part)))
+        return Call("braket", tuple(_label(reader, each) for each in parted(content, "bar", "comma")))
     if any(b.kind == "bracket" and b.name == "|" for b in content[1:-1]):
-        raise FormulaError(box.at, "whether bars part a bra from a ket is open", "write \\middle| for each")
+        raise left_open(box, "bars part a bra from a ket", "write \\middle| for each")
     held = tuple(reader.expression(part) for part in arguments(content))
     return Call("mean" if len(held) == 1 else "inner", held)
 
@@ -122,8 +121,7 @@ def _inside(reader: FormulaReader, box: Box) -> Node:
     ):
         return Call("interval", tuple(map(reader.expression, parts)))
     if box.name == "[" and any(b.kind == "function" for b in all_boxes(content)):
-        why = "whether the brackets hold components or an interval is open"
-        raise FormulaError(box.at, why, "write round brackets")
+        raise left_open(box, "the brackets hold components or an interval", "write round brackets")
     name = {"[": "commutator", r"\{": "poisson"}.get(box.name, "column") if len(parts) == 2 else "column"
     if name != "column":
         reader.guess("commutator", f"{name} brackets are meant, no {'interval' if box.name == '[' else 'set'}")

@@ -4,7 +4,7 @@ import re
 from dataclasses import replace
 from itertools import pairwise
 
-from lagrotor.paper.source.boxes import BIG, Box, FormulaError
+from lagrotor.paper.source.boxes import BIG, Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_scripts import letter_of, mark_of, power_of, stands_alone
 from lagrotor.paper.source.rows import (
@@ -55,8 +55,7 @@ def read_differential(reader: FormulaReader, row: list[Box], place: int) -> tupl
         return None
     if not box.upright and "d" in reader.notation.bare and not reader.integrating:
         if stands_alone(reader, "d"):
-            why = "whether d is a letter or a differential is open"
-            raise FormulaError(box.at, why, "write \\mathrm{d} for the differential")
+            raise left_open(box, "d is a letter or a differential", "write \\mathrm{d} for the differential")
         reader.guess("differential", "d before a letter is its differential, and no factor", 'letters = "d"')
     if row[behind].kind == "group":
         inner, behind = reader.expression(row[behind].parts[0]), behind + 1
@@ -82,8 +81,7 @@ def read_fraction(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
         return _derivative(reader, row, place, marks)
     first, second = (without_thin(part)[:1] for part in box.parts)
     if first and second and first[0].name == second[0].name and first[0].name in ("d", "D") and len(box.parts[1]) > 1:
-        why = "whether the fraction is a derivative is open"
-        raise FormulaError(box.at, why, "write a letter below, \\frac{d f}{d x}")
+        raise left_open(box, "the fraction is a derivative", "write a letter below, \\frac{d f}{d x}")
     over, under = (reader.expression(part) for part in box.parts)
     if any(map(is_differential, walk(under))) and not any(map(is_differential, walk(over))):
         raise FormulaError(box.at, "a differential stands below and none above", "write \\frac{d f}{d x}")
@@ -370,8 +368,7 @@ def at_its_variable(reader: FormulaReader, row: list[Box], place: int, behind: i
         return node, behind + 1
     if len(given) > 1 and bracket.sup is None:
         return Call("called", (node, *given)), behind + 1
-    why = "whether a derivative is taken there or multiplied is open"
-    raise FormulaError(bracket.at, why, "write |_{t = 0} or \\cdot")
+    raise left_open(bracket, "a derivative is taken there or multiplied", "write |_{t = 0} or \\cdot")
 
 
 def is_open_integral(part: list[Box]) -> bool:

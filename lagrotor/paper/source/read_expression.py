@@ -3,7 +3,7 @@ r"""Sums and products: which sign joins what; \\cdot and \\times of vectors and 
 from collections.abc import Callable
 from itertools import pairwise
 
-from lagrotor.paper.source.boxes import FUNCTIONS, Box, FormulaError
+from lagrotor.paper.source.boxes import FUNCTIONS, Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_bracket import (
     read_accent,
@@ -220,7 +220,7 @@ def _check_sums(terms: list[tuple[str, list[Box]]]) -> None:
     for _, part in terms:
         indexed = any(b.kind == "letter" and b.sub and any(s.name in indices for s in b.sub) for b in part)
         if indexed and not any(b.kind == "big" for b in part):
-            raise FormulaError(part[0].at, "whether the sum ends here is open", "write brackets around what is summed")
+            raise left_open(part[0], "the sum ends here", "write brackets around what is summed")
         for box in part:
             if box.kind == "big" and box.name in ("sum", "prod") and box.sub:
                 indices |= {s.name for s in box.sub if s.kind == "letter"}
@@ -234,14 +234,14 @@ def _joined(reader: FormulaReader, made: Node | None, operator: str, part: list[
             and before
             and all(b.kind == "letter" and b.upright and len(b.name) == 1 for b in (part[0], before[-1]))
         ):
-            raise FormulaError(part[0].at, "whether upright letters are a unit is open", "write \\mathrm{m/s}")
+            raise left_open(part[0], "upright letters are a unit", "write \\mathrm{m/s}")
         right = reader.product(part)
         factors = _count(reader, part)
         assert made is not None
         if factors > 1 and not _is_one_divisor(reader, part):
             raise FormulaError(part[0].at, "what the slash divides by is open", "write \\frac or brackets")
         if len([b for b in before if b.kind == "function"]) and not ends_with_bracket(before):
-            raise FormulaError(part[0].at, "whether the slash is within the function is open", "write brackets")
+            raise left_open(part[0], "the slash is within the function", "write brackets")
         if is_vector(right):
             raise FormulaError(part[0].at, "a vector is divided by", "write its length")
         return Call("quotient", (made, right))
@@ -340,4 +340,4 @@ def _numbers_apart(row: list[Box], place: int) -> None:
         raise FormulaError(box.at, "a number stands behind a letter", "write it first, or braces where it is a script")
     parts = [each for part in box.parts for each in part] if box.kind == "fraction" else []
     if before.kind == "number" and before.sup is None and parts and all(each.kind == "number" for each in parts):
-        raise FormulaError(box.at, "whether a mixed number or a product is meant is open", "write \\cdot between them")
+        raise left_open(box, "a mixed number or a product is meant", "write \\cdot between them")

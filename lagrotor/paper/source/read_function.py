@@ -2,7 +2,7 @@ r"""Functions by name, \\sin and \\ln, and how far an argument without brackets 
 
 from dataclasses import replace
 
-from lagrotor.paper.source.boxes import FUNCTIONS, Box, FormulaError
+from lagrotor.paper.source.boxes import FUNCTIONS, Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_letter import is_called
 from lagrotor.paper.source.read_scripts import mark_of
@@ -27,20 +27,18 @@ def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     inner, behind = _argument(reader, row, place)
     if behind < len(row) and row[behind].name == "!":
         if name not in ("log", "log10"):
-            why = "whether ! is of the argument or of the function is open"
-            raise FormulaError(row[behind].at, why, "write brackets")
+            raise left_open(row[behind], "! is of the argument or of the function", "write brackets")
         inner, behind = (Call("factorial", inner[:1]),), behind + 1  # ln n!
     node = _applied(reader, name, box, inner)
     if box.sup is None:
         return node, behind
     if box.name not in FUNCTIONS:
-        why = f"whether {box.name} has an upper index or a power is open"
-        raise FormulaError(box.at, why, "write brackets around what is raised")
+        raise left_open(box, f"{box.name} has an upper index or a power", "write brackets around what is raised")
     power = reader.expression(box.sup)
     if power == Call("negative", (number(1),)):
         inverse = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
         if name not in inverse:
-            raise FormulaError(box.at, f"whether {box.name}^{{-1}} is the inverse function is open", "write a fraction")
+            raise left_open(box, f"{box.name}^{{-1}} is the inverse function", "write a fraction")
         reader.guess("inverse", f"{box.name}^{{-1}} is the inverse function")
         return _applied(reader, inverse[name], replace(box, sup=None), inner), behind
     return Call("power", (node, power)), behind
@@ -69,8 +67,7 @@ def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[
         if first.sub is not None:
             raise FormulaError(first.at, "a bracket has an index", "write what it means")
         if first.sup is not None:
-            why = "whether the power is of the argument or of the function is open"
-            raise FormulaError(first.at, why, "write brackets")
+            raise left_open(first, "the power is of the argument or of the function", "write brackets")
         parts = [reader.expression(p) for p in arguments(first.parts[0])]
         return tuple(parts), behind + 1
     if first.kind == "bracket" and first.name in ("|", r"\|", r"\lvert", r"\vert") and first.sup is None:
@@ -81,8 +78,7 @@ def _argument(reader: FormulaReader, row: list[Box], place: int) -> tuple[tuple[
     end = _reach(reader, row, behind, row[place])
     for box in row[behind:end]:
         if box.sup is not None and mark_of(reader, box) is None:
-            why = "whether the power is of the argument or of the function is open"
-            raise FormulaError(box.at, why, "write brackets")
+            raise left_open(box, "the power is of the argument or of the function", "write brackets")
     return (reader.product(row[behind:end]),), end
 
 
@@ -114,8 +110,7 @@ def _after_one(reader: FormulaReader, only: Box, row: list[Box], end: int, funct
     if after.kind == "bracket" and only.kind == "letter":
         angle = only.name in _ANGLES or only.name in reader.notation.angles
         if is_called(reader, only, after) or (after.name == "(" and not angle):
-            why = f"whether the bracket belongs to the argument of {function.name} is open"
-            raise FormulaError(after.at, why, "write brackets")
+            raise left_open(after, f"the bracket belongs to the argument of {function.name}", "write brackets")
         reader.guess("argument", f"the argument of {function.name} ends before the bracket")
         return
     if only.kind == "letter" and (only.name in _ANGLES or only.name in reader.notation.angles or is_moving(after)):

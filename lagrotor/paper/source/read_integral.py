@@ -2,7 +2,7 @@
 
 import re
 
-from lagrotor.paper.source.boxes import BIG, Box, FormulaError
+from lagrotor.paper.source.boxes import BIG, Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import behind_function, is_differential, read_differential
 from lagrotor.paper.source.rows import ends_integral, has_differential_above, is_d, is_measure, without_thin
@@ -32,8 +32,8 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
             inner, differential = _taken_out(reader.expression(rest[:end]), box)
             behind, further = place + 1 + end, []
             if behind < len(row) and row[behind].kind == "bracket" and simple_argument(row[behind].parts[0]):
-                why = "whether the bracket belongs to the differential is open"  # d\nu(x)
-                raise FormulaError(row[behind].at, why, "write the differential last, or \\cdot")
+                way_out = "write the differential last, or \\cdot"  # d\nu(x)
+                raise left_open(row[behind], "the bracket belongs to the differential", way_out)
     finally:
         reader.integrating -= 1
     assert isinstance(differential, Call)

@@ -1,7 +1,7 @@
 r"""Letters: as quantities, as functions before a bracket, and those that custom gives a meaning: e, i, d, \\Delta."""
 
-from lagrotor.paper.source.boxes import GREEK, Box, FormulaError
-from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.boxes import GREEK, Box, FormulaError, left_open
+from lagrotor.paper.source.formula_reader import FormulaReader, asked, settled
 from lagrotor.paper.source.read_derivative import read_differential
 from lagrotor.paper.source.read_scripts import INDICES, index_parts, letter_of, mark_of, power_of, stands_alone
 from lagrotor.paper.source.rows import (
@@ -31,6 +31,7 @@ from lagrotor.paper.source.usage import (
 # Names that are mostly functions: before a bracket they are no factors.
 _FUNCTION_NAMES = "f g h F G H P Phi Psi phi psi varphi delta Delta Gamma Theta theta zeta eta"
 _FUNCTIONS = frozenset(_FUNCTION_NAMES.split())
+_BOTH = "write both indices below, or brackets around the power"
 
 
 def _special(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
@@ -61,12 +62,12 @@ def read_letter(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         power = _dimension(box.sup, is_vector(inner))
         if power is not None and box.sub is None and row[place + 1].sup is None:
             if "delta" in reader.notation.bare:
-                raise FormulaError(box.at, "whether delta is Dirac's function or a power is open", "write \\cdot")
+                raise left_open(box, "delta is Dirac's function or a power", "write \\cdot")
             return Call(f"delta__{power}", (inner,)), place + 2
     _check_scripts(reader, row, place)
     if place and _may_call(row, place) and _is_group(row[place - 1 : place + 2]):
         name = f"{row[place - 1].name}{box.name}"
-        raise FormulaError(box.at, f"whether {name}(…) is one name is open", f"write \\mathrm{{{name}}}")
+        raise left_open(box, f"{name}(…) is one name", f"write \\mathrm{{{name}}}")
     if (made := _applied(reader, row, place)) is not None:
         return made
     node, raised = letter_of(reader, box)
@@ -98,8 +99,7 @@ def _applied(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, i
     if after.kind == "bracket" and after.name in ("(", "[", r"\{") and box.sup is None:
         reader.guess("words", f"{box.name} is a function of the bracket that follows it, and no factor")
         return _call(reader, box, after), behind + 1
-    why = f"whether {box.name} acts on what follows is open"
-    raise FormulaError(box.at, why, f"write \\operatorname{{{box.name}}}(…) or \\cdot")
+    raise left_open(box, f"{box.name} acts on what follows", f"write \\operatorname{{{box.name}}}(…) or \\cdot")
 
 
 def _is_function(reader: FormulaReader, row: list[Box], place: int) -> bool:
@@ -114,19 +114,19 @@ def _is_function(reader: FormulaReader, row: list[Box], place: int) -> bool:
     elif box.name in "Oo" or _evidence(reader.notation, box, bracket) is called:
         return called
     if called is None:
-        why = f"whether {box.name}(…) is a function or a product is open"
-        raise FormulaError(box.at, why, f"write \\cdot, or in paper.toml [notation] {_settled(box)}")
+        way_out = f"write \\cdot, or in paper.toml [notation] {settled(box.name, 'functions', 'letters')}"
+        raise left_open(box, f"{box.name}(…) is a function or a product", way_out)
     _mark_applied(reader, box, bracket, called)
     return called
 
 
-def _settled(box: Box) -> str:
-    return f'functions = "{box.name}" or letters = "{box.name}"'
-
-
 def _mark_applied(reader: FormulaReader, box: Box, bracket: Box, called: bool) -> None:
     what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
-    reader.guess("bracket", f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}", _settled(box))
+    reader.guess(
+        "bracket",
+        f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}",
+        settled(box.name, "functions", "letters"),
+    )
 
 
 def _is_functional(box: Box, inside: list[Box]) -> bool:
@@ -143,8 +143,7 @@ def _check_square(box: Box, inside: list[Box]) -> None:
     operators = any(b.kind == "letter" and (b.name[0].isupper() or "hat" in b.marks) for b in inside)  # A[B, C]
     single = len(without_thin(inside)) == 1 and simple_argument(inside)
     if single or (box.sup is None and not (operators if listed else any(b.kind == "operator" for b in inside[1:]))):
-        why = f"whether {box.name}[…] is a functional or a product is open"
-        raise FormulaError(box.at, why, "write \\cdot, or round brackets")
+        raise left_open(box, f"{box.name}[…] is a functional or a product", "write \\cdot, or round brackets")
 
 
 def _is_group(row: list[Box]) -> bool:
@@ -159,11 +158,10 @@ def _check_scripts(reader: FormulaReader, row: list[Box], place: int) -> None:
     box = row[place]
     above = box.sup[0].name if box.sup and [each.kind for each in box.sup] == ["letter"] else ""
     if above and box.sub and _may_call(row, place) and mark_of(reader, box) is None:  # P_l^m(x)
-        why = f"whether {above} is an upper index or a power is open"
-        raise FormulaError(box.at, why, "write both indices below, or brackets around the power")
+        raise left_open(box, f"{above} is an upper index or a power", _BOTH)
     along = box.name == "delta" and box.sub is not None and len(box.sub) == 1 and box.sub[0].name in "xyzt"
     if along and place + 1 < len(row) and row[place + 1].kind in ("letter", "bracket"):
-        raise FormulaError(box.at, "whether delta is a factor or acts on what follows is open", "write \\cdot")
+        raise left_open(box, "delta is a factor or acts on what follows", "write \\cdot")
 
 
 def _dimension(row: list[Box], of_vector: bool) -> str | None:
@@ -268,8 +266,7 @@ def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
         raise FormulaError(bracket.at, "a function has no argument", "write it")
     named, raised = letter_of(reader, box)
     if not raised and [each.kind for each in box.sup or ()] == ["letter"]:  # Y_l^m(θ, φ)
-        why = f"whether {box.sup[0].name} is an upper index or a power is open"  # type: ignore[index]
-        raise FormulaError(box.at, why, "write both indices below, or brackets around the power")
+        raise left_open(box, f"{(box.sup or [box])[0].name} is an upper index or a power", _BOTH)
     name = name_of(box, index_parts(box), mark_of(reader, box) or ())
     if tuple(given) == (Letter("t"),) and "t" not in reader.bound and stem_of(box) not in reader.notation.elsewhere:
         node: Node = named
@@ -287,11 +284,9 @@ def _pi(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] |
         return None
     counted = place and row[place - 1].kind == "number"  # 2 pi
     if known.pi_is_letter and "pi" not in known.numbers and not counted:
-        settles = 'numbers = "pi" or letters = "pi"'
         if "momentum" in known.seen or "pi_" in known.called:
-            why = "whether pi is the number or a quantity is open"
-            raise FormulaError(box.at, why, f"write in paper.toml [notation] {settles}")
-        reader.guess("pi", "pi is the number, and no quantity", settles)
+            raise asked(box, "pi is the number or a quantity", "numbers", "letters")
+        reader.guess("pi", "pi is the number, and no quantity", settled("pi", "numbers", "letters"))
     return power_of(reader, Letter("pi"), box), place + 1
 
 
@@ -307,8 +302,7 @@ def _euler(reader: FormulaReader, box: Box) -> bool:
     symbolic = any(b.kind in ("letter", "infinity") or b.parts for b in box.sup)
     if not symbolic:
         if known.exponential and "e" not in known.bare:
-            why = "whether e is Euler's number is open"
-            raise FormulaError(box.at, why, 'write in paper.toml [notation] numbers = "e"')
+            raise asked(box, "e is Euler's number", "numbers")
         reader.guess("e", "e is a letter, and not Euler's number", 'letters = "e" or numbers = "e"')
         return False
     if "e" in known.bare or (len(box.sup) == 1 and box.sup[0].kind == "letter" and "exponent" not in known.seen):  # e^n
@@ -340,8 +334,7 @@ def _is_imaginary(reader: FormulaReader, row: list[Box], place: int) -> bool:
     if known.imaginary and box.name == "i" and len(row) > 1:
         reader.guess("i", "i is the imaginary unit", 'numbers = "i" or letters = "i"')
         return True
-    why = f"whether {box.name} is the imaginary unit is open"
-    raise FormulaError(box.at, why, f'write in paper.toml [notation] numbers = "{box.name}" or letters = "{box.name}"')
+    raise asked(box, f"{box.name} is the imaginary unit", "numbers", "letters")
 
 
 def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
@@ -353,8 +346,7 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     if row[behind].kind not in ACTED_ON:
         return None
     if box.name in reader.notation.bare and (row[behind].kind != "letter" or stands_alone(reader, rf"\{box.name}")):
-        why = f"whether \\{box.name} is a factor or a difference is open"
-        raise FormulaError(box.at, why, f'write in paper.toml [notation] letters = "{box.name}"')
+        raise asked(box, f"\\{box.name} is a factor or a difference", "letters")
     if row[behind].kind != "letter":
         reader.guess("difference", f"{box.name} acts on what follows it, and is no factor", f'letters = "{box.name}"')
         operand, behind = reader.factor(row, behind)
@@ -408,7 +400,7 @@ def _is_laplacian(box: Box, after: Box | None) -> bool:
 
 def _mark_constant(reader: FormulaReader, box: Box, after: Box | None) -> None:
     """Mark letters that may be numbers, and D that may be a derivative."""
-    settles = f'letters = "{box.name}" or numbers = "{box.name}"'
+    settles = settled(box.name, "letters", "numbers")
     turned = "complex" in reader.notation.seen or (after is not None and after.name == "omega")
     if box.name in ("j", "imath", "jmath") and turned and box.name not in reader.lowered:
         reader.guess("j", f"{box.name} is a letter, and not the imaginary unit", settles)

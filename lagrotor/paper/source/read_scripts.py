@@ -3,7 +3,7 @@
 import re
 from dataclasses import replace
 
-from lagrotor.paper.source.boxes import GREEK, Box, FormulaError, is_printed_as_vector
+from lagrotor.paper.source.boxes import GREEK, Box, FormulaError, is_printed_as_vector, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.rows import TENSOR, UNITS, VARIABLES, all_boxes, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, is_matrix, is_vector, number
@@ -18,6 +18,7 @@ from lagrotor.paper.source.usage import (
 )
 
 _SIGNS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
+_BRACKETS = "write brackets around the power"
 _INDICES = ("i", "j", "k", "l", "m", "n", "a", "b", "c", "d")
 # Letters that are indices.
 INDICES = frozenset("abcdefghijklmnopqrsuvwIJKMN") | {name[1:] for name in GREEK if name[1].islower()}
@@ -148,7 +149,7 @@ def letter_of(reader: FormulaReader, box: Box) -> tuple[Node, bool]:
     index = index_parts(box)
     if len(spelled := reader.notation.spelled.get("_".join((box.name, *index)), ())) > 1:
         prints = " and ".join(f"{box.name}_{{{each}}}" for each in sorted(spelled))
-        raise FormulaError(box.at, f"whether {prints} are one letter is open", "give one of them another index")
+        raise left_open(box, f"{prints} are one letter", "give one of them another index")
     name = name_of(box, index, raised or ())
     return Letter(name, is_printed_as_vector(box)), raised is not None
 
@@ -228,37 +229,26 @@ def _mark_superscript(reader: FormulaReader, box: Box) -> None:
 def _check_power(reader: FormulaReader, box: Box) -> None:
     row, known, bound = without_thin(box.sup or []), reader.notation, {*reader.bound}
     if len(row) == 1 and {row[0].name} & bound and {b.name for b in box.sub or ()} & bound - {row[0].name}:
-        why = f"whether {row[0].name} is an upper index or a power is open"  # \sum_{pq} h^p_q
-        raise FormulaError(row[0].at, why, "write brackets around the power")
+        raise left_open(row[0], f"{row[0].name} is an upper index or a power", _BRACKETS)
     alike = [b.name for b in row if _is_plain(replace(b, primes=0)) and (b.name in _GREEK or b.name in _INDICES)]
     if alike and len(alike) == len(row) and not set(alike) & known.letters:
         tensor = {name for name in alike if name in TENSOR and name not in known.bare}
         lowered = (set(alike) - set("lmn")) & known.lowered
         if tensor or lowered or any(b.primes for b in row) or (len(alike) > 1 and set(alike) <= set("ijkl")):
-            raise FormulaError(
-                row[0].at,
-                f"whether {' '.join(alike)} is an upper index or a power is open",
-                f'write brackets around the power, or in paper.toml [notation] letters = "{alike[0]}"',
-            )
+            way_out = f'{_BRACKETS}, or in paper.toml [notation] letters = "{alike[0]}"'
+            raise left_open(row[0], f"{' '.join(alike)} is an upper index or a power", way_out)
     if len(row) == 1 and row[0].kind == "letter" and row[0].sup and mark_of(reader, row[0]) is not None:
-        why = f"whether the marked {row[0].name} is an upper index or a power is open"
-        raise FormulaError(row[0].at, why, "write brackets around the power")
+        raise left_open(row[0], f"the marked {row[0].name} is an upper index or a power", _BRACKETS)
     names = [b.name for b in row if _is_plain(b)]
     if len(names) == len(row) > 1 and (len(set(names)) < len(names) or set(names) <= set("xyz")):
-        why = f"whether {' '.join(names)} are upper indices or a power is open"
-        raise FormulaError(row[0].at, why, "write the power with \\cdot, or the indices below")
+        way_out = "write the power with \\cdot, or the indices below"
+        raise left_open(row[0], f"{' '.join(names)} are upper indices or a power", way_out)
     transposes = [b.name for b in row] == ["T"] and "T" not in known.bare | known.letters
-    if (
-        len(row) == 1
-        and box.sub
-        and row[0].kind == "letter"
-        and row[0].name.isupper()
-        and not (row[0].marks or transposes)
-    ):
-        why = f"whether {row[0].name} is a mark or a power is open"
-        raise FormulaError(row[0].at, why, "write brackets around the power")
+    capital = len(row) == 1 and row[0].kind == "letter" and row[0].name.isupper() and not row[0].marks
+    if capital and box.sub and not transposes:
+        raise left_open(row[0], f"{row[0].name} is a mark or a power", _BRACKETS)
     if len(row) == 1 and row[0].kind == "number" and row[0].name == "0":
-        raise FormulaError(row[0].at, "whether 0 is an upper index or a power is open", "write the index below")
+        raise left_open(row[0], "0 is an upper index or a power", "write the index below")
 
 
 def power_of(reader: FormulaReader, node: Node, box: Box) -> Node:
@@ -295,9 +285,7 @@ def _marked(reader: FormulaReader, node: Node, box: Box, row: list[Box]) -> Node
             reader.guess("transpose", "T above transposes, and is no power")
         return Call("transpose", (node,))
     if letter == "T" and "T" not in known.letters:
-        raise FormulaError(
-            row[0].at, "whether T is a power or transposes is open", "write \\top, or the letter in bold"
-        )
+        raise left_open(row[0], "T is a power or transposes", "write \\top, or the letter in bold")
     if is_vector(node):
         return None
     state = isinstance(node, Call) and node.name.split("_")[0] in ("ket", "bra")
@@ -308,5 +296,5 @@ def _marked(reader: FormulaReader, node: Node, box: Box, row: list[Box]) -> Node
     if only is not None and only.kind in ("text", "relation", "comma"):
         raise FormulaError(row[0].at, "words stand as a power", "write them as an index")
     if only is not None and only.kind == "bracket" and only.name == "(" and isinstance(node, Call):
-        raise FormulaError(row[0].at, "whether it is an order of derivative or a power is open", "write what it means")
+        raise left_open(row[0], "it is an order of derivative or a power", "write what it means")
     return None

@@ -4,11 +4,11 @@ import re
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from lagrotor.paper.source.boxes import Box, FormulaError
+from lagrotor.paper.source.boxes import Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_integral import differential_degree, holds_variation
 from lagrotor.paper.source.read_scripts import letter_of
-from lagrotor.paper.source.rows import is_unit_like, strip, without_thin
+from lagrotor.paper.source.rows import is_unit_like, parted, strip, without_thin
 from lagrotor.paper.source.tree import (
     Call,
     Letter,
@@ -55,8 +55,8 @@ def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatem
     for piece in _pieces(reader, strip(row)):
         found += _statements(reader, piece)
     if reader.alone and reader.reaching:  # d/dx x - x d/dx = 1
-        why = "whether a derivative acts on what follows it or is an operator is open"
-        raise FormulaError(row[0].at, why, "write brackets around what it acts on, or let all operators act")
+        way_out = "write brackets around what it acts on, or let all operators act"
+        raise left_open(row[0], "a derivative acts on what follows it or is an operator", way_out)
     kinds = {each.kind for each in found}
     if len(found) > 1 and "expression" in kinds:
         reader.guess("list", "what has no relation beside what has one is a statement of its own")
@@ -182,11 +182,11 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
     parts = _parts(reader, row)
     found: list[PrintedStatement] = []
     listed: list[list[Box]] = []  # i and j of i, j = 1, 2
-    for place, (parted, part) in enumerate(parts):
+    for place, (sign, part) in enumerate(parts):
         part = without_thin(part) if not part or part[0].kind == "thin" else part
         if not strip(part):
             continue
-        if listed or (parted != "comma" and _is_list(parts, place)):
+        if listed or (sign != "comma" and _is_list(parts, place)):
             if any(box.kind == "relation" for box in part):
                 found += _of_each(reader, listed, strip(part))
                 listed = []
@@ -194,14 +194,14 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
                 listed.append(strip(part))
             continue
         has_relation = any(box.kind == "relation" for box in part)
-        if parted == "comma" and has_relation and found and found[-1].kind == "expression":
+        if sign == "comma" and has_relation and found and found[-1].kind == "expression":
             raise FormulaError(part[0].at, "what stands before the comma has no relation", "write it for each letter")
-        if not has_relation and found and parted in ("comma", "wide"):
+        if not has_relation and found and sign in ("comma", "wide"):
             follows = place + 1 < len(parts) and parts[place + 1][0] == "comma" and bool(strip(parts[place + 1][1]))
             _further(reader, found, strip(part), listed=follows or found[-1].kind == "range")
-        elif parted == "condition":
+        elif sign == "condition":
             stated = _statements(reader, part)
-            found += [replace(each, kind="range" if each.kind == "range" else parted) for each in stated]
+            found += [replace(each, kind="range" if each.kind == "range" else sign) for each in stated]
         else:
             found.append(read_statement(reader, strip(part)))
     return found
@@ -242,8 +242,8 @@ def _check_words(reader: FormulaReader, box: Box, following: Box | None) -> None
         reader.guess("relation", f"{box.name} joins two statements, and both are meant")
     joined = following is not None and following.kind == "bracket" and following.at == box.end
     if joined and box.name.isalpha() and reader.source[box.end - 2].isalpha() and not _CONDITION.match(box.name):
-        why = f"whether {box.name} acts on what follows is open"
-        raise FormulaError(box.at, why, f"write \\operatorname{{{box.name}}}, or a space behind the word")
+        way_out = f"write \\operatorname{{{box.name}}}, or a space behind the word"
+        raise left_open(box, f"{box.name} acts on what follows", way_out)
     if _DENYING.search(box.name):
         raise FormulaError(box.at, f"{box.name}: the words deny what they join", "write the statements by themselves")
     if re.search(r"\bor\b", box.name):
@@ -295,14 +295,7 @@ def _further(reader: FormulaReader, found: list[PrintedStatement], part: list[Bo
 
 def _sides(reader: FormulaReader, row: list[Box]) -> tuple[list[list[Box]], list[str]]:
     """What stands between the relations of a statement, and the relations."""
-    sides: list[list[Box]] = [[]]
-    relations: list[str] = []
-    for box in row:
-        if box.kind == "relation":
-            relations.append(box.name)
-            sides.append([])
-        else:
-            sides[-1].append(box)
+    sides, relations = parted(row, "relation"), [box.name for box in row if box.kind == "relation"]
     if len(sides) > 2 and not strip(sides[0]) and relations[0] == "=":
         reader.guess("continued", "the display begins with its sign: what it continues stands before, and is not read")
         sides, relations = sides[1:], relations[1:]

@@ -2,7 +2,7 @@
 
 from itertools import pairwise
 
-from lagrotor.paper.source.boxes import BIG, Box, FormulaError
+from lagrotor.paper.source.boxes import BIG, Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_integral import read_integral
 from lagrotor.paper.source.read_scripts import letter_of
@@ -70,8 +70,7 @@ def _over_all(reader: FormulaReader, box: Box, below: list[Box]) -> list[Node]:
         return _where(reader, parts)
     if all(b.kind in ("letter", "comma") for b in below):
         if len(parts) == 1 and len({b.name for b in below}) < len(below):
-            why = "whether words or indices stand below is open"
-            raise FormulaError(box.at, why, "write commas between indices")
+            raise left_open(box, "words or indices stand below", "write commas between indices")
         letters = [letter_of(reader, b)[0] for b in below if b.kind == "letter"]
         return letters if len(letters) == 1 else [letters[0], Letter("all"), Letter("all"), *letters[1:]]
     if len(below) == 1 and below[0].kind == "text" and below[0].name.isalpha():

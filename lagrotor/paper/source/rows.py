@@ -1,6 +1,7 @@
 """Rows of boxes: their ends, their bars in pairs, and what a box in them is."""
 
 import re
+from itertools import pairwise
 
 from lagrotor.paper.source.boxes import Box, FormulaError
 
@@ -33,6 +34,12 @@ def strip(row: list[Box]) -> list[Box]:
     while end > start and row[end - 1].kind in ("thin", "wide", "comma"):
         end -= 1
     return row[start:end]
+
+
+def parted(row: list[Box], *kinds: str, but: str = "") -> list[list[Box]]:
+    """What stands between the boxes of these kinds, but those of a name."""
+    ends = [-1, *(k for k, box in enumerate(row) if box.kind in kinds and (not but or box.name != but)), len(row)]
+    return [row[first + 1 : last] for first, last in pairwise(ends)]
 
 
 def all_boxes(row: list[Box]) -> list[Box]:

@@ -4,7 +4,7 @@ What the print does not settle is a question to the author, who answers in `pape
 [notation] functions = "f V", letters = "e", numbers = "i", decimal_comma = true.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from keyword import iskeyword
 from typing import Any
@@ -12,7 +12,7 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.paper.letters import FUNCTIONS as CALLED
 from lagrotor.paper.source.boxes import Box, FormulaError, boxes, is_printed_as_vector
-from lagrotor.paper.source.rows import PARTING, TENSOR, all_boxes, is_moving, without_thin
+from lagrotor.paper.source.rows import PARTING, TENSOR, all_boxes, is_moving, parted, without_thin
 
 _BEHIND = ("operator", "relation", "function", "bracket", "comma", "wide", "fraction")
 # What a δ or Δ before it is no factor of: a difference, a variation, a function of the bracket.
@@ -245,8 +245,6 @@ def index_of(box: Box) -> list[str] | None:
     alone = True  # a comma or a Greek letter ends a run of letters
     for part in box.sub:
         if part.kind == "comma" and part.name == ".":
-            if part is box.sub[-1] and found:  # an abbreviation
-                break
             return None
         if part.kind in ("comma", "thin"):
             alone = alone or part.kind == "comma"
@@ -519,7 +517,7 @@ def _look_at_bracket(box: Box, before: Box | None, after: Box | None, found: Not
 
 def _is_commutator(content: list[Box], before: Box | None, after: Box | None) -> bool:
     """Whether a list of two is a factor or a side, and no interval."""
-    ends = next(arguments(content)), content[-1:]
+    ends = arguments(content)[0], content[-1:]
     if any(b.kind in ("number", "infinity") for part in ends for b in without_thin(part)[-1:] if len(part) == 1):
         return False
     beside = ("relation", "operator", "letter", "fraction")
@@ -610,20 +608,11 @@ def _look_at_letter(box: Box, following: Box | None, found: Notation, alone: boo
         return
     if name == "d" and following is not None and following.kind in ("letter", "group") and box.sub is None:
         return
-    if name == "d" and box.sup is not None and following is not None and following.kind == "letter":
-        return
     if name in ("delta", "Delta") and box.sub is None and (alone if following is None else following.kind in ACTED_ON):
         return  # a difference, or the sign by itself in a sentence
     found.bare.add(key)
 
 
-def arguments(row: list[Box]) -> Iterator[list[Box]]:
-    """What is between the commas."""
-    part: list[Box] = []
-    for box in row:
-        if box.kind == "comma" and box.name != ".":
-            yield part
-            part = []
-        else:
-            part.append(box)
-    yield part
+def arguments(row: list[Box]) -> list[list[Box]]:
+    """What is between the commas, of which a full stop is none."""
+    return parted(row, "comma", but=".")
