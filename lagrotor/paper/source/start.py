@@ -19,6 +19,7 @@ from lagrotor.paper.scripts import beside
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.markup import read_source
 from lagrotor.paper.source.printed import Print, paper_notation, read_print
+from lagrotor.paper.source.stated_system import proposed_system
 from lagrotor.paper.title_page import toml
 
 # The worked example that a new folder begins with.
@@ -87,7 +88,7 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     letters = _vectors(found, prints, old)
     head = _HEAD.format(name=source.name)
     write_text(folder / "equations.toml", _catalogue(head, rows, letters, _comments(folder / "equations.toml")))
-    _write_about(folder, found, again)
+    _write_about(folder, found, rows, again)
     _write_symbols(folder, prints, again)
     if not again:
         about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=source.name))
@@ -310,13 +311,13 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
 # ---- paper.toml and symbols.py
 
 
-def _write_about(folder: Path, found: Source, again: bool) -> None:
+def _write_about(folder: Path, found: Source, rows: list[dict[str, Any]], again: bool) -> None:
     file = folder / "paper.toml"
-    rows = [f"{_text(number)} = {_text(title)}" for number, title in found.sections.items()]
+    sections = [f"{_text(number)} = {_text(title)}" for number, title in found.sections.items()]
     if again:
         about, text = toml(file), read_text(file)
         missing = [
-            row for row, number in zip(rows, found.sections, strict=True) if number not in about.get("sections", {})
+            row for row, number in zip(sections, found.sections, strict=True) if number not in about.get("sections", {})
         ]
         if missing:
             made = "\n".join(["[sections]", *missing])
@@ -332,7 +333,7 @@ def _write_about(folder: Path, found: Source, again: bool) -> None:
     ]
     if found.preamble:
         head.append(f"preamble = '''{found.preamble}'''")
-    write_text(file, "\n".join([*head, "", "[sections]", *rows]) + "\n")
+    write_text(file, "\n".join([*head, "", "[sections]", *sections]) + "\n" + proposed_system(rows))
 
 
 def _write_symbols(folder: Path, prints: Iterable[Print], again: bool) -> None:

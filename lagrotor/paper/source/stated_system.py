@@ -24,7 +24,7 @@ The text is parsed by the reader of expressions; nothing in it runs. Goldstein, 
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -262,6 +262,52 @@ _CELL = """
 # %%
 verdict({id}, system[{id}]{premises})
 """
+
+
+_PROPOSAL = """
+# The Lagrangian of ({id}) and what seems to be derived from it. Without the marks `# ` this is a derivation without Python, which
+# `lagrotor derive` makes a script of: see README.md.
+# [system]
+# coordinates = "{names}"
+# L = {L}
+# where = []  # what the text says of letters that L does not have, as in "omega_0**2 = g/l"
+# [system.derives]
+"""
+
+
+def proposed_system(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The table `[system]` of a paper that prints a Lagrangian, in comments; nothing where none of its equations is one.
+
+    rows: of equations.toml. A coordinate is what L has the rate of; the rest goes by the usual letters.
+    """
+    lines = [(row["id"], line) for row in rows for line in row.get("line", ())]
+    is_lagrangian = re.compile(r"(?:\\mathcal|\\mathscr)?\s*\{?\s*L\s*\}?")
+    for identifier, line in lines:
+        member = (line.get("members") or [""])[0]
+        if not is_lagrangian.fullmatch(line["quantity"].strip()) or "_dot" not in member:
+            continue
+        names = sorted(set(re.findall(r"(\w+)_dot\b", member)), key=lambda name: member.index(f"{name}_dot"))
+        derives = [f"# {json.dumps(i)} = {json.dumps(said)}" for i, each in lines if (said := _seems(each, names))]
+        head = _PROPOSAL.format(id=identifier, names=" ".join(names), L=json.dumps(member))
+        return head + "".join(f"{row}\n" for row in dict.fromkeys(derives))
+    return ""
+
+
+def _seems(line: Mapping[str, Any], names: Sequence[str]) -> str:
+    """What a printed line seems to be of a system with these coordinates; "" where it does not seem to be anything."""
+    quantity = re.sub(r"[\s{}\\]|mathcal|mathscr|var(?=phi|theta)", "", line["quantity"])
+    members = " ".join(line.get("members", ()))
+    if quantity == "L":
+        return "L"
+    if quantity in ("E", "H", "h") and "_dot" in members:
+        return "energy"
+    momentum = re.search(r"(?:^p_|partialLpartialdot)(\w+)$", quantity)
+    if momentum and momentum[1] in names:
+        return f"momentum {momentum[1]}"
+    if quantity.startswith("ddot") and quantity[4:] in names:
+        return f"acceleration {quantity[4:]}"
+    turning = {name for name in names if f"ddot{name}" in quantity or f"{name}_ddot" in members}
+    return f"motion {min(turning)}" if len(turning) == 1 else ""
 
 
 def _one_line(text: str) -> str:

@@ -150,6 +150,26 @@ def test_what_the_text_says_of_a_letter_is_a_premise_and_any_integral_may_be_pri
     assert [premise.formula for premise in verdicts["1"].premises] == ["ω₀² = g/l"]
 
 
+def test_a_printed_lagrangian_is_proposed_as_the_system(tmp_path: Path) -> None:
+    """In comments: without their marks they are a derivation, and what is misprinted is found."""
+    begin_paper(tmp_path / "hoop", HOOP / "paper.tex")
+    about = tmp_path / "hoop" / "paper.toml"
+    text = about.read_text(encoding="utf-8")
+    before, mark, proposal = text.partition("# [system]")
+    assert mark and '"2" = "momentum theta"' in proposal and '"4" = "energy"' in proposal
+    about.write_text(
+        before + "\n".join(row.removeprefix("# ") for row in (mark + proposal).splitlines()), encoding="utf-8"
+    )
+    confirm(tmp_path / "hoop", ["1", "2", "3", "4", "7"])
+    write_derivation(Catalogue(tmp_path / "hoop"))
+    verdicts = {v.id: v.verdict for v in Paper(tmp_path / "hoop").audit()}
+    assert verdicts == {"1": "holds", "2": "holds", "3": "holds", "4": "refuted", "7": "refuted"}
+
+
+def test_without_a_lagrangian_no_system_is_proposed(tmp_path: Path) -> None:
+    assert "[system]" not in (stated_paper(tmp_path / "mine", FOUCAULT, "").folder / "paper.toml").read_text()
+
+
 def test_a_letter_of_which_nothing_is_said_is_refused(tmp_path: Path) -> None:
     """A true equation was refuted at some value of ω₀."""
     silent = FOUCAULTS_SYSTEM.replace('where = ["omega_0**2 = g/l"]', "")
