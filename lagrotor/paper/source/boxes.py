@@ -514,6 +514,8 @@ class _Reader:
 
     def ket(self, item: Token) -> Box:
         content = self.sequence((r"\rangle",))
+        if (after := self.peek()) is None or after.text != r"\rangle":
+            raise FormulaError(item.at, "a ket is not closed", r"write \rangle where it ends")
         self.take()
         return Box("bracket", "|", item.at, self.end, [content], closing=r"\rangle")
 

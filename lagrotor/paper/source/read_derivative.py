@@ -290,6 +290,8 @@ def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
         return Call("laplacian", (node, *by)), behind
     if is_vector(node):
         raise FormulaError(box.at, "∇ of a vector is not read", "write \\cdot or \\times")
+    if "wedge" in reader.notation.seen:
+        reader.guess("gradient", "\\nabla gives a gradient, and no product with vectors and planes")
     return Call("gradient", (node, *by)), behind
 
 

@@ -36,11 +36,12 @@ class Notation:
     before what may be an argument; elsewhere, before another than t; factors, in a product; apart, touching no other letter;
     raised, with an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two
     primes. varied: letter → letters that it is differentiated by. seen: ket, operators, order, hessian, P(D), complex,
-    modular, exponent, dot, other time, times, momentum (pi). crossed: vectors, beside a cross or a nabla; arrows: letters that
-    are printed as vectors somewhere. equal: letters and what they are equal to. numeric: letters that are numbers, below a
-    fraction bar, a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above where no power can, as in
-    \\partial x^i and T^{ij}, or below \\partial; above, alone above a letter; exponents: letters in powers; paired: g of g_{ij};
-    pairs: letter → letters of g^{ab}; entries: x of x[n]. made: formula → its boxes, or what stopped them.
+    modular, exponent, dot, other time, times, momentum (pi), wedge (of ∇). crossed: vectors, beside a cross or a nabla;
+    arrows: letters that are printed as vectors somewhere. equal: letters and what they are equal to. numeric: letters
+    that are numbers, below a fraction bar, a root, in a sine or a logarithm, equal to numbers. upper: letters that stand
+    above where no power can, as in \\partial x^i and T^{ij}, or below \\partial; above, alone above a letter; exponents:
+    letters in powers; paired: g of g_{ij}; pairs: letter → letters of g^{ab}; entries: x of x[n]. made: formula → its
+    boxes, or what stopped them.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -368,16 +369,12 @@ def _look_about(row: list[Box], found: Notation) -> None:
         if box.sup and [b.name for b in box.sup] == ["dagger"]:
             found.seen.add("operators")
         _look_at_number(box, after, found)
-        if box.kind == "function" and box.name in ("Re", "Im", "arg"):
-            found.seen.add("complex")
-        if box.kind == "function" and box.name in ("det", "tr", "Tr", "rank", "ker", "diag") and after is not None:
-            inside = without_thin(after.parts[0]) if after.kind == "bracket" else [after]
-            found.seen |= {"hessian"} if any(b.kind == "nabla" and b.sup for b in inside) else set()
-            found.matrices |= {
-                stem_of(b) for b in inside if b.kind == "letter" and (len(inside) == 1 or b.name.isupper())
-            }
+        if box.kind == "function":
+            _look_at_function(box, after, found)
         if box.kind in ("nabla", "partial") and after is not None and after.kind == "letter":
             found.differentiated.add(stem_of(after))
+        if box.name == "wedge" and before is not None and before.kind == "nabla":
+            found.seen.add("wedge")
         if box.kind == "bracket":
             _look_at_bracket(box, before, after, found)
         elif box.kind == "relation" and before is not None and after is not None:
@@ -388,6 +385,16 @@ def _look_about(row: list[Box], found: Notation) -> None:
             _look_at_derivative(box, after, found)
         elif box.kind == "letter":
             _look_beside(box, before, after, found)
+
+
+def _look_at_function(box: Box, after: Box | None, found: Notation) -> None:
+    """What a function by name says of the letters that it is of."""
+    if box.name in ("Re", "Im", "arg"):
+        found.seen.add("complex")
+    if box.name in ("det", "tr", "Tr", "rank", "ker", "diag") and after is not None:
+        inside = without_thin(after.parts[0]) if after.kind == "bracket" else [after]
+        found.seen |= {"hessian"} if any(b.kind == "nabla" and b.sup for b in inside) else set()
+        found.matrices |= {stem_of(b) for b in inside if b.kind == "letter" and (len(inside) == 1 or b.name.isupper())}
 
 
 def _look_above(box: Box, found: Notation) -> None:
@@ -506,6 +513,10 @@ def _held(box: Box) -> set[str]:
 
 def _look_at_bracket(box: Box, before: Box | None, after: Box | None, found: Notation) -> None:
     content = box.parts[0]
+    if [b.name for b in box.sup or ()] == ["-", "1"] and any(b.name in ("+", "-") for b in content[1:]):  # a resolvent
+        found.matrices |= {
+            stem_of(b) for b in content if b.kind == "letter" and b.name.isupper() and not (b.sub or b.sup)
+        }
     if box.closing == r"\rangle" and (box.name == "|" or any(b.kind == "bar" for b in content)):
         found.seen.add("ket")
     if box.name == "[" and sum(b.kind == "comma" for b in content) == 1 and _is_commutator(content, before, after):
