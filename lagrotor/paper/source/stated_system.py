@@ -4,6 +4,7 @@
     coordinates = "theta"
     L = "m*R**2*theta_dot**2/2 + m*g*R*cos(theta)"
     constraints = []                        # each is zero
+    forces = []                             # on each coordinate, besides those of L: friction, "-c*theta_dot"
     where = ["omega_0**2 = g/R"]            # what the text says of letters that L does not have
 
     [system.derives]                        # id → what the printed quantity is
@@ -12,7 +13,7 @@
     "3" = "energy"                          # q̇ ∂L/∂q̇ − L
     "4" = "momentum theta"                  # ∂L/∂θ̇
     "5" = "frequency at theta = 0"          # ω of small oscillations, of several: frequency 2 at …; frequency^2: ω²
-    "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ = 0, or a multiple of it
+    "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ = Q, or what follows from the equations of motion
     "7" = "integral"                        # F with dF/dt = 0 along every motion, as energies and momenta have
 
 The constraints, their rates and what `where` says are premises of every verdict, and named in those that need them. A letter of a
@@ -54,7 +55,7 @@ from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.printed import paper_notation
 from lagrotor.paper.source.tree import in_catalogue, text_of
 
-_KEYS = ("coordinates", "L", "constraints", "where", "derives")
+_KEYS = ("coordinates", "L", "constraints", "forces", "where", "derives")
 _KIND = re.compile(
     r"(L|energy|integral)|(momentum|acceleration|motion)(?: +([A-Za-z_]\w*))?|(frequency)(\^2)?(?: +(\d+))?(?: +at +(.*))?"
 )
@@ -67,6 +68,7 @@ class StatedSystem:
     c: Coordinates
     L: sp.Expr
     constraints: tuple[sp.Expr, ...]
+    forces: tuple[sp.Expr, ...]
     where: tuple[sp.Eq, ...]
     derives: Mapping[str, str]
     names: Mapping[str, Any]
@@ -108,7 +110,15 @@ class StatedSystem:
 
     def _check_letters(self, identifier: str) -> None:
         """Raise InputError where a print has a letter of which the system says nothing."""
-        said: tuple[sp.Basic, ...] = (self.L, *self.constraints, *self.where, *self.c.q, *self.c.v, *self.c.a)
+        said: tuple[sp.Basic, ...] = (
+            self.L,
+            *self.constraints,
+            *self.forces,
+            *self.where,
+            *self.c.q,
+            *self.c.v,
+            *self.c.a,
+        )
         known = set[sp.Basic]().union(*(e.free_symbols for e in said))
         left = self._left_side(identifier) or sp.S.Zero
         for line in self.paper.lines(identifier):
@@ -127,10 +137,10 @@ class StatedSystem:
             raise InputError(
                 f"{self.place}: derives: {identifier}: {F} depends on no coordinate or velocity: leave it out here"
             )
-        rate = total_derivative(F, self.c).xreplace(dict(zip(self.c.a, self.accelerations, strict=True)))
+        rate = self._along(total_derivative(F, self.c))
         if decide_equal(rate, sp.S.Zero).answer == "zero":
             return F
-        return F - sp.Symbol("tau", positive=True) * shortest(rate)
+        return F - sp.Symbol("tau", positive=True) * rate
 
     def _of_coordinate(self, kind: str, which: str) -> sp.Expr:
         place = next((n for n, q in enumerate(self.c.q) if q.name == which), None)
@@ -139,13 +149,14 @@ class StatedSystem:
             raise InputError(f"{self.place}: derives: {kind} {which or '?'}: the coordinates are {known}")
         rows: dict[str, Callable[[], sp.Matrix]] = {
             "momentum": lambda: momenta(self.L, self.c),
-            "motion": lambda: euler_lagrange(self.L, self.c),
+            "motion": lambda: self._motion,
             "acceleration": lambda: self.accelerations,
         }
         return rows[kind]()[place]
 
     def _as_printed(self, identifier: str, motion: sp.Expr) -> sp.Expr:
-        """What motion = 0 makes of the left side of a print, left = right: right, where left − right is a multiple of motion."""
+        """What a print left = right of an equation of motion has on its right: right itself where left − right is zero with the
+        accelerations of the motion put in."""
         (line, *more), left = self.paper.lines(identifier), self._left_side(identifier)
         if left is None or more or len(line.members) > 1:
             if line.members[-1] != 0:
@@ -154,10 +165,12 @@ class StatedSystem:
                 f"{self.place}: derives: {identifier} is printed as … = 0, and its left side is no single expression in the "
                 "coordinates: leave it out here"
             )
-        missing = left - line.members[0]
-        parts = ((sp.diff(missing, a), sp.diff(motion, a)) for a in self.c.a)
-        factor = next((m / n for m, n in parts if decide_equal(m * n, sp.S.Zero).answer != "zero"), sp.S.One)
-        return left - factor * motion
+        (right,) = line.members
+        return right + self._along(left - right)
+
+    def _along(self, e: sp.Expr) -> sp.Expr:
+        """An expression with the accelerations of the motion put in."""
+        return shortest(e.xreplace(dict(zip(self.c.a, self.accelerations, strict=True))))
 
     def _left_side(self, identifier: str) -> sp.Expr | None:
         """The left side of a print as an expression in the coordinates; None where it is none."""
@@ -173,10 +186,15 @@ class StatedSystem:
             return None
         return left if left.has(*self.c.q, *self.c.v, *self.c.a) else None
 
+    @property
+    def _motion(self) -> sp.Matrix:
+        """d/dt ∂L/∂q̇ − ∂L/∂q − Q, without the forces of constraints."""
+        return euler_lagrange(self.L, self.c) - sp.Matrix(self.forces)
+
     @cached_property
     def accelerations(self) -> sp.Matrix:
         """a of M a + h = Gᵀ λ with the constraints differentiated twice, the multipliers λ eliminated."""
-        motion = euler_lagrange(self.L, self.c)
+        motion = self._motion
         multipliers = sp.symbols(f"multiplier_1:{len(self.constraints) + 1}")
         for multiplier, constraint in zip(multipliers, self.constraints, strict=True):
             motion -= multiplier * gradient(constraint, self.c.q)
@@ -190,12 +208,16 @@ class StatedSystem:
 
     def _squared_frequency(self, which: int, point: str) -> sp.Expr:
         """ω² of a small oscillation about an equilibrium: rate = i ω."""
+        if any(force.has(*self.c.v) for force in self.forces):
+            raise InputError(
+                f"{self.place}: derives: with friction small motion has no one frequency: leave frequencies out here"
+            )
         at: dict[sp.Symbol, sp.Expr] = {}
         for each in filter(None, (part.strip() for part in point.split(","))):
             name, _, value = each.partition("=")
             at[read(name.strip(), self.names, self.place)] = read(value.strip() or "0", self.names, self.place)
         still = dict.fromkeys(self.c.q, sp.S.Zero) | at
-        modes = System(self.c, self.L, constraints=self.constraints).linearise(still).modes()
+        modes = System(self.c, self.L, constraints=self.constraints, forces=self.forces).linearise(still).modes()
         squares = list(dict.fromkeys(sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0))
         if not 0 < which <= len(squares):
             raise InputError(f"{self.place}: derives: there is no frequency {which}: the system has {len(squares)}")
@@ -218,10 +240,16 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     names = known | {s.name: s for row in (c.q, c.v, c.a) for s in row}
     for identifier in given.get("derives", {}):
         paper.equation(identifier)
+    forces = tuple(read(each, names, f"{where}: forces") for each in given.get("forces", ())) or (sp.S.Zero,) * len(c.q)
+    if len(forces) != len(c.q):
+        raise InputError(
+            f'{where}: forces: {len(forces)} are given for {len(c.q)} coordinates: give each its own, "0" where none is'
+        )
     return StatedSystem(
         c,
         read(given["L"], names, f"{where}: L"),
         tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ())),
+        forces,
         tuple(_relation(each, names, f"{where}: where") for each in given.get("where", ())),
         given.get("derives", {}),
         names,
@@ -270,6 +298,7 @@ _PROPOSAL = """
 # [system]
 # coordinates = "{names}"
 # L = {L}
+# forces = []  # on each coordinate, besides those of L, as in "-c*theta_dot"
 # where = []  # what the text says of letters that L does not have, as in "omega_0**2 = g/l"
 # [system.derives]
 """

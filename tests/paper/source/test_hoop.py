@@ -150,6 +150,37 @@ def test_what_the_text_says_of_a_letter_is_a_premise_and_any_integral_may_be_pri
     assert [premise.formula for premise in verdicts["1"].premises] == ["ω₀² = g/l"]
 
 
+DAMPED = r"""\documentclass{article}\begin{document}
+\begin{equation} \ddot x + 2\gamma\dot x + \omega_0^2 x = 0 \end{equation}
+\begin{equation} \ddot x - 2\gamma\dot x + \omega_0^2 x = 0 \end{equation}
+\begin{equation} E = \frac{m}{2} (\dot x^2 + \omega_0^2 x^2) \end{equation}
+\end{document}"""
+
+
+def test_friction_is_a_force_and_leaves_no_integral(tmp_path: Path) -> None:
+    system = """
+[system]
+coordinates = "x"
+L = "m*x_dot**2/2 - k*x**2/2"
+forces = ["-c*x_dot"]
+where = ["omega_0**2 = k/m", "gamma = c/(2*m)"]
+[system.derives]
+1 = "motion x"
+2 = "motion x"
+3 = "integral"
+"""
+    paper = stated_paper(tmp_path / "mine", DAMPED, system, "k c")
+    write_derivation(paper)
+    verdicts = {v.id: v.verdict for v in Paper(paper.folder).audit()}
+    assert verdicts == {"1": "holds-if", "2": "refuted", "3": "refuted"}
+    edit(paper.folder / "paper.toml", '3 = "integral"', '3 = "frequency^2"')
+    with pytest.raises(InputError, match="with friction small motion has no one frequency"):
+        write_derivation(Catalogue(paper.folder))
+    edit(paper.folder / "paper.toml", '["-c*x_dot"]', '["-c*x_dot", "0"]')
+    with pytest.raises(InputError, match="2 are given for 1 coordinates"):
+        write_derivation(Catalogue(paper.folder))
+
+
 def test_a_printed_lagrangian_is_proposed_as_the_system(tmp_path: Path) -> None:
     """In comments: without their marks they are a derivation, and what is misprinted is found."""
     begin_paper(tmp_path / "hoop", HOOP / "paper.tex")
@@ -181,6 +212,8 @@ ON_A_CIRCLE = r"""\documentclass{article}\begin{document}
 \begin{equation} \ddot x = \frac{x (g y - \dot x^2 - \dot y^2)}{l^2} \end{equation}
 \begin{equation} E = \frac{m}{2} (\dot x^2 + \dot y^2) + m g y \end{equation}
 \begin{equation} J = m (x \dot y - y \dot x) \end{equation}
+\begin{equation} x \ddot y - y \ddot x = - g x \end{equation}
+\begin{equation} x \ddot y - y \ddot x = g x \end{equation}
 \end{document}"""
 
 
@@ -195,6 +228,8 @@ constraints = ["x**2 + y**2 - l**2"]
 1 = "acceleration x"
 2 = "integral"
 3 = "integral"
+4 = "motion x"
+5 = "motion x"
 """
     paper = stated_paper(tmp_path / "mine", ON_A_CIRCLE, system)
     write_derivation(paper)
@@ -203,7 +238,7 @@ constraints = ["x**2 + y**2 - l**2"]
     x, y, speed = s["x"], s["y"], s["x_dot"] ** 2 + s["y_dot"] ** 2
     assert (derived - x * (s["g"] * y - speed) / (x**2 + y**2)).simplify() == 0
     verdicts = {v.id: v.verdict for v in Paper(paper.folder).audit()}
-    assert verdicts == {"1": "holds-if", "2": "holds-if", "3": "refuted"}
+    assert verdicts == {"1": "holds-if", "2": "holds-if", "3": "refuted", "4": "holds", "5": "refuted"}
 
 
 def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path) -> None:
