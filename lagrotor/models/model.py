@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import hypot, inf, sqrt
+from math import hypot, inf, nan, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -168,17 +168,14 @@ class Model:
         kind, values = self.parameters(scene, driven)
         rate: RightHandSide = self.rhs(*kind, bounded)(*values)
         if self.outside and scene.link:
-            rate = _guarded(rate, self.outside, self.size)
+            bare, outside = rate, self.outside
+
+            def rate(s: float, y: Array) -> list[float]:
+                return [nan] * self.size if outside(y) else bare(s, y)
+
         return (
             rate if self.progress is None else _reporting(rate, self.progress, scene.shock.at if scene.shock else 0.0)
         )
-
-
-def _guarded(rate: RightHandSide, outside: Callable[[Array], bool], size: int) -> RightHandSide:
-    def guarded(s: float, y: Array) -> list[float]:
-        return [float("nan")] * size if outside(y) else rate(s, y)
-
-    return guarded
 
 
 def _reporting(rate: RightHandSide, progress: Callable[[float], None], at: float) -> RightHandSide:
@@ -249,11 +246,12 @@ def integrate_model(
     problem = problem_of(model, scene, bounded, start, budget, companion)
     if engine == "core":
         return integrate(problem, times, local)
-    from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_solver
+    from lagrotor.numerics.taylor import taylor_order, taylor_solver
 
-    order = companion_order(local) if companion else taylor_order(local)
     between = BETWEEN_PROJECTIONS / typical_rate(scene) if problem.project else inf
-    solver = taylor_solver(lambda driven: model.program(scene, driven), order, between, model.angles)
+    solver = taylor_solver(
+        lambda driven: model.program(scene, driven), taylor_order(local, companion), between, model.angles
+    )
     run = integrate(problem, times, local, solver)
     if bounded:
         from lagrotor.numerics.printers import compile_program

@@ -140,11 +140,6 @@ def taylor_solver(
     return solve
 
 
-def companion_order(tol: float) -> int:
-    """Never that of the run it is compared with: where the size of the states sets the steps, both have the same at any tol."""
-    return taylor_order(tol) - 1
-
-
 def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
     """The legs of an autonomous motion with parameters (p, n), by the number of the motion, LANES at a time.
 
@@ -153,7 +148,7 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
     answers: dict[int, Stretch | StopError] = {}
     orders: dict[int, list[int]] = {}
     for i, leg in legs.items():
-        orders.setdefault(companion_order(leg.local) if leg.companion else taylor_order(leg.local), []).append(i)
+        orders.setdefault(taylor_order(leg.local, leg.companion), []).append(i)
     for order, numbers in orders.items():
         d = len(legs[numbers[0]].start)
         solver, cyclic = _solver(program, d, False, order, LANES, get_ident()), _cyclic(program, d)
@@ -223,9 +218,10 @@ def _solver(
     return compiled_solver(equations, order, lanes, compact=lanes == 1 and (driven or states > 6))
 
 
-def taylor_order(tol: float) -> int:
-    """The cheapest order for a local error, of 7 to 19 tried with the displaced pair; code of higher ones outgrows a cache."""
-    return 10 if tol >= 1e-7 else 14 if tol >= 1e-11 else 16
+def taylor_order(tol: float, companion: bool = False) -> int:
+    """The cheapest order for a local error, of 7 to 19 tried with the displaced pair; code of higher ones outgrows a cache. Of a
+    companion it is never that of the run it is compared with: where the size of the states sets the steps, both have the same."""
+    return (10 if tol >= 1e-7 else 14 if tol >= 1e-11 else 16) - companion
 
 
 def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int = 1, compact: bool = True) -> Any:

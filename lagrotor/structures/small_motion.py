@@ -145,13 +145,11 @@ class SmallMotion:
         quick = np.abs(s) > max(unspun, _ZERO)  # then velocity / s is rounded less than q
         vectors = np.where(quick, velocity / np.where(s == 0, 1, s), q)
         s = self._in_seconds(s)
-        return self._damped(s, vectors) if self.damping.any() else s, vectors
-
-    def _damped(self, s: Complex, vectors: Complex) -> Complex:
-        """The roots with the real parts of the energy's balance where they are small beside the imaginary ones."""
-        growth, lost = self.energy_balance(s, vectors)
-        known = (np.abs(s.real) < _ZERO * np.abs(s)) & (lost < _ZERO * np.abs(s))  # else as it is
-        return np.asarray(np.where(known, np.where(np.abs(growth) > lost, growth, 0), s.real) + 1j * s.imag)
+        if self.damping.any():  # real parts that are small beside the imaginary ones are those of the energy's balance
+            growth, lost = self.energy_balance(s, vectors)
+            known = (np.abs(s.real) < _ZERO * np.abs(s)) & (lost < _ZERO * np.abs(s))
+            s = np.where(known, np.where(np.abs(growth) > lost, growth, 0), s.real) + 1j * s.imag
+        return s, vectors
 
     def energy_balance(self, s: Complex, vectors: Complex) -> tuple[Array, Array]:
         """What friction lets oscillations of roots s (m,) and vectors (n, m) grow by to first order, and how much of it is lost

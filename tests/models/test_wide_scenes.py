@@ -275,7 +275,7 @@ def test_taylor_steps_that_the_states_set_and_not_the_tolerance_hide_no_error(mo
     # Twin: with the twist in full and orders alike, the two runs agree, and both are wrong.
     in_full = tuple(replace(model, angles=()) for model in simulating.LADDER)
     monkeypatch.setattr(simulating, "LADDER", in_full)
-    monkeypatch.setattr(taylor, "companion_order", taylor_order)
+    monkeypatch.setattr(taylor, "taylor_order", lambda local, companion=False: taylor_order(local))
     (other,) = outcomes([LONG_TWIST], "fast")
     assert other.missed and not other.warned
 

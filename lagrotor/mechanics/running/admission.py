@@ -50,7 +50,12 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
             raise InputError(
                 f"{where}: values name {name}, which the system does not have{near(name, letters) or known}: leave it out"
             )
-        _check_sign(where, letter, value)
+        wrong = (letter.is_extended_nonnegative and value < 0) or (letter.is_extended_nonpositive and value > 0)
+        if wrong or (letter.is_integer and value != round(value)):
+            kind = "a whole number" if letter.is_integer and not wrong else "positive" if value < 0 else "negative"
+            raise InputError(
+                f"{where}: {letter} = {value:g} was declared {kind}: what is derived of it holds for these alone"
+            )
     put = {
         s: sp.sympify(value, strict=True)
         for s, value in by_symbol(f"{where}: values", values, letters.values()).items()
@@ -67,15 +72,6 @@ def _number(where: str, name: Any, value: Any) -> float:
         return float(value)
     except (TypeError, ValueError):
         raise InputError(f"{where}: {name} = {value!r} must be a real number") from None
-
-
-def _check_sign(where: str, letter: sp.Symbol, number: float) -> None:
-    wrong = (letter.is_extended_nonnegative and number < 0) or (letter.is_extended_nonpositive and number > 0)
-    if wrong or (letter.is_integer and number != round(number)):
-        kind = "a whole number" if letter.is_integer and not wrong else "positive" if number < 0 else "negative"
-        raise InputError(
-            f"{where}: {letter} = {number:g} was declared {kind}: what is derived of it holds for these alone"
-        )
 
 
 def check_pole(where: str, system: Equations, values: Values, state: Array) -> None:

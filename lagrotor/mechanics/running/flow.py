@@ -17,7 +17,7 @@ from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
 from lagrotor.numerics.pulse import Window, windows_since
 from lagrotor.numerics.segment import Integrate, StopError, Stretch, by_units
-from lagrotor.numerics.taylor import companion_order, taylor_order, taylor_rhs, taylor_solver
+from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Array = NDArray[np.float64]
 Values = Mapping[Any, Any]
@@ -107,7 +107,7 @@ def smooth_motion(
         )
 
     def by_taylor(start: Array, times: Array, local: float, companion: bool) -> Stretch:
-        order = companion_order(local) if companion else taylor_order(local)
+        order = taylor_order(local, companion)
         between = turn / 2 if project else np.inf
         # The time is a state, which may grow without end.
         clock = tuple(range(known, d))

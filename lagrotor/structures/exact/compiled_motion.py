@@ -24,7 +24,6 @@ import numpy as np
 from lagrotor.errors import InputError
 from lagrotor.numerics.segment import RightHandSide, Stretch, states_on_constraints
 from lagrotor.numerics.taylor import (
-    companion_order,
     compiled_solver,
     dummy_size,
     heyoka_module,
@@ -242,7 +241,7 @@ def integrate_series(
 
     companion: by another order. Raises InputError without heyoka, and StopError where it stops.
     """
-    order, watch = companion_order(local) if companion else taylor_order(local), LineWatch(motion)
+    order, watch = taylor_order(local, companion), LineWatch(motion)
     solver = _solver(_without_spins(s), order, get_ident())
     solver.pars[:] = _parameters(motion)
     watch.keep(float(times[0]), start)

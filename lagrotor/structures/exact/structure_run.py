@@ -54,12 +54,6 @@ class StructureRun(Run):
         return np.asarray(c.feet[:, None] + c.R[:, None, None] * self.axes)
 
     @property
-    def spin_energy(self) -> Array:
-        """Kinetic energy of the spins, G_i²/(2 I3) summed, (n,), J."""
-        I3 = np.array([rotor.I3 for rotor in self.structure.rotor])
-        return np.asarray((self.momenta**2 / (2 * I3[:, None])).sum(0))
-
-    @property
     def tilt_energy(self) -> Array:
         """Kinetic energy of the tilting axes and bars, and potential energy, (n,), J."""
         return exact_motion(self.structure).energy(self.axes.swapaxes(0, 1), self.rates.swapaxes(0, 1))
@@ -67,7 +61,8 @@ class StructureRun(Run):
     @property
     def energy(self) -> Array:
         """The whole energy, that of the spins included, (n,), J. Constant without friction and drive."""
-        return self.tilt_energy + self.spin_energy
+        I3 = np.array([rotor.I3 for rotor in self.structure.rotor])
+        return np.asarray(self.tilt_energy + (self.momenta**2 / (2 * I3[:, None])).sum(0))
 
     @property
     def link_length(self) -> Array:
