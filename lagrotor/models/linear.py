@@ -164,11 +164,13 @@ def linear_run(scene: Scene, t: Array) -> Observed:
 
 
 def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
-    """The linear motion as `closed_form` gives its own, with its error up to t_end (s), whatever the tolerance; NaN of more
-    turns than the estimate sums over. Raises as `linear_states`."""
+    """The linear motion as `closed_form` gives its own, with its error up to t_end (s), whatever the tolerance. Raises as
+    `linear_error`; best: as `linear_states` alone, with an error of NaN where it is not known."""
     try:
         error = linear_error(scene, t_end)
     except DomainError:
+        if not best:
+            raise
         error = nan
 
     def motion(t: Array) -> tuple[Array, Array]:

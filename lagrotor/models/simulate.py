@@ -12,7 +12,7 @@ from lagrotor.errors import InputError, IntegrationError, LagrotorError, Lagroto
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.averaged import averaged_motion
 from lagrotor.models.closed_form_model import closed_form
-from lagrotor.models.linear import linear_error, linear_motion
+from lagrotor.models.linear import linear_motion
 from lagrotor.models.model import (
     PACE,
     ClosedMotion,
@@ -74,7 +74,7 @@ DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
 @dataclass(frozen=True)
 class Choice:
     """model: its name. estimate: largest error of an axis over the run (tips: in units of R). reason: a sentence. motion: of a
-    model without integration, where it was made to know its error."""
+    model without integration."""
 
     model: str
     estimate: float
@@ -90,30 +90,18 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
     model is held to `tol` while it runs: see `lagrotor.numerics.estimated_run`.
     """
     turns, missed = typical_rate(scene) * t_end / (2 * pi), "a run too short to estimate the cheaper ones' errors"
-    if engine == "core" or scene.link is None or turns > SHORT.value:
-        try:
-            motion = closed_form(scene, t_end, tol)
-            if motion.error <= tol:
-                why = f"{motion.reason}; error {scientific(motion.error, 1)}"
-                return Choice("closed_form", motion.error, why, motion)
-        except LagrotorError:
-            pass
-        try:
-            error = linear_error(scene, t_end)
-            if error <= tol:
-                return Choice(
-                    "linear", error, f"small motion: normal modes, whose next terms are at most {scientific(error, 1)}"
-                )
-            missed = f"normal modes have an error of {scientific(error, 1)}"
-        except LagrotorError as refusal:
-            missed = str(refusal).split(";")[0]
+    names = ["closed_form", "linear"] if engine == "core" or scene.link is None or turns > SHORT.value else []
     if scene.link and scene.spins[0] == -scene.spins[1] and turns > LONG_RUN.value:
+        names.append("averaged")
+    for name in names:
         try:
-            motion = averaged_motion(scene, t_end, tol)
+            motion = DIRECT[name](scene, t_end, tol, False)
+            error = scientific(motion.error, 1)
             if motion.error <= tol:
-                return Choice("averaged", motion.error, f"{motion.reason}; error {scientific(motion.error, 1)}", motion)
-        except LagrotorError:
-            pass
+                return Choice(name, motion.error, f"{motion.reason}; error {error}", motion)
+            missed = f"normal modes have an error of {error}" if name == "linear" else missed
+        except LagrotorError as refusal:
+            missed = str(refusal).split(";")[0] if name == "linear" else missed
     try:
         check_range(minimal.MODEL, scene)
     except LagrotorError as refusal:
@@ -176,9 +164,8 @@ def simulate(
         return trajectory
     if model == "auto":
         choice = choose(at_zero, float(times[-1] - times[0]), tolerance, engine)
-        if choice.model in DIRECT:
-            motion = choice.motion or DIRECT[choice.model](at_zero, float(times[-1] - times[0]), tolerance, False)
-            return _direct(scene, choice.model, choice.reason, times, replace(motion, error=choice.estimate), tolerance)
+        if choice.motion:
+            return _direct(scene, choice.model, choice.reason, times, choice.motion, tolerance)
     elif model not in MODELS:
         known = "auto", *DIRECT, *MODELS
         raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")

@@ -135,12 +135,12 @@ def test_the_fast_extra_misses_none_either_and_foresees_only_long_runs(count: in
 
 def test_the_judge_would_see_a_wrong_choice(monkeypatch: pytest.MonkeyPatch) -> None:
     """Twins: an estimate ten times too small misses tolerances; one ten thousand times too large is dear."""
-    import lagrotor.models.simulate as chooser
+    import lagrotor.models.linear as normal_modes
 
-    right = chooser.linear_error
-    monkeypatch.setattr(chooser, "linear_error", lambda scene, t_end: right(scene, t_end) / 100)
+    right = normal_modes.linear_error
+    monkeypatch.setattr(normal_modes, "linear_error", lambda scene, t_end: right(scene, t_end) / 100)
     assert judge(3, 16)[0]
-    monkeypatch.setattr(chooser, "linear_error", lambda scene, t_end: right(scene, t_end) * 1e6)
+    monkeypatch.setattr(normal_modes, "linear_error", lambda scene, t_end: right(scene, t_end) * 1e6)
     assert len(judge(3, 16)[1]) > 16 / 10
 
 
@@ -152,7 +152,7 @@ SHOCK = Shock((40, -11, 0), 2.0, 1 / 20)
     [
         (Scene((10, -10)), 1e-9, "closed_form", "at rest and left alone: nothing moves"),
         (paired_scene(Scene((10, -10)), 0.05), 1e-6, "closed_form", r"paired precession of amplitude 0\.05: .* r₀⁷"),
-        (Scene((10, -10), shock=Shock((0.04, 0, 0), 2.0, 0.05)), 1e-4, "linear", "whose next terms are at most"),
+        (Scene((10, -10), shock=Shock((0.04, 0, 0), 2.0, 0.05)), 1e-4, "linear", "normal modes; error"),
         (Scene((10, -10), shock=SHOCK), 1e-6, "minimal", "bar eliminated, six states; normal modes have an error of"),
         (Scene((10, 0), link=None, shock=SHOCK), 1e-6, "spheres", "regular everywhere; minimal: the scene has no bar"),
     ],
