@@ -40,6 +40,11 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
         """A function that is an argument of the program."""
         return f"{expr.func}({', '.join(map(self._print, expr.args))})"
 
+    def _print_sech(self, expr: sp.sech) -> str:
+        """Without cosh, which overflows from 711 on, where this is zero."""
+        small = sp.exp(-sp.Abs(expr.args[0]))
+        return f"({self._print(2 * small)}/({self._print(1 + small**2)}))"
+
     def _print_not_supported(self, expr: sp.Expr) -> str:
         raise InputError(f"{expr} has no code in Python's {self.module} module: write it with elementary functions")
 

@@ -80,6 +80,8 @@ def _translate(e: sp.Expr, known: dict[sp.Symbol, Any], heyoka: Any) -> Any:
         return heyoka.sum(parts)
     if e.is_Mul:
         return reduce(mul, parts)
+    if isinstance(e, sp.sech):
+        return 1.0 / heyoka.cosh(*parts)
     if not hasattr(heyoka, e.func.__name__):
         raise InputError(f"engine='fast' does not know the function {e.func.__name__}: use engine='core'")
     return getattr(heyoka, e.func.__name__)(*parts)

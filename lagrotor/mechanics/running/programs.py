@@ -150,8 +150,16 @@ def _program(
     rename |= {c: c.evalf(17) for e in (*(e for _, e in stages), *outputs) for c in e.atoms(sp.NumberSymbol)}
 
     def put_in(e: sp.Expr) -> sp.Expr:
-        return e.xreplace(rename) if rename else e
+        e = e.xreplace(rename) if rename else e
+        pulses = [p for p in e.atoms(sp.Pow) if isinstance(p.base, sp.cosh) and p.exp.is_negative]
+        return e.xreplace({p: sp.sech(*p.base.args) ** -p.exp for p in pulses}) if pulses else e
 
+    numbers = set().union(*(e.atoms(sp.Float) for e in (*(e for _, e in stages), *outputs)))
+    if lost := [c for c in numbers if c != 0 and float(c) in (0.0, math.inf, -math.inf)]:
+        raise InputError(
+            f"{sp.Float(lost[0], 3)} is beyond what a double holds: sympy takes it out of an exponent with decimals, as in "
+            "exp(x + 1838.0); write the exponent with symbols, and give them values"
+        )
     program = Program(
         (*(rename.get(s, s) for s in (*states, *parameters)), *functions),
         tuple((rename.get(name, name), put_in(e)) for name, e in stages),

@@ -644,6 +644,16 @@ def test_what_acts_briefly_by_the_clock_is_not_passed_over(name: str, monkeypatc
     )  # twin: it is missed
 
 
+@pytest.mark.parametrize("shape", [sp.sech((t - 5) * 1000) ** 2, sp.cosh((t - 5) / k) ** -2])
+def test_a_pulse_of_another_shape_is_zero_far_away(shape: sp.Expr) -> None:
+    """1/cosh²(s/w), the cosh of which is beyond what a double holds; from its transform, π w²/sinh(π w/2)."""
+    (x,), (v,) = ANGLE.q, ANGLE.v
+    values = {k: 0.001} if k in shape.free_symbols else {}
+    run = System(ANGLE, v**2 / 2 - x**2 / 2, forces=(shape,)).simulate(values, (0,), (0,), [0, 10], 1e-8)
+    exact = math.pi * 1e-6 / math.sinh(math.pi * 0.001 / 2) * math.sin(5)
+    assert abs(run.q[-1, 0] - exact) <= run.error * abs(exact) <= 1e-8
+
+
 def test_a_force_that_never_rests_is_not_brief() -> None:
     (x,), (v,) = ANGLE.q, ANGLE.v
     run = System(ANGLE, v**2 / 2 - x**2 / 2, forces=(sp.cos(3 * t),)).simulate({}, (0,), (0,), np.linspace(0, 30, 3))
