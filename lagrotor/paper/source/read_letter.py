@@ -11,7 +11,6 @@ from lagrotor.paper.source.rows import (
     derivative_mark,
     is_measure,
     letters_in_row,
-    strip,
     without_thin,
 )
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
@@ -122,11 +121,8 @@ def _is_function(reader: FormulaReader, row: list[Box], place: int) -> bool:
 
 def _mark_applied(reader: FormulaReader, box: Box, bracket: Box, called: bool) -> None:
     what = "a function of the bracket, and no factor" if called else "a factor, and no function of the bracket"
-    reader.guess(
-        "bracket",
-        f"{box.name} before {bracket.name.lstrip(chr(92))} is {what}",
-        settled(box.name, "functions", "letters"),
-    )
+    sign = bracket.name.removeprefix("\\")
+    reader.guess("bracket", f"{box.name} before {sign} is {what}", settled(box.name, "functions", "letters"))
 
 
 def _is_functional(box: Box, inside: list[Box]) -> bool:
@@ -186,12 +182,9 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
         return True
     if {box.name, key, plain} & known.letters or bracket.sub:
         return False
-    if any(b.kind == "comma" for b in content) or box.name == "O":
+    if any(b.kind == "comma" for b in content) or box.name == "O" or given_at(bracket):
         return True
-    if given_at(bracket):
-        return True
-    evidence = known.called.get(key, known.called.get(plain))
-    top = without_thin(content)
+    evidence, top = known.called.get(key, known.called.get(plain)), without_thin(content)
     several = any(b.kind == "operator" and b.name in ("+", "-", "pm") for b in top[1:])
     if box.sup is not None and mark_of(reader, box) is None:
         return False if several else None if evidence else (False if not simple_argument(content) else None)
@@ -237,11 +230,8 @@ def _called_by_custom(reader: FormulaReader, row: list[Box], place: int) -> bool
 def given_at(bracket: Box) -> int:
     """The place of the bar of p(a | b), which parts what is given; 0 where there is none, or more."""
     content = bracket.parts[0]
-    bars = [
-        k for k, b in enumerate(content) if (b.kind, b.name) == ("bar", "|") or (b.kind, b.name) == ("relation", "mid")
-    ]
-    alone = len(bars) == 1 and not (content[bars[0]].sub or content[bars[0]].sup or bracket.sup)
-    return bars[0] if alone and strip(content[: bars[0]]) and strip(content[bars[0] + 1 :]) else 0
+    bars = [k for k, b in enumerate(content) if (b.kind, b.name) in (("bar", "|"), ("relation", "mid"))]
+    return bars[0] if len(bars) == 1 and not (content[bars[0]].sub or bracket.sup) else 0
 
 
 def is_entry(reader: FormulaReader, box: Box, bracket: Box) -> bool:
@@ -256,25 +246,19 @@ def is_entry(reader: FormulaReader, box: Box, bracket: Box) -> bool:
 def _call(reader: FormulaReader, box: Box, bracket: Box) -> Node:
     """A function of its arguments; x(t) is the letter x where no x, whatever its index, has another argument in the paper."""
     bar = given_at(bracket)
-    given = [reader.expression(part) for part in arguments(bracket.parts[0][: bar or None]) if strip(part)]
+    given = [reader.expression(part) for part in arguments(bracket.parts[0][: bar or None])]
     if bar:
         reader.guess("given", f"the bar in the bracket of {box.name} parts what is given")
         given.append(Call("given", tuple(map(reader.expression, arguments(bracket.parts[0][bar + 1 :])))))
     if box.name == "O" or (box.name == "o" and not box.sub):
         return Call("order" if box.name == "O" else "smaller_than", tuple(given))
-    if not given:
-        raise FormulaError(bracket.at, "a function has no argument", "write it")
     named, raised = letter_of(reader, box)
     if not raised and [each.kind for each in box.sup or ()] == ["letter"]:  # Y_l^m(θ, φ)
         raise left_open(box, f"{(box.sup or [box])[0].name} is an upper index or a power", _BOTH)
     name = name_of(box, index_parts(box), mark_of(reader, box) or ())
-    if tuple(given) == (Letter("t"),) and "t" not in reader.bound and stem_of(box) not in reader.notation.elsewhere:
-        node: Node = named
-    else:
-        node = Call(f"{name}", tuple(given))
-    if not raised:
-        node = power_of(reader, node, box)
-    return power_of(reader, node, bracket)
+    in_time = given == [Letter("t")] and "t" not in reader.bound and stem_of(box) not in reader.notation.elsewhere
+    node = named if in_time else Call(name, tuple(given))
+    return power_of(reader, node if raised else power_of(reader, node, box), bracket)
 
 
 def _pi(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int] | None:
@@ -303,10 +287,10 @@ def _euler(reader: FormulaReader, box: Box) -> bool:
     if not symbolic:
         if known.exponential and "e" not in known.bare:
             raise asked(box, "e is Euler's number", "numbers")
-        reader.guess("e", "e is a letter, and not Euler's number", 'letters = "e" or numbers = "e"')
+        reader.guess("e", "e is a letter, and not Euler's number", settled("e", "letters", "numbers"))
         return False
     if "e" in known.bare or (len(box.sup) == 1 and box.sup[0].kind == "letter" and "exponent" not in known.seen):  # e^n
-        reader.guess("e", "e is Euler's number", 'numbers = "e" or letters = "e"')
+        reader.guess("e", "e is Euler's number", settled("e", "numbers", "letters"))
     return True
 
 
@@ -327,12 +311,10 @@ def _is_imaginary(reader: FormulaReader, row: list[Box], place: int) -> bool:
         return False
     if box.name in known.numbers or (box.upright and box.name == "i"):
         return True
-    if known.imaginary and box.name == "i" and (beside or reader.exponents or "i" not in reader.lowered):
-        if "i" in known.lowered and not beside:
-            reader.guess("i", "i is the imaginary unit", 'numbers = "i" or letters = "i"')
-        return True
-    if known.imaginary and box.name == "i" and len(row) > 1:
-        reader.guess("i", "i is the imaginary unit", 'numbers = "i" or letters = "i"')
+    free = beside or reader.exponents or "i" not in reader.lowered
+    if known.imaginary and box.name == "i" and (free or len(row) > 1):
+        if not free or ("i" in known.lowered and not beside):
+            reader.guess("i", "i is the imaginary unit", settled("i", "numbers", "letters"))
         return True
     raise asked(box, f"{box.name} is the imaginary unit", "numbers", "letters")
 
@@ -341,9 +323,7 @@ def _difference(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     r"""\Delta x, \delta x as one letter."""
     box = row[place]
     behind = place + 1
-    if behind >= len(row) or box.primes or box.name in reader.notation.letters:
-        return None
-    if row[behind].kind not in ACTED_ON:
+    if behind >= len(row) or row[behind].kind not in ACTED_ON or box.primes or box.name in reader.notation.letters:
         return None
     if box.name in reader.notation.bare and (row[behind].kind != "letter" or stands_alone(reader, rf"\{box.name}")):
         raise asked(box, f"\\{box.name} is a factor or a difference", "letters")
@@ -372,13 +352,9 @@ def _mark_letter(reader: FormulaReader, row: list[Box], place: int) -> None:
     """Mark what a letter may be besides: a function or a factor, a number, an operator."""
     box, after, known = row[place], row[place + 1] if place + 1 < len(row) else None, reader.notation
     before = row[place - 1] if place else None
-    if (
-        box.upright
-        and before is not None
-        and (before.kind in ("number", "unit") or before.upright)
-        and box.name in UNITS
-    ):
-        return  # a unit behind its number
+    measured = before is not None and (before.kind in ("number", "unit") or before.upright)
+    if measured and box.upright and box.name in UNITS:
+        return
     if after is not None and after.kind == "bracket" and after.name in ("(", "[", r"\{"):
         _mark_order(reader, box, after)
         if box.primes:
@@ -387,8 +363,7 @@ def _mark_letter(reader: FormulaReader, row: list[Box], place: int) -> None:
         reader.guess("sign", f"{box.name} is a letter")
     if _is_laplacian(box, after):
         reader.guess("laplacian", f"{box.name} is a letter, and no Laplacian")
-    said = box.name in known.letters or box.name in known.numbers or box.name in known.functions
-    if not (box.sub or box.marks or box.style or said):
+    if not (box.sub or box.marks or box.style or box.name in known.letters | known.numbers | known.functions):
         _mark_constant(reader, box, after)
 
 

@@ -8,7 +8,7 @@ from lagrotor.paper.source.boxes import Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_integral import differential_degree, holds_variation
 from lagrotor.paper.source.read_scripts import letter_of
-from lagrotor.paper.source.rows import is_unit_like, parted, strip, without_thin
+from lagrotor.paper.source.rows import is_related, is_unit_like, parted, strip, without_thin
 from lagrotor.paper.source.tree import (
     Call,
     Letter,
@@ -18,6 +18,7 @@ from lagrotor.paper.source.tree import (
     is_scalar,
     is_vector,
     may_be_vector,
+    number,
     walk,
 )
 from lagrotor.paper.source.usage import arguments
@@ -96,13 +97,12 @@ def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
         if not line:
             continue
         if pieces and _continues(pieces[-1], line):
-            begins = line[0].name == "-" and pieces[-1][-1].kind not in ("operator", "relation")
-            worded = line[0].kind == "relation" and any(box.kind == "text" for box in pieces[-1])
-            if worded or (begins and any(box.kind == "relation" for box in line)):
+            last, first = pieces[-1][-1], line[0]
+            begins = first.name == "-" and last.kind not in ("operator", "relation")
+            worded = first.kind == "relation" and any(box.kind == "text" for box in pieces[-1])
+            if worded or (begins and is_related(line)):
                 reader.guess("rows", "a row that begins with its sign continues what stands just before it")
-            twice = (
-                pieces[-1][-1].kind == line[0].kind == "relation" and pieces[-1][-1].name == line[0].name
-            )  # = \\\\ =
+            twice = last.kind == first.kind == "relation" and last.name == first.name  # = \\\\ =
             pieces[-1] = [*pieces[-1][: -1 if twice else None], *line]
         else:
             pieces.append(line)
@@ -125,7 +125,7 @@ def _system(box: Box) -> list[list[Box]] | None:
         return _system(inside[0]) if len(inside) == 1 else None
     if box.kind in ("rows", "cases") or (box.kind == "matrix" and box.name == "array"):
         lines = [[each for cell in line.parts for each in cell] for line in box.parts[0]]
-        if box.kind == "rows" or all(any(b.kind == "relation" for b in line) for line in lines):
+        if box.kind == "rows" or all(map(is_related, lines)):
             return lines
     return None
 
@@ -140,7 +140,7 @@ def _continues(before: list[Box], line: list[Box]) -> bool:
         return last.kind != "comma" or first.name != "-"
     if first.kind in ("arrow", "text"):
         return False
-    if not any(box.kind == "relation" for box in line) and last.kind != "comma":
+    if not is_related(line) and last.kind != "comma":
         raise FormulaError(first.at, "a row has no relation", "begin it with the sign that joins it to the row before")
     return False
 
@@ -187,16 +187,15 @@ def _statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]
         if not strip(part):
             continue
         if listed or (sign != "comma" and _is_list(parts, place)):
-            if any(box.kind == "relation" for box in part):
+            if is_related(part):
                 found += _of_each(reader, listed, strip(part))
                 listed = []
             else:
                 listed.append(strip(part))
             continue
-        has_relation = any(box.kind == "relation" for box in part)
-        if sign == "comma" and has_relation and found and found[-1].kind == "expression":
+        if sign == "comma" and is_related(part) and found and found[-1].kind == "expression":
             raise FormulaError(part[0].at, "what stands before the comma has no relation", "write it for each letter")
-        if not has_relation and found and sign in ("comma", "wide"):
+        if not is_related(part) and found and sign in ("comma", "wide"):
             follows = place + 1 < len(parts) and parts[place + 1][0] == "comma" and bool(strip(parts[place + 1][1]))
             _further(reader, found, strip(part), listed=follows or found[-1].kind == "range")
         elif sign == "condition":
@@ -230,9 +229,7 @@ def _of_each(reader: FormulaReader, letters: list[list[Box]], part: list[Box]) -
 def _is_condition(row: list[Box], place: int) -> bool:
     """Whether a bracket holds a relation and stands by itself: (c > 0), (n = 1, 2)."""
     box, apart = row[place], place and row[place - 1].kind in ("thin", "wide", "cases", "rows")
-    held = (
-        box.kind == "bracket" and box.name in "([" and not box.sup and any(b.kind == "relation" for b in box.parts[0])
-    )
+    held = box.kind == "bracket" and box.name in "([" and not box.sup and is_related(box.parts[0])
     return bool(held and (apart or not place))
 
 
@@ -334,12 +331,8 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
         reader.guess("vector", "what has a hat, or is the divergence of a tensor, is a vector")
     elif vectors and scalar is not None and set(relations) <= {"=", ":=", "~"}:
         raise FormulaError(scalar.at, "a vector is equal to a number", "mark the vectors alike, as \\hat{\\mathbf r}")
-    order = None
-    final = read[-1].node
-    if isinstance(final, Call) and final.name == "sum":
-        order, kept = _order_term(final)
-        if order is not None:
-            read[-1] = replace(read[-1], node=kept)
+    order, kept = _order_term(read[-1].node)
+    read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
 
 
@@ -422,19 +415,16 @@ def _kind(relations: list[str]) -> str:
     return "other"
 
 
-def _order_term(node: Call) -> tuple[tuple[str, int] | None, Node]:
-    """The power of a term O(x^n), and the sum without it."""
-    last = node.args[-1]
-    if not (isinstance(last, Call) and last.name == "order" and len(last.args) == 1):
+def _order_term(node: Node) -> tuple[tuple[str, int] | None, Node]:
+    """The power of a term O(x^n) in which a sum ends, and the sum without it."""
+    last = node.args[-1] if isinstance(node, Call) and node.name == "sum" else None
+    if not (isinstance(node, Call) and isinstance(last, Call) and last.name == "order"):
         return None, node
-    inner = last.args[0]
-    if isinstance(inner, Letter):
-        found = inner.name, 1
-    elif isinstance(inner, Call) and inner.name == "power" and isinstance(inner.args[0], Letter):
-        if not isinstance(inner.args[1], Number) or inner.args[1].value.denominator != 1:
-            return None, node
-        found = inner.args[0].name, int(inner.args[1].value)
-    else:
+    power: Node
+    inner, power = last.args[0], number(1)
+    if isinstance(inner, Call) and inner.name == "power":
+        inner, power = inner.args
+    if not (isinstance(inner, Letter) and isinstance(power, Number) and power.value.denominator == 1):
         return None, node
     rest = node.args[:-1]
-    return found, rest[0] if len(rest) == 1 else Call("sum", rest)
+    return (inner.name, int(power.value)), rest[0] if len(rest) == 1 else Call("sum", rest)

@@ -42,6 +42,11 @@ def parted(row: list[Box], *kinds: str, but: str = "") -> list[list[Box]]:
     return [row[first + 1 : last] for first, last in pairwise(ends)]
 
 
+def is_related(row: list[Box]) -> bool:
+    """Whether a relation stands in a row."""
+    return any(box.kind == "relation" for box in row)
+
+
 def all_boxes(row: list[Box]) -> list[Box]:
     """The boxes of a row and all that they hold."""
     found: list[Box] = []
