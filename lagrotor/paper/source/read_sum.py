@@ -11,6 +11,8 @@ from lagrotor.paper.source.rows import all_boxes, strip, without_thin
 from lagrotor.paper.source.tree import CONDITIONS, Call, Letter, Node
 from lagrotor.paper.source.usage import arguments
 
+_UNREAD = "the condition of the sum is not read", "write \\sum_{i=1}^{n}"
+
 
 def read_sum(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
@@ -58,9 +60,7 @@ def _limits(reader: FormulaReader, box: Box) -> list[Node]:
         del reader.bound[len(reader.bound) - len(bound) :]
     if [b.kind for b in below] == ["letter"] and box.sup is not None:  # \sum_k^N
         return [letter_of(reader, below[0])[0], Letter("first"), reader.expression(box.sup)]
-    if not relations:
-        raise FormulaError(box.at, "what the sum runs over is not clear", "write \\sum_{i=1}^{n}")
-    raise FormulaError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+    raise FormulaError(below[0].at, *_UNREAD)
 
 
 def _over_all(reader: FormulaReader, box: Box, below: list[Box]) -> list[Node]:
@@ -83,18 +83,18 @@ def _from_first(reader: FormulaReader, box: Box, below: list[Box], sign: int) ->
     names = [strip(part) for part in arguments(below[:sign])]
     values = [strip(part) for part in arguments(below[sign + 1 :])]
     if not all([b.kind for b in part] == ["letter"] for part in names):
-        raise FormulaError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+        raise FormulaError(below[0].at, *_UNREAD)
     letters = [letter_of(reader, part[0])[0] for part in names]
     reader.bound += (bound := [part[0].name for part in names])
     try:
         first, ends = list(map(reader.expression, values)), [reader.expression(box.sup)] if box.sup else []
     finally:
         del reader.bound[len(reader.bound) - len(bound) :]
-    if len(values) == 1 and (len(names) == 1 or ends):
+    if len(values) == 1:
         return [letters[0], first[0], *ends, *letters[1:]]
-    if len(names) == 1 and not ends:
-        return [Call("In", (letters[0], Call("set", tuple(first))))]
-    raise FormulaError(below[0].at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+    if len(names) > 1 or ends:
+        raise FormulaError(below[0].at, *_UNREAD)
+    return [Call("In", (letters[0], Call("set", tuple(first))))]
 
 
 def _where(reader: FormulaReader, parts: list[list[Box]]) -> list[Node]:
@@ -113,7 +113,7 @@ def _where(reader: FormulaReader, parts: list[list[Box]]) -> list[Node]:
             conditions += [Call(CONDITIONS[part[k].name], two) for k, two in zip(signs, pairwise(sides), strict=True)]
         else:
             at = part[0].at if part else parts[0][0].at
-            raise FormulaError(at, "the condition of the sum is not read", "write \\sum_{i=1}^{n}")
+            raise FormulaError(at, *_UNREAD)
     if letters:
         return [letters[0], Letter("all"), Letter("all"), *letters[1:], *conditions]
     return conditions if len(conditions) == 1 else [Call("And", tuple(conditions))]

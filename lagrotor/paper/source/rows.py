@@ -89,16 +89,9 @@ def pair_bars(row: list[Box]) -> list[Box]:
     for n in range(0, len(places), 2):
         a, b = places[n], places[n + 1]
         between = row[places[n - 1] + 1 : a] if n else []
-        if n and strip(between) and not any(x.kind in ("operator", "relation") for x in between):
-            raise FormulaError(row[a].at, "how the bars belong together is open", "write \\left| and \\right|")
-        inner = strip(row[a + 1 : b])
-        if (
-            not inner
-            or inner[-1].kind == "operator"
-            or row[a].sup is not None
-            or row[a].sub is not None
-            or row[a].name != row[b].name
-        ):
+        apart = strip(between) and not any(x.kind in ("operator", "relation") for x in between)
+        inner, scripted = strip(row[a + 1 : b]), row[a].sup is not None or row[a].sub is not None
+        if apart or scripted or not inner or inner[-1].kind == "operator" or row[a].name != row[b].name:
             raise FormulaError(row[a].at, "how the bars belong together is open", "write \\left| and \\right|")
         sign = r"\|" if row[a].name == "||" else "|"
         closed = Box("bracket", sign, row[a].at, row[b].end, [inner], sub=row[b].sub, sup=row[b].sup, closing=sign)

@@ -329,9 +329,9 @@ def simple_argument(row: list[Box]) -> bool:
 
 def _look(row: list[Box], found: Notation) -> None:
     inner = without_thin(row)
-    _look_about(inner, found)
     for place, box in enumerate(inner):
         following = inner[place + 1] if place + 1 < len(inner) else None
+        _look_about(inner, place, following, found)
         if box.kind == "letter":
             _look_at_letter(box, following, found, alone=len(inner) == 1)
         if box.kind in ("letter", "partial", "nabla"):
@@ -356,35 +356,34 @@ def _look(row: list[Box], found: Notation) -> None:
             _look(part, found)
 
 
-def _look_about(row: list[Box], found: Notation) -> None:
-    """What the neighbours of letters say of them."""
-    for place, box in enumerate(row):
-        before, after = (row[place - 1] if place else None), (row[place + 1] if place + 1 < len(row) else None)
-        _look_above(box, found)
-        transposed = box.sup and [b.name for b in without_thin(box.sup)] in (["T"], ["top"], ["dagger"], ["intercal"])
-        if transposed and any(b.kind == "nabla" for part in box.parts for b in part):
-            found.seen.add("hessian")
-        if transposed and "vec" not in box.marks:
-            found.matrices |= {stem_of(box)} if box.kind == "letter" else _held(box)
-        if box.sup and [b.name for b in box.sup] == ["dagger"]:
-            found.seen.add("operators")
-        _look_at_number(box, after, found)
-        if box.kind == "function":
-            _look_at_function(box, after, found)
-        if box.kind in ("nabla", "partial") and after is not None and after.kind == "letter":
-            found.differentiated.add(stem_of(after))
-        if box.name == "wedge" and before is not None and before.kind == "nabla":
-            found.seen.add("wedge")
-        if box.kind == "bracket":
-            _look_at_bracket(box, before, after, found)
-        elif box.kind == "relation" and before is not None and after is not None:
-            _look_at_relation(row, place, found)
-        elif box.name == "times" or (box.name == "cdot" and before is not None and before.kind == "nabla"):
-            found.crossed |= {stem_of(b) for b in (before, after) if b is not None and is_printed_as_vector(b)}
-        elif box.kind == "fraction":
-            _look_at_derivative(box, after, found)
-        elif box.kind == "letter":
-            _look_beside(box, before, after, found)
+def _look_about(row: list[Box], place: int, after: Box | None, found: Notation) -> None:
+    """What the neighbours of a box say of it."""
+    box, before = row[place], row[place - 1] if place else None
+    _look_above(box, found)
+    transposed = box.sup and [b.name for b in without_thin(box.sup)] in (["T"], ["top"], ["dagger"], ["intercal"])
+    if transposed and any(b.kind == "nabla" for part in box.parts for b in part):
+        found.seen.add("hessian")
+    if transposed and "vec" not in box.marks:
+        found.matrices |= {stem_of(box)} if box.kind == "letter" else _held(box)
+    if box.sup and [b.name for b in box.sup] == ["dagger"]:
+        found.seen.add("operators")
+    _look_at_number(box, after, found)
+    if box.kind == "function":
+        _look_at_function(box, after, found)
+    if box.kind in ("nabla", "partial") and after is not None and after.kind == "letter":
+        found.differentiated.add(stem_of(after))
+    if box.name == "wedge" and before is not None and before.kind == "nabla":
+        found.seen.add("wedge")
+    if box.kind == "bracket":
+        _look_at_bracket(box, before, after, found)
+    elif box.kind == "relation" and before is not None and after is not None:
+        _look_at_relation(row, place, found)
+    elif box.name == "times" or (box.name == "cdot" and before is not None and before.kind == "nabla"):
+        found.crossed |= {stem_of(b) for b in (before, after) if b is not None and is_printed_as_vector(b)}
+    elif box.kind == "fraction":
+        _look_at_derivative(box, after, found)
+    elif box.kind == "letter":
+        _look_beside(box, before, after, found)
 
 
 def _look_at_function(box: Box, after: Box | None, found: Notation) -> None:
