@@ -6,28 +6,14 @@ from collections.abc import Callable
 
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
-from lagrotor.paper.source.tokens import Token, tokenize
+from lagrotor.paper.source.tokens import NESTING, Token, tokenize
 from lagrotor.shown import superscript
 
 _LETTERS = greek_unicode | {"ell": "ℓ", "varepsilon": "ε", "vartheta": "ϑ", "varphi": "φ"}
 _SIGNS = {
-    "times": " × ",
-    "cdot": " · ",
-    "sin": "sin ",
-    "cos": "cos ",
-    "quad": " ",
-    "qquad": " ",
-    "int": "∫",
-    "sum": "Σ ",
-    "nabla": "∇",
-    "infty": "∞",
-    "approx": " ≈ ",
-    "langle": "⟨",
-    "rangle": "⟩",
-    "pm": " ± ",
-    "to": " → ",
-    "dagger": "†",
-}
+    "times": " × ", "cdot": " · ", "sin": "sin ", "cos": "cos ", "quad": " ", "qquad": " ", "int": "∫", "sum": "Σ ",
+    "nabla": "∇", "infty": "∞", "approx": " ≈ ", "langle": "⟨", "rangle": "⟩", "pm": " ± ", "to": " → ", "dagger": "†",
+}  # fmt: skip
 _FONTS = ("text", "mathcal", "mathrm", "mathbf", "boldsymbol", "operatorname", "vec", "hat")
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -125,7 +111,7 @@ def _matrix(rest: deque[Token]) -> str:
     inner, depth = list[Token](), 1
     while rest and depth:
         token = rest.popleft()
-        depth += {r"\begin": 1, r"\end": -1}.get(token.text, 0)
+        depth += NESTING.get(token.text, 0)
         inner.append(
             Token("text", {"&": ", ", r"\\": "; "}[token.text], 0)
             if depth == 1 and token.text in ("&", r"\\")

@@ -144,11 +144,8 @@ def _changes_of(identifier: str, now: OnRecord | None, before: OnRecord | None) 
     different: list[str] = []
     for field in fields(OnRecord):
         old, new = getattr(before, field.name), getattr(now, field.name)
-        if (
-            field.name == "theorems"
-        ):  # their digits differ from machine to machine; that they are there is in parts and lines
-            continue
-        if old is not None and old != new:
+        # digits of theorems differ from machine to machine; that they are there is in parts and lines
+        if field.name != "theorems" and old is not None and old != new:
             different.append(
                 f"{identifier}: {_WORDS.get(field.name, field.name)}: recorded {_said(old)}, found {_said(new)}"
             )

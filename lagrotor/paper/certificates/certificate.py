@@ -278,9 +278,8 @@ def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[s
     """Pairs whose difference is to vanish through the order: the sides; of a number read off a run their ratio and its start."""
     if p.within is None:
         return list(p.pairs)
-    ratio = sp.Mul(
-        p.printed, sp.Pow(p.derived, -1, evaluate=False), evaluate=False
-    )  # as it is printed, nothing cancelled
+    inverse = sp.Pow(p.derived, -1, evaluate=False)
+    ratio = sp.Mul(p.printed, inverse, evaluate=False)  # as it is printed, nothing cancelled
     return [(ratio, value_at_zero(sides, ratio, small))]
 
 

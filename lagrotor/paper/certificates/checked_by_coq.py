@@ -26,9 +26,8 @@ _BATCHES = 4
 # those of lines, since a lemma `sin` would be another sine in all that follows.
 _SENTENCES = frozenset(["Theorem", "Proof", "Qed"])
 _NAME = re.compile(r"(line|correction)_\d+(_\w+)?")
-_END = re.compile(
-    r"(?:(?<!\.)|\.\.)\.(?:\s|\Z)|[{}]"
-)  # of a sentence; the next may begin with the marks of its place in a proof
+# The end of a sentence; the next may begin with the marks of its place in a proof.
+_END = re.compile(r"(?:(?<!\.)|\.\.)\.(?:\s|\Z)|[{}]")
 _MARKS = " \t\r\n+-*"
 _TO_INSTALL = "install Debian's packages coq and libcoq-interval (apt-get install coq libcoq-interval)"
 

@@ -58,15 +58,13 @@ def _value(expander: Expander, token: Token) -> bool:
     return True
 
 
+_SETTING = (
+    r"\newcounter \setcounter \addtocounter \stepcounter \refstepcounter \@addtoreset \numberwithin \counterwithin "
+    r"\counterwithout"
+)
 COUNTING: dict[str, Primitive] = {
-    **dict.fromkeys(
-        (
-            r"\newcounter", r"\setcounter", r"\addtocounter", r"\stepcounter", r"\refstepcounter", r"\@addtoreset",
-            r"\numberwithin", r"\counterwithin", r"\counterwithout",
-        ),
-        _counted,
-    ),
+    **dict.fromkeys(_SETTING.split(), _counted),
     **dict.fromkeys((r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph"), _shown),
     **dict.fromkeys((r"\@arabic", r"\@roman", r"\@Roman", r"\@alph", r"\@Alph", r"\number"), _numbered),
     r"\value": _value,
-}  # fmt: skip
+}

@@ -131,24 +131,17 @@ def _pair(expander: Expander, token: Token) -> bool:
     return True
 
 
+_COMMANDS = r"\newcommand \renewcommand \providecommand \DeclareRobustCommand \newrobustcmd \renewrobustcmd"
+_DOCUMENT_COMMANDS = (
+    r"\NewDocumentCommand \RenewDocumentCommand \ProvideDocumentCommand \DeclareDocumentCommand "
+    r"\NewExpandableDocumentCommand"
+)
 DEFINITIONS: dict[str, Primitive] = {
-    **dict.fromkeys(
-        (
-            r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand", r"\newrobustcmd",
-            r"\renewrobustcmd",
-        ),
-        _defined,
-    ),
+    **dict.fromkeys(_COMMANDS.split(), _defined),
     **dict.fromkeys((r"\def", r"\gdef", r"\edef", r"\xdef"), _def),
-    **dict.fromkeys(
-        (
-            r"\NewDocumentCommand", r"\RenewDocumentCommand", r"\ProvideDocumentCommand", r"\DeclareDocumentCommand",
-            r"\NewExpandableDocumentCommand",
-        ),
-        _document_command,
-    ),
+    **dict.fromkeys(_DOCUMENT_COMMANDS.split(), _document_command),
     **dict.fromkeys((r"\DeclarePairedDelimiter", r"\DeclarePairedDelimiterX"), _pair),
     r"\csname": _named,
     r"\let": _let,
     r"\DeclareMathOperator": _operator,
-}  # fmt: skip
+}

@@ -102,11 +102,8 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
     """The displayed equations of a LaTeX source. Raises InputError for a macro without end."""
     found = Source(title)
     try:
-        for bare in (
-            (),
-            (".cls",),
-            STYLES,
-        ):  # without the class, without packages: lost in what one beside the source does
+        # without the class, without packages: lost in what one beside the source does
+        for bare in ((), (".cls",), STYLES):
             found = Source(title)
             walker = _Walker(text, file, found, bare=bare)
             walker.read()

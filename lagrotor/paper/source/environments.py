@@ -135,18 +135,16 @@ def _display(expander: Expander, token: Token) -> bool:
     return True
 
 
+_NEW_VERBATIM = (
+    r"\lstnewenvironment \DefineVerbatimEnvironment \newminted \newtcblisting \DeclareTCBListing \NewTCBListing "
+    r"\excludecomment"
+)
 _DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "displaymath", "subequations")
 ENVIRONMENTS: dict[str, Primitive] = {
     **dict.fromkeys((r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment"), _environment),
-    **dict.fromkeys(
-        (
-            r"\lstnewenvironment", r"\DefineVerbatimEnvironment", r"\newminted", r"\newtcblisting", r"\DeclareTCBListing",
-            r"\NewTCBListing", r"\excludecomment",
-        ),
-        _verbatim_environment,
-    ),
+    **dict.fromkeys(_NEW_VERBATIM.split(), _verbatim_environment),
     **{rf"\{end}{name}": _display for name in _DISPLAYS for end in ("", "end")},
     r"\newtheorem": _theorem,
     r"\begin": _begin,
     r"\end": _end,
-}  # fmt: skip
+}

@@ -423,9 +423,8 @@ def _evidence(known: Notation, box: Box, bracket: Box) -> bool | None:
 def _is_factor(known: Notation, box: Box, content: list[Box]) -> bool:
     """Whether the paper has a letter as a number among factors, and never before an argument or differentiated."""
     stem = stem_of(box)
-    held = (
-        letters_in_row(content) if len(content) == 2 else {b.name for b in content if b.kind == "letter"}
-    )  # E(\\phi(E))
+    held = {b.name for b in content if b.kind == "letter"}
+    held = letters_in_row(content) if len(content) == 2 else held  # E(\\phi(E))
     free = not known.is_function(box) and box.name not in _FUNCTIONS and stem in known.factors and box.style != "cal"
     variable = held & {"t", "tau"} or any(held & letters for letters in known.called.values())
     return free and not variable and is_number(known, box)

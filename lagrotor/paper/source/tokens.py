@@ -49,9 +49,7 @@ def tokens_of(text: str, base: int = 0) -> Iterator[Token]:
     if (short := _SHORT.search(text)) is not None:  # \DefineShortVerb{\|}: what is between two bars is no LaTeX
         mark = re.escape(short[1])
         text = re.sub(rf"(?<!\\)(?<!\\verb){mark}[^{mark}\n]*{mark}", _blank, text)
-    for verbatim in _NAMED.finditer(
-        text
-    ):  # \newcommand{\code}{\lstinline[…]}: between two equal marks after it neither
+    for verbatim in _NAMED.finditer(text):  # \newcommand{\code}{\lstinline[…]}: nor between two equal marks after it
         shown = rf"{re.escape(verbatim[1])}([^A-Za-z\s*{{}}\[])[^\n]*?\1"
         text = text[: verbatim.end()] + re.sub(shown, _blank, text[verbatim.end() :])
     for match in _TOKEN.finditer(text):
