@@ -15,8 +15,8 @@ from lagrotor.models.model import Array, ClosedMotion
 from lagrotor.models.orbits.paired_fit import ROUND, paired_answer
 from lagrotor.pair.scene import Scene
 
-FARTHEST_APART = 1e-14  # distance below which two axes are treated as parallel: rounding
-FARTHEST_OUT = 0.995  # |x| of parallel axes, next to the joint line
+_FARTHEST_APART = 1e-14  # distance below which two axes are treated as parallel: rounding
+_FARTHEST_OUT = 0.995  # |x| of parallel axes, next to the joint line
 _MAY_PART = 1e-9  # what rounding may have grown to
 
 
@@ -81,7 +81,7 @@ def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMo
     mean, mean_rate = axes.mean(axis=0), rates.mean(axis=0)
     turn = float(np.linalg.norm(np.cross(mean, mean_rate) + scene.momenta[0] / (own + shared) * mean))
     apart = float(np.linalg.norm(axes[1] - axes[0]) + np.linalg.norm(rates[1] - rates[0]) / (turn or 1.0))
-    if not apart <= FARTHEST_APART:
+    if not apart <= _FARTHEST_APART:
         raise DomainError(
             f"closed_form: equal spins are one rotor only with parallel axes that turn alike, not {apart:.2g} apart; "
             "use model='linear' or 'minimal'"
@@ -92,7 +92,7 @@ def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMo
     )  # fmt: skip
     phases = np.linspace(0, 2 * pi, 65)
     (seen, _), _ = one.motion(phases / turn)
-    if float(np.abs(seen[:, 0]).max()) > FARTHEST_OUT:
+    if float(np.abs(seen[:, 0]).max()) > _FARTHEST_OUT:
         raise DomainError(
             "closed_form: the parallel pair comes near the joint line, where bar and axes are in line and it may part; use "
             "model='minimal' or 'spheres'"

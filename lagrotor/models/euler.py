@@ -20,7 +20,7 @@ from lagrotor.pair.scene import Scene
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
 
-LEAST_INCLINATION = 1e-3  # rad; the rate of the azimuth grows as 1/theta below it
+_LEAST_INCLINATION = 1e-3  # rad; the rate of the azimuth grows as 1/theta below it
 Kind = tuple[bool, int]  # massive bar, shocked rotor (0: none)
 
 
@@ -75,7 +75,7 @@ def _start(scene: Scene) -> Array:
     q, rates = [], []
     for i, (r, v, spin) in enumerate(zip(scene.axes, scene.rates, scene.spins, strict=True)):
         radius = hypot(r[0], r[1])
-        if radius < LEAST_INCLINATION:
+        if radius < _LEAST_INCLINATION:
             raise SingularError(
                 f"euler: theta_{i + 1} = {radius:.3g} rad: Euler angles are singular at theta = 0, the rest state; "
                 "use model='minimal' or 'spheres'"
@@ -97,7 +97,7 @@ def _observe(scene: Scene, states: Array) -> Observed:
 
 
 def _singular(axes: Array) -> str:
-    near = [i for i in (0, 1) if hypot(axes[i, 0], axes[i, 1]) < 10 * LEAST_INCLINATION]
+    near = [i for i in (0, 1) if hypot(axes[i, 0], axes[i, 1]) < 10 * _LEAST_INCLINATION]
     return f"theta_{near[0] + 1} comes to zero, where Euler angles are singular" if near else ""
 
 

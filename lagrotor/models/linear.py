@@ -31,9 +31,9 @@ LINEAR_MARGIN = Calibrated(
     "8,000 random scenes with an estimate up to 0.1: at most 1.05 times off",
     "test_linear.py::test_the_linear_error_is_bounded",
 )
-FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
+_FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
 _SAFETY = 1.1  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02
-FARTHEST_OFF = 0.1  # estimated error beyond which the next orders are no estimate
+_FARTHEST_OFF = 0.1  # estimated error beyond which the next orders are no estimate
 _FAR = 0.1  # rad about the joint line below which turning spreads no error
 # Points of the error's quadrature: in all before, within and after a pulse each, more a turn, and the most.
 _A_PART, _A_TURN, _MOST = 17, 24, 100_000
@@ -110,7 +110,7 @@ def pair_modes(scene: Scene) -> LinearPair:
     return LinearPair(upright, mass, np.linalg.solve(mass, gyroscopic), float(numbers[18]))
 
 
-def linear_states(scene: Scene, t: Array) -> Array:
+def _linear_states(scene: Scene, t: Array) -> Array:
     """(U, chi, alpha, rates) of the linear motion at times t (n,) in s: (n, 6).
 
     Raises SingularError without a bar or for an axis along the joint line, DomainError where the motion leaves
@@ -123,11 +123,11 @@ def linear_states(scene: Scene, t: Array) -> Array:
         # The pulse may have begun before t = 0: the start is what it is.
         states += pulse - linear.free(response[:3], response[3:], t)
     off = np.abs(states[:, :2]).max(axis=1)
-    if not off.max() <= FARTHEST:
-        where = int(np.argmax(~(off <= FARTHEST)))
+    if not off.max() <= _FARTHEST:
+        where = int(np.argmax(~(off <= _FARTHEST)))
         raise DomainError(
             f"linear: at t = {t[where]:.4g} s the motion is {np.degrees(off[where]):.3g}° from rest, across the joint line "
-            f"or in twist; beyond {np.degrees(FARTHEST):.0f}° small motion means nothing: use model='minimal'"
+            f"or in twist; beyond {np.degrees(_FARTHEST):.0f}° small motion means nothing: use model='minimal'"
         )
     return states
 
@@ -160,12 +160,12 @@ def linear_run(scene: Scene, t: Array) -> Observed:
         SingularError: without a bar, or for an axis along the joint line.
         DomainError: where the motion leaves |U|, |chi| <= pi/3.
     """
-    return MODEL.observe(scene, linear_states(scene, t))
+    return MODEL.observe(scene, _linear_states(scene, t))
 
 
 def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
     """The linear motion as `closed_form` gives its own, with its error up to t_end (s), whatever the tolerance. Raises as
-    `linear_error`; best: as `linear_states` alone, with an error of NaN where it is not known."""
+    `linear_error`; best: as `linear_run` alone, with an error of NaN where it is not known."""
     try:
         error = linear_error(scene, t_end)
     except DomainError:
@@ -190,8 +190,8 @@ def linear_error(scene: Scene, t_end: float) -> float:
     2 where that is not small: two axes are at most opposite.
 
     Raises:
-        SingularError: as `linear_states`.
-        DomainError: as `linear_states`, and for a run of so many turns that the sum would cost more than it saves.
+        SingularError: as `linear_run`.
+        DomainError: as `linear_run`, and for a run of so many turns that the sum would cost more than it saves.
     """
     linear, shock = pair_modes(scene), scene.shock_until(t_end)
     turns = linear.frequency * t_end / (2 * pi)
@@ -204,7 +204,7 @@ def linear_error(scene: Scene, t_end: float) -> float:
         np.linspace(a, b, _A_PART + int(_A_TURN * linear.frequency * (b - a) / (2 * pi))) for a, b in pairwise(ends)
     )
     t = np.unique(np.concatenate([pulse, *parts]))
-    states = linear_states(scene, t)
+    states = _linear_states(scene, t)
     with np.errstate(all="ignore"):  # of a motion that is not small the corrections may have no end
         first = linear.answer(t, _defect(scene, linear, shock, t, states))
         second = linear.answer(t, _defect(scene, linear, shock, t, states + first))
@@ -212,7 +212,7 @@ def linear_error(scene: Scene, t_end: float) -> float:
         known, unsure = (float(np.linalg.norm(axes[0] - other, axis=-1).max()) for other in axes[1:])
     since = max(0.0, shock.at) if shock else 0.0
     error = LINEAR_MARGIN.value * (known + unsure * _spread(scene, float(np.ptp(states[:, 2])), t_end - since))
-    return error if error < FARTHEST_OFF else UNKNOWN
+    return error if error < _FARTHEST_OFF else UNKNOWN
 
 
 def shock_response_error(scene: Scene, t_end: float) -> float:
@@ -230,9 +230,9 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
     axes, seen = linear_run(scene, t).axes, response.through(t)
     off = np.stack([axes[i, :, :2] - seen[:, [0, i + 1]] for i in (0, 1)])
     error = _SAFETY * (float(np.linalg.norm(off, axis=-1).max()) + linear_error(scene, t_end))
-    if not error <= FARTHEST_OFF:
+    if not error <= _FARTHEST_OFF:
         raise DomainError(
-            f"shock_response_error: an error of about {error:.2g} by t = {t_end:g} s, beyond {FARTHEST_OFF:g}: the response is "
+            f"shock_response_error: an error of about {error:.2g} by t = {t_end:g} s, beyond {_FARTHEST_OFF:g}: the response is "
             "not small; take a smaller shock or a shorter time, or use model='minimal'"
         )
     return error

@@ -43,7 +43,7 @@ class NaturalUnits:
 
 def natural_units(scene: Scene, rate: float = 0.0) -> NaturalUnits:
     """The scene in its own units, `rate` (rad/s) for the unit of rate if one is given; at rest, without spins or shock, 1/s."""
-    inertia, R = min(together_and_apart(scene)), scene.rotor.length
+    inertia, R = min(_together_and_apart(scene)), scene.rotor.length
     rate = rate or typical_rate(scene) / PACE or 1.0
     rotor, link, shock = scene.rotor, scene.link, scene.shock
     weight = R * R / inertia
@@ -64,7 +64,7 @@ def natural_units(scene: Scene, rate: float = 0.0) -> NaturalUnits:
     return NaturalUnits(in_units, rate, inertia)
 
 
-def together_and_apart(scene: Scene) -> tuple[float, float]:
+def _together_and_apart(scene: Scene) -> tuple[float, float]:
     """Inertias a + b = J + m R²/2 of the axes' sum, a − b = J + 2 K R²/ell² of their difference (kg m²)."""
     if scene.link is None:
         return scene.rotor.J, scene.rotor.J
@@ -78,7 +78,7 @@ def typical_rate(scene: Scene) -> float:
 
     A pulse adds its impulse over I or, where it is so broad that the rotor turns meanwhile, sqrt(force R / I).
     """
-    (together, apart), (v1, v2) = together_and_apart(scene), scene.rates
+    (together, apart), (v1, v2) = _together_and_apart(scene), scene.rates
     inertia = min(together, apart)
     total, difference = (hypot(*(x + sign * y for x, y in zip(v1, v2, strict=True))) for sign in (1, -1))
     rate = hypot(sqrt(together / inertia) * total, sqrt(apart / inertia) * difference) / sqrt(2)
@@ -89,8 +89,8 @@ def typical_rate(scene: Scene) -> float:
 
 
 Array = NDArray[np.float64]
-BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
-BUDGET = 1_000_000.0  # evaluations of one integration, where a caller sets none
+_BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
+_BUDGET = 1_000_000.0  # evaluations of one integration, where a caller sets none
 
 
 @dataclass(frozen=True)
@@ -204,7 +204,7 @@ def problem_of(
     scene: Scene,
     bounded: bool = False,
     start: Array | None = None,
-    budget: float = BUDGET,
+    budget: float = _BUDGET,
     companion: bool = False,
 ) -> Problem:
     """What `integrate` is given of a scene and a model; bounded: the run ends where the model is badly conditioned.
@@ -234,7 +234,7 @@ def integrate_model(
     bounded: bool = False,
     companion: bool = False,
     start: Array | None = None,
-    budget: float = BUDGET,
+    budget: float = _BUDGET,
 ) -> Stretch:
     """One integration from t = 0 through increasing `times` (n,) in s with a local error: the model's states (n, d).
 
@@ -248,7 +248,7 @@ def integrate_model(
         return integrate(problem, times, local)
     from lagrotor.numerics.taylor import taylor_order, taylor_solver
 
-    between = BETWEEN_PROJECTIONS / typical_rate(scene) if problem.project else inf
+    between = _BETWEEN_PROJECTIONS / typical_rate(scene) if problem.project else inf
     solver = taylor_solver(
         lambda driven: model.program(scene, driven), taylor_order(local, companion), between, model.angles
     )

@@ -38,9 +38,9 @@ from lagrotor.shown import scientific
 
 LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
-BY_NAME = Patience(20_000, 250 * 2 * pi)
+_BY_NAME = Patience(20_000, 250 * 2 * pi)
 # Where a looser run may take its place: five times as many serve none better.
-REPLACEABLE = Patience(1_000, 500 * 2 * pi)
+_REPLACEABLE = Patience(1_000, 500 * 2 * pi)
 LONG_RUN = Calibrated(
     300.0,
     "turns beyond which the averaged motion is tried before one is integrated",
@@ -182,7 +182,7 @@ def simulate(
     if model == "auto":
         name, why, run = door.by_ladder(choice)
     else:
-        name, why, run = model, "by name", door.run(MODELS[model], BY_NAME)
+        name, why, run = model, "by name", door.run(MODELS[model], _BY_NAME)
     run.warn_unless_kept(name, tolerance)
     return trajectory_of(scene, door.units, name, why, times, run)
 
@@ -269,7 +269,7 @@ class _Door:
         refused: dict[str, IntegrationError | SingularError] = {}
         for model, bounded in tries:
             try:
-                run = self.run(model, REPLACEABLE, bounded)
+                run = self.run(model, _REPLACEABLE, bounded)
                 stopped: object = run.ending
                 spent += run.evaluations
                 early.append((model.name, why, replace(run, evaluations=spent)))

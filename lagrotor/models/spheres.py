@@ -61,7 +61,7 @@ def _kind(scene: Scene, driven: bool) -> tuple[_Kind, tuple[float, ...]]:
     return (massive, bar, body), (inertia_a, *((inertia_b,) if massive else ()), *ratio, *scene.momenta)
 
 
-def at_dead_point(y: Array) -> bool:
+def _at_dead_point(y: Array) -> bool:
     """Whether a state (12,) is within CLEARANCE of r_1 = r_2 = ± e_x.
 
     There bar and axes are in line and the three constraints' gradients are dependent, for any bar.
@@ -69,7 +69,7 @@ def at_dead_point(y: Array) -> bool:
     return bool(y[0] * y[3] > 0.9 and _across(y) < CLEARANCE)
 
 
-def time_to_dead_point(y: Array) -> float:
+def _time_to_dead_point(y: Array) -> float:
     """A time of which half is no more than what a state (12,) needs to r_1 = r_2 = ± e_x; inf where it does not head there.
 
     The axes' components across the joint line move on a cone whose apex is that position: on both sides of it a straight
@@ -107,7 +107,7 @@ def _projection(scene: Scene) -> Projection:
 
 def _start(scene: Scene) -> Array:
     start = np.array([*scene.axes[0], *scene.axes[1], *scene.rates[0], *scene.rates[1]])
-    if scene.link and at_dead_point(start):
+    if scene.link and _at_dead_point(start):
         raise SingularError(
             f"spheres: the axes {scene.axes} start {_across(start):.1e} rad from where bar and axes are in line and the motion "
             f"is not determined, nearer than {CLEARANCE:g}: tilt an axis"
@@ -135,7 +135,7 @@ MODEL = Model(
     _observe,
     _singular,
     _projection,
-    at_dead_point,
-    time_to_dead_point,
+    _at_dead_point,
+    _time_to_dead_point,
     slack,
 )

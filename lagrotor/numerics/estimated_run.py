@@ -264,7 +264,7 @@ def start_beside(start: Array, unsure: float = 1.0) -> Array:
     return start * (1 + unsure * np.finfo(float).eps * np.cos(np.arange(1, start.shape[-1] + 1)))
 
 
-def estimated_errors(
+def _estimated_errors(
     apart: Array,
     local: float,
     turns: Array,
@@ -441,7 +441,7 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
         parts.append(evolution.distance(*pairs[-1]))
         slack = evolution.slack(other.states[:m]) if evolution.slack else np.ones(m)
         slacks.append(np.maximum.accumulate(np.append(slacks[-1][-1:], slack))[1:])
-        errors = estimated_errors(
+        errors = _estimated_errors(
             parts[-1], tight.local, course.turns(t[:m]), bool(course.refused), evolution.independent, slacks[-1]
         )
         lost = first_time(t[:m], (errors > LOST.value) & together)
@@ -460,7 +460,7 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     rounding = ROUNDING.value * (START.value + float(course.turns(t[-1])))
     parted = float(apart[~between].max(initial=0.0))
     counts = _counts(spent, off, rounding, resolved)
-    errors = estimated_errors(
+    errors = _estimated_errors(
         counts * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
     grown = errors_up_to(t, np.where(between, 0.0, errors), evolution.turn)

@@ -60,7 +60,7 @@ class Stretch:
 SegmentSolver = Callable[[Segment, bool, float], Stretch]  # a segment, whether within a pulse, a local error
 Integrate = Callable[[Array, Array, float, bool, float], Stretch]  # start, times, local error, companion, budget
 Cause = Literal["budget", "singular", "event", "stopped"]
-WAYS_OUT = {
+_WAYS_OUT = {
     "budget": "take a larger tol or a shorter run",
     "singular": "the motion has a singular position there; end the run before, or describe it by other coordinates",
     "event": "",
@@ -72,10 +72,10 @@ def in_units(segment: Segment, scale: Array) -> Segment:
     """The segment for the state z, y = scale z."""
     project = segment.project
     onto = None if project is None else lambda z: (project((z.T * scale).T).T / scale).T
-    return replace(segment, rhs=scaled_rhs(segment.rhs, scale), start=segment.start / scale, project=onto)
+    return replace(segment, rhs=_scaled_rhs(segment.rhs, scale), start=segment.start / scale, project=onto)
 
 
-def scaled_rhs(bare: RightHandSide, scale: Array) -> RightHandSide:
+def _scaled_rhs(bare: RightHandSide, scale: Array) -> RightHandSide:
     """The right-hand side for the state z, y = scale z."""
     if (scale == 1).all():
         return bare
@@ -84,7 +84,7 @@ def scaled_rhs(bare: RightHandSide, scale: Array) -> RightHandSide:
         return (np.asarray(bare(s, z * scale)) / scale).tolist()
 
     if inner := getattr(bare, "bare", None):
-        rate.bare = scaled_rhs(inner, scale)  # type: ignore[attr-defined]
+        rate.bare = _scaled_rhs(inner, scale)  # type: ignore[attr-defined]
     return rate
 
 
@@ -124,7 +124,7 @@ class StopError(IntegrationError):
         evaluations: int = 0,
         cause: Cause = "stopped",
     ) -> None:
-        super().__init__(f"the solver stopped near t = {at:.6g} s ({reason.rstrip('.')}): {WAYS_OUT[cause]}")
+        super().__init__(f"the solver stopped near t = {at:.6g} s ({reason.rstrip('.')}): {_WAYS_OUT[cause]}")
         self.at, self.reason, self.reached, self.cause = at, reason, reached, cause
         self.evaluations = max(evaluations, reached.evaluations if reached else 0)
 

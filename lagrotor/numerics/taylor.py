@@ -33,8 +33,8 @@ from lagrotor.numerics.segment import (
 )
 
 _CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, that rounds nothing
-MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
-LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
+_MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
+_LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (within the pulse or not) → the program and the values of its parameters.
 Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
 
@@ -53,7 +53,7 @@ def heyoka_sum(terms: Sequence[Any]) -> Any:
     return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
 
 
-def heyoka_expressions(program: Program, known: dict[sp.Symbol, Any]) -> list[Any]:
+def _heyoka_expressions(program: Program, known: dict[sp.Symbol, Any]) -> list[Any]:
     """The program's outputs as heyoka's expressions of what is `known`, its arguments."""
     heyoka, named = heyoka_module(), dict(known)
     stages, outputs = reduce_common(program)
@@ -103,7 +103,7 @@ def _compiled_function(program: Program) -> Any:
     """The program as heyoka's function of an array of its arguments."""
     heyoka = heyoka_module()
     known = {s: heyoka.make_vars(str(s)) for s in program.arguments}
-    outputs = heyoka_expressions(program, known)
+    outputs = _heyoka_expressions(program, known)
     return heyoka.cfunc(outputs, [known[s] for s in program.arguments], fast_math=True)
 
 
@@ -143,7 +143,7 @@ def taylor_solver(
 
 
 def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """The legs of an autonomous motion with parameters (p, n), by the number of the motion, LANES at a time.
+    """The legs of an autonomous motion with parameters (p, n), by the number of the motion, eight at a time.
 
     The lanes of a processor's vectors step together, each with its own step. Raises InputError without heyoka.
     """
@@ -153,11 +153,11 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
         orders.setdefault(taylor_order(leg.local, leg.companion), []).append(i)
     for order, numbers in orders.items():
         d = len(legs[numbers[0]].start)
-        solver, cyclic = _solver(program, d, False, order, LANES, get_ident()), _cyclic(program, d)
+        solver, cyclic = _solver(program, d, False, order, _LANES, get_ident()), _cyclic(program, d)
         numbers.sort(key=lambda i: len(legs[i].times))
-        for begin in range(0, len(numbers), LANES):
-            kept = numbers[begin : begin + LANES]
-            lanes = kept + kept[-1:] * (LANES - len(kept))  # the last few are filled up with copies
+        for begin in range(0, len(numbers), _LANES):
+            kept = numbers[begin : begin + _LANES]
+            lanes = kept + kept[-1:] * (_LANES - len(kept))  # the last few are filled up with copies
             m = len(legs[lanes[-1]].times)
             # A shorter one is read once more and again where it ends, at neighbouring doubles.
             since, later = (
@@ -165,12 +165,12 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
                 1 + 4 * np.finfo(float).eps * np.arange(1, m),
             )
             grid = np.array([np.append(t, t[-1] * later[: m - len(t)]) for t in since]).T
-            solver.set_time(np.zeros(LANES))
+            solver.set_time(np.zeros(_LANES))
             solver.state[:d] = np.array([legs[i].start for i in lanes]).T
             solver.state[d] = [dummy_size(legs[i].local, order) for i in lanes]
             solver.state[cyclic] *= _CARRIED
             solver.pars[:] = parameters[:, lanes]
-            _, states = solver.propagate_grid(np.ascontiguousarray(grid), max_steps=MOST_STEPS)
+            _, states = solver.propagate_grid(np.ascontiguousarray(grid), max_steps=_MOST_STEPS)
             states[:, cyclic] /= _CARRIED
             for lane, (i, (outcome, _, _, steps)) in enumerate(zip(kept, solver.propagate_res, strict=False)):
                 read, spent = states[: len(legs[i].times), :d, lane], steps * order
@@ -214,7 +214,7 @@ def _solver(
     if driven:
         pulse = heyoka.exp(-((heyoka.time / heyoka.par[len(parameters)]) ** 2.0))
         known |= {s: known[s] * pulse for s in parameters[-3:]}
-    rates = heyoka_expressions(program, known)
+    rates = _heyoka_expressions(program, known)
     # A pulse is short: there what compiles faster pays.
     equations = [(x, r if c == 1 else r * c) for x, r, c in zip(variables, rates, scale, strict=True)]
     return compiled_solver(equations, order, lanes, compact=lanes == 1 and (driven or states > 6))
@@ -262,7 +262,7 @@ def taylor_march(
     longest: of a step. after_step: called with the solver after each step; whether to go on. Raises StopError where it stops.
     """
     (left, right), parts, steps = span, [np.empty((0, len(y)))], 0
-    options: dict[str, Any] = {"max_delta_t": longest, "max_steps": MOST_STEPS}
+    options: dict[str, Any] = {"max_delta_t": longest, "max_steps": _MOST_STEPS}
     options |= {} if after_step is None else {"callback": after_step}
     while left < right or len(parts) == 1:
         until = min(right, left + longest_between)

@@ -23,7 +23,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, Complex, coefficients
 
 Matrix = NDArray[Any]  # real of a structure, complex of a pattern
-Inverse = Callable[[], tuple[Matrix, float]]  # 1/(W − h) of a matrix W, and h
+_Inverse = Callable[[], tuple[Matrix, float]]  # 1/(W − h) of a matrix W, and h
 
 _ZERO = 1e-6  # of a root, and of the structure's rate beside a double root zero, which is found to half of a double's digits
 _SLOWEST = 1e-9  # of the structure's rate: of slower waves of fast spins the digits are lost
@@ -205,7 +205,7 @@ class SmallMotion:
         return bool((sizes[..., 0] > _DEPENDENT * np.abs(sizes).max(-1)).all())
 
     @property
-    def _hermitian(self) -> tuple[Complex, Inverse, Matrix, Matrix]:
+    def _hermitian(self) -> tuple[Complex, _Inverse, Matrix, Matrix]:
         """The lower half of H, i x' = H x in units of the rate for x = (R† q, L† q') with K = R R† and M = L L†, so that
         |x|² is twice the energy; that of its inverse; 1/R, 1/L."""
         n = self.dof
@@ -309,7 +309,7 @@ def check_upright(s: Assembly, where: str) -> None:
         )
 
 
-def _at_both_ends(solve: Callable[[Matrix], Any], matrix: Matrix, inverse: Inverse) -> tuple[Matrix, Matrix]:
+def _at_both_ends(solve: Callable[[Matrix], Any], matrix: Matrix, inverse: _Inverse) -> tuple[Matrix, Matrix]:
     """Eigenvalues s and vectors of a matrix, the slow ones of fast spins those of 1/(matrix − h): each to its own digits.
 
     Of a matrix they are known to rounding of the largest, of its inverse to that of the smallest.

@@ -171,7 +171,7 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
                 )
             written[name] = made
         numbers[name] = made
-    return (with_expressions(system, written) if written else system), numbers
+    return (_with_expressions(system, written) if written else system), numbers
 
 
 def inputs_as_letters(where: str, system: Kind, inputs: Sequence[Any]) -> tuple[Kind, tuple[Any, ...]]:
@@ -200,10 +200,10 @@ def inputs_as_letters(where: str, system: Kind, inputs: Sequence[Any]) -> tuple[
         with_jets(e, refused)
     forms = {name: sp.Lambda(t, letter) for name, letter in names.items()}
     letters = tuple(names[str(u.func)] if isinstance(u, AppliedUndef) else u for u in inputs)
-    return with_expressions(system, forms), letters
+    return _with_expressions(system, forms), letters
 
 
-def with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
+def _with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
     """The system with expressions in place of functions."""
 
     def put(e: sp.Expr) -> sp.Expr:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _Waves = NDArray[np.complex128]
 _ORDERS = (3, 5, 7, 9, 11, 13, 15)
-FURTHER = (17, 19, 21)  # a second to derive: only for this model by name
+_FURTHER = (17, 19, 21)  # a second to derive: only for this model by name
 LONG = 300.0  # rad beyond which a period is integrated where the series does not reach the tolerance
 _LARGEST = 0.5  # amplitude beyond which the series is of no use
 _DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
@@ -137,7 +137,7 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
 
     shape, ratio = _shape(scene.rotor, scene.link)
     error, before = inf, inf
-    orders = (*_ORDERS, *FURTHER) if best else _ORDERS
+    orders = (*_ORDERS, *_FURTHER) if best else _ORDERS
     r0 = float(guess[0])
     growth = exp(min(most_growth(r0, float(shape), float(ratio)) * turned, 700.0))
     for order in orders:

@@ -27,7 +27,7 @@ from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 
 # Bound of the error of a quarter period integrated at the tightest tolerance, relative to the flow's derivative; calibrated
 # by tests/models/test_orbit_errors.py, against collocation.
-INTEGRATED = 3e-14
+_INTEGRATED = 3e-14
 _LAST_MISS = 1e-8  # before a step of Newton's method, which squares it
 # Tolerance of the flow until the conditions are missed by less than _NEAR: a quarter of the cost.
 _COARSE, _NEAR = 1e-9, 1e-5
@@ -142,7 +142,7 @@ class QuarterPeriod:
         frequency = pi / 2 * self.natural / float(z[3])
         # An error of the quarter period's end, brought back to the unknowns at fixed amplitude, and on to the axes.
         slope = self._slope(z)
-        off = INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
+        off = _INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
         (start,) = scenes_from_states(self.scene, [self.state(z)])
         return ExactOrbit(start, frequency, off * float(np.linalg.norm(slope)), off * abs(frequency / float(z[3])))
 

@@ -20,7 +20,7 @@ from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
 
 Ratio = Literal["short", "equal", "long"]
 _Pair = tuple[sp.Expr, sp.Expr]
-FARTHEST_ALONG = sp.Rational(49, 50)  # |x| of an axis: beyond, Mercator coordinates magnify errors more than fivefold
+_FARTHEST_ALONG = sp.Rational(49, 50)  # |x| of an axis: beyond, Mercator coordinates magnify errors more than fivefold
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 (_U, _CHI, _ALPHA), (_U_V, _CHI_V, _ALPHA_V) = MINIMAL.q, MINIMAL.v
 # Delta, its cosine and sine, rho of the bar's curve, exp(−w), exp(2 U).
@@ -73,7 +73,7 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
         G_2,
         *(FORCE if body else ()),
     )
-    away = tuple(FARTHEST_ALONG**2 - r.t**2 for r in rotors)
+    away = tuple(_FARTHEST_ALONG**2 - r.t**2 for r in rotors)
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), positive=away)
 
 

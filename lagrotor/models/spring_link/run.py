@@ -31,7 +31,7 @@ from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
 from lagrotor.numerics.segment import RightHandSide, Stretch
 from lagrotor.pair.scene import Shock
 
-OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
+_OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
 _MOST = 12  # bodies beyond which arrays cost less
 _STRAIGHT = link_force, finite_rotation, inertia_transform  # laws that branch on no value
 _TIGHTEST = 2.3e-14  # local error of LSODA, which takes no smaller one
@@ -254,7 +254,7 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     return _run_of(system, run.states, run.known)
 
 
-def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> OfState:
+def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _OfState:
     """`system.state` → the state dt later, by `compute_forces`, `push` and `step` of the system."""
 
     def after(moving: RigidBodySystem) -> Array:
@@ -264,7 +264,7 @@ def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> Of
     return _recorded(system, shock, after, 21)
 
 
-def rate_function(system: RigidBodySystem, shock: Shock | None) -> OfState:
+def rate_function(system: RigidBodySystem, shock: Shock | None) -> _OfState:
     """The state y (18 n,) of X, U, L, R of n bodies → y', by `compute_forces` and `push` of the system."""
 
     def rates(moving: RigidBodySystem) -> Array:
@@ -277,7 +277,7 @@ def rate_function(system: RigidBodySystem, shock: Shock | None) -> OfState:
 
 def _recorded(
     system: RigidBodySystem, shock: Shock | None, read: Callable[[RigidBodySystem], Array], size: int
-) -> OfState:
+) -> _OfState:
     """What `read` finds when the forces on a state, of `size` numbers a body, are computed.
 
     With few bodies and laws that branch on no value this is gone through once, with numbers that record, and what they have

@@ -25,7 +25,7 @@ from lagrotor.numerics.arrays import finite_array
 from lagrotor.numerics.rotations import skew_matrix, turning_sum
 from lagrotor.pair.scene import Link, Scene
 
-LinkForce = Callable[[Array, Array, float, float], Array]
+_LinkForce = Callable[[Array, Array, float, float], Array]
 
 
 def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
@@ -78,7 +78,7 @@ class RigidBodySystem:
         stiffness: float,
         damping: float,
         *,
-        force: LinkForce = link_force,
+        force: _LinkForce = link_force,
         rotation: Callable[[Array, float], Array] = finite_rotation,
         transform: Callable[[Array, Array], Array] = inertia_transform,
     ) -> None:

@@ -108,7 +108,7 @@ def _segment_parameters(length: int, names: tuple[str, ...]) -> Any:
 
 
 @dataclass(frozen=True, eq=False)
-class Group:
+class _Group:
     """Segments of one length, P of them. unknowns (kept, P): rows of those kept; take (…, P): where the inputs lie in the
     state, the momenta and what else acts; put (…, P): r''; pars (…, P): the numbers.
     """
@@ -120,13 +120,13 @@ class Group:
     pars: Array
 
 
-def has_segments(motion: ExactMotion) -> bool:
+def _has_segments(motion: ExactMotion) -> bool:
     """Whether every rotor has at most two bars, as in chains and rings."""
     return bool((np.bincount(np.concatenate([motion.c.i, motion.c.j]), minlength=1) <= 2).all())
 
 
 def right_hand_side_in_segments(motion: ExactMotion) -> RightHandSide:
-    """(s, y) → y', as `motion.rhs` gives it, where `has_segments`. Raises InputError without heyoka."""
+    """(s, y) → y', as `motion.rhs` gives it, where `_has_segments`. Raises InputError without heyoka."""
     c, N, rate = motion.c, len(motion.c.R), motion.c.rate
     pushed = motion.force is not None or motion.ground is not None or len(c.stiffness) > 0
     groups = _groups(motion, pushed)
@@ -164,7 +164,7 @@ def right_hand_side_in_segments(motion: ExactMotion) -> RightHandSide:
     return rhs
 
 
-def _groups(motion: ExactMotion, pushed: bool) -> list[Group]:
+def _groups(motion: ExactMotion, pushed: bool) -> list[_Group]:
     """The segments by their lengths."""
     N, cut, bar = len(motion.c.R), list[list[int]](), np.full(len(motion.c.R), -1)
     for rotors, bars in _lines(N, motion.c.i.tolist(), motion.c.j.tolist()):
@@ -172,7 +172,7 @@ def _groups(motion: ExactMotion, pushed: bool) -> list[Group]:
         cut += [around[k : k + LENGTH + 2] for k in range(0, whole, LENGTH)]
         cut += [around[k : k + 3] for k in range(whole, len(rotors))]
     numbers = _numbers(motion, bar)
-    names, groups = tuple(name for name in _NAMES if numbers[name].any()), list[Group]()
+    names, groups = tuple(name for name in _NAMES if numbers[name].any()), list[_Group]()
     number = {seen[1]: k for k, seen in enumerate(cut)}
     # Beyond an end all is multiplied by zero, and may be added anywhere.
     after = np.array([k if bar[seen[-1]] < 0 else number[seen[-1]] for k, seen in enumerate(cut)])
@@ -188,7 +188,7 @@ def _groups(motion: ExactMotion, pushed: bool) -> list[Group]:
         axes = (3 * seen[:, None] + np.arange(3)[:, None]).reshape(-1, len(which))
         take = [axes, 3 * N + axes, 6 * N + seen[1:-1], *([7 * N + axes[3:-3]] if pushed else [])]
         pars = [numbers[name][seen if name in _SEEN else seen[1:-1]] for name in names]
-        groups.append(Group(compiled, unknowns, np.concatenate(take), 3 * N + axes[3:-3], np.concatenate(pars)))
+        groups.append(_Group(compiled, unknowns, np.concatenate(take), 3 * N + axes[3:-3], np.concatenate(pars)))
     return groups
 
 
@@ -263,7 +263,7 @@ def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
     """(s, y) → y', as `motion.rhs` gives it. Raises InputError without heyoka, and for what takes minutes to compile."""
     N, force, ground = len(motion.c.R), motion.force, motion.ground
     wide, heavy = motion.saddle.band > _RING, motion.c.coupling.any()
-    if has_segments(motion):
+    if _has_segments(motion):
         if (_WHOLE_HEAVY if heavy else _WHOLE) < N:
             return right_hand_side_in_segments(motion)
     elif (N > _WIDE and wide) or (N > _HEAVY and heavy):
