@@ -210,7 +210,9 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
         runs |= _by_minimal(kind, members, times, tol, engine, chunk.evaluations)
     for i, scene in enumerate(scenes):
         try:
-            run = runs.get(i) or _alone(scene, times, tol)
+            with warnings.catch_warnings():  # what is not kept is said once for all
+                warnings.simplefilter("ignore", LagrotorWarning)
+                run = runs.get(i) or simulate(scene, times, "spheres", tol)
         except (IntegrationError, SingularError) as refusal:
             endings[i] = Ending("stopped", begin, str(refusal))
             continue
@@ -220,12 +222,6 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
         chunk.errors[i, :reached], chunk.models[i] = run.errors, MODELS.index(run.model)
         endings[i] = replace(run.ending, at=begin + run.ending.at)
     return replace(chunk, endings=tuple(endings))
-
-
-def _alone(scene: Scene, times: Array, tol: float) -> Trajectory:
-    with warnings.catch_warnings():  # what is not kept is said once for all
-        warnings.simplefilter("ignore", LagrotorWarning)
-        return simulate(scene, times, "spheres", tol)
 
 
 def kind_of(scene: Scene) -> Kind | None:
