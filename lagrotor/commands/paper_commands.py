@@ -230,30 +230,31 @@ def check_command(given: argparse.Namespace) -> int:
         beside = Path(file).parent / "paper.toml"
         said = declared_notation(toml(beside).get("notation", {}), str(beside)) if beside.is_file() else None
         with progress(2 * -(-len(source.equations) // EVERY)) as begins:
-            found += [(file, each) for each in check_source(source, said, begins)]
+            rows = check_source(source, said, begins)
+        found += [(file, file.parent / each.file if each.file else file, each) for each in rows]
     if given.json:
         several = len(given.sources) > 1
-        rows = [each.as_data() | ({"file": str(source)} if several else {}) for source, each in found]
-        print(json.dumps(rows, indent=1, ensure_ascii=False))
+        data = [each.as_data() | ({"file": str(file)} if several or each.file else {}) for _, file, each in found]
+        print(json.dumps(data, indent=1, ensure_ascii=False))
     else:
-        unknown = Counter((source, each.why) for source, each in found if " is not known: " in each.why)
-        for source, each in found:
+        unknown = Counter((source, each.why) for source, _, each in found if " is not known: " in each.why)
+        for source, file, each in found:
             displays = unknown[source, each.why]
             if (given.all and displays >= 0) or each.verdict in FOUND:
                 step = f", step {each.step}" if each.step else ""
                 of = "" if each.verdict == FAULT else f"({each.equation}){step}: {each.verdict}: "
                 more = f"; so in {_some(displays, 'display')}" if displays > 1 else ""
-                print(wrap(f"{each.file or source}:{each.line}: {of}{readable(each.why) if of else each.why}{more}", 4))
+                print(wrap(f"{file}:{each.line}: {of}{readable(each.why) if of else each.why}{more}", 4))
                 if displays:  # what nothing defines is said where it is first
                     unknown[source, each.why] = -1
-        counts = Counter(each.verdict for _, each in found)
+        counts = Counter(each.verdict for *_, each in found)
         nothing = (
             f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: lagrotor init FOLDER --from FILE makes "
             "a paper of them, to be judged"
         )
         rest = "" if given.all or counts.keys() <= {*FOUND} else "; to see all: --all"
         say((", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or nothing) + rest, 0)
-    return 1 if any(each.verdict in WRONG for _, each in found) else 0
+    return 1 if any(each.verdict in WRONG for *_, each in found) else 0
 
 
 def _some(count: int, what: str) -> str:

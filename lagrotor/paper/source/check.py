@@ -13,7 +13,6 @@ from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from itertools import chain, pairwise
-from pathlib import Path
 from typing import Any
 
 import sympy as sp
@@ -105,7 +104,7 @@ class StepFinding:
     file: str = ""
 
     def as_data(self) -> dict[str, Any]:
-        """{equation, step, line, verdict, why}, and the file where it is not the source itself."""
+        """{equation, step, line, verdict, why}; the file, from the folder of the source, where it is not the source itself."""
         row = asdict(self)
         return row if self.file else {key: value for key, value in row.items() if key != "file"}
 
@@ -132,9 +131,8 @@ def check_source(
     ]
     checker = _Checker(source, readings, notation)
     order = {each.id: place for place, each in enumerate(source.equations)}
-    main = source.equations[0].place[0] if source.equations else ""
     faults = [
-        StepFinding("", 0, n, FAULT, said, file if main not in ("", file) else "") for file, n, said in source.faults
+        StepFinding("", 0, n, FAULT, said, file if file != source.file else "") for file, n, said in source.faults
     ]
     return faults + sorted(checker.findings(progress), key=lambda found: (order[found.equation], found.step))
 
@@ -207,9 +205,8 @@ class _Checker:
         line = each.place[1]
         if side is not None and len(each.rows) > 1:
             line = each.rows[min(each.latex[: side.at].count(r"\\"), len(each.rows) - 1)]
-        own = Path(each.place[0]).name
-        main = self.source.equations[0].place[0]
-        return StepFinding(each.id, step, line, verdict, why, own if own != main else "")
+        own = each.place[0]
+        return StepFinding(each.id, step, line, verdict, why, own if own != self.source.file else "")
 
     # ---- chains
 

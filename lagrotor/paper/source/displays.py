@@ -68,8 +68,8 @@ class Source:
     """What a source says of a paper: title, authors, section number → heading, displayed equations; inline formula → section.
 
     notes: what could not be known of it; faults: file, line, and what TeX would stop at there; words: id → the text of the
-    paragraph before and behind; preamble: packages that its formulas need; missing: packages and classes that are loaded, and
-    neither distributed with TeX nor beside the source: file → line.
+    paragraph before and behind, formulas in $; preamble: packages that its formulas need; missing: packages and classes that are
+    loaded, and neither distributed with TeX nor beside the source: file → line; file: its name, as in places.
     """
 
     title: str
@@ -83,6 +83,7 @@ class Source:
     preamble: str = ""
     labels: dict[str, str] = field(default_factory=dict)
     missing: dict[str, int] = field(default_factory=dict)
+    file: str = ""
 
 
 @dataclass
@@ -100,20 +101,23 @@ class Row:
 
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
     """The displayed equations of a LaTeX source. Raises InputError for a macro without end."""
-    found = Source(title)
+    name = file.name if file is not None else ""
+    found = Source(title, file=name)
     try:
         # without the class, without packages: lost in what one beside the source does
         for bare in ((), (".cls",), STYLES):
-            found = Source(title)
+            found = Source(title, file=name)
             walker = _Walker(text, file, found, bare=bare)
             walker.read()
             if walker.body or r"\begin{document}" not in text:
                 break
         if walker.only_cited:  # what has a number is known at the end
-            found = Source(title)
+            found = Source(title, file=name)
             _Walker(text, file, found, walker.referred, bare).read()
         if found.faults and not bare and any(name.endswith(STYLES) for _, name, *_ in walker.expander.starts):
-            other = Source(title)  # without the packages beside it: a fault that they have a part in is not said
+            other = Source(
+                title, file=name
+            )  # without the packages beside it: a fault that they have a part in is not said
             _Walker(text, file, other, bare=STYLES).read()
             found.faults = [each for each in found.faults if each in other.faults]
     except RecursionError:

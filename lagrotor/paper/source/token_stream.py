@@ -20,6 +20,13 @@ _EMPTY_LINE = re.compile(r"\n\s*\n")
 _NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
 
 
+def _from_folder(file: Path, folder: Path) -> str:
+    try:
+        return Path(os.path.relpath(file, folder)).as_posix()
+    except ValueError:  # on another drive
+        return file.name
+
+
 class FileTokens(list[Token]):
     """The next tokens of a file in reverse order; the others are made as they are needed."""
 
@@ -48,7 +55,7 @@ class TokenStream:
         self.files = 0
         self.in_vain = 0  # tokens looked at for the end of an argument that did not come
         self.most = _MOST_TOKENS  # tokens that may wait: as many as the files have characters, and what expansions add
-        # where each file begins, its name, its ends of lines, its text
+        # where each file begins, its path from the folder of the first, its ends of lines, its text
         self.starts: list[tuple[int, str, list[int], str]] = []
         self.end = 0
         self.reading: list[tuple[Path, FileTokens]] = []  # files, and what is left of each
@@ -63,7 +70,8 @@ class TokenStream:
             raise InputError(f"{file} takes in itself, by itself or through another file: leave out one \\input")
         if self.files > _MOST_FILES:
             raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: give its parts")
-        self.starts.append((self.end, file.name, [m.start() for m in re.finditer("\n", text)], text))
+        path = _from_folder(file, self.file.parent) if self.file is not None else file.name
+        self.starts.append((self.end, path, [m.start() for m in re.finditer("\n", text)], text))
         tokens = FileTokens(text, self.end)
         self.waiting.append(tokens)
         self.reading.append((file, tokens))

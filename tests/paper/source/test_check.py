@@ -212,6 +212,24 @@ def test_the_command_gives_rows_for_an_editor_and_an_exit_status(
         assert f"paper.tex: {said}" in "".join(capsys.readouterr())
 
 
+def test_a_finding_in_a_part_has_its_file_and_line_whatever_comes_first(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import json
+
+    slip = r"\[ E = (x + y)^2 = x^2 - 2xy + y^2 \]"
+    (tmp_path / "my parts").mkdir()
+    (tmp_path / "my parts" / "one.tex").write_text("\n" + slip + "\n\\[ a = b \n", encoding="utf-8")
+    findings(tmp_path, rf"\input{{my parts/one}} {slip}")
+    assert main(["check", str(tmp_path / "paper.tex"), "--json"]) == 1
+    rows = json.loads(capsys.readouterr().out)
+    one, own = str(tmp_path / "my parts" / "one.tex"), None
+    places = [(row.get("file"), row["line"], row["verdict"]) for row in rows]
+    assert places == [(one, 3, "no LaTeX"), (one, 2, REFUTED), (own, 3, REFUTED)]
+    assert main(["check", str(tmp_path / "paper.tex")]) == 1
+    assert f"{one}:2:".replace(" ", "") in "".join(capsys.readouterr().out.split())
+
+
 def test_a_letter_with_another_meaning_in_another_section_is_no_contradiction(tmp_path: Path) -> None:
     waves = r"\section{Waves} \[ t = 2\,\mathrm{s} \] \[ v = a\omega \] \[ v = l/t \] \[ \omega t = 1 \] \[ a = l \] "
     fall = r"\section{Fall} \[ t = 3\,\mathrm{s} \] \[ v = a t \] \[ l = \frac12 a t^2 \] "
