@@ -30,8 +30,17 @@ def kept(most: int) -> Callable[[Callable[..., Any]], Any]:
     return with_cache
 
 
-def at_most(calls: int, work: Callable[..., _Result], *arguments: Any) -> _Result:
+class Calls:
+    """What several pieces of work may call together."""
+
+    def __init__(self, left: float) -> None:
+        self.left, self.begun = left, False
+
+
+def at_most(calls: "int | Calls", work: Callable[..., _Result], *arguments: Any) -> _Result:
     """work(*arguments); raise WorkError as soon as it has called more functions, here, in sympy or built in.
+
+    calls: of this work, or what is left of them for this one and the next.
 
     The count is one of the program, not of the machine: with the same Python and sympy it is the same everywhere, but for
     parts in a thousand (the order of sets). One call may still be long on numbers of many digits or polynomials of large
@@ -40,10 +49,12 @@ def at_most(calls: int, work: Callable[..., _Result], *arguments: Any) -> _Resul
     """
     if sys.getprofile() is not None:
         return work(*arguments)
-    clear_cache()
-    for each in _KEPT:
-        each.cache_clear()
-    left: float = calls
+    shared = calls if isinstance(calls, Calls) else Calls(calls)
+    if not shared.begun:
+        clear_cache()
+        for each in _KEPT:
+            each.cache_clear()
+    left, shared.begun = shared.left, True
     tracer = sys.gettrace()
 
     def count(frame: FrameType, *event: Any) -> None:
@@ -57,7 +68,7 @@ def at_most(calls: int, work: Callable[..., _Result], *arguments: Any) -> _Resul
     try:
         return work(*arguments)
     finally:
-        spent, left = left < 0, math.inf
+        spent, shared.left, left = left < 0, left, math.inf
         sys.setprofile(None)
         if spent:
             sys.settrace(tracer)

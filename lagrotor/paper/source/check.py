@@ -19,13 +19,13 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order
 from lagrotor.errors import LagrotorError, WorkError
-from lagrotor.paper.source.compared import LARGE, agree, bounded, decided, expression_of, is_large, may_agree
+from lagrotor.paper.source.compared import LARGE, agree, bounded, counted, decided, expression_of, is_large, may_agree
 from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula, with_progress
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
 from lagrotor.paper.source.settled import ANY_BASE, is_of_argument, is_settled, other_arguments
-from lagrotor.paper.source.slips import change_to_agree, constant_value
+from lagrotor.paper.source.slips import change_to_agree, change_to_say_the_same, constant_value, say_the_same
 from lagrotor.paper.source.substitution import WANTED, PrintedMeaning, SectionMeanings, put_for, rounds
 from lagrotor.paper.source.tree import (
     KNOWN,
@@ -47,7 +47,6 @@ HOLDS, REFUTED, NO_IDENTITY, UNITS, MEANINGS, BEFORE, FAULT = (
 )  # fmt: skip
 FOUND = (REFUTED, NO_IDENTITY, UNITS, MEANINGS, BEFORE, FAULT)
 WRONG = (REFUTED, UNITS, FAULT)
-_MOST_TERMS = 12  # of which each is tried with the other sign, to say what is wrong
 # Formulas of the text that give a value: with a unit, or in units where it is 1.
 _VALUED = re.compile(r"\\(?:mathrm|rm|text|hbar)\b|k_")
 # Where a reading stops at what a package may define.
@@ -377,18 +376,17 @@ class _Checker:
             ):
                 return REFUTED, f"the left side is not {b}; {slip}"
             return "undecided", "it is a condition, not an identity"
-        difference = "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(sp.factor_terms(a - b))
         solved, identity = self._says(_TO_BE_SOLVED), self._says(_IDENTITY)
         if first and (not (a.has(sp.Function) and b.has(sp.Function)) or (solved and not identity)):
             return "undecided", "it may be a condition"
         slip = self._slip(left, right, a, b, first)
         if slip is None:
-            return "undecided", f"the two sides differ by {difference}: it may be a condition"
+            return "undecided", f"the two sides differ by {_difference(a, b)}: it may be a condition"
         if related := self._related(own, a, b):
             return "undecided", f"{related} may be used"
         if first and (solved or not identity):
-            return NO_IDENTITY, f"the two sides differ by {difference}; {slip}; or it is a condition"
-        return REFUTED, f"the two sides differ by {difference}; {slip}"
+            return NO_IDENTITY, f"the two sides differ by {_difference(a, b)}; {slip}; or it is a condition"
+        return REFUTED, f"the two sides differ by {_difference(a, b)}; {slip}"
 
     def _slip(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> str | None:
         """The one change with which the two sides agree."""
@@ -466,7 +464,7 @@ class _Checker:
                 return "undecided", f"the left side has no {name}"
             rates = re.compile(rf"{re.escape(name)}_d+ot")  # of what is small, they are as small
             scaled = {s: small * s for s in a.free_symbols | b.free_symbols if rates.fullmatch(s.name)}
-            term = agreement_order(a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
+            term = counted(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
         except WorkError:
             raise
         except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
@@ -505,10 +503,11 @@ class _Checker:
                     continue
                 if guess := _guess(reading):
                     return "undecided", f"it cites {names}; but it is a guess that {guess}"
-                if _proportional(put, new):
+                if say_the_same(put, new):
                     return HOLDS, f"it is {names}"
-                if (terms := _changed(put, new)) is not None:
-                    return REFUTED, f"{names} gives it with {terms[1]} for {terms[0]}"
+                left, right = (side.node for side in reading.statements[0].sides)
+                if (slip := change_to_say_the_same(put, left, right, self._value)) is not None:
+                    return REFUTED, f"{names} gives it with {slip}"
                 return "undecided", f"it is not {names} alone"
         return None
 
@@ -617,6 +616,10 @@ def _zero_in(e: Any, symbol: sp.Symbol) -> tuple[sp.Symbol, Any] | None:
     return None if slope == 0 or symbol in slope.free_symbols else (symbol, symbol - e / slope)
 
 
+def _difference(a: Any, b: Any) -> str:
+    return "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(counted(sp.factor_terms, a - b))
+
+
 def _comparable(a: Any, b: Any) -> bool:
     """Whether the same derivatives, integrals and unknown functions stand on both sides, and both are vectors or neither."""
     return _hidden(a) == _hidden(b) and isinstance(a, sp.MatrixBase) == isinstance(b, sp.MatrixBase)
@@ -659,20 +662,3 @@ def _without_values(statement: PrintedStatement) -> list[Node]:
 def _guess(reading: Reading) -> str:
     """The guess that a reading rests on; nothing where it rests on none."""
     return next((each for each in reading.guesses if not each.startswith(ANY_BASE)), "")
-
-
-def _proportional(a: sp.Expr, b: sp.Expr) -> bool:
-    """Whether two differences say the same: their quotient is a product of letters and numbers."""
-    ratio = sp.cancel(sp.together(a) / sp.together(b))
-    return not any(
-        isinstance(part, sp.Add) for factor in ratio.as_numer_denom() for part in sp.Mul.make_args(sp.factor(factor))
-    )
-
-
-def _changed(a: sp.Expr, b: sp.Expr) -> tuple[str, str] | None:
-    """The term of b that must change its sign, or be twice or half as large, for the two to say the same; what it must be."""
-    terms = sp.Add.make_args(sp.expand(b))
-    if len(terms) > _MOST_TERMS:
-        return None
-    changes = ((term, factor * term) for factor in (-1, 2, sp.Rational(1, 2)) for term in terms)
-    return next(((sp.sstr(t), sp.sstr(new)) for t, new in changes if _proportional(a, sp.expand(b) - t + new)), None)

@@ -3,6 +3,7 @@
 import cmath
 import math
 from collections.abc import Callable
+from itertools import islice
 from random import Random
 from typing import Any
 
@@ -10,10 +11,15 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.algebra.scalar import degree
-from lagrotor.algebra.work import at_most
+from lagrotor.algebra.work import Calls, at_most
 from lagrotor.errors import LagrotorError, WorkError
-from lagrotor.paper.source.tree import Node, Opaque, sympy_expression
+from lagrotor.paper.source.tree import Call, Node, Opaque, sympy_expression, walk
 
+# Parts whose expression is made without counting, where each is an operation that takes little.
+_FEW, _LIGHT = (
+    300,
+    frozenset(("sum", "product", "quotient", "power", "negative", "sqrt", "sin", "cos", "tan", "exp", "log")),
+)
 # The degree and the calls of functions, a few seconds, beyond which a step is not decided.
 _MOST_DEGREE, MOST_CALLS = 1000, 3_000_000
 LARGE = "undecided", "the difference is too large"
@@ -27,10 +33,32 @@ _IN_FLOATS = {
 }
 
 
+_step: Calls | None = None  # what is left to the step that is being decided
+
+
+def bounded(work: Callable[..., Any], *arguments: Any) -> Any:
+    """What it gives; that it is too large beyond the bound on the work of a step."""
+    global _step
+    before, _step = _step, Calls(MOST_CALLS)
+    try:
+        return work(*arguments)
+    except (WorkError, RecursionError):
+        return LARGE
+    finally:
+        _step = before
+
+
+def counted(work: Callable[..., Any], *arguments: Any) -> Any:
+    """A part of a step whose work does not show in the size of what it is given."""
+    return work(*arguments) if _step is None else at_most(_step, work, *arguments)
+
+
 def expression_of(node: Node, opaque: Opaque) -> Any:
     """The node as a sympy expression; None where it has none."""
+    parts = list(islice(walk(node), _FEW + 1))
+    light = len(parts) <= _FEW and all(each.name in _LIGHT for each in parts if isinstance(each, Call))
     try:
-        return sympy_expression(node, opaque)
+        return sympy_expression(node, opaque) if light else counted(sympy_expression, node, opaque)
     except (TypeError, ValueError, ArithmeticError, AttributeError):
         return None
 
@@ -39,7 +67,7 @@ def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
     """The value at a point; nan beyond what floats hold."""
     entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
     try:
-        value = sp.N(entry.xreplace(point), 15)
+        value = counted(sp.N, entry.xreplace(point), 15)
         return value if abs(complex(value)) < LARGEST else sp.nan
     except (ArithmeticError, ValueError, TypeError):
         return sp.nan
@@ -101,14 +129,6 @@ def _real_or_complex(value: complex) -> complex:
     return value if value.imag else value.real
 
 
-def bounded(work: Callable[..., Any], *arguments: Any) -> Any:
-    """What it gives; that it is too large beyond the bound on the work of a step."""
-    try:
-        return at_most(MOST_CALLS, work, *arguments)
-    except (WorkError, RecursionError):
-        return LARGE
-
-
 def is_large(*sides: Any) -> bool:
     """Whether a degree is beyond what sums of polynomials are multiplied out to."""
     entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
@@ -138,7 +158,9 @@ def _single(a: Any, b: Any) -> str:
     if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
         return "undecided"
     try:
-        found = decide_equal(a, b)
+        found = counted(decide_equal, a, b)
+    except WorkError:
+        raise
     except (LagrotorError, TypeError, ValueError, ArithmeticError):
         return "undecided"
     return "undecided" if found.partly else found.answer

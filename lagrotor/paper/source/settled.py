@@ -28,9 +28,10 @@ def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node] = ()) -> b
     """Whether a guess does not matter to a step of these sides and premises.
 
     An index that is a letter of the step is a number; a factor before a bracket stands elsewhere without one; what might be an
-    operator stands in one order with every other letter, and need not commute; V' is the derivative where it is put in as that.
-    put: the parts for which premises are put in. Where the argument of a function ends is left to
-    `other_arguments`.
+    operator stands in one order with every other letter but those below fractions, and need not commute; V' is the derivative
+    where it is put in as that. Where the argument of a function ends is left to `other_arguments`.
+
+    put: the parts for which premises are put in.
     """
     if guess.startswith(ANY_BASE) or _ARGUMENT.match(guess) or _NO_NAME.match(guess):
         return True
@@ -45,7 +46,8 @@ def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node] = ()) -> b
     if factor := _FACTOR.match(guess):
         return any(_stands_alone(factor[1], node) for node in nodes)
     if letter := _NO_OPERATOR.match(guess):
-        pairs = {pair for node in nodes for pair in _ordered(node)}
+        numbers = {name for node in nodes for each in walk(node) for name in _below(each)}
+        pairs = {pair for node in nodes for pair in _ordered(node) if not numbers & {*pair}}
         return not any((b, a) in pairs for a, b in pairs if letter[1] in (_stem(a), _stem(b)))
     return False
 
@@ -81,17 +83,19 @@ def _is_sum(node: Node) -> bool:
     return isinstance(base, Call) and base.name == "sum"
 
 
+def _below(node: Node) -> list[str]:
+    """The letters below a fraction: they are numbers."""
+    return letters_of(node.args[1]) if isinstance(node, Call) and node.name == "quotient" else []
+
+
 def _ordered(node: Node) -> Iterator[tuple[str, str]]:
-    """Each two letters that are multiplied, in their order; of what is below a fraction or in a power or a function in both."""
+    """Each two letters that are multiplied, in their order; of what is in a power or a function in both."""
     for each in walk(node):
-        if not isinstance(each, Call) or each.name == "sum":
+        if not isinstance(each, Call) or each.name in ("sum", "negative", "quotient"):
             continue
-        if each.name == "product":
-            for one, other in combinations(map(letters_of, each.args), 2):
-                yield from ((a, b) for a, b in product(one, other) if a != b)
-        elif each.name not in ("negative", "quotient") or (each.name == "quotient" and letters_of(each.args[1])):
-            names = letters_of(each)
-            yield from ((a, b) for a, b in product(names, names) if a != b)
+        groups = list(map(letters_of, each.args)) if each.name == "product" else [letters_of(each)] * 2
+        for one, other in combinations(groups, 2):
+            yield from ((a, b) for a, b in product(one, other) if a != b)
 
 
 def _function_in(node: Node) -> Call | None:

@@ -4,7 +4,7 @@ import operator
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import reduce
+from functools import cached_property, reduce
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -35,6 +35,13 @@ class Call:
 
     name: str
     args: tuple["Node", ...]
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.name, self.args))
 
 
 Node: TypeAlias = Number | Letter | Call
