@@ -91,6 +91,8 @@ def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, least: An
     """What is known of t between the limits: least(t, low), most(t, high)."""
     if low.is_infinite or high.is_infinite or is_nonnegative(high - low, where):
         known = [least(t, low)] if low.is_finite is not False else []
+        if low.free_symbols and is_positive(low, where):
+            known.append(sp.Gt(t, 0))
         return known + ([most(t, high)] if high.is_finite is not False else [])
     if all(is_positive(end, where) for end in (low, high)):
         return [sp.Gt(t, 0)]

@@ -36,6 +36,7 @@ from lagrotor.paper.source.tree import (
     Opaque,
     has_opaque,
     letters_of,
+    number,
     sympy_expression,
     text_of,
     walk,
@@ -52,7 +53,7 @@ _VALUED = re.compile(r"\\(?:mathrm|rm|text|hbar)\b|k_")
 # Where a reading stops at what a package may define.
 _UNKNOWN = re.compile(r"(\\(?:[A-Za-z@]+|begin\{[^{}]*\})) is not known")
 # What the text may say of letters; relations that make nothing of one letter out of another.
-_RELATION = re.compile(r"=|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
+_RELATION = re.compile(r"=|>|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
 # What the text says where two sides agree only under a condition.
 _CONDITIONS = re.compile(
     r"\b(?:modulo|(?<!add )(?<!adds )(?<!sum )up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*"
@@ -140,14 +141,14 @@ def check_source(
 class _Way:
     """Two sides with premises put in round by round, None where there is no expression; value: of any side, in the same way.
 
-    fixing: whether letters are held fixed in a derivative.
+    opaque: whether letters were held fixed in derivatives, or taken as positive.
     """
 
     left: Any
     right: Any
     put: list[dict[Node, PrintedMeaning]]
     value: Callable[[Node], Any]
-    fixing: bool
+    opaque: Opaque
 
     @property
     def used(self) -> list[PrintedMeaning]:
@@ -156,7 +157,13 @@ class _Way:
     @property
     def named(self) -> str:
         names = dict.fromkeys(each.name for each in self.used)
-        return ", ".join([*names, *(["the other letters fixed in derivatives and integrals"] if self.fixing else [])])
+        fixing = ["the other letters fixed in derivatives and integrals"] if self.opaque.fixing else []
+        return ", ".join([*names, *fixing, *(["positive letters"] if self.opaque.assuming else [])])
+
+    @property
+    def has_signs(self) -> bool:
+        """Whether no sign was taken that is not printed: of a root, of letters."""
+        return not self.opaque.assuming and not any(each.is_a_root for each in self.used)
 
     def differs(self, a: Any, b: Any) -> bool:
         """Whether anything was put in or taken, and it can be compared."""
@@ -191,8 +198,8 @@ class _Checker:
             self._take_text(each.section)
             for statement in reading.statements:
                 self.given.add(statement, f"({each.id})", each.section, place)
-            for number, statement in enumerate(reading.statements):
-                yield from self._steps(each, statement, statement if number else self._continued(each, statement))
+            for nth, statement in enumerate(reading.statements):
+                yield from self._steps(each, statement, statement if nth else self._continued(each, statement))
             if (judged := bounded(self._against_cited, each, reading)) is not None:
                 yield self._finding(each, 0, None, *judged)
             if not _guess(reading):
@@ -276,7 +283,9 @@ class _Checker:
 
     def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool, last: bool) -> tuple[Any, ...]:
         """The verdict on a step, why, and each premise that was put in; first and last: of its chain."""
+        self.opaque.assuming = False
         a, b = self._value(left), self._value(right)
+        assuming = self.opaque.assuming
         if a is None or b is None:
             return "undecided", "the two sides cannot be compared"
         if a != b and is_large(a, b):
@@ -296,10 +305,10 @@ class _Checker:
         ):
             for way in ways:
                 if self._are_sure(way.used, printed) and (slip := self._slip_with(left, right, way)):
-                    if "sign" in slip and any(each.is_a_root for each in way.used):
-                        continue  # of x by x² = y the sign is taken
+                    if "sign" in slip and not way.has_signs:
+                        continue
                     return REFUTED, f"with {way.named} the two sides differ; {slip}", *way.used
-        if verdict == REFUTED and decided(a, b) != "nonzero":
+        if verdict == REFUTED and ((assuming and "sign" in why) or decided(a, b) != "nonzero"):
             return "undecided", "the difference is outside what is decided exactly"
         return verdict, why
 
@@ -321,21 +330,21 @@ class _Checker:
             if put in tried:
                 continue
             tried.append(put)
-            opaque = Opaque(self.opaque.names, self.rates)
+            opaque = Opaque(self.opaque.names, self.rates, positive=self.positive)
 
             def value(node: Node, put: list[dict[Node, PrintedMeaning]] = put, opaque: Opaque = opaque) -> Any:
                 return expression_of(_put(node, put), opaque)
 
             sides = value(left), value(right)
-            yield _Way(*sides, put, value, opaque.fixing)
+            yield _Way(*sides, put, value, opaque)
 
     def _are_sure(self, used: list[PrintedMeaning], printed: PrintedStatement) -> bool:
         """Whether premises are cited, or all that the section gives; and no word is against them, or begins another case."""
         each = self.readings[self.place][0]
         cited = {f"({read.equation.id})" for label in each.cites for read in self.labelled[label]}
         names = {premise.name for premise in used}
-        case = not names & cited and self._says(_OPENING, names)
-        return not (case or self._says(_CONDITIONS) or self._says(_CASES)) and all(
+        case = used and (self._says(_CASES) or (not names & cited and self._says(_OPENING, names)))
+        return not (case or self._says(_CONDITIONS)) and all(
             premise.name in cited or (premise.section == each.section and self.given.is_given_once(premise, printed))
             for premise in used
         )
@@ -440,6 +449,16 @@ class _Checker:
             for latex in self.source.inline
             if _RELATION.search(latex)
         ]
+
+    @cached_property
+    def positive(self) -> frozenset[str]:
+        """The letters of which the text says that they are positive."""
+        sides = ((s.sides, s.relations) for _, _, reading in self._said for s in reading.statements)
+        return frozenset(
+            left.node.name
+            for (left, *others), relations in sides
+            if isinstance(left.node, Letter) and ">" in relations and any(each.node == number(0) for each in others)
+        )
 
     def _take_text(self, section: str) -> None:
         """Take over what the text of a section gives, at the first display of it."""

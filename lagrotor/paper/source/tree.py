@@ -60,6 +60,7 @@ _CARRYING = frozenset(_CARRYING_NAMES.split())
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
 _MOST_BITS = 20_000  # of a number that is evaluated
+_MOST_INTEGRATED = 60  # operations of what is integrated in closed form
 _MOST_ADDED = 40  # terms of a sum that is written out
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
@@ -206,12 +207,15 @@ class Opaque:
     """Parts that stand for themselves in a sympy expression: derivatives, integrals, functions that are not known.
 
     rates: letters and components to their rates. Where they are known, derivatives and integrals of explicit expressions are
-    taken, the other letters held fixed, and `fixing` says whether any were.
+    taken, the other letters held fixed, and `fixing` says whether any were. positive: letters that are; `assuming` says whether
+    others were taken as positive, so that an integral has a value.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
     rates: Mapping[sp.Symbol, sp.Symbol] | None = None
     fixing: bool = False
+    positive: frozenset[str] = frozenset()
+    assuming: bool = False
 
     def symbol(self, node: Node) -> sp.Symbol | sp.MatrixBase:
         """The symbol that stands for a part; of a vector, its components."""
@@ -251,6 +255,27 @@ def _in_closed_form(integral: sp.Integral) -> sp.Expr:
     return evaluated(integral)
 
 
+def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
+    """The value of an integral: of the factor that its variable is in, with positive letters where signs decide on it."""
+    variable, low, high = integral.limits[0]
+    outside, inner = integral.function.as_independent(variable, as_Add=False)
+    if sp.count_ops(inner) > _MOST_INTEGRATED:
+        return None
+    powers = (each.exp for each in inner.atoms(sp.Pow) if each.has(variable))
+    entire = not inner.has(sp.log, sp.tan) and all(exponent.is_Integer and exponent > 0 for exponent in powers)
+    if (
+        not {low, high} & {sp.oo, -sp.oo}
+        and entire
+        and (inner.free_symbols == {variable} or inner.is_polynomial(variable))
+    ):
+        return outside * _in_closed_form(sp.Integral(inner, (variable, low, high)))
+    signed = {s: sp.Dummy(s.name, positive=True) for s in sorted(integral.free_symbols, key=str)}
+    inner, low, high = (each.xreplace(signed) for each in (inner, low, high))
+    value = _in_closed_form(sp.Integral(inner, (variable, low, high)))
+    opaque.assuming |= not {s.name for s in signed} <= opaque.positive
+    return outside * sp.logcombine(value).xreplace({dummy: symbol for symbol, dummy in signed.items()})
+
+
 def _evaluated(node: Call, opaque: Opaque) -> Any:
     """A determinant, a column, a sum of a few terms, the derivative or integral of an explicit expression; else None."""
     if node.name == "det" and all(isinstance(row, Call) and row.name == "row" for row in node.args):
@@ -285,7 +310,7 @@ def _evaluated(node: Call, opaque: Opaque) -> Any:
     elif len(rest) != 2 or inner.has(sp.I):  # what is complex is not decided
         return None
     else:
-        value = _in_closed_form(sp.Integral(inner, (variable, *(sympy_expression(each, opaque) for each in rest))))
+        value = _integrated(sp.Integral(inner, (variable, *(sympy_expression(each, opaque) for each in rest))), opaque)
     opaque.fixing |= bool(others)
     return None if value is None or value.has(sp.Integral, sp.Derivative, sp.nan, sp.zoo) else value
 

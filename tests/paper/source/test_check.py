@@ -665,6 +665,17 @@ PASSAGES = {
         r"\[ \langle n\rangle = N p \] \[ \langle n^2\rangle = N p(1 - p) + N^2 p^2 \] and the variance is",
         r"\sigma^2 = \langle n^2\rangle - \langle n\rangle^2 = N p(1 - p)", "(1 - p)", "(1 + p)",
     ),
+    "an integral to infinity": (
+        r"With $a > 0$,", r"\int_0^\infty v^2 e^{-a v^2}\,dv = \frac{\sqrt\pi}{4a^{3/2}}", "{4a", "{2a",
+    ),
+    "the energy of a charged sphere": (
+        r"\[ E(r) = \frac{Q}{4\pi\varepsilon_0 r^2} \] The energy stored is",
+        r"W = \int_R^\infty\frac{\varepsilon_0}{2}E^2\,4\pi r^2\,dr = \frac{Q^2}{8\pi\varepsilon_0 R}", r"_0 R}", r"_0 R^2}",
+    ),
+    "a circuit": (
+        r"The charge is $q(t) = q_0\cos\omega t$ with $\omega^2 = 1/(LC)$. \[ I = \dot q = -q_0\omega\sin\omega t \] Then",
+        r"W = \frac12 L I^2 = \frac{q_0^2}{2C}\sin^2\omega t", "{2C}", "{C}",
+    ),
     "the derivative of a function by a prime": (
         r"The potential is $V(r) = a r^4 - b r^2$. Its slope is", r"V'(r) = 4 a r^3 - 2 b r", "- 2 b", "+ 2 b",
     ),
@@ -798,6 +809,7 @@ def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) ->
         r"\[ x = A\cos\omega t \] \[ E = \dot x^2 + \omega_0^2 x^2 = \omega_0^2 A^2 \]",
         r"Here $\omega^2 = k/m$. \[ v = a\omega = - a\sqrt{k/m} \]",  # the root of either sign
         r"\[ V(r) = a r^2 \] \[ V(r) = - a r^2 \]",
+        r"\[ W = \int_0^\infty e^{bt}\,dt = -\frac1b \]",  # b is negative
         r"\[ E = A B = -B A \]",  # operators
         r"\[ f = \sin^2 x/2 = \frac{1 - \cos x}{2} \]",
         r"\[ x = r\cos\phi \] \[ r = 2 x \] \[ E = x^2 = \frac14 r^2 \]",
