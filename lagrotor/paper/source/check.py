@@ -25,7 +25,7 @@ from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula, with_progress
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
 from lagrotor.paper.source.settled import ANY_BASE, is_of_argument, is_settled, other_arguments
-from lagrotor.paper.source.slips import change_to_agree, change_to_say_the_same, constant_value, say_the_same
+from lagrotor.paper.source.slips import change_to_agree, constant_value
 from lagrotor.paper.source.substitution import WANTED, PrintedMeaning, SectionMeanings, put_for, rounds
 from lagrotor.paper.source.tree import (
     KNOWN,
@@ -176,7 +176,7 @@ class _Checker:
         self.source, self.readings, self.notation = source, readings, notation
         self.opaque = Opaque()
         self.given, self.told = SectionMeanings(), set[str]()  # the sections whose text was taken over
-        self.labelled: defaultdict[str, list[_Read]] = defaultdict(list)  # those before, by label
+        self.labelled: defaultdict[str, list[Displayed]] = defaultdict(list)  # those before, by label
         self.place = 0
         self.statements = [
             _Read(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
@@ -200,10 +200,7 @@ class _Checker:
                 self.given.add(statement, f"({each.id})", each.section, place)
             for nth, statement in enumerate(reading.statements):
                 yield from self._steps(each, statement, statement if nth else self._continued(each, statement))
-            if (judged := bounded(self._against_cited, each, reading)) is not None:
-                yield self._finding(each, 0, None, *judged)
-            if not _guess(reading):
-                self.labelled[each.label] += [_Read(each, s) for s in reading.statements if s.kind == "equation"]
+            self.labelled[each.label].append(each)
         yield from self._dimensions()
         yield from self._letters()
 
@@ -276,6 +273,8 @@ class _Checker:
         """Whether the first step may be an identity: no letter stands alone, a number beside functions alone."""
         of_functions = any(isinstance(each, Call) and each.name in KNOWN for each in walk(left))
         beside = bool(letters_of(right)) or (of_functions and isinstance(right, Number) and right.value != 0)
+        if len(self._cited) > 1 and any(each.name in self._cited for each in self.given.known.get(left, ())):
+            return True  # it is what follows from the equations that the text before it names
         dotted = _DOTTED.fullmatch(left.name) if isinstance(left, Letter) else None
         if dotted and any(_DOTTED.sub(r"\1", name) == dotted[1] for name in letters_of(right)):
             return False  # an equation of motion
@@ -341,13 +340,19 @@ class _Checker:
     def _are_sure(self, used: list[PrintedMeaning], printed: PrintedStatement) -> bool:
         """Whether premises are cited, or all that the section gives; and no word is against them, or begins another case."""
         each = self.readings[self.place][0]
-        cited = {f"({read.equation.id})" for label in each.cites for read in self.labelled[label]}
         names = {premise.name for premise in used}
-        case = used and (self._says(_CASES) or (not names & cited and self._says(_OPENING, names)))
+        case = used and (self._says(_CASES) or (not names & self._cited and self._says(_OPENING, names)))
         return not (case or self._says(_CONDITIONS)) and all(
-            premise.name in cited or (premise.section == each.section and self.given.is_given_once(premise, printed))
+            premise.name in self._cited
+            or (premise.section == each.section and self.given.is_given_once(premise, printed))
             for premise in used
         )
+
+    @property
+    def _cited(self) -> set[str]:
+        """The equations that the text before the one in place names."""
+        labels = self.readings[self.place][0].cites
+        return {f"({equation.id})" for label in labels for equation in self.labelled[label]}
 
     def _says(self, condition: re.Pattern[str], premises: Collection[str] = ()) -> str:
         """What the sentence of an equation says; in conditions the words of its paragraph since the last one."""
@@ -493,50 +498,6 @@ class _Checker:
         if has_opaque(a, b):
             return "undecided", f"derivatives or functions may be small as {name} is"
         return REFUTED, f"the two sides part at order {term.order} in {name}; O({name}**{power}) is claimed"
-
-    # ---- equations and what they cite
-
-    def _against_cited(self, each: Displayed, reading: Reading) -> tuple[str, str] | None:
-        """An equation against two that the text before it names, where the one is a definition in the other."""
-        if len(each.cites) < 2 or len(reading.statements) != 1:
-            return None
-        named = [read for label in each.cites for read in self.labelled[label]]
-        new = self._difference(reading.statements[0])
-        if new is None:
-            return None
-        for definition in named:
-            first = definition.statement.sides[0].node
-            if not isinstance(first, Letter) or len(definition.statement.sides) != 2:
-                continue
-            value = self._value(definition.statement.sides[1].node)
-            if value is None or isinstance(value, sp.MatrixBase):
-                continue
-            for other in named:
-                old = self._difference(other.statement)
-                symbol = sp.Symbol(first.name, real=True)
-                if other is definition or old is None or symbol not in old.free_symbols:
-                    continue
-                put = old.subs(symbol, value)
-                names = f"({definition.equation.id}) in ({other.equation.id})"
-                if put.free_symbols != new.free_symbols or is_large(put, new):
-                    continue
-                if guess := _guess(reading):
-                    return "undecided", f"it cites {names}; but it is a guess that {guess}"
-                if say_the_same(put, new):
-                    return HOLDS, f"it is {names}"
-                left, right = (side.node for side in reading.statements[0].sides)
-                if (slip := change_to_say_the_same(put, left, right, self._value)) is not None:
-                    return REFUTED, f"{names} gives it with {slip}"
-                return "undecided", f"it is not {names} alone"
-        return None
-
-    def _difference(self, statement: PrintedStatement) -> sp.Expr | None:
-        if statement.kind != "equation" or len(statement.sides) != 2:
-            return None
-        sides = [self._value(side.node) for side in statement.sides]
-        if None in sides or any(isinstance(side, sp.MatrixBase) for side in sides) or has_opaque(*sides):
-            return None
-        return sides[0] - sides[1]
 
     # ---- dimensions and letters
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.paper.source.compared import LARGEST, counted, decided, nearly_equal, value_at
+from lagrotor.paper.source.compared import LARGEST, decided, nearly_equal, value_at
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, has_opaque, text_of
 
 # Functions that are taken for each other.
@@ -40,26 +40,6 @@ def change_to_agree(
         if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
             return f"with {said} they agree"
     return None
-
-
-def change_to_say_the_same(fixed: Any, left: Node, right: Node, value: Callable[[Node], Any]) -> str | None:
-    """The one change of an equation with which its difference of sides says the same as another."""
-    for mutant, said in islice(slips(Call("sum", (left, Call("negative", (right,))))), _MOST_SLIPS):
-        if (other := value(mutant)) is not None and say_the_same(fixed, other):
-            return said
-    return None
-
-
-def say_the_same(a: sp.Expr, b: sp.Expr) -> bool:
-    """Whether two differences of sides vanish together: their quotient is a product of letters and numbers."""
-    symbols = sorted(a.free_symbols | b.free_symbols, key=str)
-    points = ({s: sp.Rational(2 * n + 3, 2 * n + 5) * (n + 2) ** k for n, s in enumerate(symbols)} for k in range(3))
-    below, middle, above = (value_at(a, point) / value_at(b, point) for point in points)
-    if below.is_real and above.is_real and not nearly_equal(below * above, middle**2):  # products grow alike
-        return False
-    ratio = counted(sp.cancel, sp.together(a) / sp.together(b))
-    factors = (f for side in ratio.as_numer_denom() for f in sp.Mul.make_args(counted(sp.factor, side)))
-    return not any(isinstance(factor, sp.Add) for factor in factors)
 
 
 def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]:

@@ -142,7 +142,7 @@ With \eqref{v} in \eqref{F}, \begin{equation} F = m\omega^2 r SIGN b \end{equati
 def test_an_equation_is_held_against_those_that_it_cites(tmp_path: Path) -> None:
     assert verdicts(tmp_path, CITED.replace("SIGN", "+")) == [HOLDS]
     (found,) = findings(tmp_path, CITED.replace("SIGN", "-"))
-    assert found.verdict == REFUTED and "(1) in (2)" in found.why
+    assert found.verdict == REFUTED and "with (2), (1)" in found.why
 
 
 @pytest.mark.parametrize(("power", "verdict"), [("6", HOLDS), ("3", REFUTED)])
