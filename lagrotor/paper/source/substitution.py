@@ -70,7 +70,7 @@ class SectionMeanings:
                 yield max(near, key=lambda each: (each.section == section, each.place))
 
     def _called(self, part: Node) -> list[PrintedMeaning]:
-        """What a function, or its derivative by a prime, is at other arguments than those by which it is given."""
+        """What a function of one letter, or its derivative by a prime, is at another place of that letter: V(r_0), V(0)."""
         if not isinstance(part, Call):
             return []
         name = part.name.removesuffix("prime").removesuffix("prime")
@@ -78,14 +78,13 @@ class SectionMeanings:
         made = []
         for each in self.functions.get(name, ()):
             of = each.meaning.args if isinstance(each.meaning, Call) else ()
-            if len(of) != len(part.args) or (order and len(of) > 1) or not all(isinstance(a, Letter) for a in of):
+            if len(of) != 1 or len(part.args) != 1 or not _is_place_of(part.args[0], of[0]):
                 continue
             value = each.value
             for _ in range(order):
                 value = Call("Derivative", (value, of[0]))
             if part.args != of:
-                at = Call("at", (value, *of, *part.args))
-                value = at if order else put_for(value, dict(zip(of, part.args, strict=True)))
+                value = Call("at", (value, *of, *part.args)) if order else put_for(value, {of[0]: part.args[0]})
             made.append(replace(each, meaning=part, value=value))
         return made
 
@@ -131,6 +130,12 @@ def _is_of_a_letter(name: str) -> bool:
     """Whether a function has a letter for its name, and is no operation such as a mean."""
     stem = name.split("_")[0]
     return len(stem) == 1 or (rf"\{stem}" in GREEK and stem.lower() != "delta")
+
+
+def _is_place_of(node: Node, letter: Node) -> bool:
+    """Whether an argument is a place of a letter; V(x) beside V(r), or V in other coordinates, is another function."""
+    stem = letter.name.split("_")[0] if isinstance(letter, Letter) else ""
+    return not letters_of(node) or stem in {name.split("_")[0] for name in letters_of(node)}
 
 
 def _is_rate(node: Node) -> bool:

@@ -680,7 +680,7 @@ PASSAGES = {
         r"The potential is $V(r) = a r^4 - b r^2$. Its slope is", r"V'(r) = 4 a r^3 - 2 b r", "- 2 b", "+ 2 b",
     ),
     "a function elsewhere": (
-        r"The potential is $V(r) = a r^4 - b r^2$. There", r"V(c) = a c^4 - b c^2", "- b", "+ b",
+        r"The potential is $V(r) = a r^4 - b r^2$. There", r"V(r_0) = a r_0^4 - b r_0^2", "- b", "+ b",
     ),
 }  # fmt: skip
 
@@ -809,6 +809,8 @@ def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) ->
         r"\[ x = A\cos\omega t \] \[ E = \dot x^2 + \omega_0^2 x^2 = \omega_0^2 A^2 \]",
         r"Here $\omega^2 = k/m$. \[ v = a\omega = - a\sqrt{k/m} \]",  # the root of either sign
         r"\[ V(r) = a r^2 \] \[ V(r) = - a r^2 \]",
+        r"\[ V(r) = a r^2 \] \[ V(x) = - a x^2 \]",
+        r"\[ V(r, s) = a r^2 + s^2 \] \[ V(u, v) = a u^2 - v^2 \]",
         r"\[ W = \int_0^\infty e^{bt}\,dt = -\frac1b \]",  # b is negative
         r"\[ E = A B = -B A \]",  # operators
         r"\[ f = \sin^2 x/2 = \frac{1 - \cos x}{2} \]",
