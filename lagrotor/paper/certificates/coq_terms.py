@@ -199,16 +199,11 @@ def declared_signs(letters: Iterable[sp.Symbol]) -> list[Comparison]:
     """What the letters were declared as: positive ones are greater than zero."""
     found: list[Comparison] = []
     for letter in sorted(letters, key=str):
-        if letter.is_positive:
-            found.append(("<", letter))
-        elif letter.is_negative:
-            found.append(("<", -letter))
-        elif letter.is_nonnegative:
-            found.append(("<=", letter))
-        elif letter.is_nonpositive:
-            found.append(("<=", -letter))
-        elif letter.is_nonzero:
-            found.append(("<>", letter))
+        declared = (
+            (letter.is_positive, "<", letter), (letter.is_negative, "<", -letter), (letter.is_nonnegative, "<=", letter),
+            (letter.is_nonpositive, "<=", -letter), (letter.is_nonzero, "<>", letter),
+        )  # fmt: skip
+        found += [(sign, e) for holds, sign, e in declared if holds][:1]  # the first says the most
     return found
 
 

@@ -182,14 +182,8 @@ def _merged(
 
 def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
     title = each.label or f"displayed equation {each.id}"
-    row: dict[str, Any] = {
-        "id": each.id,
-        "number": each.number,
-        "section": each.section,
-        "title": title,
-        "label": each.label,
-    }
-    row |= {"latex": each.latex, "lead": each.lead}
+    row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section, "title": title}
+    row |= {"label": each.label, "latex": each.latex, "lead": each.lead}
     lines = [dict(line) for line in made.lines]
     row |= {"read": "unconfirmed" if lines else "", "guesses": list(made.guesses), "aside": list(made.aside)}
     if known is not None:
