@@ -177,7 +177,7 @@ def _mark_index(reader: FormulaReader, box: Box) -> None:
     """Mark an index that may be what a letter is differentiated by."""
     known = reader.notation
     below = without_thin(box.sub or [])
-    names = [b.name if b.kind == "comma" or is_plain_letter(b) else "" for b in below]
+    names = [b.name if b.kind == "comma" or is_plain_letter(b) or rf"\{b.name}" in GREEK else "" for b in below]
     behind = names[names.index(",") + 1 :] if "," in names else []
     several = len(below) > 2 and (names[0] or len(below[0].name) > 1)  # \sigma_{11,1} and N_{I,1}, but no a_{1,2}
     by = several and below[-2].name == "," and below[-1].name in ("1", "2", "3")

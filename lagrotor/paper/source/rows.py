@@ -7,7 +7,7 @@ from lagrotor.paper.source.boxes import Box, FormulaError
 
 _NAMES = (
     "sin cos tan exp log ln det max min lim cot sinh cosh tanh arctan mat Mat vect Vect car dim ker Ker Hom End Aut rang grad "
-    "div rot curl Id id tr Tr diag span rank const cst sgn ord deg eff tot kin pot"
+    "div rot curl Id id tr Tr diag span rank const cst sgn ord deg eff tot kin pot var cov err"
 )
 _WORDS = frozenset(_NAMES.split())
 VARIABLES = frozenset(["x", "y", "z", "t", "r", "s", "xi", "eta", "theta", "phi", "varphi", "rho", "u", "v"])
