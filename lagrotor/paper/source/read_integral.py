@@ -5,7 +5,7 @@ import re
 from lagrotor.paper.source.boxes import BIG, Box, FormulaError, left_open
 from lagrotor.paper.source.formula_reader import FormulaReader
 from lagrotor.paper.source.read_derivative import behind_function, is_differential, read_differential
-from lagrotor.paper.source.rows import ends_integral, has_differential_above, is_d, is_measure, without_thin
+from lagrotor.paper.source.rows import VARIABLES, ends_integral, has_differential_above, is_d, is_measure, without_thin
 from lagrotor.paper.source.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, product_of, walk
 from lagrotor.paper.source.usage import simple_argument
 
@@ -40,6 +40,7 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     bounds: list[Node] = []
     if box.sub is not None and box.sup is not None:
         bounds = [reader.expression(box.sub), reader.expression(box.sup)]
+        _mark_bounds(reader, inner, differential.args[0], bounds)
     elif box.sub is not None or box.sup is not None:
         bounds = [_region(reader, box)]
     variable_of = differential.args[0] if len(differential.args) == 1 else differential
@@ -51,6 +52,16 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
             raise FormulaError(box.at, why, "write as many integrals as differentials")
         variable_of = Call("volume", (variable_of, *further))
     return Call("Integral", (inner, variable_of, *bounds)), behind
+
+
+def _mark_bounds(reader: FormulaReader, inner: Node, variable: Node, bounds: list[Node]) -> None:
+    r"""Mark bounds that may be of another letter, on which what is integrated over depends: \int_a^b dF."""
+    name = variable.name.split("_")[0] if isinstance(variable, Letter) else ""
+    known, alone = reader.notation, inner == number(1)
+    depends = name in known.applied | known.differentiated or (alone and name[:1].isupper())
+    held = {each.name.split("_")[0].lower() for bound in bounds for each in walk(bound) if isinstance(each, Letter)}
+    if depends and (alone or name not in VARIABLES - {"u", "v"}) and name.lower() not in held:
+        reader.guess("bounds", f"the bounds of the integral are values of {name}")
 
 
 def _region(reader: FormulaReader, box: Box) -> Letter:
