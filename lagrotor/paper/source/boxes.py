@@ -362,7 +362,7 @@ class _Reader:
         if text.isdecimal() or (text == "." and (after := self.peek()) is not None and after.text.isdecimal()):
             return [self.number(item)]
         if text in _OPEN:
-            return [self.bracket(text, item)]
+            return [self.bracket(text, item, style)]
         if text == ":" and (after := self.peek()) is not None and after.text == "=":
             self.take()
             return [Box("relation", ":=", item.at, self.end)]
@@ -391,9 +391,9 @@ class _Reader:
         if name in RELATIONS:
             return [self.relation(name, item)]
         if item.text in _OPEN:
-            return [self.bracket(item.text, item)]
+            return [self.bracket(item.text, item, style)]
         if name == "left" or _SIZES.fullmatch(name):
-            return self.sized(item, name)
+            return self.sized(item, name, style)
         if (special := _FORMS.get(name.rstrip("*"))) is not None:
             return special(self, item, style)
         if name in STYLES:
@@ -476,7 +476,7 @@ class _Reader:
         self.place = place
         return word
 
-    def sized(self, item: Token, name: str) -> list[Box]:
+    def sized(self, item: Token, name: str, style: str) -> list[Box]:
         r"""\left( … \right), \bigl(, \middle|."""
         after = self.peek()
         if after is None:
@@ -489,7 +489,7 @@ class _Reader:
                 return [Box("bar", "||" if double else "|", item.at, self.end)]
             return []  # a bracket of another size: the bracket comes next
         opening = self.take().text
-        parts: list[list[Box]] = [self.sequence((r"\right",))]
+        parts: list[list[Box]] = [self.sequence((r"\right",), style)]
         if self.peek() is None:
             raise FormulaError(item.at, r"\left is not closed", r"write \right with its bracket")
         self.take()
@@ -519,13 +519,13 @@ class _Reader:
         self.take()
         return Box("bracket", "|", item.at, self.end, [content], closing=r"\rangle")
 
-    def bracket(self, opening: str, item: Token) -> Box:
+    def bracket(self, opening: str, item: Token, style: str = "") -> Box:
         closing = _OPEN[opening]
         is_bra = opening == r"\langle" and self.first_ahead(("|", r"\langle", r"\rangle")) == "|"
         if is_bra and (self.first_ahead((r"\langle", r"\rangle")) != r"\rangle" or self.ends_at_bar()):
             closing = "|"
         self.angles += closing == r"\rangle"
-        content = self.sequence((closing,))
+        content = self.sequence((closing,), style)
         self.angles -= closing == r"\rangle"
         after = self.peek()
         if after is not None and after.text.startswith("\\") and _SIZES.fullmatch(after.text[1:]):

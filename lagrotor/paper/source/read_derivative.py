@@ -140,7 +140,8 @@ def _mark_arguments(reader: FormulaReader, operand: list[Box], variables: list[B
     if len(operand) > 1 and operand[0].kind == "letter" and operand[1].kind == "bracket":
         by = letters_in_row(variables)
         held = [b for b in all_boxes(operand[1].parts[0]) if b.name in by]
-        value = bool(held) and all(b.sub for b in held) and not any(b.sub for b in variables)
+        indexed = [[part.name for part in b.sub] for b in all_boxes(variables) if b.name in by and b.sub]
+        value = bool(held) and all(b.sub and [part.name for part in b.sub] not in indexed for b in held)
         if value or (not held and any(b.kind == "comma" for b in operand[1].parts[0])):
             what = f"the value of {operand[0].name} is differentiated, and the derivative is not taken there"
             reader.guess("at", what)
@@ -290,6 +291,10 @@ def read_nabla(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node,
         return Call("laplacian", (node, *by)), behind
     if is_vector(node):
         raise FormulaError(box.at, "∇ of a vector is not read", "write \\cdot or \\times")
+    if after.kind == "letter" and place + 2 < len(row) and row[place + 2].kind == "bracket":
+        letters = [b for b in all_boxes(row[place + 2].parts[0]) if b.kind == "letter"]
+        if letters and all(b.sub for b in letters):
+            reader.guess("at", f"the value of {after.name} is differentiated, and the gradient is not taken there")
     if "wedge" in reader.notation.seen:
         reader.guess("gradient", "\\nabla gives a gradient, and no product with vectors and planes")
     return Call("gradient", (node, *by)), behind
