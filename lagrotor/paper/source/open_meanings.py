@@ -31,11 +31,13 @@ from lagrotor.paper.source.rows import (
     without_thin,
 )
 from lagrotor.paper.source.usage import (
+    index_of,
     is_number,
     is_plain_letter,
     power_in,
     stem_of,
     touch,
+    unprimed,
 )
 
 # What is evident by itself, or marked where it is read; what it holds is looked at.
@@ -129,7 +131,8 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
     for each in held:
         # steps, variations, products of a field with a form, covariant differentials: \Delta_\mu f, i_\xi\omega, d_A F
         stepping = each.name in ("Delta", "delta", "i", "iota", "d") and [b.kind for b in each.sub or ()] == ["letter"]
-        if each.kind == "letter" and (stepping or not is_number(known, each)):
+        calls = known.called.get(unprimed(each, index_of(each) or ()), set()) if each.kind == "letter" else set()
+        if each.kind == "letter" and (stepping or after.name in calls or not is_number(known, each)):
             what = f"{each.name} is a factor of what follows, and no operator on it"
             yield "operator", what, settled(each.name, "letters")
             return

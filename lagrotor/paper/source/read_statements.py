@@ -23,7 +23,9 @@ from lagrotor.paper.source.tree import (
 )
 from lagrotor.paper.source.usage import arguments
 
-_CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
+_CONDITION = re.compile(
+    r"(?:if|for|when|whenever|at|provided|as long as|with|si|pour|wenn|falls|für|mit|para|per|se)\b"
+)
 _SETS = ("in", "->", "subset", "supset", "not in", "<->", "<-")  # relations of what need not be alike
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather)\b")
 
@@ -98,7 +100,7 @@ def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
             continue
         if pieces and _continues(pieces[-1], line):
             last, first = pieces[-1][-1], line[0]
-            begins = first.name == "-" and last.kind not in ("operator", "relation")
+            begins = first.name in ("+", "-") and last.kind not in ("operator", "relation")
             worded = first.kind == "relation" and any(box.kind == "text" for box in pieces[-1])
             if worded or (begins and is_related(line)):
                 reader.guess("rows", "a row that begins with its sign continues what stands just before it")
