@@ -162,12 +162,6 @@ def _differential(expander: Expander) -> Iterable[Token]:
     return tokenize("".join(f"{head} {each}" for each in latex_of(expander.argument()).split(",")))
 
 
-def _evaluated(expander: Expander) -> Iterable[Token]:
-    r"""\eval{f}_a^b, \eval{f}_{x=0}."""
-    expander.star()
-    return tokenize(rf"\left. {latex_of(expander.argument())} \right|")
-
-
 def _operator(body: str) -> Package:
     r"""\grad f, \curl{E}, \div(…)."""
 
@@ -267,14 +261,6 @@ def _only_unit(expander: Expander) -> Iterable[Token]:
     return tokenize(_unit(expander.argument()))
 
 
-def _commutator(left: str, right: str) -> Package:
-    def take(expander: Expander) -> Iterable[Token]:
-        expander.star()
-        return tokenize(rf"\left{left} {latex_of(expander.argument())}, {latex_of(expander.argument())} \right{right}")
-
-    return take
-
-
 def _between_states(expander: Expander) -> Iterable[Token]:
     r"""\expval{A}, \expval{A}{\psi} of physics."""
     expander.star()
@@ -315,16 +301,15 @@ _PHYSICS: dict[str, Package] = {
     r"\vqty": _between("|", "|"),
     r"\Bqty": _between(r"\{", r"\}"),
     r"\order": _as(r"\mathcal{O}\left(#1\right)"),
-    **dict.fromkeys((r"\eval", r"\evaluated"), _evaluated),
+    **dict.fromkeys((r"\eval", r"\evaluated"), _as(r"\left. #1 \right|")),
     **dict.fromkeys((r"\vdot", r"\vnabla"), _is(r"\cdot ")),
     **dict.fromkeys((r"\cross", r"\cp", r"\crossproduct"), _is(r"\times ")),
     r"\grad": _operator(r"\nabla"),
     r"\div": _operator(r"\nabla\cdot"),
     r"\curl": _operator(r"\nabla\times"),
     r"\laplacian": _operator(r"\nabla^{2}"),
-    **dict.fromkeys((r"\comm", r"\commutator"), _commutator("[", "]")),
-    **dict.fromkeys((r"\pb", r"\poissonbracket"), _commutator(r"\{", r"\}")),
-    r"\acomm": _commutator(r"\{", r"\}"),
+    **dict.fromkeys((r"\comm", r"\commutator"), _as(r"\left[ #1, #2 \right]", 2)),
+    **dict.fromkeys((r"\pb", r"\poissonbracket", r"\acomm"), _as(r"\left\{ #1, #2 \right\}", 2)),
     r"\qq": _as(r"\quad\text{#1}\quad "),
     **{
         rf"\q{word}": _is(rf"\quad\text{{{word}}}\quad ")
@@ -378,7 +363,7 @@ _COMMATH: dict[str, Package] = {
     r"\del": _between("(", ")"),
     r"\sbr": _between("[", "]"),
     r"\cbr": _between(r"\{", r"\}"),
-    r"\eval": _evaluated,
+    r"\eval": _as(r"\left. #1 \right|"),
 }
 _DERIVATIVES = {
     "esdiff": {r"\diff": r"\mathrm{d}", r"\diffp": r"\partial"},
