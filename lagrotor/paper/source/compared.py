@@ -13,13 +13,12 @@ from lagrotor.algebra import decide_equal
 from lagrotor.algebra.scalar import degree
 from lagrotor.algebra.work import Calls, at_most
 from lagrotor.errors import LagrotorError, WorkError
-from lagrotor.paper.source.tree import Call, Node, Opaque, sympy_expression, walk
+from lagrotor.paper.source.tree import Call, Node, Number, Opaque, sympy_expression, walk
 
 # Parts whose expression is made without counting, where each is an operation that takes little.
-_FEW, _LIGHT = (
-    300,
-    frozenset(("sum", "product", "quotient", "power", "negative", "sqrt", "sin", "cos", "tan", "exp", "log")),
-)
+_FEW, _MOST_TIMES = 300, 3
+_LIGHT = {"sum", "product", "quotient", "power", "negative", "sqrt", "rate", "Derivative", "Integral", "at"}
+_LIGHT |= {"sin", "cos", "tan", "cot", "exp", "log", "sinh", "cosh", "tanh", "coth"}
 # The degree and the calls of functions, a few seconds, beyond which a step is not decided.
 _MOST_DEGREE, MOST_CALLS = 1000, 3_000_000
 LARGE = "undecided", "the difference is too large"
@@ -30,6 +29,8 @@ _IN_FLOATS = {
     **{getattr(sp, name): getattr(cmath, name) for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")},
     **{getattr(sp, name): getattr(cmath, name) for name in ("asin", "acos", "atan", "asinh", "acosh", "atanh")},
     sp.Abs: abs,
+    sp.cot: lambda z: 1 / cmath.tan(z),
+    sp.coth: lambda z: 1 / cmath.tanh(z),
 }
 
 
@@ -56,7 +57,9 @@ def counted(work: Callable[..., Any], *arguments: Any) -> Any:
 def expression_of(node: Node, opaque: Opaque) -> Any:
     """The node as a sympy expression; None where it has none."""
     parts = list(islice(walk(node), _FEW + 1))
-    light = len(parts) <= _FEW and all(each.name in _LIGHT for each in parts if isinstance(each, Call))
+    calls = [each for each in parts if isinstance(each, Call)]
+    times = (n.value for each in calls if each.name == "Derivative" for n in each.args[2:] if isinstance(n, Number))
+    light = len(parts) <= _FEW and all(each.name in _LIGHT for each in calls) and all(n <= _MOST_TIMES for n in times)
     try:
         return sympy_expression(node, opaque) if light else counted(sympy_expression, node, opaque)
     except (TypeError, ValueError, ArithmeticError, AttributeError):
@@ -81,11 +84,14 @@ def nearly_equal(a: Any, b: Any) -> bool:
 
 
 def may_agree(a: Any, b: Any) -> bool:
-    """Whether no point is known where two expressions are real numbers that differ: only then is it worth deciding exactly."""
+    """Whether no point is known where two expressions are real numbers that differ: only then is it worth deciding exactly.
+
+    Where neither is real at any point, they are compared as complex numbers.
+    """
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
         return True
     symbols = sorted(a.free_symbols | b.free_symbols, key=str)
-    random = Random(len(symbols))
+    random, differ = Random(len(symbols)), False
     for trial in range(_MOST_POINTS):
         point = {s: sp.Rational(2 * n + 4 * trial + 3, 5 * n + 7) for n, s in enumerate(symbols)}
         if trial > 2:  # of any sign and size: a root of what is negative is real there
@@ -93,13 +99,17 @@ def may_agree(a: Any, b: Any) -> bool:
         numbers = {s: float(value) for s, value in point.items()}
         values = _float(a, numbers), _float(b, numbers)
         if complex in map(type, values):
+            if None not in values:
+                if nearly_equal(*values):
+                    return True
+                differ = True
             continue
         if None not in values:
             return nearly_equal(*values)
         values = value_at(a, point), value_at(b, point)
         if all(value.is_real and value.is_finite for value in values):
             return nearly_equal(*values)
-    return True
+    return not differ
 
 
 def _float(e: Any, point: dict[sp.Symbol, float]) -> Any:

@@ -4,13 +4,14 @@ import operator
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, reduce
 from typing import Any, TypeAlias
 
 import sympy as sp
 
 from lagrotor.algebra.proving import evaluated
-from lagrotor.algebra.work import kept
+from lagrotor.algebra.work import at_most
+from lagrotor.errors import WorkError
 from lagrotor.paper.letters import FUNCTIONS
 
 
@@ -60,7 +61,8 @@ _CARRYING = frozenset(_CARRYING_NAMES.split())
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
 _MOST_BITS = 20_000  # of a number that is evaluated
-_MOST_INTEGRATED = 60  # operations of what is integrated in closed form
+# Operations of what is integrated in closed form, and the calls of functions that it may take.
+_MOST_INTEGRATED, _MOST_CALLS = 60, 2_000_000
 _MOST_ADDED = 40  # terms of a sum that is written out
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
@@ -249,10 +251,13 @@ def has_opaque(*values: Any) -> bool:
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
-@kept(1000)
+@lru_cache(maxsize=1000)
 def _in_closed_form(integral: sp.Integral) -> sp.Expr:
-    """The value of an integral, which a step may have in both sides and with each premise."""
-    return evaluated(integral)
+    """The value of an integral, which a section may have in many steps and with each premise; itself beyond its own bound."""
+    try:
+        return at_most(_MOST_CALLS, evaluated, integral)
+    except WorkError:
+        return integral
 
 
 def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
@@ -269,7 +274,7 @@ def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
         and (inner.free_symbols == {variable} or inner.is_polynomial(variable))
     ):
         return outside * _in_closed_form(sp.Integral(inner, (variable, low, high)))
-    signed = {s: sp.Dummy(s.name, positive=True) for s in sorted(integral.free_symbols, key=str)}
+    signed = {s: sp.Symbol(s.name, positive=True) for s in sorted(integral.free_symbols, key=str)}
     inner, low, high = (each.xreplace(signed) for each in (inner, low, high))
     value = _in_closed_form(sp.Integral(inner, (variable, low, high)))
     opaque.assuming |= not {s.name for s in signed} <= opaque.positive
