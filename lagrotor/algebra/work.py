@@ -3,6 +3,7 @@
 import math
 import sys
 from collections.abc import Callable
+from functools import lru_cache
 from inspect import CO_GENERATOR
 from types import FrameType
 from typing import Any, TypeVar
@@ -12,10 +13,21 @@ from sympy.core.cache import clear_cache
 from lagrotor.errors import WorkError
 
 _Result = TypeVar("_Result")
+_KEPT: list[Any] = []
 
 
 class _Spent(BaseException):
     """No error: what catches every error on the way must not go on."""
+
+
+def kept(most: int) -> Callable[[Callable[..., Any]], Any]:
+    """lru_cache that `at_most` begins without, so that what is too large depends on nothing decided before."""
+
+    def with_cache(function: Callable[..., Any]) -> Any:
+        _KEPT.append(lru_cache(maxsize=most)(function))
+        return _KEPT[-1]
+
+    return with_cache
 
 
 class Calls:
@@ -39,7 +51,9 @@ def at_most(calls: "int | Calls", work: Callable[..., _Result], *arguments: Any)
         return work(*arguments)
     shared = calls if isinstance(calls, Calls) else Calls(calls)
     if not shared.begun:
-        clear_cache()  # so that what is too large depends on nothing decided before
+        clear_cache()
+        for each in _KEPT:
+            each.cache_clear()
     left, shared.begun = shared.left, True
     tracer = sys.gettrace()
 
