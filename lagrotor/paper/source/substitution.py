@@ -70,7 +70,7 @@ class SectionMeanings:
                 yield max(near, key=lambda each: (each.section == section, each.place))
 
     def _called(self, part: Node) -> list[PrintedMeaning]:
-        """What a function of one letter, or its derivative by a prime, is at another place of that letter: V(r_0), V(0)."""
+        """What a function, or its derivative by a prime, is at another place of its letters: V(r_0), V(0)."""
         if not isinstance(part, Call):
             return []
         name = part.name.removesuffix("prime").removesuffix("prime")
@@ -78,13 +78,17 @@ class SectionMeanings:
         made = []
         for each in self.functions.get(name, ()):
             of = each.meaning.args if isinstance(each.meaning, Call) else ()
-            if len(of) != 1 or len(part.args) != 1 or not _is_place_of(part.args[0], of[0]):
+            if len(of) != len(part.args) or (order and len(of) > 1) or not all(map(_is_place_of, part.args, of)):
                 continue
             value = each.value
             for _ in range(order):
                 value = Call("Derivative", (value, of[0]))
             if part.args != of:
-                value = Call("at", (value, *of, *part.args)) if order else put_for(value, {of[0]: part.args[0]})
+                value = (
+                    Call("at", (value, *of, *part.args))
+                    if order
+                    else put_for(value, dict(zip(of, part.args, strict=True)))
+                )
             made.append(replace(each, meaning=part, value=value))
         return made
 

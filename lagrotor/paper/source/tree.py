@@ -62,7 +62,7 @@ _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Ration
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
 _MOST_BITS = 20_000  # of a number that is evaluated
 # Operations of what is integrated in closed form, and the calls of functions that it may take.
-_MOST_INTEGRATED, _MOST_CALLS = 60, 2_000_000
+_MOST_INTEGRATED, _MOST_CALLS = 60, 3_000_000
 _MOST_ADDED = 40  # terms of a sum that is written out
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
