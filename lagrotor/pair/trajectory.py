@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 # How far the length of a stored axis may be off one: what the loosest tolerances leave.
-_UNIT_ERROR = 1e-3
+UNIT_ERROR = 1e-3
 
 UNITS = {
     "axes": "1",
@@ -207,7 +207,7 @@ def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:
         return f"t {t.shape}, axes {axes.shape}, rates {rates.shape}, momenta {momenta.shape} do not fit together"
     if not all(np.isfinite(part).all() for part, _ in wanted):
         return "some of its numbers are not finite"
-    if np.abs(np.linalg.norm(axes, axis=-1) - 1).max() > _UNIT_ERROR:
+    if np.abs(np.linalg.norm(axes, axis=-1) - 1).max() > UNIT_ERROR:
         return "its axes are no unit vectors"
     return None
 

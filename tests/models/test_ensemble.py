@@ -1,5 +1,6 @@
-"""Ensembles: each trajectory as `simulate` has it, in any executor."""
+"""Ensembles: each trajectory as `simulate` has it, in any executor, and an interrupted sweep goes on."""
 
+import shutil
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
@@ -8,11 +9,12 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene, simulate, sweep
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
+from lagrotor.files import read_arrays, write_arrays
 from lagrotor.models import spheres
 from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.model import integrate_model, natural_units, typical_rate
 from lagrotor.models.sweeps import ensemble
-from lagrotor.models.sweeps.ensemble import MODELS
+from lagrotor.models.sweeps.ensemble import MODELS, run_chunk
 
 T = np.array([0.0, 0.4, 1.0, 2.5])
 UP = ((0, 0, 1), (0, 0, 1))
@@ -149,6 +151,37 @@ def test_a_cluster():
     np.testing.assert_allclose(there.axes, sweep(scenes, T).axes, atol=1e-9)
 
 
+def test_an_interrupted_sweep_goes_on(tmp_path, monkeypatch):
+    scenes, ran = family(10), []
+
+    def counted(part, times, tol, engine: str):
+        ran.append(len(part))
+        return run_chunk(part, times, tol, engine)
+
+    def stop(done, n):
+        if done >= 6:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(ensemble, "run_chunk", counted)
+    with pytest.raises(KeyboardInterrupt):
+        sweep(scenes, T, chunk=3, folder=tmp_path, progress=stop)
+    assert ran == [3, 3]
+    assert len(list(tmp_path.glob("chunk-*.npz"))) == 2
+    again = sweep(scenes, T, chunk=3, folder=tmp_path)
+    assert ran == [3, 3, 3, 1]
+    np.testing.assert_array_equal(again.axes, sweep(scenes, T, chunk=3).axes)
+    sweep(scenes, T, chunk=3, folder=tmp_path)
+    assert len(ran) == 8  # four by the sweep without a folder, none by this one
+
+
+def test_a_folder_of_another_sweep_is_refused(tmp_path):
+    sweep(family(2), T, folder=tmp_path)
+    with pytest.raises(InputError, match="another sweep"):
+        sweep(family(3), T, folder=tmp_path)
+    with pytest.raises(InputError, match="no folder"):
+        sweep(family(2), T, folder=tmp_path / "none")
+
+
 @pytest.mark.parametrize(
     ("scenes", "more"),
     [([], {}), ([1.0], {}), (None, {"chunk": 0}), (None, {"chunk": True}), (None, {"tol": 1.0})],
@@ -209,6 +242,85 @@ def test_beside_a_singular_position_the_fallback_gives_all_it_has():
     units = natural_units(scene)
     once = integrate_model(spheres.MODEL, units.scene, np.array([0.0, 5.0, 10.0]) * units.rate, 1e-6)
     assert np.abs(spheres.MODEL.observe(units.scene, once.states).axes - exact.axes).max() > max(10 * off, 1e-6)
+
+
+def other_shape(name, change):
+    """The chunk with one array changed, its digest right for what it holds."""
+
+    def spoil(file):
+        about, held = read_arrays(file)
+        del about["lagrotor"]
+        write_arrays(file, about, held | {name: change(held[name])})
+
+    return spoil
+
+
+def one_nan(axes):
+    axes[0, 0, 0, 0] = np.nan
+    return axes
+
+
+DAMAGES = {
+    "no archive": lambda file: file.write_bytes(b"PK damaged"),
+    "empty": lambda file: file.write_bytes(b""),
+    "cut short": lambda file: file.write_bytes(file.read_bytes()[:-200]),
+    "without digest": lambda file: np.savez(file, axes=np.zeros((2, 2, 4, 3))),
+    "text": lambda file: np.savez(file, about="{}", axes=np.array([["a"]])),
+    "one row, which would broadcast": other_shape("axes", lambda a: a[:1]),
+    "fewer times": other_shape("rates", lambda a: a[:, :, :1]),
+    "a NaN": other_shape("axes", one_nan),
+    "no unit vectors": other_shape("axes", lambda a: 2 * a),
+    "a model that is none": other_shape("models", lambda a: a + 7),
+    "evaluations below zero": other_shape("evaluations", lambda a: a - 10**9),
+    "evaluations that are no whole numbers": other_shape("evaluations", lambda a: a + 0.5),
+}
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    """A sweep of two chunks, and the folder that keeps them."""
+    folder = tmp_path_factory.mktemp("swept")
+    return sweep(family(4), T, chunk=2, folder=folder), folder
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_chunk_is_run_again(swept, tmp_path, damage):
+    whole, folder = swept
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    file, good = tmp_path / "chunk-000001.npz", (tmp_path / "chunk-000001.npz").read_bytes()
+    DAMAGES[damage](file)
+    again = sweep(family(4), T, chunk=2, folder=tmp_path)
+    for name in ("axes", "rates", "errors", "evaluations", "models"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(whole, name))
+    assert read_arrays(file)[0] == read_arrays(tmp_path / "chunk-000000.npz")[0] | {"chunk": 1}
+    assert len(file.read_bytes()) == len(good)
+
+
+def test_a_chunk_of_another_sweep_or_place_is_no_result(tmp_path):
+    (tmp_path / "a").mkdir(), (tmp_path / "b").mkdir()
+    first = sweep(family(4), T, chunk=2, folder=tmp_path / "a")
+    sweep(family(4, Scene((9.0, -9.0))), T, chunk=2, folder=tmp_path / "b")
+    (tmp_path / "a" / "chunk-000001.npz").replace(tmp_path / "b" / "chunk-000001.npz")
+    with pytest.raises(InputError, match=r"chunk-000001\.npz belongs to another sweep"):
+        sweep(family(4, Scene((9.0, -9.0))), T, chunk=2, folder=tmp_path / "b")
+    # Another place of the same sweep: it is run again.
+    (tmp_path / "a" / "chunk-000001.npz").write_bytes((tmp_path / "a" / "chunk-000000.npz").read_bytes())
+    np.testing.assert_array_equal(sweep(family(4), T, chunk=2, folder=tmp_path / "a").axes, first.axes)
+
+
+@pytest.mark.parametrize("more", [{"tol": 1e-7}, {"chunk": 3}, {"t": [0.0, 0.4, 1.0, 2.6]}])
+def test_a_sweep_with_other_arguments_does_not_take_the_chunks(tmp_path, more):
+    sweep(family(4), T, 1e-6, chunk=2, folder=tmp_path)
+    given = {"t": T, "tol": 1e-6, "chunk": 2} | more
+    with pytest.raises(InputError, match="another sweep"):
+        sweep(family(4), folder=tmp_path, **given)
+
+
+def test_what_nothing_finished_is_kept_as_such(tmp_path, monkeypatch):
+    falling = Scene((0.0, 0.0), shock=Shock((40.0, 0.0, 0.0), 0.5, 0.05))
+    found = sweep([falling], [0.0, 5.0, 30.0], folder=tmp_path)
+    monkeypatch.setattr(ensemble, "run_chunk", None)  # nothing is run again
+    assert sweep([falling], [0.0, 5.0, 30.0], folder=tmp_path).failed.tolist() == found.failed.tolist() == [0]
 
 
 def test_one_scene_is_no_sequence_of_scenes():
