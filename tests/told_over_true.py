@@ -18,7 +18,7 @@ from lagrotor import simulate
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.numerics.calibrated import LOST
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact import structure_run
+from lagrotor.structures.exact.closing import start_state
 from lagrotor.structures.exact.written_out import right_hand_side
 
 FINE = np.arange(1, 65) / 64
@@ -158,7 +158,7 @@ def structures(seed: int, count: int, dense: bool) -> Iterator[Told]:
         off = np.linalg.norm(run.axes - exact, axis=-1).max(0)
         one = told(f"structure {seed}/{count}", tol, run, off, 1e-15, warned)
         motion = exact_motion(s)
-        start = structure_run._start(motion, given["tilt"], given["rates"])
+        start = start_state(motion, given["tilt"], given["rates"])
         least = least_evaluations(
             right_hand_side(motion), start, motion.c.rate * (run.t - run.t[0]), 1.0,
             lambda y, n=n, exact=exact: np.linalg.norm(
