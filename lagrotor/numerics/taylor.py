@@ -33,6 +33,7 @@ from lagrotor.numerics.segment import (
 )
 
 _CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, that rounds nothing
+_LAST_STEPS = 10_000  # within which what stopped a run is sought
 _MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
 _LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
 # (within the pulse or not) → the program and the values of its parameters.
@@ -277,9 +278,9 @@ def taylor_march(
         parts.append(states[places[places < whole], :-1])
         y = states[whole - 1, :-1].copy() if whole else y
         if whole < len(grid) or "time_limit" not in str(outcome):
+            at, y = _last_step(solver, float(grid[max(whole, 1) - 1]), y, size)
             reached = Stretch(np.concatenate(parts), y, steps * solver.order)
-            reason = "the Taylor series has no step; engine='core' may go on"
-            raise StopError(float(grid[max(whole, 1) - 1]), reason, reached)
+            raise StopError(at, "the Taylor series has no step; engine='core' may go on", reached)
         try:
             y, left = (y if project is None else project(y)), until
         except StopError as stop:
@@ -292,3 +293,14 @@ def taylor_march(
 def _compiled_for(order: int) -> float:
     """The tolerance of which heyoka makes this order, the least whole number not under 1 − ln(tol)/2."""
     return exp(-2 * (order - 1)) * (1 + 1e-9)
+
+
+def _last_step(solver: Any, at: float, y: Array, size: float) -> tuple[float, Array]:
+    """The time and the state (d,) at the end of the last step that a solver can take from y: what ended it is seen there."""
+    solver.time, solver.state[:-1], solver.state[-1] = at, y, size
+    for _ in range(_LAST_STEPS):
+        outcome, _ = solver.step()
+        if "success" not in str(outcome) or not np.isfinite(solver.state).all():
+            break
+        at, y = float(solver.time), solver.state[:-1].copy()
+    return at, y
