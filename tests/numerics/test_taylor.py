@@ -14,8 +14,8 @@ from lagrotor.models.model import integrate_model
 from lagrotor.models.programs.minimal_program import program
 from lagrotor.numerics import taylor
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.segment import Stretch
-from lagrotor.numerics.taylor import taylor_order, taylor_solver
+from lagrotor.numerics.segment import StopError, Stretch
+from lagrotor.numerics.taylor import compiled_solver, dummy_size, taylor_march, taylor_order, taylor_solver
 from lagrotor.pair import SHOCK_PAIRED
 
 TIMES = np.array([0.0, 0.7, 2.0, 2.01, 4.0])
@@ -134,3 +134,12 @@ def test_threads_do_not_share_a_solver(heyoka) -> None:
     for thread in threads:
         thread.join()
     assert all((found[i].axes == alone[i]).all() for i in range(2))
+
+
+def test_what_stops_a_run_is_seen_at_its_last_step_and_not_at_the_last_time_read(heyoka) -> None:
+    """x' = x², x = 1/(1 − t): between the times 0.5 and 2 there is no step over t = 1."""
+    x = heyoka.make_vars("x")
+    solver = compiled_solver([(x, x**2)], 16)
+    with pytest.raises(StopError) as stop:
+        taylor_march(solver, np.array([1.0]), np.array([0.0, 0.5, 2.0]), (0.0, 2.0), dummy_size(1e-10, 16))
+    assert 1 - stop.value.at < 1e-6 and stop.value.reached.end[0] > 1e6 and len(stop.value.reached.states) == 2
