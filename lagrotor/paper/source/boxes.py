@@ -412,9 +412,12 @@ class _Reader:
         return []
 
     def relation(self, name: str, item: Token) -> Box:
-        denied = RELATIONS.get(self.take().text.lstrip("\\"), "") if name == "not" else ""
-        sign = f"not {denied}" if denied not in ("", "=") else RELATIONS[name]
-        return Box("relation", sign, item.at, self.end)
+        if name != "not":
+            return Box("relation", RELATIONS[name], item.at, self.end)
+        denied = RELATIONS.get(self.take().text.lstrip("\\"), "")
+        if not denied:
+            raise FormulaError(item.at, r"\not strikes out what is no relation", r"write \nmid, \neq or \slashed")
+        return Box("relation", "!=" if denied == "=" else f"not {denied}", item.at, self.end)
 
     def accent(self, name: str, item: Token, style: str) -> Box:
         content = self.argument(style)

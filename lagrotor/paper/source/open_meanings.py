@@ -67,6 +67,13 @@ def _lists(row: list[Box]) -> Marks:
         yield "list", "each bound holds for what is beside it alone", ""
     if row and row[0].kind == "operator" and row[0].name == "+":
         yield "continued", "the display begins with its sign, and continues none", ""
+    for place in (k for k, b in enumerate(row) if b.name == "forall"):
+        end = next(
+            (k for k in range(place + 1, len(row)) if row[k].kind in PARTING and row[k].kind != "relation"), len(row)
+        )
+        names = {b.name for b in row[place:end] if b.kind == "relation"}
+        if "=" in names and names & _BOUNDS:
+            yield "condition", "what holds for all ends where a space or a word does", ""
 
 
 def _row(reader: FormulaReader, row: list[Box]) -> Marks:
@@ -124,8 +131,11 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
     elif box.kind == "bracket" and box.name in ("(", "[", r"\{"):
         held = without_thin(box.parts[0])
         applied = [stem_of(b) for b in held if b.kind == "letter"]
-        if after.kind == "bracket" and applied and {*applied} <= known.applied | known.differentiated:
-            yield "bracket", "the brackets side by side are factors, and none is an argument", ""
+        cycles = all(
+            len(row) > 1 and all(map(is_plain_letter, row)) for row in (held, without_thin(*after.parts[:1] or [[]]))
+        )
+        if after.kind == "bracket" and applied and (cycles or {*applied} <= known.applied | known.differentiated):
+            yield "bracket", "the brackets side by side are factors, and no arguments or cycles", ""
     else:
         held = without_thin(box.parts[0]) if box.kind == "fraction" and not derivative_mark(box) else []
     for each in held:
@@ -146,12 +156,41 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
 def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     """A differential; what else a letter may be is marked where it is read."""
     box, after, then = row[place], _behind(row, place), _behind(row, place + 1)
+    beside = [b for b in (row[place - 1] if place else None, after) if b is not None and b.name != "d"]
+    if stem_of(box) in reader.notation.sets and any(b.kind == "letter" or b.name == "/" for b in beside):
+        yield "set", f"{box.name} is a number, and no set or group", settled(box.name, "letters")
+    if box.name == "e" and box.sup and power_in(box):
+        yield from _exponent(reader, box.sup)
     if box.name != "d" or box.sub or after is None:
         return
     if box.style:
         yield "differential", "d is a factor, and no differential", ""
     if after.kind == "letter" and then is not None and then.kind in _FACTORS and then.name != "d":
         yield "differential", "the differential is of the letter that follows it alone", ""
+
+
+def _function(reader: FormulaReader, row: list[Box], place: int) -> Marks:
+    """What exp is of."""
+    after = _behind(row, place)
+    if row[place].name != "exp" or after is None:
+        return
+    if after.kind == "bracket":
+        yield from _exponent(reader, after.parts[0])
+    elif any(b.kind == "operator" and b.name in ("+", "-") for b in row[place + 1 : place + 4]):
+        yield "argument", "the argument of exp ends before the sign behind it", ""
+
+
+def _exponent(reader: FormulaReader, content: list[Box]) -> Marks:
+    """A capital above e may be an operator or a matrix, but where something is divided, as in E/kT."""
+    row = without_thin(content)
+    if any(b.kind == "fraction" or b.name == "/" for b in row):
+        return
+    for each, after in zip(row, [*row[1:], None], strict=True):
+        called = after is not None and after.kind == "bracket"
+        if each.kind == "bracket":
+            yield from _exponent(reader, each.parts[0])
+        elif each.kind == "letter" and each.name.isupper() and not called and not is_number(reader.notation, each):
+            yield "operator", f"{each.name} is a number, and no operator", settled(each.name, "letters")
 
 
 # ---- brackets and signs
@@ -309,6 +348,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
     "letter": _letter, "bracket": _bracket, "operator": _operator, "relation": _relation, "text": _text, "big": _big, "bar": _bar,
+    "function": _function,
 }  # fmt: skip
 
 

@@ -336,7 +336,8 @@ def _numbers_apart(row: list[Box], place: int) -> None:
         return
     if box.kind == "number" and before.kind == "number":
         raise FormulaError(box.at, "two numbers stand side by side", "write \\cdot between them")
-    if box.kind == "number" and before.kind in ("letter", "root", "group"):
+    called = before.kind == "bracket" and place > 1 and row[place - 2].kind == "letter" and not box.sup
+    if box.kind == "number" and (called or before.kind in ("letter", "root", "group")):
         raise FormulaError(box.at, "a number stands behind a letter", "write it first, or braces where it is a script")
     parts = [each for part in box.parts for each in part] if box.kind == "fraction" else []
     if before.kind == "number" and before.sup is None and parts and all(each.kind == "number" for each in parts):

@@ -34,14 +34,14 @@ class Notation:
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
     before what may be an argument; elsewhere, before another than t; factors, in a product; apart, touching no other letter;
-    raised, with an index above; differentiated; matrices; primed, with and without a prime in one list; twice, with two
-    primes. varied: letter → letters that it is differentiated by. seen: ket, operators, order, hessian, P(D), complex,
-    modular, exponent, dot, other time, times, momentum (pi), wedge (of ∇). crossed: vectors, beside a cross or a nabla;
-    arrows: letters that are printed as vectors somewhere. equal: letters and what they are equal to. numeric: letters
-    that are numbers, below a fraction bar, a root, in a sine or a logarithm, equal to numbers. upper: letters that stand
-    above where no power can, as in \\partial x^i and T^{ij}, or below \\partial; above, alone above a letter; exponents:
-    letters in powers; paired: g of g_{ij}; pairs: letter → letters of g^{ab}; entries: x of x[n]. made: formula → its
-    boxes, or what stopped them.
+    raised, with an index above; differentiated; matrices; sets, between which are maps; primed, with and without a prime in one
+    list; twice, with two primes. varied: letter → letters that it is differentiated by. seen: ket, operators, order, hessian,
+    P(D), complex, modular, exponent, dot, other time, times, momentum (pi), wedge (of ∇). crossed: vectors, beside a cross or a
+    nabla; arrows: letters that are printed as vectors somewhere. equal: letters and what they are equal to. numeric: letters
+    that are numbers, below a fraction bar, a root, in a sine or a logarithm, equal to numbers. upper: letters that stand above
+    where no power can, as in \\partial x^i and T^{ij}, or below \\partial; above, alone above a letter; exponents: letters in
+    powers; paired: g of g_{ij}; pairs: letter → letters of g^{ab}; entries: x of x[n]. made: formula → its boxes, or what
+    stopped them.
     """
 
     called: dict[str, set[str]] = field(default_factory=dict)
@@ -63,6 +63,7 @@ class Notation:
     raised: set[str] = field(default_factory=set)
     differentiated: set[str] = field(default_factory=set)
     matrices: set[str] = field(default_factory=set)
+    sets: set[str] = field(default_factory=set)
     primed: set[str] = field(default_factory=set)
     twice: set[str] = field(default_factory=set)
     crossed: set[str] = field(default_factory=set)
@@ -416,6 +417,7 @@ def _look_above(box: Box, found: Notation) -> None:
             found.exponents |= large - ({"i", "j"} if box.name == "e" else set())  # the imaginary unit
         elif len(names) == len(above) == 1 and not (above[0].sub or above[0].sup or above[0].primes):
             pair = box.sub and len(box.sub) == 1 and is_plain_letter(box.sub[0])
+            found.raised |= {stem_of(box)} if box.name.isupper() and names <= set("abc") else set()
             found.above |= names & {*TENSOR, *"abcijk", *("pqrs" if pair else "")}
     if box.kind == "fraction":
         over, under = (without_thin(part) for part in box.parts)
@@ -479,7 +481,7 @@ def is_number(known: Notation, box: Box) -> bool:
         {box.name, stem} & said for said in (known.letters, known.numbers)
     ):
         return True
-    if stem in known.matrices:
+    if stem in known.matrices | known.sets:
         return False
     operators = bool(known.seen & {"ket", "operators"})
     if is_printed_as_vector(box):
@@ -494,6 +496,9 @@ def is_number(known: Notation, box: Box) -> bool:
 def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
     """A letter that is equal to a matrix or one of R^(m x n), and what a letter is equal to."""
     before, box, after = row[place - 1 : place + 2]
+    if box.name == "->" and place > 1 and row[place - 2].name == ":":  # a map: of what, and to what
+        ends = row[place - 1 : next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))]
+        found.sets |= {stem_of(b) for b in ends if b.kind == "letter" and b.name.isupper()}
     if before.kind != "letter" or (place > 1 and row[place - 2].kind not in PARTING):
         return
     end = next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))
