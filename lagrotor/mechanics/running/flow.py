@@ -22,6 +22,8 @@ from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 Array = NDArray[np.float64]
 Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
+_AHEAD = 0.05  # of a turn, in which it is seen what spent the evaluations of a run
+_STEPS_AHEAD, _ERROR_AHEAD = 100, 1e-6
 _LIKE = 8.0  # ratio of a component to one below which none is scaled
 
 
@@ -145,10 +147,30 @@ def smooth_motion(
                 else by_core(start, since, local, companion, budget)
             )
         except StopError as stop:
-            at = float(times[0]) + stop.at
-            singular = words(stop.reached.end if stop.reached else start)
+            at, end = float(times[0]) + stop.at, stop.reached.end if stop.reached else start
+            singular = words(end)
+            if not singular and stop.cause == "budget":  # spent on the way to one?
+                rest = min(float(times[-1]) - at, _AHEAD * turn)
+                since, end = _some_steps_on(program.rate(parameters, float(times[0])), stop.at, end, rest)
+                at, singular = float(times[0]) + since, words(end)
             if singular:
                 raise StopError(at, singular, stop.reached, stop.evaluations, "singular") from None
             raise StopError(at, stop.reason, stop.reached, stop.evaluations, stop.cause) from None
 
     return motion
+
+
+def _some_steps_on(rate: Rhs, since: float, y: Array, rest: float) -> tuple[float, Array]:
+    """The time and the state that a hundred steps of DOP853 lead to, or those before they cannot go on."""
+    from scipy.integrate import DOP853
+
+    with np.errstate(all="ignore"):
+        solver = DOP853(rate, since, y, since + rest, rtol=_ERROR_AHEAD, atol=_ERROR_AHEAD * np.abs(y).max())
+        for _ in range(_STEPS_AHEAD):
+            if solver.status != "running" or not np.isfinite(solver.h_abs):
+                break
+            solver.step()
+            if not np.isfinite(solver.y).all():
+                break
+            since, y = float(solver.t), solver.y
+    return since, y

@@ -15,7 +15,7 @@ from scipy.integrate import simpson, solve_ivp
 from scipy.special import ellipj, ellipk
 
 from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning, SingularError
-from lagrotor.mechanics import System, SystemRun, coordinates, t
+from lagrotor.mechanics import Frame, System, SystemRun, coordinates, t
 from lagrotor.mechanics.running import programs, simulation
 from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.starts import rounding_of_start
@@ -58,6 +58,17 @@ def test_a_pendulum_follows_its_elliptic_function_to_the_tolerance(tol: float, e
     # Its twin with another length is elsewhere.
     longer = pendulum().simulate(VALUES | {l: 0.81}, (2.5,), (0,), times, tol, engine)
     assert np.abs(longer.q[:, 0] - elliptic(times, 2.5)).max() > 1e-2
+
+
+def test_a_run_that_is_spent_before_a_pole_names_it() -> None:
+    """A top that falls nearly without azimuthal rate; with much of it the same budget is enough, and no pole is spoken of."""
+    c = coordinates("phi theta psi")
+    body = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(1, 1, sp.Rational(1, 2)), centre=(0, 0, l))
+    top, values = System(c, body.kinetic - m * g * l * sp.cos(c.q[1])), {m: 1, g: 9.81, l: 1}
+    with pytest.warns(LagrotorWarning, match=r"a pole of these coordinates.*turned\('xyz'\)"):
+        run = top.simulate(values, (0, 0.5, 0), (1e-9, -1.5, 0), np.linspace(0, 1, 11), 1e-6)
+    assert run.ending.kind == "singular" and run.t[-1] == 0.4 and 0.42 < run.ending.at < 0.43
+    assert top.simulate(values, (0, 0.5, 0), (0.1, -1.5, 0), np.linspace(0, 1, 11), 1e-6).ending.kind == "end"
 
 
 def test_a_rod_of_multipliers_swings_as_the_angle_does_and_keeps_its_length(engine: str) -> None:
