@@ -27,7 +27,7 @@ import json
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +45,7 @@ from lagrotor.mechanics.lagrangian import (
     gradient,
     linear_solve,
     momenta,
+    t,
     total_derivative,
 )
 from lagrotor.mechanics.systems import System
@@ -53,12 +54,13 @@ from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.printed import paper_notation
-from lagrotor.paper.source.tree import in_catalogue, text_of
+from lagrotor.paper.source.tree import Node, in_catalogue, letters_of, text_of
 
 _KEYS = ("coordinates", "L", "constraints", "forces", "where", "derives")
 _KIND = re.compile(
     r"(L|energy|integral)|(momentum|acceleration|motion)(?: +([A-Za-z_]\w*))?|(frequency)(\^2)?(?: +(\d+))?(?: +at +(.*))?"
 )
+_LAGRANGIANS = ("L", "Lcal", "Lscr")  # as L is named in a print, where it is no letter of the system
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,17 @@ class StatedSystem:
                 f"{self.place}: derives: {said!r} is not known: L, energy, integral, momentum q, acceleration q, "
                 "motion q, or frequency at q = 0"
             )
+        if not self.paper.equation(identifier).line:
+            raise InputError(
+                f"{self.place}: derives: {identifier} has no printed line, its print was kept aside: write it as an "
+                "[[equation.line]] in equations.toml, or leave it out here"
+            )
         self._check_letters(identifier)
+        derived = self._derived(identifier, match)
+        self._check_signs(identifier, derived)
+        return derived
+
+    def _derived(self, identifier: str, match: re.Match[str]) -> sp.Expr:
         whole, kind, name, _, squared, which, point = match.groups()
         if whole == "integral":
             return self._conserved(identifier)
@@ -96,50 +108,101 @@ class StatedSystem:
         if kind:
             derived = self._of_coordinate(kind, name or "")
             return shortest(self._as_printed(identifier, derived) if kind == "motion" else derived)
-        square = self._squared_frequency(int(which or 1), point or "")
-        return square if squared else sp.sqrt(square)
+        return self._frequency(identifier, int(which or 1), point or "", squared=bool(squared))
 
     @cached_property
     def premises(self) -> tuple[Premise, ...]:
         """What every print may use: the constraints, which hold at all times, and what is said of letters."""
         kept = [sp.Eq(e, 0) for g in self.constraints for e in (g, total_derivative(g, self.c))]
+        said = (each.func(*map(self._along, each.args), evaluate=False) for each in self.where)
         return (
             *([Premise("the constraints hold", where=tuple(kept))] if kept else []),
-            *(Premise("as the text says", where=(each,)) for each in self.where),
+            *(Premise("as the text says", where=(each,)) for each in said),
         )
 
     def _check_letters(self, identifier: str) -> None:
         """Raise InputError where a print has a letter of which the system says nothing."""
-        said: tuple[sp.Basic, ...] = (
-            self.L,
-            *self.constraints,
-            *self.forces,
-            *self.where,
-            *self.c.q,
-            *self.c.v,
-            *self.c.a,
-        )
-        known = set[sp.Basic]().union(*(e.free_symbols for e in said))
-        left = self._left_side(identifier) or sp.S.Zero
+        known = self._known
+        nodes = self._left_nodes(identifier)
+        names = {name for node in nodes for name in letters_of(node)}
+        printed = set[sp.Basic]()
+        if names & {s.name for s in (*self.c.q, *self.c.v, *self.c.a)} and all(map(in_catalogue, nodes)):
+            printed = {self.names.get(name, sp.Symbol(name)) for name in names}
         for line in self.paper.lines(identifier):
-            letters = set[sp.Basic]().union(left.free_symbols, *(e.free_symbols for e in line.members))
+            letters = printed.union(*(e.free_symbols for e in line.members))
             if strangers := sorted(str(s) for s in letters - known - {line.small}):
                 raise InputError(
                     f"{self.place}: derives: {identifier} is printed with {strangers[0]}, of which the system says nothing: say "
                     f'what it is, as in where = ["{strangers[0]} = …"], or leave the equation out here'
                 )
 
+    def _check_signs(self, identifier: str, derived: sp.Expr) -> None:
+        """Raise InputError where a print depends on the sign of a letter of which only an even power is said: r² = x² + y²."""
+        for letter in sorted(self._known - self._fixed - {t}, key=str):
+            turned = {letter: -letter}
+            said = [each.lhs - each.rhs for each in self.where if each.has(letter)]
+            if letter.is_nonnegative or any(e != e.xreplace(turned) for e in said):
+                continue
+            for line in self.paper.lines(identifier):
+                for e in (member - derived for member in line.members):
+                    if not any(_is_zero(e.xreplace(turned) - sign * e) for sign in (1, -1)):
+                        raise InputError(
+                            f"{self.place}: derives: {identifier} depends on the sign of {letter}, of which where says an even "
+                            f'power only: write "{letter} = …", or positive=True for {letter} in symbols.py'
+                        )
+
+    @cached_property
+    def _fixed(self) -> set[sp.Basic]:
+        """The letters of L, constraints and forces, which are constant, and of the coordinates and their rates."""
+        all_of = (self.L, *self.constraints, *self.forces, *self.c.q, *self.c.v, *self.c.a)
+        return set[sp.Basic]().union(*(e.free_symbols for e in all_of))
+
+    @cached_property
+    def _known(self) -> set[sp.Basic]:
+        """The letters of which the system says something, and the time."""
+        return self._fixed.union({t}, *(each.free_symbols for each in self.where))
+
+    @cached_property
+    def _letter_rates(self) -> Mapping[sp.Symbol, sp.Expr]:
+        """The rates of what `where` gives by coordinates: of ell in ell = m r² φ̇, of r in r² = x² + y²; other letters rest.
+
+        A rate that the relations do not give holds symbols of its own.
+        """
+        relations = [self._along(each.lhs - each.rhs) for each in self.where]
+        moving: set[sp.Basic] = {*self.c.q, *self.c.v, t}
+        while more := {s for e in relations if e.free_symbols & moving for s in e.free_symbols} - self._fixed - moving:
+            moving |= more
+        letters = sorted(moving - {*self.c.q, *self.c.v, t}, key=str)
+        unknown = sp.symbols(f"rate_1:{len(letters) + 1}", cls=sp.Dummy)
+        pairs = [*zip(letters, unknown, strict=True)]
+        rows = [total_derivative(e, self.c) + sum(e.diff(s) * rate for s, rate in pairs) for e in relations]
+        rows = [self._along(row) for row in rows if row != 0]
+        solutions = list(sp.linsolve(rows, unknown)) if pairs else [()]
+        return dict(zip(letters, solutions[0] if solutions else unknown, strict=True))
+
+    def _rate(self, e: sp.Expr) -> sp.Expr:
+        """de/dt along the motion. Raises InputError where it has a letter whose rate is not known."""
+        e = self._along(e)
+        rates = {s: rate for s, rate in self._letter_rates.items() if e.has(s)}
+        for letter, rate in rates.items():
+            if rate.atoms(sp.Dummy):
+                raise InputError(
+                    f'{self.place}: where does not say how {letter} changes: write "{letter} = …" in the coordinates'
+                )
+        return self._along(total_derivative(e, self.c) + sum(e.diff(s) * rate for s, rate in rates.items()))
+
     def _conserved(self, identifier: str) -> sp.Expr:
         """A printed F less what it has changed by after a short time: F itself where dF/dt = 0 along every motion."""
         line = self.paper.lines(identifier)[0]
         F = line.members[0] if line.members else sp.S.Zero
-        if not F.has(*self.c.q, *self.c.v):
+        moving = {s for s in self._letter_rates if F.has(s)}
+        if not moving and not F.has(*self.c.q, *self.c.v):
             raise InputError(
                 f"{self.place}: derives: {identifier}: {F} depends on no coordinate or velocity: leave it out here"
             )
-        rate = self._along(total_derivative(F, self.c))
-        if decide_equal(rate, sp.S.Zero).answer == "zero":
-            return F
+        rate = self._rate(F)
+        if _is_zero(rate):  # by what is said of its letters, which is then a premise
+            rate = sum((each.lhs - each.rhs for each in self.where if each.free_symbols & moving), sp.S.Zero)
         return F - sp.Symbol("tau", positive=True) * rate
 
     def _of_coordinate(self, kind: str, which: str) -> sp.Expr:
@@ -156,35 +219,56 @@ class StatedSystem:
 
     def _as_printed(self, identifier: str, motion: sp.Expr) -> sp.Expr:
         """What a print left = right of an equation of motion has on its right: right itself where left − right is zero with the
-        accelerations of the motion put in."""
+        accelerations of the motion put in. A name for the motion, Q = m a + …, is told by what it is of.
+        """
         (line, *more), left = self.paper.lines(identifier), self._left_side(identifier)
-        if left is None or more or len(line.members) > 1:
-            if line.members[-1] != 0:
-                return motion  # F = m a, a name for it
-            raise InputError(
-                f"{self.place}: derives: {identifier} is printed as … = 0, and its left side is no single expression in the "
-                "coordinates: leave it out here"
-            )
-        (right,) = line.members
-        return right + self._along(left - right)
+        right = line.members[-1]
+        if left is not None and not more:
+            if not any(each.has(*self.c.a) for each in line.members):
+                return self._along(left)
+            if len(line.members) == 1:
+                return right + self._along(left - right)
+        if all(_is_zero(each - motion) for each in line.members):
+            return motion
+        reason = "its left side is no single expression in the coordinates: say what its letters are in where"
+        if left is not None:
+            reason = "has an acceleration in one of several members: print one equation"
+        raise InputError(
+            f"{self.place}: derives: {identifier} is printed as … = {right}, and {reason}, or leave it out here"
+        )
 
     def _along(self, e: sp.Expr) -> sp.Expr:
         """An expression with the accelerations of the motion put in."""
+        if not e.has(*self.c.a):
+            return shortest(e)
         return shortest(e.xreplace(dict(zip(self.c.a, self.accelerations, strict=True))))
 
-    def _left_side(self, identifier: str) -> sp.Expr | None:
-        """The left side of a print as an expression in the coordinates; None where it is none."""
+    def _left_nodes(self, identifier: str) -> tuple[Node, ...]:
+        """The sides of a print before its first member: p_θ, d/dt ∂L/∂θ̇."""
         entries = self.paper.equations
         notation = paper_notation((e.latex for e in entries.values()), self.paper.about.notation, self.place)
         reading = read_formula(entries[identifier].line[0]["quantity"], notation)
-        sides = [side.node for statement in reading.statements for side in statement.sides]
-        if len(sides) != 1 or not in_catalogue(sides[0]):
-            return None
+        return tuple(side.node for statement in reading.statements for side in statement.sides)
+
+    def _left_side(self, identifier: str) -> sp.Expr | None:
+        """The left side of a print in the coordinates and letters that are said; None where it is none, or they are two."""
+
+        def partial(f: sp.Expr, by: sp.Symbol, order: int = 1) -> sp.Expr:
+            if by == t:
+                return reduce(lambda e, _: self._rate(e), range(int(order)), f)
+            if isinstance(f, sp.Symbol) and f.name in _LAGRANGIANS and f not in self._known:
+                f = self.L
+            return sp.diff(f, by, int(order))
+
+        said = {name: sp.Symbol(name) for name in _LAGRANGIANS}
+        said |= {name: s for name, s in self.names.items() if s in self._known}
+        said |= {"t": t, "rate": self._rate, "Derivative": partial}
         try:
-            left = read(text_of(sides[0]), self.names, self.place)
+            left, *others = (read(text_of(node), said, self.place) for node in self._left_nodes(identifier))
         except InputError:  # it has a letter of its own
             return None
-        return left if left.has(*self.c.q, *self.c.v, *self.c.a) else None
+        same = all(_is_zero(self._along(left - each)) for each in others)
+        return left if same and left.free_symbols <= self._known else None
 
     @property
     def _motion(self) -> sp.Matrix:
@@ -206,8 +290,8 @@ class StatedSystem:
         )
         return sp.Matrix(solved[: len(self.c.q)])
 
-    def _squared_frequency(self, which: int, point: str) -> sp.Expr:
-        """ω² of a small oscillation about an equilibrium: rate = i ω."""
+    def _frequency(self, identifier: str, which: int, point: str, *, squared: bool) -> sp.Expr:
+        """ω of a small oscillation about an equilibrium, or ω²: rate = i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
             raise InputError(
                 f"{self.place}: derives: with friction small motion has no one frequency: leave frequencies out here"
@@ -221,7 +305,34 @@ class StatedSystem:
         squares = list(dict.fromkeys(sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0))
         if not 0 < which <= len(squares):
             raise InputError(f"{self.place}: derives: there is no frequency {which}: the system has {len(squares)}")
-        return sorted(squares, key=sp.default_sort_key)[which - 1]
+        squares.sort(key=sp.default_sort_key)
+        derived = squares[which - 1] if squared else sp.sqrt(squares[which - 1])
+        put = {each.lhs: each.rhs for each in self.where if each.lhs.is_Symbol}
+        for member in (e.xreplace(put) for line in self.paper.lines(identifier) for e in line.members):
+            if _is_zero(member - derived) or _is_zero(member + derived):
+                continue
+            right = [n for n, square in enumerate(squares, 1) if _is_zero((member if squared else member**2) - square)]
+            if right and which not in right:
+                raise InputError(
+                    f"{self.place}: derives: {identifier} prints frequency {right[0]}, not {which}: say so"
+                )
+            if right:
+                raise InputError(
+                    f"{self.place}: derives: {identifier}: whether {member} is positive depends on its letters: write "
+                    "positive=True for those that are in symbols.py, or leave it out here"
+                )
+            others = {"a square: say frequency^2": member - derived**2}
+            if member != 0:
+                others["a period: leave it out here"] = (2 * sp.pi / member) ** 2 - derived**2
+            others["turns by time, not radians: leave it out here"] = (2 * sp.pi * member) ** 2 - derived**2
+            for says, difference in others.items():
+                if not squared and _is_zero(difference):
+                    raise InputError(f"{self.place}: derives: {identifier} prints {says}")
+        return derived
+
+
+def _is_zero(e: sp.Expr) -> bool:
+    return decide_equal(e, sp.S.Zero).answer == "zero"
 
 
 def stated_system(paper: Catalogue) -> StatedSystem:
@@ -245,7 +356,7 @@ def stated_system(paper: Catalogue) -> StatedSystem:
         raise InputError(
             f'{where}: forces: {len(forces)} are given for {len(c.q)} coordinates: give each its own, "0" where none is'
         )
-    return StatedSystem(
+    system = StatedSystem(
         c,
         read(given["L"], names, f"{where}: L"),
         tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ())),
@@ -256,6 +367,14 @@ def stated_system(paper: Catalogue) -> StatedSystem:
         where,
         paper,
     )
+    for each in system.where:
+        moves = each.has(*c.q, *c.v, *c.a)
+        if moves and (each.lhs in system._fixed - {*c.q, *c.v, *c.a} or each.free_symbols <= system._fixed):
+            raise InputError(
+                f"{where}: where: {each.lhs} = {each.rhs} is about the motion and letters of L alone, which are constant: write "
+                "it out in L, or state it in constraints"
+            )
+    return system
 
 
 def _relation(text: str, names: Mapping[str, Any], where: str) -> sp.Eq:
@@ -324,7 +443,7 @@ def proposed_system(rows: Sequence[Mapping[str, Any]]) -> str:
 
 def _seems(line: Mapping[str, Any], names: Sequence[str]) -> str:
     """What a printed line seems to be of a system with these coordinates; "" where it does not seem to be anything."""
-    quantity = re.sub(r"[\s{}\\]|mathcal|mathscr|var(?=phi|theta)", "", line["quantity"])
+    quantity = re.sub(r"[\s{}\\]|mathcal|mathscr", "", line["quantity"])
     members = " ".join(line.get("members", ()))
     if quantity == "L":
         return "L"
@@ -348,11 +467,6 @@ def write_derivation(paper: Catalogue) -> Path:
     system = stated_system(paper)
     for identifier in system.derives:
         _ = system[identifier]
-        if not paper.equation(identifier).line:
-            raise InputError(
-                f"{system.place}: derives: {identifier} has no printed line, its print was kept aside: write it as an "
-                "[[equation.line]] in equations.toml, or leave it out here"
-            )
     premises = ", premises=system.premises" if system.premises else ""
     text = _HEAD + "".join(
         _CELL.format(title=_one_line(i), said=_one_line(said), id=json.dumps(i), premises=premises)
