@@ -17,7 +17,8 @@
     "7" = "integral"                        # F with dF/dt = 0 along every motion, as energies and momenta have
 
 The constraints, their rates and what `where` says are premises of every verdict, and named in those that need them. A letter of a
-print of which nothing is said is refused: what it stands for decides whether the print is right.
+print of which nothing is said is refused: what it stands for decides whether the print is right. What is said by the coordinates,
+ell = m r² φ̇, changes with them; what an even power alone is said of has no sign, and a print that needs it is refused.
 
 The text is parsed by the reader of expressions; nothing in it runs. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
 §§1.4, 2.4, 2.6, 2.7, 6.2.

@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -132,7 +133,7 @@ def stated_paper(folder: Path, source: str, system: str, letters: str = "") -> C
     about.write_text(about.read_text(encoding="utf-8") + system, encoding="utf-8")
     more = (f'{x} = GLOSSARY.letter("{x}", "?", "?", real=True)\n' for x in letters.split())
     names.write_text(names.read_text(encoding="utf-8") + "".join(more), encoding="utf-8")
-    confirm(folder, [*Catalogue(folder).equations])
+    confirm(folder, [i for i, entry in Catalogue(folder).equations.items() if entry.line])
     return Catalogue(folder)
 
 
@@ -239,6 +240,106 @@ constraints = ["x**2 + y**2 - l**2"]
     assert (derived - x * (s["g"] * y - speed) / (x**2 + y**2)).simplify() == 0
     verdicts = {v.id: v.verdict for v in Paper(paper.folder).audit()}
     assert verdicts == {"1": "holds-if", "2": "holds-if", "3": "refuted", "4": "holds", "5": "refuted"}
+
+
+def judged(tmp_path: Path, system: str, prints: dict[str, tuple[str, str]], letters: str = "") -> dict[str, str]:
+    """name → verdict, or "refused", of prints: name → (LaTeX, what the print is of the system)."""
+    shown = "".join(rf"\begin{{equation}} {latex} \end{{equation}}" for latex, _ in prints.values())
+    paper = stated_paper(tmp_path / "mine", rf"\begin{{document}}{shown}\end{{document}}", system, letters)
+    about, derives, answers = paper.folder / "paper.toml", "", dict.fromkeys(prints, "refused")
+    text = about.read_text(encoding="utf-8") + "[system.derives]\n"
+    for number, (_, said) in enumerate(prints.values(), 1):
+        about.write_text(f'{text}{number} = "{said}"\n', encoding="utf-8")
+        with suppress(InputError):
+            write_derivation(Catalogue(paper.folder))
+            derives += f'{number} = "{said}"\n'
+    about.write_text(text + derives, encoding="utf-8")
+    write_derivation(Catalogue(paper.folder))
+    names = [*prints]
+    return answers | {names[int(v.id) - 1]: v.verdict for v in Paper(paper.folder).audit() if v.id in derives}
+
+
+def test_letters_that_the_coordinates_give_change_with_them(tmp_path: Path) -> None:
+    """ℓ and r were constants in dF/dt: Laplace's integral was refuted, and so was the energy written with v."""
+    system = """
+[system]
+coordinates = "x y"
+L = "m*(x_dot**2 + y_dot**2)/2 + k/sqrt(x**2 + y**2)"
+where = ["r = sqrt(x**2 + y**2)", "ell = m*(x*y_dot - y*x_dot)", "v**2 = x_dot**2 + y_dot**2", "s**2 = x**2 + y**2"]
+"""
+    prints = {
+        "Laplace": (r"A = \ell \dot y - \frac{k x}{r}", "integral"),
+        "Laplace, misprinted": (r"A = \ell \dot y + \frac{k x}{r}", "integral"),
+        "energy": (r"E = \frac{m v^2}{2} - \frac{k}{r}", "integral"),
+        "energy, misprinted": (r"E = m v^2 - \frac{k}{r}", "integral"),
+        "momentum": (r"C = \ell", "integral"),
+        "by a square": (r"m \ddot x = - \frac{k x}{s^3}", "motion x"),
+        "by a square, even": (r"m \ddot x = - \frac{k x}{r s^2}", "motion x"),
+        "by a square, misprinted": (r"m \ddot x = \frac{k x}{r s^2}", "motion x"),
+    }
+    assert judged(tmp_path, system, prints) == {
+        "Laplace": "holds-if",
+        "Laplace, misprinted": "refuted",
+        "energy": "holds-if",
+        "energy, misprinted": "refuted",
+        "momentum": "holds-if",
+        "by a square": "refused",
+        "by a square, even": "holds-if",
+        "by a square, misprinted": "refuted",
+    }
+
+
+OSCILLATOR = """
+[system]
+coordinates = "x"
+L = "m*x_dot**2/2 - k*x**2/2"
+where = ["omega_0**2 = k/m", "a = x_ddot"]
+"""
+
+
+def test_a_left_side_is_read_with_its_derivatives_and_a_name_refutes_nothing(tmp_path: Path) -> None:
+    """Each was compared with m ẍ + k x, and refuted."""
+    prints = {
+        "rate": (r"\frac{d}{dt}(m\dot x) = - k x", "motion x"),
+        "rate, misprinted": (r"\frac{d}{dt}(m\dot x) = k x", "motion x"),
+        "Lagrange": (
+            r"\frac{d}{dt}\frac{\partial L}{\partial\dot x} = \frac{\partial L}{\partial x} = - k x",
+            "motion x",
+        ),
+        "Lagrange, misprinted": (r"\frac{d}{dt}\frac{\partial L}{\partial\dot x} = - 2 k x", "motion x"),
+        "chain": (r"\ddot x = - \omega_0^2 x = - \frac{k}{m} x", "motion x"),
+        "chain, misprinted": (r"\ddot x = - \omega_0^2 x = \frac{k}{m} x", "motion x"),
+        "letter": (r"m a = - k x", "motion x"),
+        "letter, misprinted": (r"m a = k x", "motion x"),
+        "name": (r"F = m \ddot x", "motion x"),
+        "nothing said": (r"\dot p = - k x", "motion x"),
+        "lost in the rate": (r"\frac{d}{dt}(m\dot x + \alpha) = - k x", "motion x"),
+        "no line": (r"L \approx \frac{m}{2} \dot x^2", "L"),
+    }
+    expected = ["holds", "refuted"] * 2 + ["holds-if", "refuted"] * 2 + ["refused"] * 4
+    assert judged(tmp_path, OSCILLATOR, prints, "p_dot") == dict(zip(prints, expected, strict=True))
+
+
+def test_what_else_tells_a_frequency_is_no_wrong_frequency(tmp_path: Path) -> None:
+    prints = {
+        "frequency": (r"\omega = \sqrt{k/m}", "frequency"),
+        "misprinted": (r"\omega = 2 \sqrt{k/m}", "frequency"),
+        "negative": (r"\omega = - \sqrt{k/m}", "frequency"),
+        "square": (r"\omega^2 = \frac{k}{m}", "frequency"),
+        "period": (r"T = 2 \pi \sqrt{m/k}", "frequency"),
+        "turns": (r"\nu = \frac{1}{2 \pi} \sqrt{k/m}", "frequency"),
+        "of a sign of letters": (r"\Omega = \frac{k}{\sqrt{k m}}", "frequency"),
+    }
+    expected = ["holds", "refuted", "refuted", "refused", "refused", "refused"]
+    answers = judged(tmp_path, OSCILLATOR, prints, "omega_0 a x x_dot x_ddot")
+    assert [answers[name] for name in prints][:6] == expected and answers["of a sign of letters"] != "refuted"
+
+
+def test_what_is_said_of_a_letter_of_the_lagrangian_alone_is_refused(tmp_path: Path) -> None:
+    """r was constant in L, and changed in `where`."""
+    system = '[system]\ncoordinates = "x"\nL = "x_dot**2/2 - k/r"\nwhere = ["r = x"]\n'
+    with pytest.raises(InputError, match="r = x is about the motion and letters of L alone"):
+        stated_system(stated_paper(tmp_path / "mine", DAMPED, system, "k r"))
 
 
 def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path) -> None:
