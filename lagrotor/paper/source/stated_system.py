@@ -220,7 +220,7 @@ class StatedSystem:
 
     def _as_printed(self, identifier: str, motion: sp.Expr) -> sp.Expr:
         """What a print left = right of an equation of motion has on its right: right itself where left − right is zero with the
-        accelerations of the motion put in. A name for the motion, Q = m a + …, is told by what it is of.
+        accelerations of the motion put in. A name for it, Q = m a + …, has the motion itself on its right.
         """
         (line, *more), left = self.paper.lines(identifier), self._left_side(identifier)
         right = line.members[-1]
