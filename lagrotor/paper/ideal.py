@@ -81,11 +81,15 @@ def _in_one_ring(
 def _used(
     targets: list[PolyElement], relations: list[PolyElement]
 ) -> tuple[PolyRing, list[PolyElement], list[PolyElement]] | None:
-    """All of them in a ring of the generators that occur; None where they are too many or too large."""
+    """All of them in a ring of the generators that occur; None where they are too many or too large.
+
+    A generator in no relation that is at most a factor of each target, as the m of m (…), decides nothing and is left out.
+    """
     everything = [*targets, *relations]
+    powers = [[{m[i] for m in p.itermonoms()} for p in everything] for i in range(targets[0].ring.ngens)]
     used = [
-        i for i, powers in enumerate(zip(*(m for p in everything for m in p.itermonoms()), strict=True)) if any(powers)
-    ]
+        i for i, sets in enumerate(powers) if any(map(any, sets[len(targets) :])) or any(len(each) > 1 for each in sets)
+    ] or [*range(targets[0].ring.ngens)]
     sizes = [(len(p), max(map(sum, p.itermonoms()), default=0)) for p in everything]
     if len(relations) > _MOST_EQUATIONS + len(used) or len(used) > _MOST_LETTERS:
         return None

@@ -342,6 +342,22 @@ def test_what_is_said_of_a_letter_of_the_lagrangian_alone_is_refused(tmp_path: P
         stated_system(stated_paper(tmp_path / "mine", DAMPED, system, "k r"))
 
 
+def test_the_energy_of_a_dumbbell_is_kept_by_its_bar(tmp_path: Path) -> None:
+    """With the masses and τ beside nine letters of the constraints it was not decided."""
+    system = """
+[system]
+coordinates = "x_1 y_1 x_2 y_2"
+L = "m*(x_1_dot**2 + y_1_dot**2 + x_2_dot**2 + y_2_dot**2)/2 - m*g*(y_1 + y_2)"
+constraints = ["(x_1 - x_2)**2 + (y_1 - y_2)**2 - l**2"]
+"""
+    speeds = r"\dot x_1^2 + \dot y_1^2 + \dot x_2^2 + \dot y_2^2"
+    prints = {
+        "energy": (rf"E = \frac{{m}}{{2}} ({speeds}) + m g (y_1 + y_2)", "integral"),
+        "misprinted": (rf"E = \frac{{m}}{{2}} ({speeds}) + m g (y_1 - y_2)", "integral"),
+    }
+    assert judged(tmp_path, system, prints, "l") == {"energy": "holds-if", "misprinted": "refuted"}
+
+
 def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path) -> None:
     edit(folder / "equations.toml", "members = [", 'members = ["0", ')
     edit(folder / "paper.toml", '"1" = "L"', '"1" = "motion theta"')
