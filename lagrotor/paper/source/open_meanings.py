@@ -157,7 +157,10 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     """A differential; what else a letter may be is marked where it is read."""
     box, after, then = row[place], _behind(row, place), _behind(row, place + 1)
     beside = [b for b in (row[place - 1] if place else None, after) if b is not None and b.name != "d"]
-    if stem_of(box) in reader.notation.sets and any(b.kind == "letter" or b.name == "/" for b in beside):
+    known, stem = reader.notation, stem_of(box)
+    if stem in known.maps - known.applied and any(b.kind in ("letter", "bracket") for b in beside):
+        yield "operator", f"{box.name} is a factor, and no map of what is beside it", settled(box.name, "letters")
+    if stem in known.sets and any(b.kind == "letter" or b.name in ("/", *_BOUNDS) for b in beside):
         yield "set", f"{box.name} is a number, and no set or group", settled(box.name, "letters")
     if box.name == "e" and box.sup and power_in(box):
         yield from _exponent(reader, box.sup)
@@ -178,6 +181,17 @@ def _function(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield from _exponent(reader, after.parts[0])
     elif any(b.kind == "operator" and b.name in ("+", "-") for b in row[place + 1 : place + 4]):
         yield "argument", "the argument of exp ends before the sign behind it", ""
+
+
+def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Marks:
+    """A permutation is printed as two rows of the same numbers."""
+    rows = [[b.name for cell in line.parts for b in without_thin(cell)] for line in row[place].parts[0]]
+    if (
+        len(rows) == 2
+        and sorted(rows[0]) == sorted(rows[1])
+        and [*map(str, range(1, len(rows[0]) + 1))] == rows[0] != rows[0][:2]
+    ):
+        yield "matrix", "two rows of the same numbers are a matrix, and no permutation", ""
 
 
 def _exponent(reader: FormulaReader, content: list[Box]) -> Marks:
@@ -348,7 +362,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
     "letter": _letter, "bracket": _bracket, "operator": _operator, "relation": _relation, "text": _text, "big": _big, "bar": _bar,
-    "function": _function,
+    "function": _function, "matrix": _matrix,
 }  # fmt: skip
 
 

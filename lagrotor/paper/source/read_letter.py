@@ -195,7 +195,9 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
     if evidence is None:
         numbers = all(b.kind == "number" or b.name == "/" for b in top)  # zeta(3/2)
         late = top[0].kind == "letter" and top[0].name == "t"  # x(t - tau)
-        return None if numbers or late or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
+        bands = [b.name in "UBVRIJHK" and not b.sub for b in top[::2]]
+        colour = box.name == "E" and bands == [True, True] and len(top) == 3  # E(B - V)
+        return None if numbers or late or colour or box.name in ("f", "F", "O", "o") or box.style == "cal" else False
     own = {b.name for b in top if b.kind == "letter"}
     if several:
         return True if key not in known.bare else None

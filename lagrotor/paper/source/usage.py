@@ -34,7 +34,7 @@ class Notation:
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
     before what may be an argument; elsewhere, before another than t; factors, in a product; apart, touching no other letter;
-    raised, with an index above; differentiated; matrices; sets, between which are maps; primed, with and without a prime in one
+    raised, with an index above; differentiated; matrices; sets, and maps between them; primed, with and without a prime in one
     list; twice, with two primes. varied: letter → letters that it is differentiated by. seen: ket, operators, order, hessian,
     P(D), complex, modular, exponent, dot, other time, times, momentum (pi), wedge (of ∇). crossed: vectors, beside a cross or a
     nabla; arrows: letters that are printed as vectors somewhere. equal: letters and what they are equal to. numeric: letters
@@ -64,6 +64,7 @@ class Notation:
     differentiated: set[str] = field(default_factory=set)
     matrices: set[str] = field(default_factory=set)
     sets: set[str] = field(default_factory=set)
+    maps: set[str] = field(default_factory=set)
     primed: set[str] = field(default_factory=set)
     twice: set[str] = field(default_factory=set)
     crossed: set[str] = field(default_factory=set)
@@ -498,6 +499,7 @@ def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
     before, box, after = row[place - 1 : place + 2]
     if box.name == "->" and place > 1 and row[place - 2].name == ":":  # a map: of what, and to what
         ends = row[place - 1 : next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))]
+        found.maps |= {stem_of(b) for b in row[max(place - 3, 0) : place - 2] if b.kind == "letter"}
         found.sets |= {stem_of(b) for b in ends if b.kind == "letter" and b.name.isupper()}
     if before.kind != "letter" or (place > 1 and row[place - 2].kind not in PARTING):
         return
