@@ -91,10 +91,8 @@ class StatedSystem:
                 "motion q, or frequency at q = 0"
             )
         if not self.paper.equation(identifier).line:
-            raise InputError(
-                f"{self.place}: derives: {identifier} has no printed line, its print was kept aside: write it as an "
-                "[[equation.line]] in equations.toml, or leave it out here"
-            )
+            says = " has no printed line, its print was kept aside: write it as an [[equation.line]] in equations.toml"
+            raise self._refusal(identifier, f"{says}, or leave it out here")
         self._check_letters(identifier)
         derived = self._derived(identifier, match)
         self._check_signs(identifier, derived)
@@ -121,6 +119,9 @@ class StatedSystem:
             *(Premise("as the text says", where=(each,)) for each in said),
         )
 
+    def _refusal(self, identifier: str, says: str) -> InputError:
+        return InputError(f"{self.place}: derives: {identifier}{says}")
+
     def _check_letters(self, identifier: str) -> None:
         """Raise InputError where a print has a letter of which the system says nothing."""
         known = self._known
@@ -132,9 +133,9 @@ class StatedSystem:
         for line in self.paper.lines(identifier):
             letters = printed.union(*(e.free_symbols for e in line.members))
             if strangers := sorted(str(s) for s in letters - known - {line.small}):
-                raise InputError(
-                    f"{self.place}: derives: {identifier} is printed with {strangers[0]}, of which the system says nothing: say "
-                    f'what it is, as in where = ["{strangers[0]} = …"], or leave the equation out here'
+                says = f" is printed with {strangers[0]}, of which the system says nothing: say what it is, as in"
+                raise self._refusal(
+                    identifier, f'{says} where = ["{strangers[0]} = …"], or leave the equation out here'
                 )
 
     def _check_signs(self, identifier: str, derived: sp.Expr) -> None:
@@ -147,9 +148,9 @@ class StatedSystem:
             for line in self.paper.lines(identifier):
                 for e in (member - derived for member in line.members):
                     if not any(_is_zero(e.xreplace(turned) - sign * e) for sign in (1, -1)):
-                        raise InputError(
-                            f"{self.place}: derives: {identifier} depends on the sign of {letter}, of which where says an even "
-                            f'power only: write "{letter} = …", or positive=True for {letter} in symbols.py'
+                        says = f" depends on the sign of {letter}, of which where says an even power only"
+                        raise self._refusal(
+                            identifier, f'{says}: write "{letter} = …", or positive=True for {letter} in symbols.py'
                         )
 
     @cached_property
@@ -198,9 +199,7 @@ class StatedSystem:
         F = line.members[0] if line.members else sp.S.Zero
         moving = {s for s in self._letter_rates if F.has(s)}
         if not moving and not F.has(*self.c.q, *self.c.v):
-            raise InputError(
-                f"{self.place}: derives: {identifier}: {F} depends on no coordinate or velocity: leave it out here"
-            )
+            raise self._refusal(identifier, f": {F} depends on no coordinate or velocity: leave it out here")
         rate = self._rate(F)
         if _is_zero(rate):  # by what is said of its letters, which is then a premise
             rate = sum((each.lhs - each.rhs for each in self.where if each.free_symbols & moving), sp.S.Zero)
@@ -234,9 +233,7 @@ class StatedSystem:
         reason = "its left side is no single expression in the coordinates: say what its letters are in where"
         if left is not None:
             reason = "has an acceleration in one of several members: print one equation"
-        raise InputError(
-            f"{self.place}: derives: {identifier} is printed as … = {right}, and {reason}, or leave it out here"
-        )
+        raise self._refusal(identifier, f" is printed as … = {right}, and {reason}, or leave it out here")
 
     def _along(self, e: sp.Expr) -> sp.Expr:
         """An expression with the accelerations of the motion put in."""
@@ -307,29 +304,29 @@ class StatedSystem:
         if not 0 < which <= len(squares):
             raise InputError(f"{self.place}: derives: there is no frequency {which}: the system has {len(squares)}")
         squares.sort(key=sp.default_sort_key)
-        derived = squares[which - 1] if squared else sp.sqrt(squares[which - 1])
-        put = {each.lhs: each.rhs for each in self.where if each.lhs.is_Symbol}
+        self._check_frequency(identifier, squares, which, squared=squared)
+        return squares[which - 1] if squared else sp.sqrt(squares[which - 1])
+
+    def _check_frequency(self, identifier: str, squares: Sequence[sp.Expr], which: int, *, squared: bool) -> None:
+        """Raise InputError where a print is ω² or a period, or where its sign or its place in the row is another."""
+        square, put = squares[which - 1], {each.lhs: each.rhs for each in self.where if each.lhs.is_Symbol}
+        derived = square if squared else sp.sqrt(square)
         for member in (e.xreplace(put) for line in self.paper.lines(identifier) for e in line.members):
-            if _is_zero(member - derived) or _is_zero(member + derived):
+            if member == 0 or _is_zero(member - derived) or _is_zero(member + derived):
                 continue
-            right = [n for n, square in enumerate(squares, 1) if _is_zero((member if squared else member**2) - square)]
-            if right and which not in right:
-                raise InputError(
-                    f"{self.place}: derives: {identifier} prints frequency {right[0]}, not {which}: say so"
-                )
-            if right:
-                raise InputError(
-                    f"{self.place}: derives: {identifier}: whether {member} is positive depends on its letters: write "
-                    "positive=True for those that are in symbols.py, or leave it out here"
-                )
-            others = {"a square: say frequency^2": member - derived**2}
-            if member != 0:
-                others["a period: leave it out here"] = (2 * sp.pi / member) ** 2 - derived**2
-            others["turns by time, not radians: leave it out here"] = (2 * sp.pi * member) ** 2 - derived**2
+            power = member if squared else member**2
+            others = {f"frequency {n}, not {which}": power - each for n, each in enumerate(squares, 1) if n != which}
+            if not squared:
+                others |= {
+                    f"{member}, which may be negative: write positive=True for its letters in symbols.py": power
+                    - square,
+                    "a square: say frequency^2": member - square,
+                    "a period: leave it out here": (2 * sp.pi / member) ** 2 - square,
+                    "turns by time, not radians: leave it out here": (2 * sp.pi * member) ** 2 - square,
+                }
             for says, difference in others.items():
-                if not squared and _is_zero(difference):
-                    raise InputError(f"{self.place}: derives: {identifier} prints {says}")
-        return derived
+                if _is_zero(difference):
+                    raise self._refusal(identifier, f" prints {says}")
 
 
 def _is_zero(e: sp.Expr) -> bool:
@@ -430,13 +427,14 @@ def proposed_system(rows: Sequence[Mapping[str, Any]]) -> str:
     rows: of equations.toml. A coordinate is what L has the rate of; the rest goes by the usual letters.
     """
     lines = [(row["id"], line) for row in rows for line in row.get("line", ())]
-    is_lagrangian = re.compile(r"(?:\\mathcal|\\mathscr)?\s*\{?\s*L\s*\}?")
+    is_lagrangian = re.compile(r"(?:\\mathcal|\\mathscr)?\s*\{?\s*L\s*\}?\s*(?:\(.*\))?")
     for identifier, line in lines:
-        member = (line.get("members") or [""])[0]
-        if not is_lagrangian.fullmatch(line["quantity"].strip()) or "_dot" not in member:
+        member = next((each for each in line.get("members", ()) if "_dot" in each), "")
+        if not is_lagrangian.fullmatch(line["quantity"].strip()) or not member:
             continue
         names = sorted(set(re.findall(r"(\w+)_dot\b", member)), key=lambda name: member.index(f"{name}_dot"))
-        derives = [f"# {json.dumps(i)} = {json.dumps(said)}" for i, each in lines if (said := _seems(each, names))]
+        seems = [(i, "L" if each is line else _seems(each, names)) for i, each in lines]
+        derives = [f"# {json.dumps(i)} = {json.dumps(said)}" for i, said in seems if said]
         head = _PROPOSAL.format(id=identifier, names=" ".join(names), L=json.dumps(member))
         return head + "".join(f"{row}\n" for row in dict.fromkeys(derives))
     return ""
@@ -446,8 +444,6 @@ def _seems(line: Mapping[str, Any], names: Sequence[str]) -> str:
     """What a printed line seems to be of a system with these coordinates; "" where it does not seem to be anything."""
     quantity = re.sub(r"[\s{}\\]|mathcal|mathscr", "", line["quantity"])
     members = " ".join(line.get("members", ()))
-    if quantity == "L":
-        return "L"
     if quantity in ("E", "H", "h") and "_dot" in members:
         return "energy"
     momentum = re.search(r"(?:^p_|partialLpartialdot)(\w+)$", quantity)

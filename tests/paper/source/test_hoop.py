@@ -335,6 +335,38 @@ def test_what_else_tells_a_frequency_is_no_wrong_frequency(tmp_path: Path) -> No
     assert [answers[name] for name in prints][:6] == expected and answers["of a sign of letters"] != "refuted"
 
 
+def test_another_frequency_of_the_system_is_named(tmp_path: Path) -> None:
+    system = """
+[system]
+coordinates = "x_1 x_2"
+L = "m*(x_1_dot**2 + x_2_dot**2)/2 - k*(x_1**2 + x_2**2)/2 - c*(x_1 - x_2)**2/2"
+"""
+    prints = {
+        "first": (r"\omega_1^2 = \frac{k}{m}", "frequency^2 1"),
+        "second": (r"\omega_2 = \sqrt{\frac{k + 2 c}{m}}", "frequency 2"),
+        "misprinted": (r"\omega_2 = \sqrt{\frac{k + c}{m}}", "frequency 2"),
+        "second as first": (r"\omega_1 = \sqrt{\frac{k + 2 c}{m}}", "frequency 1"),
+        "its square": (r"\omega_1^2 = \frac{k + 2 c}{m}", "frequency^2 1"),
+    }
+    expected = ["holds", "holds", "refuted", "refused", "refused"]
+    letters = "x_1 x_2 x_1_dot x_2_dot"
+    assert judged(tmp_path, system, prints, letters) == dict(zip(prints, expected, strict=True))
+
+
+def test_the_first_lagrangian_that_is_written_out_is_proposed(tmp_path: Path) -> None:
+    """L(θ, θ̇), T − V = …, and φ by its second letter; the L of another motion is not said to be this one."""
+    shown = [
+        r"L(\varphi, \dot\varphi) = T - V = \frac{m l^2}{2} \dot\varphi^2 + m g l \cos\varphi",
+        r"p_\varphi = m l^2 \dot\varphi",
+        r"\ddot\varphi = - \frac{g}{l} \sin\varphi",
+        r"L = \frac{m l^2}{2} \dot\varphi^2",
+    ]
+    equations = "".join(rf"\begin{{equation}} {each} \end{{equation}}" for each in shown)
+    paper = stated_paper(tmp_path / "mine", rf"\begin{{document}}{equations}\end{{document}}", "")
+    rows = [row for row in (paper.folder / "paper.toml").read_text(encoding="utf-8").splitlines() if row[:3] == '# "']
+    assert rows == ['# "1" = "L"', '# "2" = "momentum varphi"', '# "3" = "acceleration varphi"']
+
+
 def test_what_is_said_of_a_letter_of_the_lagrangian_alone_is_refused(tmp_path: Path) -> None:
     """r was constant in L, and changed in `where`."""
     system = '[system]\ncoordinates = "x"\nL = "x_dot**2/2 - k/r"\nwhere = ["r = x"]\n'
