@@ -185,12 +185,11 @@ def _function(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     """A permutation is printed as two rows of the same numbers."""
-    rows = [[b.name for cell in line.parts for b in without_thin(cell)] for line in row[place].parts[0]]
-    if (
-        len(rows) == 2
-        and sorted(rows[0]) == sorted(rows[1])
-        and [*map(str, range(1, len(rows[0]) + 1))] == rows[0] != rows[0][:2]
-    ):
+    rows = [[b for cell in line.parts for b in without_thin(cell)] for line in row[place].parts[0]]
+    first, last = ([b.name for b in rows[k]] for k in (0, -1))
+    counted = first == [*map(str, range(1, len(first) + 1))] and sorted(first) == sorted(last)
+    listed = first[:2] == ["1", "2"] and rows[0][-2].kind == "dots"
+    if len(rows) == 2 and len(first) > 2 and (counted or listed):
         yield "matrix", "two rows of the same numbers are a matrix, and no permutation", ""
 
 
@@ -279,6 +278,8 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Marks:
         yield "mean", "angle brackets are a mean, and nothing that is generated", ""
     if len(parts) > 1 and not any(b.kind == "bar" for b in content) and box.name not in ("|",):
         yield "inner", "angle brackets with a comma are an inner product", ""
+    if {"dots", "bar"} <= {b.kind for b in content}:
+        yield "inner", "the bar joins a bra and a ket, and no generators and relations", ""
     if len(parts) == 3 and parts[1] and parts[1][0].kind == "operator":
         yield "label", "the sign behind the bar belongs to what stands in a bracket, and joins no bra and ket", ""
     for part in parts if len(parts) != 3 else (parts[0], parts[2]):
@@ -318,6 +319,8 @@ def _relation(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     printed = reader.source[box.at : box.end]
     if box.name not in _RELATIONS and printed not in (r"\approx", "≈"):
         yield "relation", f"{printed} is read as {box.name}", ""
+    elif box.name == "<<" and {b.name for b in row} <= {"<<", "mu", "nu", "lambda", "comma", ",", "."}:
+        yield "relation", "what is much less are numbers, and no measures", ""
     elif box.marks:
         yield "relation", f"what stands over {box.name} changes nothing", ""
     elif box.name == ":=" and printed == r"\equiv" and "modular" in reader.notation.seen:
