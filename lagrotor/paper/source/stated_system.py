@@ -203,7 +203,8 @@ class StatedSystem:
         rate = self._rate(F)
         if _is_zero(rate):  # by what is said of its letters, which is then a premise
             rate = sum((each.lhs - each.rhs for each in self.where if each.free_symbols & moving), sp.S.Zero)
-        return F - sp.Symbol("tau", positive=True) * rate
+        time = next(name for name in ("tau", "short_time", "time_since") if name not in self.names)
+        return F - sp.Symbol(time, positive=True) * rate
 
     def _of_coordinate(self, kind: str, which: str) -> sp.Expr:
         place = next((n for n, q in enumerate(self.c.q) if q.name == which), None)

@@ -260,18 +260,18 @@ def judged(tmp_path: Path, system: str, prints: dict[str, tuple[str, str]], lett
 
 
 def test_letters_that_the_coordinates_give_change_with_them(tmp_path: Path) -> None:
-    """ℓ and r were constants in dF/dt: Laplace's integral was refuted, and so was the energy written with v."""
+    """ℓ and r were constants in dF/dt: Laplace's integral was refuted, and so was the energy by a speed; here it is called τ."""
     system = """
 [system]
 coordinates = "x y"
 L = "m*(x_dot**2 + y_dot**2)/2 + k/sqrt(x**2 + y**2)"
-where = ["r = sqrt(x**2 + y**2)", "ell = m*(x*y_dot - y*x_dot)", "v**2 = x_dot**2 + y_dot**2", "s**2 = x**2 + y**2"]
+where = ["r = sqrt(x**2 + y**2)", "ell = m*(x*y_dot - y*x_dot)", "tau**2 = x_dot**2 + y_dot**2", "s**2 = x**2 + y**2"]
 """
     prints = {
         "Laplace": (r"A = \ell \dot y - \frac{k x}{r}", "integral"),
         "Laplace, misprinted": (r"A = \ell \dot y + \frac{k x}{r}", "integral"),
-        "energy": (r"E = \frac{m v^2}{2} - \frac{k}{r}", "integral"),
-        "energy, misprinted": (r"E = m v^2 - \frac{k}{r}", "integral"),
+        "energy": (r"E = \frac{m \tau^2}{2} - \frac{k}{r}", "integral"),
+        "energy, misprinted": (r"E = m \tau^2 - \frac{k}{r}", "integral"),
         "momentum": (r"C = \ell", "integral"),
         "by a square": (r"m \ddot x = - \frac{k x}{s^3}", "motion x"),
         "by a square, even": (r"m \ddot x = - \frac{k x}{r s^2}", "motion x"),
