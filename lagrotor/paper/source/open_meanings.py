@@ -160,6 +160,10 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     known, stem = reader.notation, stem_of(box)
     if stem in known.maps - known.applied and any(b.kind in ("letter", "bracket") for b in beside):
         yield "operator", f"{box.name} is a factor, and no map of what is beside it", settled(box.name, "letters")
+    content = after.parts[0] if after is not None and after.kind == "bracket" and box.name == "P" else []
+    events = [b.name.isupper() for b in content if b.kind == "letter"]
+    if len(events) > 1 and all(events) and not any(b.kind == "comma" for b in content):
+        yield "set", "P is of a sum or product of numbers, and of no events", ""
     if stem in known.sets and any(b.kind == "letter" or b.name in ("/", *_BOUNDS) for b in beside):
         yield "set", f"{box.name} is a number, and no set or group", settled(box.name, "letters")
     if box.name == "e" and box.sup and power_in(box):
