@@ -296,7 +296,7 @@ DOORS: dict[str, Callable[[int], Case]] = {
 }
 MANY = 45
 LONG = dict.fromkeys(
-    ("scene, minimal", "scene, spheres", "scene, auto", "scene, averaged", "system"), 30.0
+    ("scene, minimal", "scene, spheres", "scene, auto", "scene, averaged", "system", "springs"), 30.0
 )  # times as long: no 1e-13 is kept
 
 

@@ -20,10 +20,11 @@ from lagrotor.mechanics.canonical.jets import JetSpace, TruncatedSeries, jet_spa
 from lagrotor.mechanics.canonical.polynomials import Polynomial
 from lagrotor.mechanics.canonical.return_maps import ReturnMapForm, largest_difference, map_normal_form
 from lagrotor.mechanics.lagrangian import clock_parts, gradient, t
+from lagrotor.numerics.brief import brief_windows
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.printers import compile_program
-from lagrotor.numerics.pulse import Window, brief_windows
+from lagrotor.numerics.pulse import Window
 from lagrotor.numerics.segment import StopError
 
 Array = NDArray[np.float64]

@@ -16,10 +16,11 @@ from lagrotor.mechanics.running.programs import (
     parameter_values,
     velocities_along,
 )
+from lagrotor.numerics.brief import brief_windows
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.pulse import Window, brief_windows, windows_since
+from lagrotor.numerics.pulse import Window, windows_since
 from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
