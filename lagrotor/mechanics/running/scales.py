@@ -121,7 +121,10 @@ def motion_scales(
         except StopError as stop:
             evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    return Scales(turn, _sizes(system, values, _but_for_peaks(states), turn), evaluations, bool(stiff), windows)
+    kept = (
+        states if windows else _but_for_peaks(states)
+    )  # what acts briefly leaves a motion that is far larger than before it
+    return Scales(turn, _sizes(system, values, kept, turn), evaluations, bool(stiff), windows)
 
 
 def _but_for_peaks(states: Array) -> Array:

@@ -665,6 +665,18 @@ def test_a_pulse_of_another_shape_is_zero_far_away(shape: sp.Expr) -> None:
     assert abs(run.q[-1, 0] - exact) <= run.error * abs(exact) <= 1e-8
 
 
+def test_what_a_late_pulse_leaves_is_the_size_of_the_motion() -> None:
+    """A wave packet near the end of a run: what the coarse run was off by before it counted for the size of the motion."""
+    packet = sp.exp(-((16 * (t - 40.5)) ** 2)) * sp.sin(48 * (t - 40.5))
+    c = coordinates("x")
+    run = System(c, c.v[0] ** 2 / 2 - c.q[0] ** 2 / 2, forces=(packet,)).simulate(
+        {}, (0,), (0,), np.linspace(0, 44, 101), 1e-6
+    )
+    largest = float(np.abs(run.q).max())
+    assert largest < run.scales.sizes[0] < 20 * largest  # it was 0.004 of it
+    assert run.error < 1e-6 and run.evaluations < 3_000
+
+
 def test_a_force_that_never_rests_is_not_brief() -> None:
     (x,), (v,) = ANGLE.q, ANGLE.v
     run = System(ANGLE, v**2 / 2 - x**2 / 2, forces=(sp.cos(3 * t),)).simulate({}, (0,), (0,), np.linspace(0, 30, 3))
