@@ -262,18 +262,22 @@ def test_an_ion_at_rest_in_a_trap():
 
 
 def test_a_pulse_by_which_an_oscillator_is_driven_is_not_passed_over(monkeypatch):
-    """x'' = −(1 + 3 δ(t − 3.3)) x, once in 7 s, about its rest: the angle of a period has the cosine cos 7 − 3/2 sin 7."""
+    """x'' = −(1 + 3 δ(t − s)) x, once in 7 s, about its rest: the angle of a period has the cosine cos 7 − 3/2 sin 7 at any s.
+
+    Without the cut a step may come upon the pulse, which hangs on the processor; not upon each of four.
+    """
     x, p = symbols = sp.symbols("x p", real=True)
-    width = 0.002
-    pulse = 3 / (width * sp.sqrt(sp.pi)) * sp.exp(-((sp.sin((t - 3.3) * sp.pi / 7) * 7 / sp.pi / width) ** 2))
-    H, rest = p**2 / 2 + (1 + pulse) * x**2 / 2, {x: 0, p: 0, t: 0}
+    width, times = 0.002, (1.1, 2.3, 3.3, 4.7)
 
-    def cosine():
-        return np.real(periodic_orbits.return_map_form(H, symbols, rest, 7.0, 2, 1e-6).multipliers[0])
+    def off(s):
+        pulse = 3 / (width * sp.sqrt(sp.pi)) * sp.exp(-((sp.sin((t - s) * sp.pi / 7) * 7 / sp.pi / width) ** 2))
+        H, rest = p**2 / 2 + (1 + pulse) * x**2 / 2, {x: 0, p: 0, t: 0}
+        cosine = np.real(periodic_orbits.return_map_form(H, symbols, rest, 7.0, 2, 1e-6).multipliers[0])
+        return abs(cosine - cos(7) + 1.5 * sin(7))
 
-    assert cosine() == pytest.approx(cos(7) - 1.5 * sin(7), abs=4 * width)
+    assert max(map(off, times)) < 4 * width
     monkeypatch.setattr(periodic_orbits, "brief_windows", lambda *_: ())
-    assert abs(cosine() - cos(7) + 1.5 * sin(7)) > 0.5  # twin
+    assert max(map(off, times)) > 0.5  # twin
 
 
 def test_hyperbolic_orbits():
