@@ -113,9 +113,8 @@ def smooth_motion(
         between = turn / 2 if project else np.inf
         # The time is a state, which may grow without end.
         clock = tuple(range(known, d))
-        problem = problem_of(start, np.inf, companion)
         solver = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
-        return integrate(problem, times, local, solver)
+        return integrate(problem_of(start, np.inf, companion), times, local, solver)
 
     def by_core(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
@@ -147,21 +146,21 @@ def smooth_motion(
                 else by_core(start, since, local, companion, budget)
             )
         except StopError as stop:
-            at, end = float(times[0]) + stop.at, stop.reached.end if stop.reached else start
-            singular = words(end)
-            if not singular and stop.cause == "budget":  # spent on the way to one?
-                rest = min(float(times[-1]) - at, _AHEAD * turn)
-                since, end = _some_steps_on(program.rate(parameters, float(times[0])), stop.at, end, rest)
-                at, singular = float(times[0]) + since, words(end)
+            begin, at, spent = float(times[0]), stop.at, stop.evaluations
+            end = stop.reached.end if stop.reached else start
+            if not (singular := words(end)) and stop.cause == "budget":  # spent on the way to one?
+                rest = min(float(times[-1]) - begin - at, _AHEAD * turn)
+                at, end, more = _some_steps_on(program.rate(parameters, begin), at, end, rest)
+                singular, spent = words(end), spent + more
             if singular:
-                raise StopError(at, singular, stop.reached, stop.evaluations, "singular") from None
-            raise StopError(at, stop.reason, stop.reached, stop.evaluations, stop.cause) from None
+                raise StopError(begin + at, singular, stop.reached, spent, "singular") from None
+            raise StopError(begin + stop.at, stop.reason, stop.reached, spent, stop.cause) from None
 
     return motion
 
 
-def _some_steps_on(rate: Rhs, since: float, y: Array, rest: float) -> tuple[float, Array]:
-    """The time and the state that a hundred steps of DOP853 lead to, or those before they cannot go on."""
+def _some_steps_on(rate: Rhs, since: float, y: Array, rest: float) -> tuple[float, Array, int]:
+    """The time and the state that a hundred steps of DOP853 lead to, or those before they cannot go on; their evaluations."""
     from scipy.integrate import DOP853
 
     with np.errstate(all="ignore"):
@@ -173,4 +172,4 @@ def _some_steps_on(rate: Rhs, since: float, y: Array, rest: float) -> tuple[floa
             if not np.isfinite(solver.y).all():
                 break
             since, y = float(solver.t), solver.y
-    return since, y
+    return since, y, solver.nfev

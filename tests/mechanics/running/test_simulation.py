@@ -16,9 +16,10 @@ from scipy.special import ellipj, ellipk
 
 from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.mechanics import Frame, System, SystemRun, coordinates, t
-from lagrotor.mechanics.running import programs, simulation
+from lagrotor.mechanics.running import flow, programs, simulation
 from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.starts import rounding_of_start
+from lagrotor.numerics.segment import StopError
 
 m, l, g, k, R, Omega, w, A = sp.symbols("m l g k R Omega omega A", positive=True)
 VALUES = {m: 1.3, l: 0.8, g: 9.81, k: 0.2, R: 0.5, Omega: 6.0, w: 20.0, A: 0.1}
@@ -69,6 +70,21 @@ def test_a_run_that_is_spent_before_a_pole_names_it() -> None:
         run = top.simulate(values, (0, 0.5, 0), (1e-9, -1.5, 0), np.linspace(0, 1, 11), 1e-6)
     assert run.ending.kind == "singular" and run.t[-1] == 0.4 and 0.42 < run.ending.at < 0.43
     assert top.simulate(values, (0, 0.5, 0), (0.1, -1.5, 0), np.linspace(0, 1, 11), 1e-6).ending.kind == "end"
+
+
+def test_a_run_that_is_spent_elsewhere_ends_where_it_was_and_counts_what_was_looked_at(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The steps after it are no part of the run, and their evaluations are."""
+    start, times = np.array([1.0, 0.0]), np.linspace(0, 1000, 11)
+    motion = flow.smooth_motion(pendulum(), VALUES, "core", np.ones(2), 2.0, start, False, ())
+    with pytest.raises(StopError) as stop:
+        motion(start, times, 1e-9, False, 500)
+    monkeypatch.setattr(flow, "_some_steps_on", lambda _, since, y, rest: (since + rest, y, 0))
+    with pytest.raises(StopError) as bare:
+        motion(start, times, 1e-9, False, 500)
+    assert stop.value.cause == bare.value.cause == "budget" and stop.value.at == bare.value.at < 1000
+    assert 0 < stop.value.evaluations - bare.value.evaluations < 2_000
 
 
 def test_a_rod_of_multipliers_swings_as_the_angle_does_and_keeps_its_length(engine: str) -> None:
