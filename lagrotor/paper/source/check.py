@@ -19,7 +19,18 @@ import sympy as sp
 
 from lagrotor.algebra import agreement_order
 from lagrotor.errors import LagrotorError, WorkError
-from lagrotor.paper.source.compared import LARGE, agree, bounded, counted, decided, expression_of, is_large, may_agree
+from lagrotor.paper.source.compared import (
+    LARGE,
+    agree,
+    agree_for_positive,
+    bounded,
+    counted,
+    decided,
+    expression_of,
+    is_large,
+    may_agree,
+    radicands,
+)
 from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula, with_progress
@@ -290,12 +301,9 @@ class _Checker:
         if a != b and is_large(a, b):
             return LARGE
         answer = decided(a, b) if may_agree(a, b) else "nonzero"
-        if answer == "zero":
-            return HOLDS, f"{text_of(left)} = {text_of(right)} is an identity"
-        ways = [way for way in self._ways(left, right, printed) if way.differs(a, b)]
-        for way in ways:
-            if agree(way.left, way.right):
-                return HOLDS, f"with {way.named}", *way.used
+        ways = [way for way in self._ways(left, right, printed) if way.differs(a, b)] if answer != "zero" else []
+        if held := _holding(left, right, a, b, answer, ways):
+            return HOLDS, *held
         if answer == "undecided":
             return "undecided", "the difference is outside what is decided exactly"
         verdict, why = self._refuted(left, right, a, b, first)
@@ -578,6 +586,20 @@ class _Checker:
             letter = [each for each, seen in own if "e" in seen.bare]  # none: e is a letter in the text alone
             places = [*letter, *(each for each, seen in own if seen.exponential), self.readings[0][0]]
             yield self._finding(places[0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
+
+
+def _holding(left: Node, right: Node, a: Any, b: Any, answer: str, ways: list[_Way]) -> tuple[Any, ...]:
+    """Why two sides agree, and each premise that was put in; nothing where they are not known to: answer is that of a = b."""
+    said = f"{text_of(left)} = {text_of(right)} is an identity"
+    if answer == "zero":
+        return (f"{said} where its roots are real" if radicands(a, b) else said,)
+    for agreeing, condition in ((agree, ""), (agree_for_positive, "positive letters")):
+        if condition and answer == "undecided" and agreeing(a, b):
+            return (f"{said} for {condition}",)
+        for way in ways:
+            if agreeing(way.left, way.right):
+                return f"with {', '.join(filter(None, (way.named, condition)))}", *way.used
+    return ()
 
 
 def _put(node: Node, put: list[dict[Node, PrintedMeaning]]) -> Node:

@@ -168,9 +168,23 @@ def _single(a: Any, b: Any) -> str:
     if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
         return "undecided"
     try:
-        found = counted(decide_equal, a, b)
+        found = counted(decide_equal, a, b, [sp.Gt(each, 0) for each in radicands(a, b)])
     except WorkError:
         raise
     except (LagrotorError, TypeError, ValueError, ArithmeticError):
         return "undecided"
     return "undecided" if found.partly else found.answer
+
+
+def radicands(*sides: Any) -> set[Any]:
+    """What roots are taken of. Sides are compared where it is positive: √(x/y) = 1/√(y/x), which at x = −1 are i and −i."""
+    roots = (each for side in sides for each in side.atoms(sp.Pow) if each.exp.is_Rational and not each.exp.is_Integer)
+    return {each.base for each in roots if each.free_symbols}
+
+
+def agree_for_positive(a: Any, b: Any) -> bool:
+    """Whether two sides with roots or magnitudes, as √(x²) = x, agree for positive letters."""
+    if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or not (radicands(a, b) or (a - b).has(sp.Abs)):
+        return False
+    positive = {each: sp.Symbol(each.name, positive=True) for each in a.free_symbols | b.free_symbols}
+    return agree(a.subs(positive), b.subs(positive))

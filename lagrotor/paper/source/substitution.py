@@ -184,6 +184,12 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
     return Call(node.name, tuple(put_for(each, values) for each in node.args))
 
 
+def _stands_alone(part: Node, others: Collection[Node], sides: Iterable[Node]) -> bool:
+    """Whether a part stands anywhere but in the others that are put in: by ω² = g/l no root is put in for ω in ω² + k."""
+    wider = {each: Number(Fraction(0)) for each in others if each != part and _holds(each, part)}
+    return not wider or any(_holds(put_for(side, wider), part) for side in sides)
+
+
 def _without(parts: Collection[Node], others: Collection[Node]) -> list[Node]:
     return [each for each in parts if each not in others]
 
@@ -210,6 +216,7 @@ def rounds(
     for _ in range(_MOST_ROUNDS):
         parts = (dict.fromkeys(_free(side)) for side in (left, right))
         new = {each.meaning: each for each in premises(wanted(*parts)) if each.meaning not in above[each.meaning]}
+        new = {part: each for part, each in new.items() if _stands_alone(part, new, (left, right))}
         if not new:
             break
         for meaning, each in new.items():

@@ -108,6 +108,40 @@ def test_slips_of_factors_powers_indices_and_functions_are_found(
 
 
 @pytest.mark.parametrize(
+    ("left", "right", "slip", "condition"),
+    [
+        (
+            r"\sqrt{\frac{m}{m g + k}}",
+            r"\frac{1}{\sqrt{g + k/m}}",
+            r"\frac{1}{\sqrt{g - k/m}}",
+            "where its roots are real",
+        ),
+        (
+            r"\sqrt{m^2 c^4 + p^2 c^2}",
+            r"m c^2\sqrt{1 + \frac{p^2}{m^2 c^2}}",
+            r"m c\sqrt{1 + \frac{p^2}{m^2 c^2}}",
+            "positive",
+        ),
+        (r"\sqrt{a + b}", r"\sqrt{b + a}", r"\sqrt{b - a}", "identity where its roots are real"),
+    ],
+)
+def test_roots_are_compared_where_they_are_real_and_a_condition_is_said(
+    left: str, right: str, slip: str, condition: str, tmp_path: Path
+) -> None:
+    (found,) = findings(tmp_path, rf"\[ y = {left} = {right} \]")
+    assert found.verdict == HOLDS and condition in found.why
+    assert HOLDS not in verdicts(tmp_path, rf"\[ y = {left} = {slip} \]")
+
+
+def test_what_the_text_gives_for_a_square_is_put_in_without_a_root(tmp_path: Path) -> None:
+    text = (
+        r"With $\omega_0^2 = g/l + k/m$, \[ \omega = \sqrt{\frac gl + \frac km - s^2} = \sqrt{\omega_0^2 SIGN s^2} \]"
+    )
+    assert verdicts(tmp_path, text.replace("SIGN", "-")) == [HOLDS]
+    assert verdicts(tmp_path, text.replace("SIGN", "+")) == [REFUTED]
+
+
+@pytest.mark.parametrize(
     "step",
     [
         "T + V = 2T",  # the virial theorem
@@ -277,9 +311,9 @@ def test_with_definitions_put_in_only_what_agrees_at_a_point_is_decided_exactly(
 ) -> None:
     decisions = []
 
-    def counted(a: Any, b: Any) -> Any:
+    def counted(a: Any, b: Any, within: Any) -> Any:
         decisions.append((a, b))
-        return decide_equal(a, b)
+        return decide_equal(a, b, within)
 
     monkeypatch.setattr(compared, "decide_equal", counted)
     assert verdicts(tmp_path, r"\[ u = x + y \] \[ b = p u + v = q u^2 \]") == ["undecided"] and not decisions
