@@ -15,6 +15,7 @@
     "5" = "frequency at theta = 0"          # ω of small oscillations, of several: frequency 2 at …; frequency^2: ω²
     "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ = Q, or what follows from the equations of motion
     "7" = "integral"                        # F with dF/dt = 0 along every motion, as energies and momenta have
+    "8" = "small motion theta at theta = 0" # motion, acceleration or momentum through first order about an equilibrium
 
 The constraints, their rates and what `where` says are premises of every verdict, and named in those that need them. A letter of a
 print of which nothing is said is refused: what it stands for decides whether the print is right. What is said by the coordinates,
@@ -27,7 +28,7 @@ The text is parsed by the reader of expressions; nothing in it runs. Goldstein, 
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from pathlib import Path
 from typing import Any
@@ -59,7 +60,8 @@ from lagrotor.paper.source.tree import Node, in_catalogue, letters_of, text_of
 
 _KEYS = ("coordinates", "L", "constraints", "forces", "where", "derives")
 _KIND = re.compile(
-    r"(L|energy|integral)|(momentum|acceleration|motion)(?: +([A-Za-z_]\w*))?|(frequency)(\^2)?(?: +(\d+))?(?: +at +(.*))?"
+    r"(?P<whole>L|energy|integral)|(?P<small>small +)?(?P<kind>momentum|acceleration|motion)(?: +(?P<name>(?!at\b)[A-Za-z_]\w*))?"
+    r"(?(small)(?: +at +(?P<about>.*))?)|frequency(?P<squared>\^2)?(?: +(?P<which>\d+))?(?: +at +(?P<at>.*))?"
 )
 _LAGRANGIANS = ("L", "Lcal", "Lscr")  # as L is named in a print, where it is no letter of the system
 
@@ -88,7 +90,7 @@ class StatedSystem:
         if match is None:
             raise InputError(
                 f"{self.place}: derives: {said!r} is not known: L, energy, integral, momentum q, acceleration q, "
-                "motion q, or frequency at q = 0"
+                "motion q, small motion q at q = 0, or frequency at q = 0"
             )
         if not self.paper.equation(identifier).line:
             says = " has no printed line, its print was kept aside: write it as an [[equation.line]] in equations.toml"
@@ -99,15 +101,46 @@ class StatedSystem:
         return derived
 
     def _derived(self, identifier: str, match: re.Match[str]) -> sp.Expr:
-        whole, kind, name, _, squared, which, point = match.groups()
-        if whole == "integral":
+        said = match.groupdict(default="")
+        if said["whole"] == "integral":
             return self._conserved(identifier)
-        if whole:
-            return self.L if whole == "L" else shortest(energy(self.L, self.c))
-        if kind:
-            derived = self._of_coordinate(kind, name or "")
-            return shortest(self._as_printed(identifier, derived) if kind == "motion" else derived)
-        return self._frequency(identifier, int(which or 1), point or "", squared=bool(squared))
+        if said["whole"]:
+            return self.L if said["whole"] == "L" else shortest(energy(self.L, self.c))
+        if kind := said["kind"]:
+            system = self._small(said["about"]) if said["small"] else self
+            derived = system._of_coordinate(kind, said["name"])
+            return shortest(system._as_printed(identifier, derived) if kind == "motion" else derived)
+        return self._frequency(identifier, int(said["which"] or 1), said["at"], squared=bool(said["squared"]))
+
+    def _small(self, about: str) -> "StatedSystem":
+        """The system with L through second order and the forces through first in q − q₀ and q̇, about an equilibrium q₀."""
+        if self.constraints:
+            raise InputError(
+                f"{self.place}: derives: small motion is of coordinates without constraints: state it in such"
+            )
+        still, small = self._equilibrium(about), sp.Dummy()
+        rest = still | dict.fromkeys(self.c.v, sp.S.Zero)
+        near = {x: x0 + small * (x - x0) for x, x0 in rest.items()}
+
+        def through(order: int, e: sp.Expr) -> sp.Expr:
+            e = e.xreplace(near)
+            return sum((e.diff(small, n).subs(small, 0) / sp.factorial(n) for n in range(order + 1)), sp.S.Zero)
+
+        system = replace(self, L=through(2, self.L), forces=tuple(through(1, each) for each in self.forces))
+        moved = [each for each in system.accelerations.xreplace(rest) if not _is_zero(each)]
+        if moved:
+            raise InputError(
+                f"{self.place}: derives: {about or 'zero'} is no equilibrium: there it has the acceleration {moved[0]}"
+            )
+        return system
+
+    def _equilibrium(self, point: str) -> dict[sp.Symbol, sp.Expr]:
+        """The coordinates of `at theta = 0, x = a`; those that are not named are zero."""
+        at: dict[sp.Symbol, sp.Expr] = {}
+        for each in filter(None, (part.strip() for part in point.split(","))):
+            name, _, value = each.partition("=")
+            at[read(name.strip(), self.names, self.place)] = read(value.strip() or "0", self.names, self.place)
+        return dict.fromkeys(self.c.q, sp.S.Zero) | at
 
     @cached_property
     def premises(self) -> tuple[Premise, ...]:
@@ -295,12 +328,8 @@ class StatedSystem:
             raise InputError(
                 f"{self.place}: derives: with friction small motion has no one frequency: leave frequencies out here"
             )
-        at: dict[sp.Symbol, sp.Expr] = {}
-        for each in filter(None, (part.strip() for part in point.split(","))):
-            name, _, value = each.partition("=")
-            at[read(name.strip(), self.names, self.place)] = read(value.strip() or "0", self.names, self.place)
-        still = dict.fromkeys(self.c.q, sp.S.Zero) | at
-        modes = System(self.c, self.L, constraints=self.constraints, forces=self.forces).linearise(still).modes()
+        system = System(self.c, self.L, constraints=self.constraints, forces=self.forces)
+        modes = system.linearise(self._equilibrium(point)).modes()
         squares = list(dict.fromkeys(sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0))
         if not 0 < which <= len(squares):
             raise InputError(f"{self.place}: derives: there is no frequency {which}: the system has {len(squares)}")
@@ -434,15 +463,19 @@ def proposed_system(rows: Sequence[Mapping[str, Any]]) -> str:
         if not is_lagrangian.fullmatch(line["quantity"].strip()) or not member:
             continue
         names = sorted(set(re.findall(r"(\w+)_dot\b", member)), key=lambda name: member.index(f"{name}_dot"))
-        seems = [(i, "L" if each is line else _seems(each, names)) for i, each in lines]
+        bent = {name for name in names if re.search(rf"\b(?:sin|cos)\([^()]*\b{name}\b", member)}
+        seems = [(i, "L" if each is line else _seems(each, names, bent)) for i, each in lines]
         derives = [f"# {json.dumps(i)} = {json.dumps(said)}" for i, said in seems if said]
         head = _PROPOSAL.format(id=identifier, names=" ".join(names), L=json.dumps(member))
         return head + "".join(f"{row}\n" for row in dict.fromkeys(derives))
     return ""
 
 
-def _seems(line: Mapping[str, Any], names: Sequence[str]) -> str:
-    """What a printed line seems to be of a system with these coordinates; "" where it does not seem to be anything."""
+def _seems(line: Mapping[str, Any], names: Sequence[str], bent: set[str]) -> str:
+    """What a printed line seems to be of a system with these coordinates; "" where it does not seem to be anything.
+
+    bent: those of which L has the sine or cosine: an equation of motion without one is of small motion.
+    """
     quantity = re.sub(r"[\s{}\\]|mathcal|mathscr", "", line["quantity"])
     members = " ".join(line.get("members", ()))
     if quantity in ("E", "H", "h") and "_dot" in members:
@@ -450,10 +483,11 @@ def _seems(line: Mapping[str, Any], names: Sequence[str]) -> str:
     momentum = re.search(r"(?:^p_|partialLpartialdot)(\w+)$", quantity)
     if momentum and momentum[1] in names:
         return f"momentum {momentum[1]}"
-    if quantity.startswith("ddot") and quantity[4:] in names:
-        return f"acceleration {quantity[4:]}"
     turning = {name for name in names if f"ddot{name}" in quantity or f"{name}_ddot" in members}
-    return f"motion {min(turning)}" if len(turning) == 1 else ""
+    small = "small " if turning & bent and not re.search(r"sin|cos", quantity + members) else ""
+    if quantity.startswith("ddot") and quantity[4:] in names:
+        return f"{small}acceleration {quantity[4:]}"
+    return f"{small}motion {min(turning)}" if len(turning) == 1 else ""
 
 
 def _one_line(text: str) -> str:

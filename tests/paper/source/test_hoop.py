@@ -259,6 +259,62 @@ def judged(tmp_path: Path, system: str, prints: dict[str, tuple[str, str]], lett
     return answers | {names[int(v.id) - 1]: v.verdict for v in Paper(paper.folder).audit() if v.id in derives}
 
 
+def test_small_motion_is_through_first_order_about_an_equilibrium(tmp_path: Path) -> None:
+    """A true θ̈ + (g/l) θ = 0 was refuted as an equation of motion; about a lean the deviation has its letter."""
+    system = """
+[system]
+coordinates = "theta"
+L = "m*l**2*(theta_dot**2 + Omega**2*sin(theta)**2)/2 + m*g*l*cos(theta)"
+forces = ["-c*theta_dot"]
+where = ["omega_0**2 = g/l", "delta = theta - acos(g/(l*Omega**2))"]
+"""
+    upright, leaning = "small motion theta", "small motion theta at theta = acos(g/(l*Omega**2))"
+    lean = r"m l^2 \ddot\theta + c \dot\theta SIGN m l^2 (\Omega^2 - \frac{g^2}{l^2 \Omega^2}) \delta = 0"
+    prints = {
+        "hanging": (r"m l^2 \ddot\theta + c \dot\theta + m l^2 (\omega_0^2 - \Omega^2) \theta = 0", upright),
+        "hanging, misprinted": (
+            r"m l^2 \ddot\theta + c \dot\theta + m l^2 (\omega_0^2 + \Omega^2) \theta = 0",
+            upright,
+        ),
+        "leaning": (lean.replace("SIGN", "+"), leaning),
+        "leaning, misprinted": (lean.replace("SIGN", "-"), leaning),
+        "acceleration": (
+            r"\ddot\theta = (\Omega^2 - \frac{g}{l}) \theta - \frac{c \dot\theta}{m l^2}",
+            "small acceleration theta",
+        ),
+        "as a whole": (r"m l^2 \ddot\theta + c \dot\theta + m l^2 (\omega_0^2 - \Omega^2) \theta = 0", "motion theta"),
+        "at no equilibrium": (
+            r"\ddot\theta = (\Omega^2 - \frac{g}{l}) \theta",
+            "small acceleration theta at theta = 1",
+        ),
+        "not small": (r"\ddot\theta = (\Omega^2 - \frac{g}{l}) \theta", "acceleration theta at theta = 0"),
+    }
+    assert judged(tmp_path, system, prints, "g l m c Omega") == {
+        "hanging": "holds-if",
+        "hanging, misprinted": "refuted",
+        "leaning": "holds-if",
+        "leaning, misprinted": "refuted",
+        "acceleration": "holds",
+        "as a whole": "refuted",
+        "at no equilibrium": "refused",
+        "not small": "refused",
+    }
+
+
+def test_coupled_small_motion(tmp_path: Path) -> None:
+    system = """
+[system]
+coordinates = "alpha beta"
+L = "m*l**2*(alpha_dot**2 + beta_dot**2/2 + alpha_dot*beta_dot*cos(alpha - beta)) + m*g*l*(2*cos(alpha) + cos(beta))"
+"""
+    prints = {
+        "of beta": (r"\ddot\beta = - \ddot\alpha - \frac{g}{l} \beta", "small motion beta"),
+        "of alpha": (r"2 l \ddot\alpha = - 2 g \alpha - l \ddot\beta", "small motion alpha"),
+        "misprinted": (r"2 l \ddot\alpha = - 2 g \alpha + l \ddot\beta", "small motion alpha"),
+    }
+    assert judged(tmp_path, system, prints, "m") == {"of beta": "holds", "of alpha": "holds", "misprinted": "refuted"}
+
+
 def test_letters_that_the_coordinates_give_change_with_them(tmp_path: Path) -> None:
     """ℓ and r were constants in dF/dt: Laplace's integral was refuted, and so was the energy by a speed; here it is called τ."""
     system = """
@@ -360,11 +416,14 @@ def test_the_first_lagrangian_that_is_written_out_is_proposed(tmp_path: Path) ->
         r"p_\varphi = m l^2 \dot\varphi",
         r"\ddot\varphi = - \frac{g}{l} \sin\varphi",
         r"L = \frac{m l^2}{2} \dot\varphi^2",
+        r"\ddot\varphi = - \frac{g}{l} \varphi",
+        r"\ddot\varphi + \frac{g}{l} \varphi = 0",
     ]
     equations = "".join(rf"\begin{{equation}} {each} \end{{equation}}" for each in shown)
     paper = stated_paper(tmp_path / "mine", rf"\begin{{document}}{equations}\end{{document}}", "")
     rows = [row for row in (paper.folder / "paper.toml").read_text(encoding="utf-8").splitlines() if row[:3] == '# "']
-    assert rows == ['# "1" = "L"', '# "2" = "momentum varphi"', '# "3" = "acceleration varphi"']
+    small = ['# "5" = "small acceleration varphi"', '# "6" = "small motion varphi"']
+    assert rows == ['# "1" = "L"', '# "2" = "momentum varphi"', '# "3" = "acceleration varphi"', *small]
 
 
 def test_what_is_said_of_a_letter_of_the_lagrangian_alone_is_refused(tmp_path: Path) -> None:
