@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness, usefulness
-from lagrotor.pictures.stability_figure import stability_figure
+from lagrotor.pictures.benchmark_figures import stability_figure
 
 TITLE = "Where the closed forms stop being useful"
 ALT = (

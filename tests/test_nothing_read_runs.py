@@ -529,7 +529,6 @@ READERS = {
     "paper/title_page.py": "paper.toml",
     "report/cite.py": "own",
     "report/formulas/font.py": "own",
-    "report/interactive/grid.py": "own",
     "report/interactive/interactive.py": "own",
     "report/job/folder.py": "own",
     "report/job/kept.py": "products",

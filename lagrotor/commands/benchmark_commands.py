@@ -44,7 +44,7 @@ def chart_command(given: argparse.Namespace) -> int:
     from lagrotor.benchmark.scenes_and_methods import benchmarks
     from lagrotor.drawing.style import paper_style
     from lagrotor.files import write_beside, write_text
-    from lagrotor.pictures.speed_chart import speed_chart
+    from lagrotor.pictures.benchmark_figures import speed_chart
 
     check_folder(given.out)
     with progress(4) as step:
@@ -142,7 +142,7 @@ def stability_command(given: argparse.Namespace) -> int:
         }
         if given.out:
             from lagrotor.benchmark.limits.error_map import usefulness
-            from lagrotor.pictures.stability_figure import draw_stability
+            from lagrotor.pictures.benchmark_figures import draw_stability
 
             step("figure")
             n, m = (8, 9) if given.quick else (24, 40)

@@ -18,11 +18,11 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.proved.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
 from lagrotor.proved.carried_sets import Accuracy, CarriedStep, Start, column_matrix, entries_of, steps_of
 from lagrotor.proved.certificates import Certificate, Proved, ball_data, balls_data, flow_data, matrix_data
+from lagrotor.proved.crossings import extremes
 from lagrotor.proved.enclosure import accuracy_of, loosened, time_ball
 from lagrotor.proved.fields import Field, Values, field_of, values_at
 from lagrotor.proved.krawczyk import inside, krawczyk, middle_inverse
 from lagrotor.proved.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
-from lagrotor.proved.orbit_shape import extremes
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
 

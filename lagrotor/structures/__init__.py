@@ -24,12 +24,12 @@ if TYPE_CHECKING:
     from lagrotor.structures.resonances import resonant_factors as resonant_factors
     from lagrotor.structures.standing import measured_fall as measured_fall
     from lagrotor.structures.upright_hamiltonian import local_hamiltonian as local_hamiltonian
+    from lagrotor.structures.waves.chern import border_packet as border_packet
     from lagrotor.structures.waves.chern import chern_numbers as chern_numbers
+    from lagrotor.structures.waves.chern import edge_waves as edge_waves
+    from lagrotor.structures.waves.chern import way_round as way_round
     from lagrotor.structures.waves.dispersion import dispersion as dispersion
     from lagrotor.structures.waves.dispersion import long_wave_speeds as long_wave_speeds
-    from lagrotor.structures.waves.edge_waves import border_packet as border_packet
-    from lagrotor.structures.waves.edge_waves import edge_waves as edge_waves
-    from lagrotor.structures.waves.edge_waves import way_round as way_round
     from lagrotor.structures.waves.nonlinear_waves import NonlinearWave as NonlinearWave
     from lagrotor.structures.waves.nonlinear_waves import ThreeWaves as ThreeWaves
     from lagrotor.structures.waves.nonlinear_waves import nonlinear_wave as nonlinear_wave

@@ -11,13 +11,12 @@ import pytest
 from lagrotor import Scene, simulate
 from lagrotor.benchmark import scenes_and_methods as module
 from lagrotor.benchmark.method import TOLERANCES, Case
-from lagrotor.benchmark.reference import reference
-from lagrotor.benchmark.runner import ChartPoint, Failure, benchmark
+from lagrotor.benchmark.runner import ChartPoint, Failure, benchmark, reference
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, ratios
 from lagrotor.commands.command_line import main
 from lagrotor.drawing import paper_style
 from lagrotor.errors import InputError
-from lagrotor.pictures.speed_chart import speed_chart as draw
+from lagrotor.pictures.benchmark_figures import speed_chart as draw
 
 STORED = json.loads(Path(__file__).with_name("reference.json").read_text())
 TIMES = np.array([0.0, *STORED["times"]])

@@ -448,7 +448,7 @@ def test_chart_names_what_it_wrote(
     files = {path.name for path in work.iterdir()}
     assert files == {"chart.json", "chart-displaced.svg", "chart-displaced.png"}
     assert set(capsys.readouterr().out.splitlines()[-3:]) == files
-    monkeypatch.setattr("lagrotor.pictures.speed_chart.speed_chart", lambda one: Figure())  # drawn above
+    monkeypatch.setattr("lagrotor.pictures.benchmark_figures.speed_chart", lambda one: Figure())  # drawn above
     assert main(["chart", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["charts"][0]["scene"] == "displaced"
 

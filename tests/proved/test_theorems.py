@@ -368,7 +368,7 @@ def test_what_is_written_is_what_is_evaluated(expression: sp.Expr) -> None:
 
     made, at = system_field(PENDULUM, {}, [1], [0]), [arb("0.3"), arb("-0.7")]
     tape = tape_of_words([{"of": str(expression)}], ["theta", "theta_dot"], None)
-    (found,) = evaluated(tape, [Dual(Rest([x], arb(0), 1)) for x in at], 1)
+    (found,) = evaluated(tape, [Dual(Rest([x], arb(0), 1)) for x in at])
     off = found.value.terms[0] - values_at(made.function([expression]), at)[0]
     assert off.contains(0) and float(off.rad()) < 1e-12
 

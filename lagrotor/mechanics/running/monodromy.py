@@ -1,4 +1,4 @@
-"""Floquet multipliers of a periodic motion: what a turn makes of small displacements.
+"""What becomes of small displacements: Floquet multipliers of a periodic motion, the Lyapunov exponent of any.
 
 With s' = f(s, t) of period T, δs(T) = Φ δs(0), Φ' = (∂f/∂s) Φ, Φ(0) = 1; under constraints in their tangent space, as in
 `state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. One is 1 where
@@ -17,17 +17,22 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.admission import check_values
-from lagrotor.mechanics.running.flow import Array, Values
-from lagrotor.mechanics.running.programs import motion_program
+from lagrotor.mechanics.running.flow import Array, Values, projection_of
+from lagrotor.mechanics.running.motion import SampledMotion
+from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_motion
 from lagrotor.mechanics.running.scales import clock_windows
 from lagrotor.mechanics.running.state_space import check_smooth, local_slope, motion_slope, point_state, tangent_space
 from lagrotor.mechanics.small_turns import small_states
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import windows_since
+from lagrotor.shown import Shown
 
 _LOCAL = (1e-10, 1e-12)  # errors of a step, of the integration that is read last and of the one it is compared with
 _CLOSED = 1e-6  # relative: what an orbit may be open by
 _MOST = 2_000_000  # evaluations
+MOST = 10_000_000  # the same, of an exponent
+_PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back to length one; for the standard error
+_TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,3 +106,60 @@ def _number(given: Any) -> float:
         return np.nan if isinstance(given, str | bool) else float(given)
     except (TypeError, ValueError):
         return np.nan
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Lyapunov(Shown):
+    """The largest Lyapunov exponent, 1/s: the mean growth rate of the distance of neighbours along the run.
+
+    error: the standard error of that mean, from ten parts of the run; history (m,): the mean so far at the times t (m,).
+    """
+
+    exponent: float
+    error: float
+    t: Array
+    history: Array
+
+    def summary(self) -> dict[str, str]:
+        """The exponent, its error and the time it belongs to, name → words."""
+        return {
+            "largest exponent [1/s]": f"{self.exponent:.4g} ± {self.error:.1g}",
+            "over": f"{self.t[-1] - self.t[0]:g} s" if len(self.t) else "no time",
+        }
+
+
+def lyapunov(run: SampledMotion) -> Lyapunov:
+    """The largest Lyapunov exponent over the time of the run.
+
+    It belongs to that time: for a regular motion it falls off as log(t)/t. Raises InputError for a run of one sample,
+    IntegrationError where a neighbour's motion cannot go on, as at a singular position that the run passes.
+    """
+    if len(run.t) < 2:
+        raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
+    if not run.switched.smooth:
+        raise InputError(
+            "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not run"
+        )
+    given, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
+    parameters, d = parameter_values(given, run.values), len(given.states) // 2
+    project = projection_of(run.system, run.values) if run.system.multipliers else None
+    grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
+    y = np.concatenate([run.q[0], run.u[0], [run.t[0]] * (d - n)])
+    tangent = np.append(np.random.default_rng(1).normal(size=n), [0.0] * (d - n))  # time is not displaced
+    growth = np.zeros(_PIECES)
+    for i, h in enumerate(np.diff(grid)):
+        tangent = tangent / np.linalg.norm(tangent)
+        begin = float(grid[i])
+        problem = Problem(
+            given.rate(parameters, begin),
+            np.concatenate([y, tangent]),
+            MOST // _PIECES,
+            windows=windows_since(begin, run.scales.windows),
+        )
+        end = integrate(problem, np.array([h]), max(run.tol, _TIGHTEST)).states[-1]
+        y, tangent = end[:d] if project is None else project(end[:d]), end[d:]
+        growth[i] = np.log(np.linalg.norm(tangent))
+    duration = grid[1:] - grid[0]
+    parts = growth.reshape(_PARTS, -1).sum(1) * _PARTS / duration[-1]
+    history = np.cumsum(growth) / duration
+    return Lyapunov(float(history[-1]), float(parts.std(ddof=1) / np.sqrt(_PARTS)), grid[1:], history)

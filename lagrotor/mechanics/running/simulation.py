@@ -17,7 +17,7 @@ from lagrotor.mechanics.running.admission import check_inertia, check_pole, chec
 from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
 from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
-from lagrotor.mechanics.running.lyapunov import lyapunov
+from lagrotor.mechanics.running.monodromy import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program

@@ -11,6 +11,7 @@ from lagrotor.proved.verification.recurrences import ZERO, demand, rational_of, 
 from lagrotor.proved.verification.tapes import results_of
 
 Ball = Any
+Series = Any  # a Rest, or what has its operations
 
 
 class Rest:
@@ -44,9 +45,67 @@ class Rest:
             rest += other.total * self.rest
         return Rest(product, rest, self.n)
 
+    def number(self, value: Ball) -> "Rest":
+        """A constant."""
+        return Rest([value], ZERO, self.n)
+
     def at_start(self) -> Ball:
         """The value at s = 0."""
         return self.terms[0] if self.terms else ZERO
+
+    def inverse(self) -> "Rest":
+        """1/a = q/(1 − r), r = 1 − a q."""
+        demand(self.at_start() > 0 or self.at_start() < 0, "a denominator is not shown to be other than zero")
+        q, _ = terms_of("divide", self.terms, self.n)
+        size = total(q)
+        r = _high(self.terms, q, self.n) + size * self.rest
+        return Rest(q, size * r / below_one(r), self.n)
+
+    def sqrt(self) -> "Rest":
+        """q + e with e = (a − q² − e²)/(2 q): |e| ≤ k d/(1 + √(1 − k² d)), k = |1/q|, d = |a − q²|."""
+        demand(self.at_start() > 0, "a root's argument is not shown to be positive")
+        q, _ = terms_of("sqrt", self.terms, self.n)
+        k = Rest(q, ZERO, self.n).inverse().size()
+        d = _high(q, q, self.n) + self.rest
+        return Rest(q, k * d / (1 + below_one(k * k * d).sqrt()), self.n)
+
+    def log(self) -> tuple["Rest", "Rest"]:
+        """log a_0 + ∫ a'/a, and 1/a."""
+        demand(self.at_start() > 0, "a logarithm's argument is not shown to be positive")
+        slope = self.inverse()
+        return self._by_slope(slope, self.at_start().log()), slope
+
+    def exp(self) -> "Rest":
+        """q + e with e' = a' e + (a' q − q'); never more than the whole, exp(a_0 + |a − a_0|)."""
+        (q, _), rate, n = terms_of("exp", self.terms, self.n), slopes_of(self.terms), self.n
+        whole = (self.at_start() + total(self.terms[1:]) + self.rest).exp()
+        if not total(rate) / (n + 1) < 1:
+            return Rest(q, arb(whole.upper()), n)
+        e = _high(rate, q, n - 1) / n / below_one(total(rate) / (n + 1))
+        return Rest(q, arb(whole.upper()).min(e + (total(q) + e) * (self.rest.exp() - 1)), n)
+
+    def sin_cos(self) -> tuple["Rest", "Rest"]:
+        """sin(a) and cos(a): the errors of both solve a linear equation with the coefficient a'."""
+        rate, pair, n = slopes_of(self.terms), terms_of("sin", self.terms, self.n), self.n
+        e = sum((_high(rate, q, n - 1) for q in pair), ZERO) / n / below_one(total(rate) / (n + 1))
+        rest = e + (sum(map(total, pair), ZERO) + 2 * e) * (self.rest.exp() - 1)
+        return Rest(pair[0], rest, n), Rest(pair[1], rest, n)
+
+    def arc(self, name: str) -> tuple["Rest", "Rest"]:
+        """asin(a) or atan(a), and its slope. Raises InputError for any other operation."""
+        one, square = self.number(arb(1)), self * self
+        if name not in ("asin", "atan"):
+            raise InputError(f"check: the operation {name!r} is unknown")
+        slope = (one - square).sqrt().inverse() if name == "asin" else (one + square).inverse()
+        return self._by_slope(slope, getattr(self.at_start(), name)()), slope
+
+    def _by_slope(self, slope: "Rest", value: Ball) -> "Rest":
+        """g(a) from g' (a): g(a_0) + ∫ a' g'(a) ds, and the rest of a times g'."""
+        rate = slopes_of(self.terms)
+        product = (arb_poly(rate) * arb_poly(slope.terms)).coeffs()
+        terms = [value, *(x / (k + 1) for k, x in enumerate(product[: self.n - 1]))]
+        left = total(product[self.n - 1 :]) + total(rate) * slope.rest
+        return Rest(terms, left / self.n + self.rest * slope.size(), self.n)
 
 
 def total(terms: Sequence[Ball]) -> Ball:
@@ -71,64 +130,14 @@ def below_one(x: Ball) -> Ball:
     return 1 - x if x < 1 else arb("nan")
 
 
-def _inverse(a: Rest) -> Rest:
-    """1/a = q/(1 − r), r = 1 − a q."""
-    demand(a.at_start() > 0 or a.at_start() < 0, "a denominator is not shown to be other than zero")
-    q, _ = terms_of("divide", a.terms, a.n)
-    size = total(q)
-    r = _high(a.terms, q, a.n) + size * a.rest
-    return Rest(q, size * r / below_one(r), a.n)
-
-
-def _root(a: Rest) -> Rest:
-    """q + e with e = (a − q² − e²)/(2 q): |e| ≤ k d/(1 + √(1 − k² d)), k = |1/q|, d = |a − q²|."""
-    demand(a.at_start() > 0, "a root's argument is not shown to be positive")
-    q, _ = terms_of("sqrt", a.terms, a.n)
-    k = _inverse(Rest(q, ZERO, a.n)).size()
-    d = _high(q, q, a.n) + a.rest
-    return Rest(q, k * d / (1 + below_one(k * k * d).sqrt()), a.n)
-
-
-def _logarithm(a: Rest) -> Rest:
-    """log a_0 + ∫ a'/a."""
-    demand(a.at_start() > 0, "a logarithm's argument is not shown to be positive")
-    return _integral_of(a, _inverse(a), a.at_start().log())
-
-
-def _exponential(a: Rest) -> Rest:
-    """q + e with e' = a' e + (a' q − q'); never more than the whole, exp(a_0 + |a − a_0|)."""
-    (q, _), rate = terms_of("exp", a.terms, a.n), slopes_of(a.terms)
-    whole = (a.at_start() + total(a.terms[1:]) + a.rest).exp()
-    if not total(rate) / (a.n + 1) < 1:
-        return Rest(q, arb(whole.upper()), a.n)
-    e = _high(rate, q, a.n - 1) / a.n / below_one(total(rate) / (a.n + 1))
-    return Rest(q, arb(whole.upper()).min(e + (total(q) + e) * (a.rest.exp() - 1)), a.n)
-
-
-def _turning(a: Rest) -> tuple[Rest, Rest]:
-    """sin(a) and cos(a): the errors of both solve a linear equation with the coefficient a'."""
-    rate, pair = slopes_of(a.terms), terms_of("sin", a.terms, a.n)
-    e = sum((_high(rate, q, a.n - 1) for q in pair), ZERO) / a.n / below_one(total(rate) / (a.n + 1))
-    rest = e + (sum(map(total, pair), ZERO) + 2 * e) * (a.rest.exp() - 1)
-    return Rest(pair[0], rest, a.n), Rest(pair[1], rest, a.n)
-
-
-def _integral_of(a: Rest, slope: Rest, value: Ball) -> Rest:
-    """g(a) from g' (a): g(a_0) + ∫ a' g'(a) ds, and the rest of a times g'."""
-    rate = slopes_of(a.terms)
-    product = (arb_poly(rate) * arb_poly(slope.terms)).coeffs()
-    terms = [value, *(x / (k + 1) for k, x in enumerate(product[: a.n - 1]))]
-    left = total(product[a.n - 1 :]) + total(rate) * slope.rest
-    return Rest(terms, left / a.n + a.rest * slope.size(), a.n)
-
-
 class Dual:
-    """A series and its derivatives by the start's coordinates; none where it does not depend on them."""
+    """A series, a `Rest` or what has its operations, and its derivatives by the start's coordinates; none where it does not
+    depend on them."""
 
-    def __init__(self, value: Rest, by: list[Rest] | None = None) -> None:
+    def __init__(self, value: Series, by: list[Series] | None = None) -> None:
         self.value, self.by = value, by
 
-    def linear(self, factor: Rest, other: "Dual | None" = None, second: Rest | None = None) -> list[Rest] | None:
+    def linear(self, factor: Series, other: "Dual | None" = None, second: Series | None = None) -> list[Series] | None:
         """factor · self' + second · other'."""
         first = None if self.by is None else [factor * x for x in self.by]
         if other is None or other.by is None or second is None:
@@ -137,46 +146,37 @@ class Dual:
         return moved if first is None else [x + y for x, y in zip(first, moved, strict=True)]
 
 
-def evaluated(tape: Any, arguments: list[Dual], n: int) -> list[Dual]:
+def evaluated(tape: Any, arguments: Sequence[Dual]) -> list[Dual]:
     """The tape's outputs."""
-    one, minus = Rest([arb(1)], ZERO, n), Rest([arb(-1)], ZERO, n)
+    one = arguments[0].value.number(arb(1))
+    minus = one.number(arb(-1))
 
     def operation(name: str, a: Dual, b: Dual | None = None) -> Dual:
         if b is None:
-            return _function(name, a, one, n)
+            return function(name, a)
         if name == "add":
             return Dual(a.value + b.value, a.linear(one, b, one))
         if name == "subtract":
             return Dual(a.value - b.value, a.linear(one, b, minus))
         if name == "multiply":
             return Dual(a.value * b.value, a.linear(b.value, b, a.value))
-        over = _inverse(b.value)
+        over = b.value.inverse()
         quotient = a.value * over
         return Dual(quotient, a.linear(over, b, minus * quotient * over))
 
-    found = results_of(tape, arguments.__getitem__, lambda x: Dual(Rest([rational_of(x)], ZERO, n)), operation)
+    def function(name: str, a: Dual) -> Dual:
+        x = a.value
+        if name == "exp":
+            value = slope = x.exp()
+        elif name == "sqrt":
+            value = x.sqrt()
+            slope = (value + value).inverse()
+        elif name in ("sin", "cos"):
+            sine, cosine = x.sin_cos()
+            value, slope = (sine, cosine) if name == "sin" else (cosine, minus * sine)
+        else:
+            value, slope = x.log() if name == "log" else x.arc(name)
+        return Dual(value, a.linear(slope))
+
+    found = results_of(tape, arguments.__getitem__, lambda x: Dual(one.number(rational_of(x))), operation)
     return [found[place] for place in tape["outputs"]]
-
-
-def _function(name: str, a: Dual, one: Rest, n: int) -> Dual:
-    """A function of one variable with its derivative."""
-    x = a.value
-    if name == "exp":
-        value = slope = _exponential(x)
-    elif name == "sqrt":
-        value = _root(x)
-        slope = _inverse(value + value)
-    elif name == "log":
-        value, slope = _logarithm(x), _inverse(x)
-    elif name in ("sin", "cos"):
-        sine, cosine = _turning(x)
-        value, slope = (sine, cosine) if name == "sin" else (cosine, Rest([arb(-1)], ZERO, n) * sine)
-    elif name == "asin":
-        slope = _inverse(_root(one - x * x))
-        value = _integral_of(x, slope, x.at_start().asin())
-    elif name == "atan":
-        slope = _inverse(one + x * x)
-        value = _integral_of(x, slope, x.at_start().atan())
-    else:
-        raise InputError(f"check: the operation {name!r} is unknown")
-    return Dual(value, a.linear(slope))

@@ -93,14 +93,14 @@ class Flow:
         raise NotProved("check: the rest of the Taylor series is not bounded over a step")
 
     def _rates(self, rows: list[Rest], still: Sequence[Ball], n: int) -> list[Rest]:
-        return [rate.value for rate in evaluated(self.tape, self.arguments(rows, still, None, n), n)]
+        return [rate.value for rate in evaluated(self.tape, self.arguments(rows, still, None, n))]
 
     def slopes(self, rows: list[Rest], still: Sequence[Ball], h: Ball, n: int) -> tuple[list[Any], Ball]:
         """The terms of D, D' = h J D and D(0) = 1, and a bound of the rest of each entry."""
         size, n_rows = self.size, self.moving
         by = [[Rest([arb(int(i == j))], ZERO, n) for j in range(size)] for i in range(n_rows)]
         zero = [Rest([], ZERO, n)] * size
-        found = [rate.by or zero for rate in evaluated(self.tape, self.arguments(rows, still, by, n), n)]
+        found = [rate.by or zero for rate in evaluated(self.tape, self.arguments(rows, still, by, n))]
         found += [zero] * (size - n_rows)
         J = [arb_mat([[h * term(x, k) for x in row] for row in found]) for k in range(n)]
         rest = widest([total([h * x.rest for x in row]) for row in found])

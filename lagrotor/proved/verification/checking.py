@@ -105,7 +105,7 @@ def pieces_of(certificate: Any, carried: Carried, named: Sequence[Any]) -> Any:
     for box, h, n in carried.boxes:
         rows = carried.flow.step(box, h, n)
         arguments = carried.flow.arguments(rows, box[carried.flow.moving :], None, n)
-        yield at, h, [found.value for found in evaluated(tape, arguments, n)]
+        yield at, h, [found.value for found in evaluated(tape, arguments)]
         at += h
 
 
@@ -255,7 +255,7 @@ def gradients(tape: Any, flow: Flow, state: list[Ball]) -> list[Dual]:
     """The tape's outputs with their derivatives by the states."""
     rows = [Rest([x], ZERO, 1) for x in state]
     by = [[Rest([arb(int(i == j))], ZERO, 1) for j in range(len(state))] for i in range(len(state))]
-    return evaluated(tape, flow.arguments(rows, [], by, 1), 1)
+    return evaluated(tape, flow.arguments(rows, [], by, 1))
 
 
 _RULES: dict[str, Callable[[Any], None]] = {

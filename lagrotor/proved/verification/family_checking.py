@@ -6,12 +6,15 @@ q' − a' q, a q' − a'. Derivatives are found by dual numbers, forward.
 """
 
 from collections.abc import Sequence
+from functools import reduce
+from operator import add
 from typing import Any
 
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
-from lagrotor.proved.verification.recurrences import ZERO, demand, motion_terms, rational_of, terms_of
-from lagrotor.proved.verification.tapes import results_of
+from lagrotor.errors import NotProved
+from lagrotor.proved.verification.bounded_series import Dual, evaluated
+from lagrotor.proved.verification.recurrences import ZERO, demand, motion_terms, terms_of
 
 Ball = Any
 
@@ -44,8 +47,13 @@ class Sheet:
         """Of the maximum of the absolute value."""
         return sum(map(bound, self.terms), ZERO) + self.rest
 
-    def plus(self, other: "Sheet", sign: int = 1) -> "Sheet":
-        """The sum, or the difference."""
+    def __add__(self, other: "Sheet") -> "Sheet":
+        return self._plus(other, 1)
+
+    def __sub__(self, other: "Sheet") -> "Sheet":
+        return self._plus(other, -1)
+
+    def _plus(self, other: "Sheet", sign: int) -> "Sheet":
         width = max(len(self.terms), len(other.terms))
         none = arb_poly([])
         a, b = (x.terms + [none] * (width - len(x.terms)) for x in (self, other))
@@ -53,10 +61,9 @@ class Sheet:
 
     def signed(self, sign: int) -> "Sheet":
         """Itself, or its negative."""
-        return self if sign > 0 else self.like([], ZERO).plus(self, -1)
+        return self if sign > 0 else self.like([], ZERO) - self
 
-    def times(self, other: "Sheet") -> "Sheet":
-        """The product."""
+    def __mul__(self, other: "Sheet") -> "Sheet":
         if not self.terms or not other.terms:
             return self.like([], _rest_of_product(self, other, ZERO))
         whole = [arb_poly([])] * (len(self.terms) + len(other.terms) - 1)
@@ -75,6 +82,58 @@ class Sheet:
     def at_centre(self) -> Ball:
         """The value at s = ε = 0."""
         return self.terms[0][0] if self.terms else ZERO
+
+    def inverse(self) -> "Sheet":
+        """1/a = q/(1 − r), r = 1 − a q."""
+        demand(bool(self.at_centre() > 0 or self.at_centre() < 0), "a denominator is not shown to be other than zero")
+        found, _ = _function(self, "divide")
+        r = (self.number(arb(1)) - self * found).size()
+        return found.like(found.terms, top(found.size() * r / _left(r)))
+
+    def sqrt(self) -> "Sheet":
+        """√a with a − q² = d: |√a − q| ≤ |q| (1 − √(1 − |d|/q²))."""
+        demand(bool(self.at_centre() > 0), "a root's argument is not shown to be positive")
+        found, _ = _function(self, "sqrt")
+        d, k = (self - found * found).size(), found.inverse().size()
+        return found.like(found.terms, top(found.size() * (1 - _left(d * k * k).sqrt())))
+
+    def exp(self) -> "Sheet":
+        """q' − a' q = ρ gives |e^a − q| ≤ (|ρ_ε| + |ρ_s|) e^|a'|, first along ε, then along s."""
+        (found, _), flat = _function(self, "exp"), self.like(self.terms, ZERO)
+        start, first = (self.terms[0] if self.terms else arb_poly([])), found.terms[0]
+        along = bound(first.derivative() - start.derivative() * first) * bound(start.derivative()).exp()
+        slope = flat.rate()
+        missed = (found.rate() - slope * found).size()
+        error = (along + missed) * slope.size().exp()
+        whole = found.size() + error
+        return found.like(found.terms, top(error + whole * (self.rest.exp() - 1)))
+
+    def sin_cos(self) -> tuple["Sheet", "Sheet"]:
+        """(sin a, cos a): the error's square sum grows by the defects alone."""
+        sine, cosine = _function(self, "sin")
+        start = (self.terms[0] if self.terms else arb_poly([])).derivative()
+        first, second = sine.terms[0], cosine.terms[0]
+        error = bound(first.derivative() - start * second) + bound(second.derivative() + start * first)
+        slope = self.like(self.terms, ZERO).rate()
+        error += (sine.rate() - slope * cosine).size() + (cosine.rate() + slope * sine).size()
+        rest = top(error + self.rest)
+        return sine.like(sine.terms, rest), cosine.like(cosine.terms, rest)
+
+    def log(self) -> tuple["Sheet", "Sheet"]:
+        """a q' − a' = ρ gives |log a − q| ≤ (|ρ_ε| + |ρ_s|) |1/a|; and 1/a."""
+        over = self.inverse()
+        demand(bool(self.at_centre() > 0), "a logarithm's argument is not shown to be positive")
+        (found, _), flat = _function(self, "log"), self.like(self.terms, ZERO)
+        start, first = self.terms[0], found.terms[0]
+        along = bound(start * first.derivative() - start.derivative())
+        missed = (flat * found.rate() - flat.rate()).size()
+        k = over.size()
+        rest = top((along + missed) * k + self.rest * k / _left(self.rest * k))
+        return found.like(found.terms, rest), over
+
+    def arc(self, name: str) -> tuple["Sheet", "Sheet"]:
+        """None is known."""
+        raise NotProved(f"check: {name} is no operation of a family")
 
 
 def _rest_of_product(a: Sheet, b: Sheet, left: Ball) -> Ball:
@@ -95,110 +154,6 @@ def _function(a: Sheet, name: str) -> tuple[Sheet, Sheet]:
 def _left(x: Ball) -> Ball:
     demand(bool(x < 1), "a bound does not close over a step of the family")
     return 1 - x
-
-
-def inverse_sheet(a: Sheet) -> Sheet:
-    """1/a = q/(1 − r), r = 1 − a q."""
-    demand(bool(a.at_centre() > 0 or a.at_centre() < 0), "a denominator is not shown to be other than zero")
-    found, _ = _function(a, "divide")
-    r = a.number(arb(1)).plus(a.times(found), -1).size()
-    return found.like(found.terms, top(found.size() * r / _left(r)))
-
-
-def root(a: Sheet) -> Sheet:
-    """√a with a − q² = d: |√a − q| ≤ |q| (1 − √(1 − |d|/q²))."""
-    demand(bool(a.at_centre() > 0), "a root's argument is not shown to be positive")
-    found, _ = _function(a, "sqrt")
-    d, k = a.plus(found.times(found), -1).size(), inverse_sheet(found).size()
-    return found.like(found.terms, top(found.size() * (1 - _left(d * k * k).sqrt())))
-
-
-def exponential(a: Sheet) -> Sheet:
-    """q' − a' q = ρ gives |e^a − q| ≤ (|ρ_ε| + |ρ_s|) e^|a'|, first along ε, then along s."""
-    (found, _), flat = _function(a, "exp"), a.like(a.terms, ZERO)
-    start, first = (a.terms[0] if a.terms else arb_poly([])), found.terms[0]
-    along = bound(first.derivative() - start.derivative() * first) * bound(start.derivative()).exp()
-    slope = flat.rate()
-    missed = found.rate().plus(slope.times(found), -1).size()
-    error = (along + missed) * slope.size().exp()
-    whole = found.size() + error
-    return found.like(found.terms, top(error + whole * (a.rest.exp() - 1)))
-
-
-def turning(a: Sheet) -> tuple[Sheet, Sheet]:
-    """(sin a, cos a): the error's square sum grows by the defects alone."""
-    sine, cosine = _function(a, "sin")
-    start = (a.terms[0] if a.terms else arb_poly([])).derivative()
-    first, second = sine.terms[0], cosine.terms[0]
-    error = bound(first.derivative() - start * second) + bound(second.derivative() + start * first)
-    slope = a.like(a.terms, ZERO).rate()
-    error += sine.rate().plus(slope.times(cosine), -1).size() + cosine.rate().plus(slope.times(sine)).size()
-    rest = top(error + a.rest)
-    return sine.like(sine.terms, rest), cosine.like(cosine.terms, rest)
-
-
-def logarithm(a: Sheet, over: Sheet) -> Sheet:
-    """a q' − a' = ρ gives |log a − q| ≤ (|ρ_ε| + |ρ_s|) |1/a|. over: 1/a."""
-    demand(bool(a.at_centre() > 0), "a logarithm's argument is not shown to be positive")
-    (found, _), flat = _function(a, "log"), a.like(a.terms, ZERO)
-    start, first = a.terms[0], found.terms[0]
-    along = bound(start * first.derivative() - start.derivative())
-    missed = flat.times(found.rate()).plus(flat.rate(), -1).size()
-    k = over.size()
-    return found.like(found.terms, top((along + missed) * k + a.rest * k / _left(a.rest * k)))
-
-
-Pair = tuple[Sheet, "list[Sheet] | None"]  # a value, and its derivatives by the start
-
-
-def _linear(
-    factor: Sheet, by: list[Sheet] | None, second: Sheet | None, other: list[Sheet] | None
-) -> list[Sheet] | None:
-    first = None if by is None else [factor.times(x) for x in by]
-    if other is None or second is None:
-        return first
-    moved = [second.times(x) for x in other]
-    return moved if first is None else [x.plus(y) for x, y in zip(first, moved, strict=True)]
-
-
-def outputs_of(tape: Any, arguments: Sequence[Pair]) -> list[Pair]:
-    """The tape's outputs."""
-    any_sheet = arguments[0][0]
-    one = any_sheet.number(arb(1))
-
-    def operation(name: str, first: Pair, second: Pair | None = None) -> Pair:
-        a, by = first
-        if second is None:
-            return _applied(name, a, by, one)
-        b, other = second
-        if name in ("add", "subtract"):
-            sign = 1 if name == "add" else -1
-            return a.plus(b, sign), _linear(one, by, a.number(arb(sign)), other)
-        if name == "multiply":
-            return a.times(b), _linear(b, by, a, other)
-        over = inverse_sheet(b)
-        quotient = a.times(over)
-        return quotient, _linear(over, by, one.number(arb(-1)).times(quotient.times(over)), other)
-
-    found = results_of(tape, arguments.__getitem__, lambda x: (any_sheet.number(rational_of(x)), None), operation)
-    return [found[place] for place in tape["outputs"]]
-
-
-def _applied(name: str, a: Sheet, by: list[Sheet] | None, one: Sheet) -> Pair:
-    minus = one.number(arb(-1))
-    if name == "exp":
-        value = slope = exponential(a)
-    elif name == "sqrt":
-        value = root(a)
-        slope = one.number(arb(0.5)).times(inverse_sheet(value))
-    elif name == "log":
-        slope = inverse_sheet(a)
-        value = logarithm(a, slope)
-    else:
-        demand(name in ("sin", "cos"), f"{name} is no operation of a family")
-        sine, cosine = turning(a)
-        value, slope = (sine, cosine) if name == "sin" else (cosine, minus.times(sine))
-    return value, _linear(slope, by, None, None)
 
 
 class FamilyFlow:
@@ -229,7 +184,7 @@ class FamilyFlow:
         missed = []
         still = [self._full([x], ZERO) for x in self.x[moving:]]
         for row, rate in zip(terms, self.rates([*(self._full(row, ZERO) for row in terms), *still]), strict=True):
-            change = _integral(rate, h).plus(self._full(row, ZERO), -1).plus(self._full([row[0]], ZERO))
+            change = _integral(rate, h) - self._full(row, ZERO) + self._full([row[0]], ZERO)
             missed.append(change.size())
         wide = [
             b + sum((v.size() * w for v, w in zip(row, self.W, strict=True)), ZERO)
@@ -259,20 +214,17 @@ class FamilyFlow:
 
     def rates(self, x: list[Sheet]) -> list[Sheet]:
         """Of what moves."""
-        return [rate for rate, _ in outputs_of(self.tape, [(sheet, None) for sheet in x])]
+        return [rate.value for rate in evaluated(self.tape, list(map(Dual, x)))]
 
     def jacobian(self, x: list[Sheet]) -> list[list[Sheet]]:
         """The rates' derivatives by x."""
         zero = self._full([], ZERO)
         by = [[zero.number(arb(int(i == j))) for j in range(self.size)] for i in range(self.size)]
-        rows = outputs_of(self.tape, list(zip(x, by, strict=True)))
-        return [slopes or [zero] * self.size for _, slopes in rows]
+        rows = evaluated(self.tape, list(map(Dual, x, by)))
+        return [row.by or [zero] * self.size for row in rows]
 
     def _along(self, row: list[Sheet], j: int) -> Sheet:
-        total = row[0].times(self.V[0][j])
-        for d, v in zip(row[1:], self.V[1:], strict=True):
-            total = total.plus(d.times(v[j]))
-        return total
+        return _sum([d * v[j] for d, v in zip(row, self.V, strict=True)])
 
     def _full(self, terms: list[Any], rest: Ball) -> Sheet:
         return Sheet(terms, rest, self.n, self.p)
@@ -306,11 +258,9 @@ class FamilyFlow:
         for j in range(size):
             missed = []
             for i, row in enumerate(J):
-                rate = row[0].times(self._full(D[0][j], ZERO))
-                for m in range(1, size):
-                    rate = rate.plus(row[m].times(self._full(D[m][j], ZERO)))
-                change = _integral(rate, h).plus(self._full(D[i][j], ZERO), -1)
-                missed.append(change.plus(change.number(arb(int(i == j)))).size())
+                rate = _sum([g * self._full(D[m][j], ZERO) for m, g in enumerate(row)])
+                change = _integral(rate, h) - self._full(D[i][j], ZERO)
+                missed.append((change + change.number(arb(int(i == j)))).size())
             for i, rest in enumerate(_grown(growth, [*missed, *[ZERO] * (size - len(J))])[: len(J)]):
                 end[i][j] = end[i][j].like(end[i][j].terms, rest)
         return end
@@ -327,24 +277,17 @@ class FamilyFlow:
 
 def product_of_sheets(a: list[list[Sheet]], b: list[list[Sheet]]) -> list[list[Sheet]]:
     """Of two matrices."""
-    found = []
-    for row in a:
-        sums = []
-        for column in zip(*b, strict=True):
-            total = row[0].times(column[0])
-            for x, y in zip(row[1:], column[1:], strict=True):
-                total = total.plus(x.times(y))
-            sums.append(total)
-        found.append(sums)
-    return found
+    columns = list(zip(*b, strict=True))
+    return [[_sum([x * y for x, y in zip(row, column, strict=True)]) for column in columns] for row in a]
 
 
 def trace_of_sheets(a: list[list[Sheet]]) -> Sheet:
     """The sum of the diagonal."""
-    total = a[0][0]
-    for i in range(1, len(a)):
-        total = total.plus(a[i][i])
-    return total
+    return _sum([row[i] for i, row in enumerate(a)])
+
+
+def _sum(sheets: Sequence[Sheet]) -> Sheet:
+    return reduce(add, sheets)
 
 
 def may_be(a: Sheet, value: Ball, eps: Ball) -> bool:
@@ -371,14 +314,11 @@ def inverse_of_sheets(D: list[list[Sheet]]) -> list[list[Sheet]]:
     finally:
         ctx.cap = before
     X = [[like.like([_poly(x)], ZERO) for x in row[size:]] for row in rows]
-    R = [
-        [x.number(arb(int(i == j))).plus(x, -1) for j, x in enumerate(row)]
-        for i, row in enumerate(product_of_sheets(D, X))
-    ]
+    R = [[x.number(arb(int(i == j))) - x for j, x in enumerate(row)] for i, row in enumerate(product_of_sheets(D, X))]
     rho = max((top(sum((x.size() for x in row), ZERO)) for row in R), key=lambda x: float(x.upper()))
     rests = [top(sum((x.size() for x in row), ZERO) * rho**2 / _left(rho)) for row in X]
     return [
-        [x.plus(y).plus(x.like([], rest)) for x, y in zip(row, by_R, strict=True)]
+        [x + y + x.like([], rest) for x, y in zip(row, by_R, strict=True)]
         for row, by_R, rest in zip(X, product_of_sheets(X, R), rests, strict=True)
     ]
 

@@ -5,15 +5,7 @@ from typing import Any
 
 from flint import arb, arb_series, ctx
 
-from lagrotor.proved.verification.family_checking import (
-    FamilyFlow,
-    Sheet,
-    exponential,
-    inverse_sheet,
-    logarithm,
-    root,
-    turning,
-)
+from lagrotor.proved.verification.family_checking import FamilyFlow, Sheet
 from lagrotor.proved.verification.recurrences import ZERO, demand, motion_terms, rational_of
 from lagrotor.proved.verification.tapes import results_of
 
@@ -42,7 +34,7 @@ class FlowNearRest(FamilyFlow):
 
     def jacobian(self, x: list[Sheet]) -> list[list[Sheet]]:
         """By ξ that of the motion at x; by the pace the rates at the pace 1."""
-        rows = super().jacobian([*(self.u.times(y) for y in x[:-1]), x[-1]])
+        rows = super().jacobian([*(self.u * y for y in x[:-1]), x[-1]])
         by_pace = rates_near_rest(self.tape, x[:-1], self.u.number(arb(1)), self.u)
         return [[*row[:-1], slope] for row, slope in zip(rows, by_pace, strict=True)]
 
@@ -55,9 +47,10 @@ def rates_near_rest(tape: Any, states: Sequence[Sheet], pace: Sheet, u: Sheet) -
     def operation(name: str, a: Split, b: Split | None = None) -> Split:
         if b is None:
             return _moved(name, a, u)
-        if name in ("add", "subtract"):
-            sign = 1 if name == "add" else -1
-            return a[0].plus(b[0], sign), a[1].plus(b[1], sign)
+        if name == "add":
+            return a[0] + b[0], a[1] + b[1]
+        if name == "subtract":
+            return a[0] - b[0], a[1] - b[1]
         return _joined(name, a, b, u)
 
     found = results_of(tape, arguments.__getitem__, lambda x: (u.number(rational_of(x)), none), operation)
@@ -67,37 +60,37 @@ def rates_near_rest(tape: Any, states: Sequence[Sheet], pace: Sheet, u: Sheet) -
 
 
 def _whole(a: Split, u: Sheet) -> Sheet:
-    return a[0].plus(u.times(a[1]))
+    return a[0] + u * a[1]
 
 
 def _joined(name: str, a: Split, b: Split, u: Sheet) -> Split:
     """a b, with a (b − b₀) + (a − a₀) b₀ off its value at rest; a/b = q, with (a − a₀ − q₀ (b − b₀))/b."""
     if name == "multiply":
-        return a[0].times(b[0]), _whole(a, u).times(b[1]).plus(a[1].times(b[0]))
-    q = a[0].times(inverse_sheet(b[0]))
-    return q, a[1].plus(q.times(b[1]), -1).times(inverse_sheet(_whole(b, u)))
+        return a[0] * b[0], _whole(a, u) * b[1] + a[1] * b[0]
+    q = a[0] * b[0].inverse()
+    return q, (a[1] - q * b[1]) * _whole(b, u).inverse()
 
 
 def _moved(name: str, a: Split, u: Sheet) -> Split:
     """A function, by its addition theorem."""
     at, w = a
     if name == "sqrt":
-        q = root(at)
-        return q, w.times(inverse_sheet(q.plus(root(_whole(a, u)))))
+        q = at.sqrt()
+        return q, w * (q + _whole(a, u).sqrt()).inverse()
     if name == "log":
-        over = inverse_sheet(at)
-        part = w.times(over)
-        return logarithm(at, over), part.times(quotient(u.times(part), "log"))
-    z = u.times(w)
+        value, over = at.log()
+        part = w * over
+        return value, part * quotient(u * part, "log")
+    z = u * w
     if name == "exp":
-        q = exponential(at)
-        return q, q.times(w).times(quotient(z, "exp"))
+        q = at.exp()
+        return q, q * w * quotient(z, "exp")
     demand(name in ("sin", "cos"), f"{name} is no operation of a family")
-    sine, cosine = turning(at)
-    along, across = w.times(quotient(z, "sin")), w.times(quotient(z, "cos"))
+    sine, cosine = at.sin_cos()
+    along, across = w * quotient(z, "sin"), w * quotient(z, "cos")
     if name == "sin":
-        return sine, cosine.times(along).plus(sine.times(across), -1)
-    return cosine, w.like([], ZERO).plus(sine.times(along).plus(cosine.times(across)), -1)
+        return sine, cosine * along - sine * across
+    return cosine, w.like([], ZERO) - (sine * along + cosine * across)
 
 
 def quotient(z: Sheet, name: str) -> Sheet:
@@ -114,7 +107,7 @@ def quotient(z: Sheet, name: str) -> Sheet:
     total = z.like([], arb((left / (1 - size)).upper()))
     power = z.number(arb(1))
     for m in range(count):
-        total, power = total.plus(power.times(z.number(_coefficient(name, m)))), power.times(z)
+        total, power = total + power * z.number(_coefficient(name, m)), power * z
     return total
 
 

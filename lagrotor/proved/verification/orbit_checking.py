@@ -261,12 +261,12 @@ class CheckedPiece:
         reflected = [[x.signed(s) for x in row] for row, s in zip(D, reversals[1], strict=True)]
         back = product_of_sheets(inverse_of_sheets(D), reflected)
         part = [[x.signed(s) for x in row] for row, s in zip(back, reversals[0], strict=True)]
-        half = trace_of_sheets(part).plus(part[0][0].number(arb(4)), -1)
-        square = half.times(half)
-        off = trace_of_sheets(product_of_sheets(part, part)).plus(square, -1)
+        half = trace_of_sheets(part) - part[0][0].number(arb(4))
+        square = half * half
+        off = trace_of_sheets(product_of_sheets(part, part)) - square
         two = all(may_be(off, arb(2), arb(eps)) for eps in (-1, 0, 1))
         demand(two, "half a turn has other multipliers than four ones and a pair")
-        above = sign_of_sheet(square.plus(half.number(arb(4)), -1), arb(-1), arb(1))
+        above = sign_of_sheet(square - half.number(arb(4)), arb(-1), arb(1))
         return above == 1 if kind == "hyperbolic" else above == -1 and sign_of_sheet(half, arb(-1), arb(1)) != 0
 
     def start(self, U: Ball) -> list[Ball]:

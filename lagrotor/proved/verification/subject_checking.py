@@ -88,7 +88,7 @@ def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate
     """Results at a start, whose letters are 1. Raises NotProved where one is not defined."""
     known = [*at, *balls(certificate["motion"]["parameters"])]
     each = [*known, *[arb(1)] * (len(words.arguments) - len(known))]
-    found = [x.value.at_start() for x in evaluated(words.tape(places), [Dual(Rest([x], ZERO, 1)) for x in each], 1)]
+    found = [x.value.at_start() for x in evaluated(words.tape(places), [Dual(Rest([x], ZERO, 1)) for x in each])]
     demand(all(x.is_finite() for x in found), "what is named is not defined at the start")
     return found
 
@@ -226,7 +226,7 @@ class LagrangianOfWords:
         rows = [self.by(slope, self.v) for slope in slopes]
         ((values, p), *_) = residues(words, [*chain(*rows)])
         box = [Dual(Rest([x], ZERO, 1)) for x in [*state, *self.others]]
-        exactly = evaluated(words.tape([*chain(*rows)]), box, 1)
+        exactly = evaluated(words.tape([*chain(*rows)]), box)
         for places in chain(*(combinations(range(n), k) for k in range(1, n + 1))):
             at = [i * n + j for i in places for j in places]
             size = len(places)
@@ -240,7 +240,7 @@ def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:
 
     def along(*moved: int) -> Ball:
         rows = [Dual(Rest([x, arb(int(i in moved))], ZERO, 3)) for i, x in enumerate(at)]
-        return term(evaluated(tape, rows, 3)[0].value, 2)
+        return term(evaluated(tape, rows)[0].value, 2)
 
     alone = [along(i) for i in range(n)]
     return [[2 * alone[i] if i == j else along(i, j) - alone[i] - alone[j] for j in range(n)] for i in range(n)]

@@ -1,4 +1,4 @@
-"""The interactive model of the report: the pair on sliders, with its formulas generated as JavaScript.
+"""The interactive models of the report: the pair on sliders, with its formulas generated as JavaScript, and rotors on a grid.
 
 What the browser computes comes from the expressions that Python compiles: the minimal model's rates and axes, the
 periodic series with the bar left free, the paper's formula. Written by hand are the stepper, the drawing and the
@@ -44,14 +44,12 @@ from lagrotor.pair.notation import (
 from lagrotor.pair.notation import r0 as amplitude
 from lagrotor.pair.notation import sigma as shape
 from lagrotor.pair.scene import Rotor
-from lagrotor.report.interactive.grid import grid_section
 from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
 from lagrotor.theory.paired_precession import horner
 from lagrotor.theory.paired_precession.series import paired_series
 
 PAGE_ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
 _BARS: tuple[Ratio, ...] = "short", "equal", "long"
-_HERE = Path(__file__).parent
 _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
 
 
@@ -63,17 +61,28 @@ def interactive() -> str:
 @cache
 def pair_section() -> str:
     """The pair as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
+    written = [_part(f"interactive_{name}.js") for name in ("motion", "drawing", "controls")]
+    lines = [javascript_formulas(), canvas_script(), *written, 'show(document.getElementById("model"));']
+    return _section("interactive.html", lines).replace("/* style */", _part("interactive.css"))
 
-    def part(name: str) -> str:
-        return (_HERE / f"interactive{name}").read_text(encoding="utf-8")
 
-    lines = [
-        javascript_formulas(),
-        canvas_script(),
-        *(part(f"_{name}.js") for name in ("motion", "drawing", "controls")),
-    ]
-    script = "\n".join(["(() => {", '"use strict";', *lines, 'show(document.getElementById("model"));', "})();"])
-    return part(".html").replace("/* style */", part(".css")).replace("/* script */", script)
+@cache
+def grid_section() -> str:
+    """Up to nine rotors on a grid, and whether they stand, as an HTML fragment: `<section id="grid-model">`.
+
+    Its numbers come from grid_standing.js, written by hand for massless bars and equal loads, and held to `Structure` by a test.
+    """
+    written = [_part(f"grid_{name}.js") for name in ("standing", "controls")]
+    return _section("grid.html", [*written, 'showGrid(document.getElementById("grid-model"));'])
+
+
+def _section(markup: str, lines: list[str]) -> str:
+    script = "\n".join(["(() => {", '"use strict";', *lines, "})();"])
+    return _part(markup).replace("/* script */", script)
+
+
+def _part(file: str) -> str:
+    return (Path(__file__).parent / file).read_text(encoding="utf-8")
 
 
 def javascript_formulas() -> str:

@@ -9,7 +9,7 @@ from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.pair.quantities import finite_number
-from lagrotor.structures.waves import chern, dispersion, edge_waves, nonlinear_waves
+from lagrotor.structures.waves import chern, dispersion, nonlinear_waves
 from lagrotor.structures.waves.cell import Cell
 
 
@@ -19,7 +19,7 @@ class Pattern(Cell):
     long_wave_speeds = dispersion.long_wave_speeds
     dispersion = dispersion.dispersion
     chern_numbers = chern.chern_numbers
-    edge_waves = edge_waves.edge_waves
+    edge_waves = chern.edge_waves
     nonlinear_wave = nonlinear_waves.nonlinear_wave
     three_waves = nonlinear_waves.three_waves
 

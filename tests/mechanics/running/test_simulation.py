@@ -418,7 +418,7 @@ def test_a_parameter_that_is_in_no_equation_is_no_trouble(engine: str) -> None:
 
 def test_a_neighbour_that_cannot_go_on_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
     run = pendulum().simulate(VALUES, (2.5,), (0,), (0, 10), 1e-9)
-    monkeypatch.setattr("lagrotor.mechanics.running.lyapunov.MOST", 2000)
+    monkeypatch.setattr("lagrotor.mechanics.running.monodromy.MOST", 2000)
     with pytest.raises(IntegrationError):
         run.lyapunov()
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Structure
-from lagrotor.report.interactive import grid as module
-from lagrotor.report.interactive.grid import grid_section
+from lagrotor.report.interactive import interactive as module
+from lagrotor.report.interactive.interactive import grid_section
 from lagrotor.report.page import pages
 from tests.report.interactive.in_node import NODE, value_of
 
