@@ -153,7 +153,7 @@ def evaluated(tape: Any, arguments: Sequence[Dual]) -> list[Dual]:
 
     def operation(name: str, a: Dual, b: Dual | None = None) -> Dual:
         if b is None:
-            return function(name, a)
+            return applied(name, a)
         if name == "add":
             return Dual(a.value + b.value, a.linear(one, b, one))
         if name == "subtract":
@@ -164,7 +164,7 @@ def evaluated(tape: Any, arguments: Sequence[Dual]) -> list[Dual]:
         quotient = a.value * over
         return Dual(quotient, a.linear(over, b, minus * quotient * over))
 
-    def function(name: str, a: Dual) -> Dual:
+    def applied(name: str, a: Dual) -> Dual:
         x = a.value
         if name == "exp":
             value = slope = x.exp()
