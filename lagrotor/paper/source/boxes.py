@@ -356,8 +356,9 @@ class _Reader:
         if item.kind in ("math", "param", "stray", "raw"):
             self.place -= 1
             self.stop("cannot stand in a formula", "leave it out")
-        if text == "." and [each.text for each in self.items[self.place : self.place + 2]] == [".", "."]:
-            self.place += 2
+        if text == "." and (after := self.peek()) is not None and after.text == ".":
+            while (after := self.peek()) is not None and after.text == ".":
+                self.take()
             return [Box("dots", "dots", item.at, self.end)]
         if text.isdecimal() or (text == "." and (after := self.peek()) is not None and after.text.isdecimal()):
             return [self.number(item)]
@@ -542,13 +543,14 @@ class _Reader:
     # ---- commands with a form of their own
 
     def _frac(self, item: Token, style: str) -> list[Box]:
-        over, under = self.argument(), self.argument()
+        style = "" if style == "upright" else style
+        over, under = self.argument(style), self.argument(style)
         kind = "binomial" if item.text.endswith("binom") else "fraction"
         return [Box(kind, "", item.at, self.end, [over, under])]
 
     def _sqrt(self, item: Token, style: str) -> list[Box]:
         degree = self.bracketed()
-        content = self.argument()
+        content = self.argument("" if style == "upright" else style)
         parts = [content] + ([boxes(degree)] if degree else [])
         return [Box("root", "", item.at, self.end, parts)]
 
@@ -599,6 +601,8 @@ class _Reader:
         if after is not None and after.kind == "script":
             self.take()
             self.plain() if (following := self.peek()) is not None and following.kind == "open" else self.take()
+        if content and content[0].kind == "operator":  # the sign joins it to what stands before
+            return content
         return [Box("group", "", item.at, self.end, [content])]
 
     def _xrightarrow(self, item: Token, style: str) -> list[Box]:

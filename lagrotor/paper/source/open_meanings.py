@@ -65,6 +65,8 @@ def _lists(row: list[Box]) -> Marks:
     bounds = [any(b.kind == "relation" and b.name in _BOUNDS for b in part) for part in parts]
     if any(a and b and part[0].kind != "wide" for a, b, part in zip(bounds, bounds[1:], parts[1:], strict=False)):
         yield "list", "each bound holds for what is beside it alone", ""
+    if row and all((b.kind == "letter" and b.name in UNITS) or b.name == "/" for b in without_thin(row)):
+        yield "unit", "the letters are a quantity, and no unit", ""
     if row and row[0].kind == "operator" and row[0].name == "+":
         yield "continued", "the display begins with its sign, and continues none", ""
     for place in (k for k, b in enumerate(row) if b.name == "forall"):
@@ -314,7 +316,7 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         b.kind in ("unit", "text") or (b.upright and len(b.name) > 1) for b in row[place:]
     ):
         yield "unit", "the unit belongs to the uncertainty alone", ""
-    elif box.name not in ("+", "-", "pm", "mp", "/", "times", "!"):
+    elif box.name not in ("+", "-", "pm", "mp", "/", "times", "!") or reader.source.startswith(r"\div", box.at):
         yield "sign", f"{box.name} has its usual meaning", ""
 
 
@@ -503,7 +505,7 @@ def _indices(term: list[Box]) -> Counter[str]:
     for box in all_boxes(term):
         if box.kind in ("letter", "partial", "nabla"):
             for script in (box.sub, None if power_in(box) and box.sup and box.sup[0].kind != "letter" else box.sup):
-                if script and all(b.kind in ("letter", "comma", "thin") and len(b.name) < 9 for b in script):
+                if script and all(b.kind in ("letter", "comma", "thin", "number") and len(b.name) < 9 for b in script):
                     names = [b.name for b in script if b.kind == "letter" and not b.upright and b.name in INDICES]
                     found.update(names)
                     if box.sup and power_in(box) and [b.name for b in box.sup] == ["2"]:

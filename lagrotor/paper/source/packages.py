@@ -414,6 +414,8 @@ def commands(loaded: Iterable[str], everything: bool = False) -> dict[str, Packa
         found |= _COMMATH
     if everything or names & {"physics", "physics2"}:
         found |= _PHYSICS
+        if not names & {"physics", "physics2"}:
+            del found[r"\div"]  # the sign of division
     elif "siunitx" in names:
         found[r"\qty"] = _quantity
     return found

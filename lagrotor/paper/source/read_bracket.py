@@ -169,6 +169,9 @@ _ENCLOSED: dict[tuple[str, str], Callable[[FormulaReader, Box], Node]] = {
 
 def read_group(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
+    adds = any(b.kind == "operator" and b.name in ("+", "-", "pm", "mp") for b in strip(box.parts[0])[1:])
+    if adds and (box.sup or len(strip(row)) > 1 or reader.source[: box.at].rstrip().endswith("-")):
+        reader.guess("brace", "a sum over or under a brace is one factor, as if brackets stood around it")
     return power_of(reader, reader.expression(box.parts[0]), box), place + 1
 
 

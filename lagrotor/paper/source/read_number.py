@@ -52,6 +52,8 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
         factors.append(power_of(reader, Letter(f"unit_{row[unit].name}"), row[unit]))
         behind = unit + 1
         unit = next((k for k in range(behind, len(row)) if row[k].kind != "thin"), len(row))
+    if unit == len(row) - 1 and row[unit].upright and len(row[unit].name) > 1:
+        reader.guess("unit", f"{row[unit].name} behind the number is a letter, and no unit")
     return product_of(factors), behind
 
 

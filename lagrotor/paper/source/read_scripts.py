@@ -165,7 +165,8 @@ def _mark_print(reader: FormulaReader, box: Box) -> None:
         ("dot", "times" in known.seen and any(m.endswith("dot") for m in box.marks), "with a dot is its rate in t"),
         ("under", "under" in box.marks, "with a line below is a vector"),
         ("set", box.style == "bb", "with a double line is a letter, and no set or mean"),
-        ("unit", box.upright and (len(box.name) == 1 or box.name in UNITS) and box.name not in ("d", "e", "i", "O"),
+        ("unit", box.upright and box.name not in ("d", "e", "i", "O")
+         and (len(box.name) == 1 or box.name in UNITS or rf"\{box.name}" in GREEK),
          "is no unit or operator"),
     )  # fmt: skip
     for key, is_open, what in open_:
@@ -181,6 +182,7 @@ def _mark_index(reader: FormulaReader, box: Box) -> None:
     behind = names[names.index(",") + 1 :] if "," in names else []
     several = len(below) > 2 and (names[0] or len(below[0].name) > 1)  # \sigma_{11,1} and N_{I,1}, but no a_{1,2}
     by = several and below[-2].name == "," and below[-1].name in ("1", "2", "3")
+    by = by or (names[:1] == [""] and 0 < len(behind) < 3 and {*behind} <= VARIABLES)  # A_{1,x}
     if by or names[:1] == [","] or (0 < len(behind) < 3 and all(names) and "".join(names).replace(",", "").islower()):
         reader.guess("index", f"the comma in the index of {box.name} parts indices, and is no derivative")
     elif any(b.kind in ("operator", "relation", "bracket") and b.name not in ("+", "-", "/") for b in below):

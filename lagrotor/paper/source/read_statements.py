@@ -1,6 +1,7 @@
 """The statements of a formula: rows that continue each other, parts between commas and words, sides and relations."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -126,10 +127,22 @@ def _system(box: Box) -> list[list[Box]] | None:
         inside = strip(box.parts[0])
         return _system(inside[0]) if len(inside) == 1 else None
     if box.kind in ("rows", "cases") or (box.kind == "matrix" and box.name == "array"):
-        lines = [[each for cell in line.parts for each in cell] for line in box.parts[0]]
+        lines = [_joined(line.parts) for line in box.parts[0]]
         if box.kind == "rows" or all(map(is_related, lines)):
             return lines
     return None
+
+
+def _joined(cells: Sequence[list[Box]]) -> list[Box]:
+    """The cells of a line; what has a relation and begins none is a statement beside another: y' = x & y(0) = 1."""
+    line: list[Box] = []
+    for cell in cells:
+        before, inner = strip(line), strip(cell)
+        ends = any(b and b[k].kind in ("operator", "relation") for b, k in ((before, -1), (inner, 0)))
+        if not ends and is_related(before) and is_related(inner):
+            line.append(Box("wide", "", inner[0].at, inner[0].at))
+        line += cell
+    return line
 
 
 def _continues(before: list[Box], line: list[Box]) -> bool:

@@ -107,6 +107,8 @@ def is_vector(node: Node) -> bool:
         return any(map(is_vector, node.args))
     if node.name in _CARRYING and not (node.name == "differential" and len(node.args) > 1):  # d^3 r
         return is_vector(node.args[0])
+    if node.name == "exp":
+        return is_matrix(node.args[0])
     stem = node.name.split("_")[0].removesuffix("prime")
     return node.name in _VECTORS or stem.endswith(("bold", "vec", "under"))
 
@@ -145,7 +147,7 @@ def is_matrix(node: Node) -> bool:
     """Whether a node is a matrix: a bold capital, a matrix as it is written, a transposed one."""
     if not isinstance(node, Call):
         return isinstance(node, Letter) and node.vector and node.name[0].isupper() and "bold" in node.name
-    if node.name in ("sum", "negative"):
+    if node.name in ("sum", "negative", "quotient", "exp"):
         return is_matrix(node.args[0])
     own = node.name in ("matrix", "transpose", "inverse", "matmul")
     return own or (node.name == "product" and any(map(is_matrix, node.args)))

@@ -110,6 +110,13 @@ def test_derivatives_of_packages_are_read_or_refused_in_words(package: str, form
     assert said in (shown, equation.latex.removeprefix("g = "))
 
 
+def test_div_is_a_divergence_where_physics_is_loaded(tmp_path: Path) -> None:
+    (tmp_path / "a.md").write_text("$$ a = b\\div r $$\n", encoding="utf-8")
+    (equation,) = read_source(tmp_path / "a.md").equations
+    loaded = r"\documentclass{article}\usepackage{physics}\begin{document}\[ a = \div{r} \]\end{document}"
+    assert r"\nabla" not in equation.latex and r"\nabla" in read_latex(loaded).equations[0].latex
+
+
 def test_a_file_is_taken_in_as_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
     """All tokens of 5 MB took 220 MB before the first was looked at."""
     stream = token_stream.TokenStream("a $b$ " * 100_000)

@@ -165,6 +165,18 @@ SETTLED = [
     (r"M = (a_{11} \dots)", [], "dots stand for factors"),
     (r"c = e^{-i\Delta t/2}", [], "Delta t is one quantity"),
     (r"T_{ijkl} = -T_{jikl} \text{ and } T_{ijij} = 0", [], "an index of T is not summed over"),
+    (r"a = b - \underbrace{c + d}_{f}", [], "as if brackets stood around it"),
+    (r"a = \underbrace{b + c}_{f} d", [], "as if brackets stood around it"),
+    (r"R = 377\,\mathrm{\Omega}", [], "Omega is no unit"),
+    (r"t = 3\,\mathrm{us}", [], "us behind the number"),
+    ("F/m", [], "the letters are a quantity"),
+    (r"a = v\div r", [], "/ has its usual meaning"),
+    (r"a = A_{2,x} - A_{1,y}", [], "the comma in the index of A"),
+    (
+        r"\frac{\partial x_i}{\partial y_{0k}}\frac{\partial y_{0k}}{\partial x_j} = \delta_{ij}",
+        [],
+        "the index k is not summed",
+    ),
 ]
 
 
@@ -279,6 +291,7 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         r"(a + b)(a - b) = a^2 - b^2", r"f(x, y) = x + y", r"p_i = m_i v_i", r"(\nabla^2 + k^2) p = 0",
         r"\int_0^1 f(x)\,dx + \int_0^1 g(x)\,dx = \int_0^1\frac{dx}{x}", r"a = \int_V \rho\,dV", r"\vec r = x\vec e_x",
         r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}", r"{\rm cos} x = a", r"\mathrm{d}(x^2) = 2x\,\mathrm{d}x",
+        r"a = \underbrace{b + c}_{f} + d", r"p = \frac{F}{m}", "V_1 = V_{1,2} + V_{1,3}",
     ],
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
