@@ -12,7 +12,7 @@
     "2" = "acceleration theta"              # θ̈ from the equations of motion, multipliers eliminated
     "3" = "energy"                          # q̇ ∂L/∂q̇ − L
     "4" = "momentum theta"                  # ∂L/∂θ̇
-    "5" = "frequency at theta = 0"          # ω of small oscillations, of several: frequency 2 at …; frequency^2: ω²
+    "5" = "frequency at theta = 0"          # ω of small oscillations, of several: frequency 2 at …; frequency^2: ω²; period: 2π/ω
     "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ = Q, or what follows from the equations of motion
     "7" = "integral"                        # F with dF/dt = 0 along every motion, as energies and momenta have
     "8" = "small motion theta at theta = 0" # motion, acceleration or momentum through first order about an equilibrium
@@ -61,7 +61,7 @@ from lagrotor.paper.source.tree import Node, in_catalogue, letters_of, text_of
 _KEYS = ("coordinates", "L", "constraints", "forces", "where", "derives")
 _KIND = re.compile(
     r"(?P<whole>L|energy|integral)|(?P<small>small +)?(?P<kind>momentum|acceleration|motion)(?: +(?P<name>(?!at\b)[A-Za-z_]\w*))?"
-    r"(?(small)(?: +at +(?P<about>.*))?)|frequency(?P<squared>\^2)?(?: +(?P<which>\d+))?(?: +at +(?P<at>.*))?"
+    r"(?(small)(?: +at +(?P<about>.*))?)|(?P<form>frequency|frequency\^2|period)(?: +(?P<which>\d+))?(?: +at +(?P<at>.*))?"
 )
 _LAGRANGIANS = ("L", "Lcal", "Lscr")  # as L is named in a print, where it is no letter of the system
 
@@ -90,7 +90,7 @@ class StatedSystem:
         if match is None:
             raise InputError(
                 f"{self.place}: derives: {said!r} is not known: L, energy, integral, momentum q, acceleration q, "
-                "motion q, small motion q at q = 0, or frequency at q = 0"
+                "motion q, small motion q at q = 0, frequency at q = 0, or period"
             )
         if not self.paper.equation(identifier).line:
             says = " has no printed line, its print was kept aside: write it as an [[equation.line]] in equations.toml"
@@ -110,7 +110,7 @@ class StatedSystem:
             system = self._small(said["about"]) if said["small"] else self
             derived = system._of_coordinate(kind, said["name"])
             return shortest(system._as_printed(identifier, derived) if kind == "motion" else derived)
-        return self._frequency(identifier, int(said["which"] or 1), said["at"], squared=bool(said["squared"]))
+        return self._frequency(identifier, said["form"], int(said["which"] or 1), said["at"])
 
     def _small(self, about: str) -> "StatedSystem":
         """The system with L through second order and the forces through first in q − q₀ and q̇, about an equilibrium q₀."""
@@ -322,8 +322,8 @@ class StatedSystem:
         )
         return sp.Matrix(solved[: len(self.c.q)])
 
-    def _frequency(self, identifier: str, which: int, point: str, *, squared: bool) -> sp.Expr:
-        """ω of a small oscillation about an equilibrium, or ω²: rate = i ω."""
+    def _frequency(self, identifier: str, form: str, which: int, point: str) -> sp.Expr:
+        """ω of a small oscillation about an equilibrium, ω², or its period: rate = i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
             raise InputError(
                 f"{self.place}: derives: with friction small motion has no one frequency: leave frequencies out here"
@@ -332,26 +332,30 @@ class StatedSystem:
         modes = system.linearise(self._equilibrium(point)).modes()
         squares = list(dict.fromkeys(sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0))
         if not 0 < which <= len(squares):
-            raise InputError(f"{self.place}: derives: there is no frequency {which}: the system has {len(squares)}")
+            raise InputError(f"{self.place}: derives: there is no {form} {which}: the system has {len(squares)}")
         squares.sort(key=sp.default_sort_key)
-        self._check_frequency(identifier, squares, which, squared=squared)
-        return squares[which - 1] if squared else sp.sqrt(squares[which - 1])
+        square = squares[which - 1]
+        derived = {"frequency": sp.sqrt(square), "frequency^2": square, "period": 2 * sp.pi * sp.sqrt(1 / square)}[form]
+        self._check_frequency(identifier, derived, squares, which, form)
+        return derived
 
-    def _check_frequency(self, identifier: str, squares: Sequence[sp.Expr], which: int, *, squared: bool) -> None:
-        """Raise InputError where a print is ω² or a period, or where its sign or its place in the row is another."""
+    def _check_frequency(
+        self, identifier: str, derived: sp.Expr, squares: Sequence[sp.Expr], which: int, form: str
+    ) -> None:
+        """Raise InputError where a print is another of ω, ω² and the period, or where its sign or its place in the row is."""
         square, put = squares[which - 1], {each.lhs: each.rhs for each in self.where if each.lhs.is_Symbol}
-        derived = square if squared else sp.sqrt(square)
         for member in (e.xreplace(put) for line in self.paper.lines(identifier) for e in line.members):
             if member == 0 or _is_zero(member - derived) or _is_zero(member + derived):
                 continue
-            power = member if squared else member**2
-            others = {f"frequency {n}, not {which}": power - each for n, each in enumerate(squares, 1) if n != which}
-            if not squared:
+            power = {"frequency": member**2, "frequency^2": member, "period": (2 * sp.pi / member) ** 2}[form]
+            others = {f"{form} {n}, not {which}": power - each for n, each in enumerate(squares, 1) if n != which}
+            if form != "frequency^2":
+                says = f"{member}, which may be negative: write positive=True for its letters in symbols.py"
+                others |= {says: power - square}
+            if form == "frequency":
                 others |= {
-                    f"{member}, which may be negative: write positive=True for its letters in symbols.py": power
-                    - square,
                     "a square: say frequency^2": member - square,
-                    "a period: leave it out here": (2 * sp.pi / member) ** 2 - square,
+                    "a period: say period": (2 * sp.pi / member) ** 2 - square,
                     "turns by time, not radians: leave it out here": (2 * sp.pi * member) ** 2 - square,
                 }
             for says, difference in others.items():

@@ -383,12 +383,14 @@ def test_what_else_tells_a_frequency_is_no_wrong_frequency(tmp_path: Path) -> No
         "negative": (r"\omega = - \sqrt{k/m}", "frequency"),
         "square": (r"\omega^2 = \frac{k}{m}", "frequency"),
         "period": (r"T = 2 \pi \sqrt{m/k}", "frequency"),
+        "a period": (r"T = 2 \pi \sqrt{\frac{m}{k}}", "period"),
+        "a period, misprinted": (r"T = 2 \pi \sqrt{\frac{k}{m}}", "period"),
         "turns": (r"\nu = \frac{1}{2 \pi} \sqrt{k/m}", "frequency"),
         "of a sign of letters": (r"\Omega = \frac{k}{\sqrt{k m}}", "frequency"),
     }
-    expected = ["holds", "refuted", "refuted", "refused", "refused", "refused"]
+    expected = ["holds", "refuted", "refuted", "refused", "refused", "holds", "refuted", "refused"]
     answers = judged(tmp_path, OSCILLATOR, prints, "omega_0 a x x_dot x_ddot")
-    assert [answers[name] for name in prints][:6] == expected and answers["of a sign of letters"] != "refuted"
+    assert [answers[name] for name in prints][:-1] == expected and answers["of a sign of letters"] != "refuted"
 
 
 def test_another_frequency_of_the_system_is_named(tmp_path: Path) -> None:
