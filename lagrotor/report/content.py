@@ -29,12 +29,6 @@ BESIDE = {
     "measured.json": "the numbers read off the figures",
 }
 
-_HOW_TO_READ = (
-    "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact decision "
-    "procedure; each claim made in words is tested by a run; each figure is drawn again. Every number here was "
-    "computed by the run that wrote this page, but for seconds, which are on record with their machine."
-)
-
 MEANINGS = {
     "holds": "the printed and the derived expression are the same, decided exactly",
     "holds-if": "they are the same under the condition that is named",
@@ -94,9 +88,13 @@ class Report:
     @property
     def how_to_read(self) -> str:
         """What the report does with equations, claims and figures, and by what they go."""
+        claims, figures = list(self.paper.claims)[:1], self.paper.figures
+        does = "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact "
+        does += "decision procedure" + ("; each claim made in words is tested by a run" if claims else "")
+        does += "; each figure is drawn again. " if figures else ". "
+        does += "Every number here was computed by the run that wrote this page, but for seconds, which are on record with their "
         ids = [f"An equation goes by its number, such as {i}" for i in list(self.paper.equations)[:1]]
-        ids += [f"a claim as {i}" for i in list(self.paper.claims)[:1]]
-        return f"{_HOW_TO_READ} {', '.join(ids)}."
+        return f"{does}machine. {', '.join([*ids, *(f'a claim as {i}' for i in claims)])}."
 
     @property
     def waiting(self) -> list[Equation]:

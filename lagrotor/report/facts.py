@@ -7,7 +7,7 @@ import sympy as sp
 
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.verdict_text import dimension_texts, line_text
-from lagrotor.paper.verdicts import Verdict, point_tex
+from lagrotor.paper.verdicts import Verdict, point_tex, point_text
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word
 from lagrotor.report.errata import correction_lines
@@ -94,7 +94,8 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
 def note(verdict: Verdict) -> str:
     """What a table says beside the verdict's word: why it is refuted or undecided, or the order and the condition in short."""
     if verdict.verdict == "refuted":
-        return verdict.statement.wrong
+        points = (point_text(line) for line in verdict.lines if line.verdict == "refuted")
+        return verdict.statement.wrong or next(filter(None, points), "")
     if verdict.verdict == "undecided" and verdict.evidence:
         return verdict.evidence[0].partition(";")[0]
     parts = list(dict.fromkeys(premise.says for premise in verdict.premises))

@@ -34,22 +34,29 @@ def opening(report: Report) -> list[tuple[str, str]]:
 def balance(report: Report) -> str:
     """How many equations hold and how many are refuted, and what becomes of those."""
     counts = report.counts
-    hold = sum(counts.get(answer, 0) for answer in ("holds", "holds-if", "holds-to-order"))
+    ways = {
+        "holds": "exactly",
+        "holds-if": "under a condition that is named",
+        "holds-to-order": "to the order that is named",
+    }
+    hold = {answer: counts[answer] for answer in ways if answer in counts}
     fallen = [verdict for verdict in report.verdicts if verdict.verdict == "refuted"]
-    corrected = sum(v.correction_verdict in ("holds", "holds-if", "holds-to-order") for v in fallen)
+    corrected = sum(v.correction_verdict in ways for v in fallen)
     reaching = sum(bool(v.reaches_result) for v in fallen)
-    other = len(report.verdicts) - hold - len(fallen)
-    waiting = len(report.waiting)
-    text = f"Of {len(report.verdicts)} equations {hold} hold: {counts.get('holds', 0)} exactly, "
-    text += f"{counts.get('holds-if', 0)} under a condition that is named, "
-    text += f"{counts.get('holds-to-order', 0)} to the order that is named. "
+    undecided, waiting = counts.get("undecided", 0), len(report.waiting)
+    other = len(report.verdicts) - sum(hold.values()) - len(fallen) - undecided
+    text = f"Of {len(report.verdicts)} equations {sum(hold.values())} hold"
+    text += f": {', '.join(f'{n} {ways[answer]}' for answer, n in hold.items())}. " if hold else ". "
     if fallen:
-        whole = corrected == len(fallen)
-        how = ", each with a correction" if whole else f"; for {corrected} of these a correction is given"
-        text += f"{len(fallen)} {'is' if len(fallen) == 1 else 'are'} refuted{how} that itself holds; "
-        text += f"results of the paper depend on {reaching} of them."
+        text += f"{len(fallen)} {'is' if len(fallen) == 1 else 'are'} refuted"
+        if corrected == len(fallen):
+            text += ", each with a correction that itself holds"
+        elif corrected:
+            text += f"; for {corrected} of these a correction is given that itself holds"
+        text += f"; results of the paper depend on {reaching or 'none'} of them."
     else:
         text += "None is refuted."
+    text += f" {undecided} {'is' if undecided == 1 else 'are'} undecided." if undecided else ""
     text += f" The other {other} give a name or a measured number." if other else ""
     return text + (f" {waiting} more {'is' if waiting == 1 else 'are'} not yet judged." if waiting else "")
 

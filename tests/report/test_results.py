@@ -93,15 +93,17 @@ def test_what_was_not_found_is_not_told(report: Report) -> None:
 def test_balance_counts_what_was_judged(report: Report) -> None:
     text = balance(report)
     assert text.startswith("Of 2 equations 0 hold")
-    assert "1 is refuted, each with a correction that itself holds; results of the paper depend on 0" in text
+    assert "1 is refuted, each with a correction that itself holds; results of the paper depend on none" in text
     assert text.endswith("The other 1 give a name or a measured number. 66 more are not yet judged.")
     alone = decide(Statement("5.20", chain(M, R)))
     text = balance(replace(report, verdicts=(*report.verdicts, alone)))
     assert (
-        "2 are refuted; for 1 of these a correction is given that itself holds; results of the paper depend on 0"
+        "2 are refuted; for 1 of these a correction is given that itself holds; results of the paper depend on none"
         in text
     )
     assert "None is refuted." in balance(replace(report, verdicts=()))
+    open_one = replace(alone, verdict="undecided")
+    assert "1 is undecided. The other 1 give a name" in balance(replace(report, verdicts=(*report.verdicts, open_one)))
 
 
 def test_citation_is_that_of_the_file() -> None:

@@ -64,9 +64,9 @@ def sections(report: Report) -> list[Section]:
 
 
 def introduction(report: Report) -> str:
-    """What stands above the sections: three lines of what is right and wrong, or how the report is to be read."""
+    """What stands above the sections: three lines of what is right and wrong, where the paper has them."""
     lines = "".join(f"<li><b>{escape(label)}</b> {prose(text)}</li>" for label, text in opening(report))
-    return f'<ul class="opening">{lines}</ul>' if lines else f"<p>{escape(report.how_to_read)}</p>"
+    return f'<ul class="opening">{lines}</ul>' if lines else ""
 
 
 def _inside(anchor: str, report: Report) -> str:

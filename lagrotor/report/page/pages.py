@@ -24,7 +24,7 @@ _HERE = Path(__file__).parent
 # Hidden until the script shows it: without the script there is nothing that could search.
 _SEARCH = (
     '<form id="search" role="search" hidden><label for="query">Find</label>'
-    '<input id="query" type="search" autocomplete="off" placeholder="5.1, C08, fig 19, nutation, 0.7125">'
+    '<input id="query" type="search" autocomplete="off" placeholder="{}, a word, a number">'
     '<p id="found" role="status"></p><ol id="hits"></ol></form>'
 )
 # Sections that have a page together, besides those of the paper, each of which has its own.
@@ -182,6 +182,8 @@ def _document(
         for address, heading in contents
     )
     title = f'<a href="index.html">{escape(report.title)}</a>' if name else escape(report.title)
+    named = (report.paper.equations, report.paper.claims, [f"figure {n}" for n in report.paper.figures])
+    search = _SEARCH.format(escape(", ".join(str(i) for ids in named for i in list(ids)[:1])))
     opening = "" if name else f"<p>{escape(SUBTITLE)}.</p>{introduction(report)}"
     return "\n".join(
         [
@@ -193,7 +195,7 @@ def _document(
             f"<title>{escape(readable(name) + ': ' + report.title if name else report.title)}</title>",
             f"{style}</head>",
             '<body id="top"><a class="skip" href="#content">Skip to the content</a>',
-            f"<header{' class=short' if name else ''}><h1>{title}</h1>{opening}{_SEARCH}</header>",
+            f"<header{' class=short' if name else ''}><h1>{title}</h1>{opening}{search}</header>",
             '<nav aria-label="Contents"><details id="contents"><summary>Contents</summary>'
             f"<ul>{listed}</ul></details></nav>",
             f'<main id="content">{body}</main>',
