@@ -1,12 +1,14 @@
 r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.paper.source import packages
+from lagrotor.paper.source.chapters import count_words, subjects_of
 from lagrotor.paper.source.counters import Counters
 from lagrotor.paper.source.expansion import STYLES, Expander
 from lagrotor.paper.source.groups import Macro
@@ -49,7 +51,7 @@ class Displayed:
     """One displayed equation: `number` as printed, empty where it has none; `latex` expanded, without labels and numbers.
 
     lead: the left side, in LaTeX, of the row before, which this row continues. place: file and line; rows: the line of each of
-    its rows. cites: labels that the text before it names.
+    its rows. cites: labels that the text before it names. subject: what its chapter is about, where letters may be no numbers.
     """
 
     id: str
@@ -61,6 +63,7 @@ class Displayed:
     place: tuple[str, int] = ("", 0)
     rows: tuple[int, ...] = ()
     cites: tuple[str, ...] = ()
+    subject: str = ""
 
 
 @dataclass
@@ -142,6 +145,7 @@ class _Walker:
         self.words = ""  # of the paragraph, since the last display
         self.beside: list[str] = []  # displays by which the next words stand
         self.ids: set[str] = set()
+        self.chapters: dict[str, Counter[str]] = {}
         self.only_cited = False  # \mathtoolsset{showonlyrefs}
         self.referred: set[str] = set()  # by \eqref
         self.numbered = numbered  # labels that have a number; None: all
@@ -167,6 +171,10 @@ class _Walker:
         self.found.faults = faults_of(self.expander)
         self.found.notes = list(dict.fromkeys((*self.expander.notes, *self.unknown.notes())))
         self.found.missing = self.expander.missing
+        subjects = subjects_of(self.chapters)
+        for place, each in enumerate(self.found.equations):
+            if subject := subjects.get(_chapter(each.section)):
+                self.found.equations[place] = replace(each, subject=subject)
         self.found.preamble = "\n".join(
             rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in self.expander.loaded
         )
@@ -181,6 +189,8 @@ class _Walker:
             self._inline("$", token)
         elif token.kind == "text":
             self._text(token.text)
+            if self.body:
+                count_words(token.text, self.chapters.setdefault(_chapter(self.section), Counter()))
 
     def _command(self, token: Token) -> None:
         name = token.text[1:]
@@ -587,6 +597,10 @@ class _Walker:
 
 
 _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
+
+
+def _chapter(section: str) -> str:
+    return section.split(".")[0]
 
 
 def _has_text(tokens: list[Token]) -> bool:

@@ -45,15 +45,15 @@ def _lowered(row: list[Box]) -> Iterator[str]:
         yield from (each.name for each in held if each.kind == "letter")
 
 
-def read_formula(latex: str, notation: Notation | None = None, lead: str = "") -> Reading:
-    """The reading of a displayed formula; lead: the left side of the row before, which it continues."""
+def read_formula(latex: str, notation: Notation | None = None, lead: str = "", subject: str = "") -> Reading:
+    """The reading of a displayed formula; lead: the left side of the row before, which it continues; subject: of the text."""
     source = f"{lead} {latex}" if lead else latex
     reader = Grammar(source, notation or Notation())
     try:
         row = reader.notation.boxes(source)
         reader.row, reader.lowered = row, frozenset(_lowered(row))
         statements = tuple(read_statements(reader, row))
-        mark_open_meanings(reader, row)
+        mark_open_meanings(reader, row, subject)
     except FormulaError as stop:
         return Reading(stop=(stop.what, stop.help))
     except RecursionError:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 from lagrotor.paper.source.boxes import FUNCTIONS, Box, is_printed_as_vector
+from lagrotor.paper.source.chapters import GROUPS, MEASURES, TAKEN
 from lagrotor.paper.source.formula_reader import FormulaReader, settled
 from lagrotor.paper.source.read_letter import is_called
 from lagrotor.paper.source.read_scripts import INDICES
@@ -53,10 +54,19 @@ _AMPLITUDES = "ABCFINQRVWXYZ"
 Marks = Iterator[tuple[str, str, str]]
 
 
-def mark_open_meanings(reader: FormulaReader, row: list[Box]) -> None:
+def mark_open_meanings(reader: FormulaReader, row: list[Box], subject: str = "") -> None:
     """Add to the guesses of a reading what is not evident of signs beside each other; the rest is marked where it is read."""
-    for key, what, settles in (*_lists(row), *_row(reader, row), *_repeated(row)):
+    for key, what, settles in (*_subject(row, subject.split()), *_lists(row), *_row(reader, row), *_repeated(row)):
         reader.guess(key, what, settles)
+
+
+def _subject(row: list[Box], subjects: list[str]) -> Marks:
+    """What no sign says in a text about groups or measures: that letters are numbers, and what d is of."""
+    letters = [b.name for b in all_boxes(row) if b.kind == "letter"]
+    if GROUPS in subjects and letters:
+        yield GROUPS, TAKEN[GROUPS], ""
+    if MEASURES in subjects and ("d" in letters or any(b.name == "<<" for b in row)):
+        yield MEASURES, TAKEN[MEASURES], ""
 
 
 def _lists(row: list[Box]) -> Marks:
@@ -268,6 +278,16 @@ def _magnitude(reader: FormulaReader, content: list[Box]) -> Marks:
         yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
 
 
+def _group(reader: FormulaReader, row: list[Box], place: int) -> Marks:
+    """A sum or product that no bracket encloses, beside a factor or below a power: {a + b}^2, or with a brace under it."""
+    beside = [b for b in (row[place - 1] if place else None, _behind(row, place)) if b is not None]
+    adds = any(b.kind == "operator" and b.name in ("+", "-", "pm", "mp") for b in row[place].parts[0][1:])
+    if (adds and any(b.kind in (*_FACTORS, "number") for b in beside)) or (
+        row[place].sup and len(row[place].parts[0]) > 1
+    ):
+        yield "bracket", "what no bracket encloses is one factor or base of a power", ""
+
+
 def _bar(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     """A bar that is paired where it is read."""
     below = row[place].sub or []
@@ -325,8 +345,6 @@ def _relation(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     printed = reader.source[box.at : box.end]
     if box.name not in _RELATIONS and printed not in (r"\approx", "≈"):
         yield "relation", f"{printed} is read as {box.name}", ""
-    elif box.name == "<<" and {b.name for b in row} <= {"<<", "mu", "nu", "lambda", "comma", ",", "."}:
-        yield "relation", "what is much less are numbers, and no measures", ""
     elif box.marks:
         yield "relation", f"what stands over {box.name} changes nothing", ""
     elif box.name == ":=" and printed == r"\equiv" and "modular" in reader.notation.seen:
@@ -355,6 +373,10 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         if not (counted or (len(below) == 1 and is_plain_letter(below[0]) and not box.sup)):
             yield "sum", f"what {box.name} runs over is as it is written", ""
     elif box.name == "int":
+        variables = [b for a, b in pairwise(rest) if a.name == "d" and b.name in ("mu", "nu")]
+        inside = [b.name for b in all_boxes(rest)]
+        if not box.sup and any(inside.count(b.name) == 1 for b in variables):
+            yield MEASURES, TAKEN[MEASURES], ""
         last = next((k for k, b in enumerate(rest) if b.kind == "big" or has_differential_above(b)), len(rest))
         ends = (k + 1 for k, b in enumerate(rest[:last]) if (b.kind, b.name, b.sup) == ("letter", "d", None))
         last = next(ends, last)
@@ -371,7 +393,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
     "letter": _letter, "bracket": _bracket, "operator": _operator, "relation": _relation, "text": _text, "big": _big, "bar": _bar,
-    "function": _function, "matrix": _matrix,
+    "function": _function, "matrix": _matrix, "group": _group,
 }  # fmt: skip
 
 

@@ -36,9 +36,9 @@ def paper_notation(formulas: Iterable[str], said: Mapping[str, Any], where: str 
     return notation_of(formulas, declared_notation(said, where))
 
 
-def read_print(latex: str, notation: Notation | None = None, lead: str = "") -> Print:
+def read_print(latex: str, notation: Notation | None = None, lead: str = "", subject: str = "") -> Print:
     """The printed lines as data; without lines where there are none, and with the stop where it cannot be read whole."""
-    reading = read_formula(latex, notation or notation_of([latex]), lead)
+    reading = read_formula(latex, notation or notation_of([latex]), lead, subject)
     if not reading.whole:
         return Print(stop=reading.stop)
     lines, aside, letters, vectors = [], [], dict[str, None](), dict[str, None]()

@@ -61,11 +61,11 @@ def _reading(entry: Equation, notation: Notation) -> EquationReading:
         status = "changed" if entry.changed and status == "unconfirmed" else status
         guesses = entry.guesses
         if guesses and status == "unconfirmed":  # what [notation] says since then
-            made = read_print(entry.latex, notation, entry.lead)
+            made = read_print(entry.latex, notation, entry.lead, entry.subject)
             now = _said(made.lines)
             guesses = made.guesses if now == said else (*guesses, "[notation] reads it otherwise now: repeat init")
         return EquationReading(entry.id, entry.title, entry.latex, status, (*said, *entry.aside), guesses)
-    made = read_print(entry.latex, notation, entry.lead)
+    made = read_print(entry.latex, notation, entry.lead, entry.subject)
     if made.stop is not None:
         stopped, helps = made.stop
         return EquationReading(entry.id, entry.title, entry.latex, "not read", stopped=stopped, helps=helps)

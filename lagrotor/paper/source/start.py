@@ -82,7 +82,7 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     notation = paper_notation(
         [*(each.latex for each in found.equations), *found.inline], said, str(folder / "paper.toml")
     )
-    prints = [read_print(each.latex, notation, each.lead) for each in found.equations]
+    prints = [read_print(each.latex, notation, each.lead, each.subject) for each in found.equations]
     rows, changed, gone = _merged(found, prints, old.get("equation", []), _derived(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
     letters = _vectors(found, prints, old)
@@ -183,7 +183,7 @@ def _merged(
 def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
     title = each.label or f"displayed equation {each.id}"
     row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section, "title": title}
-    row |= {"label": each.label, "latex": each.latex, "lead": each.lead}
+    row |= {"label": each.label, "latex": each.latex, "lead": each.lead, "subject": each.subject}
     lines = [dict(line) for line in made.lines]
     row |= {"read": "unconfirmed" if lines else "", "guesses": list(made.guesses), "aside": list(made.aside)}
     if known is not None:

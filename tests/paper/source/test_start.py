@@ -9,7 +9,9 @@ import pytest
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.paper import Paper
+from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.source.markup import read_source
+from lagrotor.paper.source.readings import readings
 from lagrotor.paper.source.start import begin_paper, confirm
 
 TEX = r"""\documentclass{article}
@@ -209,3 +211,16 @@ def test_delimiters_with_a_body_and_derivatives_of_commath_are_read(tmp_path: Pa
         rf"{pair} + {pair} = {pair} \left[x\right]\mathbf{{z}}",
         r"\frac{\partial^{2} f}{\partial x^{2}}{y} + \frac{\mathrm{d} g}{\mathrm{d} t} = \left| a \right|",
     ]
+
+
+def test_what_a_chapter_is_about_is_kept_beside_its_equations(tmp_path: Path) -> None:
+    text = r"Let \(H\) be a subgroup of a group, and take cosets of \(H\) and a homomorphism. \[ a b = c \]"
+    waves = text.replace("coset", "length").replace("subgroup", "part").replace("homomorphism", "velocity")
+    for name, said in (("groups", text), ("waves", waves)):
+        (tmp_path / f"{name}.tex").write_text(said, encoding="utf-8")
+        begin_paper(tmp_path / name, tmp_path / f"{name}.tex")
+    of_groups, of_waves = (next(readings(Catalogue(tmp_path / name))) for name in ("groups", "waves"))
+    assert rows(tmp_path / "groups")["0a"]["subject"] == "groups" and of_groups.guesses and not of_waves.guesses
+    file = tmp_path / "groups" / "paper.toml"
+    file.write_text(file.read_text(encoding="utf-8") + '\n[notation]\nusual = "groups"\n', encoding="utf-8")
+    assert not next(readings(Catalogue(tmp_path / "groups"))).guesses, "the author says that they are numbers"

@@ -1,0 +1,49 @@
+"""What a chapter is about, where letters may be no numbers: it has words of such texts alone, several on each page."""
+
+import re
+from collections import Counter
+from collections.abc import Mapping
+
+GROUPS, MEASURES = "groups", "measures"
+# What a reading takes for certain elsewhere, and not in such a text.
+TAKEN = {
+    GROUPS: "letters are numbers, and no elements of a group, sets or maps",
+    MEASURES: "what d stands before is a variable, and no measure",
+}
+_OF_GROUPS = (
+    r"sub-?groups?|cosets?|(?:homo|endo|iso|auto|epi|mono)?morphisms?|monoids?|ideals|(?:prime|maximal|principal) ideal|"
+    r"abelian|(?:normal|quotient|cyclic|symmetric|alternating|dihedral|permutation|Galois|free|finite) (?:sub)?groups?|"
+    r"group (?:actions?|axioms|operation)|(?:integral|euclidean) domains?|(?:commutative|polynomial|noetherian|quotient) rings?|"
+    r"field extensions?|Galois|Sylow|functors?|functorial|transpositions?|permutations?|"
+    r"conjugacy class(?:es)?|(?:sub|bi)modules?|^-modules?|sheaf|sheaves|automat(?:a|on)|regular expressions?|cardinality|"
+    r"Untergruppen?|Nebenklassen?|Homomorphism(?:us|en)|(?:homo|endo|iso|auto)?mor(?:phismes?|fismos?)|sous-groupes?|"
+    r"anneaux?|subgrupos?"
+)
+_OF_MEASURES = (
+    r"measurable (?:functions?|sets?|spaces?|maps?)|measure spaces?|measure theory|almost (?:everywhere|surely|sure)|"
+    r"Radon|Nikod[yý]m|absolutely continuous|Lebesgue|Borel|(?:sigma|σ)-(?:algebras?|fields?|finite)|^-algebras?|"
+    r"probability (?:measures?|spaces?)|messbare?n?|mesurables?|测度|可测|可积函数|几乎处处"
+)
+_CHINESE = "子群|同态|同构|陪集|置换|阿贝尔群|交换群"
+_WORDS = re.compile(rf"(?P<{GROUPS}>\b(?:{_OF_GROUPS})\b|{_CHINESE})|(?P<{MEASURES}>{_OF_MEASURES})", re.IGNORECASE)
+_PAGE = 1500  # characters
+_LENGTH = "characters"
+
+
+def count_words(text: str, counts: Counter[str]) -> None:
+    """Add to the counts the length of a text, and how often it has words of each subject."""
+    counts[_LENGTH] += len(text)
+    counts.update(each.lastgroup for each in _WORDS.finditer(text) if each.lastgroup)
+
+
+def subjects_of(chapters: Mapping[str, Counter[str]]) -> dict[str, str]:
+    """What each chapter is about; what most are about, all are."""
+    about = {subject: {name for name, counts in chapters.items() if _is_about(counts, subject)} for subject in TAKEN}
+    whole = [subject for subject, names in about.items() if 2 * len(names) > len(chapters)]
+    return {name: " ".join(each for each in TAKEN if each in whole or name in about[each]) for name in chapters}
+
+
+def _is_about(counts: Counter[str], subject: str) -> bool:
+    """Whether words of a subject stand on each page, and three of them or one in few lines."""
+    times, length = counts[subject], counts[_LENGTH]
+    return times * _PAGE > length and (times > 2 or times * _PAGE > 4 * length)
