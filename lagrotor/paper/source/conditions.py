@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 from lagrotor.paper.source.definitions import next_name
 from lagrotor.paper.source.expansion import NO_VALUE, Expander, Package, Primitive
-from lagrotor.paper.source.tokens import Token, latex_of, tokenize
+from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
 
 _TRUE = ("iftrue", "ifmmode", "ifpdf", "ifPDFTeX")
 _FALSE = ("iffalse", "ifdraft", "ifluatex", "ifxetex", "ifLuaTeX", "ifXeTeX")
@@ -137,6 +137,20 @@ def _if_next(expander: Expander, token: Token) -> bool:
     return True
 
 
+def _heading(expander: Expander, token: Token) -> bool:
+    r"""\secdef\numbered\starred before *{…}, [short]{…} or {…}: the one that takes the heading."""
+    numbered, starred = expander.argument(), expander.argument()
+    if expander.star():
+        expander.push(starred)
+        return True
+    short = expander.optional()
+    heading = expander.argument()
+    before = heading if short is None else short
+    inside = [Token("open", "{", token.at), *heading, Token("close", "}", token.at)]
+    expander.push([*numbered, *plain("[", token.at), *before, *plain("]", token.at), *inside])
+    return True
+
+
 def _boolean(expander: Expander, token: Token) -> bool:
     name = f"if{expander.name()}"
     _set_flag(expander, name, token.text == r"\setboolean" and expander.name() == "true")
@@ -171,6 +185,7 @@ CONDITIONS: dict[str, Primitive] = {
     ),
     **dict.fromkeys((r"\newboolean", r"\provideboolean", r"\setboolean"), _boolean),
     **dict.fromkeys((r"\@ifnextchar", r"\@ifstar"), _if_next),
+    r"\secdef": _heading,
     r"\else": _else,
     r"\fi": lambda expander, token: True,
     r"\ifthenelse": _if_then_else,

@@ -1,5 +1,7 @@
 r"""Commands that set and print counters: \setcounter, \numberwithin, \arabic …"""
 
+import re
+
 from lagrotor.paper.source.counters import Counters
 from lagrotor.paper.source.expansion import Expander, Primitive
 from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
@@ -16,9 +18,10 @@ def _counted(expander: Expander, token: Token) -> bool:
     elif name == r"\addtocounter":
         c.values[counter] = c.values.get(counter, 0) + expander.number(expander.argument())
     elif name in (r"\stepcounter", r"\refstepcounter"):
+        known = not counter.startswith("\\")  # \@captype: figure or table
         c.step(counter)
         if name == r"\refstepcounter":
-            expander.stepped = expander.printed(counter)
+            expander.stepped = expander.printed(counter) if known else ""
     elif name == r"\@addtoreset":
         c.reset_by(counter, expander.name())
     elif name == r"\counterwithout":
@@ -53,6 +56,28 @@ def _numbered(expander: Expander, token: Token) -> bool:
     return True
 
 
+def _register(expander: Expander, token: Token) -> bool:
+    r"""\c@chapter = 0, \c@chapter\z@, \advance\c@equation by 1, as classes write them."""
+    values, advanced = expander.counters.values, token.text == r"\advance"
+    if advanced:
+        expander.skip_spaces()
+        if not expander.begins(r"\c@") or (token := expander.argument()[0]).text[3:] not in values:
+            return False
+    expander.skip_spaces()
+    for sign in "by" if advanced else "=":
+        expander.star(sign)
+    expander.skip_spaces()
+    if (after := expander.peek()) is None or not re.match(r"[-+\d]|\\(?:c@|value|z@|@ne|tw@|m@ne)", after.text):
+        return advanced
+    given = expander.argument()
+    while latex_of(given)[-1:] in "-+0123456789" and (digit := expander.peek()) and digit.text[:1].isdigit():
+        given += expander.argument()
+    if latex_of(given) == r"\value":
+        given += tokenize(f"{{{expander.name()}}}")
+    values[token.text[3:]] = expander.number(given) + (values[token.text[3:]] if advanced else 0)
+    return True
+
+
 def _value(expander: Expander, token: Token) -> bool:
     expander.push(plain(str(expander.counters.values.get(expander.name(), 0)), token.at))
     return True
@@ -65,6 +90,8 @@ _SETTING = (
 COUNTING: dict[str, Primitive] = {
     **dict.fromkeys(_SETTING.split(), _counted),
     **dict.fromkeys((r"\arabic", r"\roman", r"\Roman", r"\alph", r"\Alph"), _shown),
-    **dict.fromkeys((r"\@arabic", r"\@roman", r"\@Roman", r"\@alph", r"\@Alph", r"\number"), _numbered),
+    **dict.fromkeys((r"\@arabic", r"\@roman", r"\@Roman", r"\@alph", r"\@Alph", r"\number", r"\the"), _numbered),
     r"\value": _value,
+    r"\c@": _register,
+    r"\advance": _register,
 }

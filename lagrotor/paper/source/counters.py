@@ -20,7 +20,7 @@ class Counters:
         self.values = dict.fromkeys((*_SECTIONS, "equation", "parentequation", "figure", "table"), 0)
         self.within: dict[str, tuple[str, str]] = {}
         self.resets: dict[str, list[str]] = {}
-        self.chapters = self.appendix = self.journal = False
+        self.chapters = self.appendix = self.journal = self.institute = False
         self.joint: str | None = None
         for outer, inner in pairwise(_SECTIONS[1:]):
             self.reset_by(inner, outer)
@@ -29,6 +29,7 @@ class Counters:
         """What a class sets."""
         self.chapters = document_class in (*_WITH_CHAPTERS, "amsbook")
         self.journal = document_class.startswith("revtex")
+        self.institute = document_class.startswith(("IEEEtran", "ieeeconf"))
         self.joint = next((sign for name, sign in _APPENDIX.items() if document_class.startswith(name)), None)
         if document_class in _WITH_CHAPTERS:
             self.reset_by("equation", "chapter")
@@ -84,7 +85,11 @@ class Counters:
         if name == "section":
             if self.chapters:
                 return f"{printed('chapter')}.{value}"
-            return self.style(value, "Alph" if self.appendix else "Roman" if self.journal else "arabic")
+            return self.style(
+                value, "Alph" if self.appendix else "Roman" if self.journal or self.institute else "arabic"
+            )
+        if name == "subsection" and self.institute:
+            return f"{printed('section')}-{self.style(value, 'Alph')}"
         if name in ("subsection", "subsubsection"):
             outer = "section" if name == "subsection" else "subsection"
             return f"{printed(outer)}.{value}" if not self.journal else self.style(value, "Alph")

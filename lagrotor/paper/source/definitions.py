@@ -7,7 +7,7 @@ from lagrotor.paper.source.expansion import Expander, Primitive
 from lagrotor.paper.source.groups import Macro, numbered
 from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
 
-_HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection", r"\appendix")
+_HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
 
 
 def _defined(expander: Expander, token: Token) -> bool:
@@ -97,7 +97,7 @@ def _is_kept(expander: Expander, name: str, body: list[Token]) -> bool:
     known = name in _HEADINGS or name in expander.primitives
     return any(
         t.text in (r"\@setfontsize", r"\futurelet", r"\not@math@alphabet")
-        or (known and "@" in t.text and t.kind == "command")
+        or (known and ("@" in t.text or t.text == r"\secdef") and t.kind == "command")
         for t in body
     )
 

@@ -10,7 +10,7 @@ from lagrotor.errors import InputError
 from lagrotor.paper.source import packages
 from lagrotor.paper.source.chapters import count_words, subjects_of
 from lagrotor.paper.source.counters import Counters
-from lagrotor.paper.source.expansion import STYLES, Expander
+from lagrotor.paper.source.expansion import STYLES, Expander, unstyled
 from lagrotor.paper.source.groups import Macro
 from lagrotor.paper.source.primitives import PRIMITIVES
 from lagrotor.paper.source.source_faults import faults_of
@@ -108,16 +108,26 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
     found = Source(title, file=name)
     try:
         # without the class, without packages: lost in what one beside the source does
+        tried = []
         for bare in ((), (".cls",), STYLES):
             found = Source(title, file=name)
             walker = _Walker(text, file, found, bare=bare)
-            walker.read()
-            if walker.body or r"\begin{document}" not in text:
+            try:
+                walker.read()
+            except InputError:
+                if bare == STYLES or not walker.has_styles():
+                    raise
+                continue
+            tried.append((walker, found, bare))
+            if walker.ended or not walker.has_styles():
                 break
+        walker, found, bare = next(
+            (each for each in tried if each[0].ended), next((each for each in tried if each[0].body), tried[0])
+        )
         if walker.only_cited:  # what has a number is known at the end
             found = Source(title, file=name)
             _Walker(text, file, found, walker.referred, bare).read()
-        if found.faults and not bare and any(name.endswith(STYLES) for _, name, *_ in walker.expander.starts):
+        if found.faults and not bare and walker.has_styles():
             other = Source(
                 title, file=name
             )  # without the packages beside it: a fault that they have a part in is not said
@@ -139,6 +149,7 @@ class _Walker:
         self.unknown = UnknownEnvironments(self.expander)
         self.found, self.whole = found, whole
         self.section, self.bare, self.numbered_chapters = "0", 0, True
+        self.heading = ""  # the number of the last section that has one: what a label without a number refers to
         self.last, self.since = "0", 0
         self.parent = ""
         self.cited: list[str] = []  # labels named since the last display
@@ -150,10 +161,15 @@ class _Walker:
         self.referred: set[str] = set()  # by \eqref
         self.numbered = numbered  # labels that have a number; None: all
         self.body = not whole
+        self.ended = False  # whether it came to the end of the document
 
     @property
     def counters(self) -> Counters:
         return self.expander.counters
+
+    def has_styles(self) -> bool:
+        """Whether packages or a class beside the source are taken in."""
+        return any(name.endswith(STYLES) for _, name, *_ in self.expander.starts)
 
     def read(self) -> None:
         for token in self.expander.tokens():
@@ -162,6 +178,7 @@ class _Walker:
             elif (name := self.expander.name()) != "document":
                 self.unknown.end(name, token.at)
             elif not self.expander.leave_file(token.at):
+                self.ended = self.body
                 break
         else:
             if self.whole and self.body:
@@ -194,8 +211,8 @@ class _Walker:
 
     def _command(self, token: Token) -> None:
         name = token.text[1:]
-        if name in ("begin", *_LEVELS):
-            self.expander.stepped = ""  # what a label in the text refers to
+        if name in _LEVELS:
+            self.expander.stepped = ""
         if name == "begin":
             self._begin(self.expander.name(), token)
         elif name in _LEVELS and self.body:
@@ -233,6 +250,7 @@ class _Walker:
 
     def _begin(self, name: str, token: Token) -> None:
         if name == "document":
+            self.expander.expand(self.expander.first)
             if not self.body:
                 self.expander.macros.begin_body()
             self.body = True
@@ -293,7 +311,6 @@ class _Walker:
 
     def _until(self, end: str) -> None:
         """Read on until an environment ends."""
-        before = len(self.found.equations)
         for token in self.expander.tokens():
             if token.text == r"\end":
                 name = self.expander.name()
@@ -302,7 +319,7 @@ class _Walker:
                 if name == "document":
                     return self.expander.push(tokenize(r"\end{document}", token.at))
                 self.unknown.end(name, token.at)
-            elif token.text == r"\label" and len(self.found.equations) == before:
+            elif token.text == r"\label":
                 self.found.labels[self.expander.name()] = self.parent
             else:
                 self._take(token)
@@ -330,7 +347,8 @@ class _Walker:
             self.section = re.sub(r"[a-z]+$", "", self.section).removeprefix("0") + _letters(self.bare)
         else:
             self.counters.step(level)
-            self.section, self.bare = self.expander.printed(level) or str(self.counters.values[level]), 0
+            self.heading = self.expander.printed(level)
+            self.section, self.bare = self.heading or str(self.counters.values[level]), 0
         self.found.sections.setdefault(self.section, title or level)
 
     # ---- formulas
@@ -376,14 +394,14 @@ class _Walker:
             if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or part.text in _BETWEEN):
                 self._pass_end(part)
                 if by_rows and (part.text not in _BETWEEN or _has_text(row.tokens)):
-                    self._finish(row, by_rows)
+                    self._finish(row, kind)
                     rows.append(row)
                     row = Row(numbered=numbered)
                 elif part.text not in _BETWEEN:
                     row.tokens.append(part)
             elif part.kind != "command" or not self._taken(part, row):
                 row.tokens.append(part)
-        self._finish(row, by_rows)
+        self._finish(row, kind)
         rows.append(row)
         if end == "$$" and not row.tag:
             self._number_behind(row)
@@ -474,7 +492,7 @@ class _Walker:
     def _number_of(self, label: re.Match[str]) -> str:
         return self.found.labels.get(label[1], "")
 
-    def _finish(self, row: Row, by_rows: bool) -> None:
+    def _finish(self, row: Row, kind: str) -> None:
         """The number of a row that has ended."""
         if self.numbered is not None and row.numbered and not self.numbered & set(row.labels):
             self._withdraw(row)
@@ -482,9 +500,13 @@ class _Walker:
         if row.tag:
             row.number = row.tag
         elif row.numbered:
-            if by_rows:
+            if kind in _ROWS:
                 self.counters.step("equation")
             row.number = self.expander.printed("equation")
+        elif kind == "eqnarray" and row.labels:  # whose counter is a number ahead
+            self.counters.step("equation")
+            row.stepped = True
+            self._withdraw(row)
 
     def _withdraw(self, row: Row) -> None:
         """The number that a display took as it began is not used."""
@@ -516,7 +538,7 @@ class _Walker:
             source = " ".join(latex_of(row.tokens).split())
             if not source.replace("&", "").strip():
                 for label in row.labels:
-                    self.found.labels[label] = row.number
+                    self.found.labels[label] = row.number or row.referred or self.heading
                 continue
             if group and self._continues(group, row, source):
                 group.append(row)
@@ -553,7 +575,7 @@ class _Walker:
         labels = [label for row in group for label in row.labels]
         for row in group:
             for label in row.labels:
-                self.found.labels[label] = row.number or row.referred or number
+                self.found.labels[label] = row.number or row.referred or number or self.heading
         if len(sources) > 1:
             latex = r"\begin{aligned} " + r" \\ ".join(sources) + r" \end{aligned}"
         else:
@@ -660,7 +682,7 @@ _MARKS = {r"\ast": "*", r"\star": "*", r"\ddagger": "‡", r"\dagger": "†", r"
 
 def _plain_number(text: str) -> str:
     """A number without dollar signs, braces and brackets around it: $3'$ is 3'."""
-    text = re.sub(r"\\(?:ensuremath|text|mathrm|textbf|textit|rm|bf|it)(?![A-Za-z])|[${}]", "", text)
+    text = unstyled(text)
     for mark, sign in _MARKS.items():
         text = text.replace(mark, sign)
     return re.sub(r"^\((.*)\)$", r"\1", text.strip()).strip()

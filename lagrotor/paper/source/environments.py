@@ -60,6 +60,7 @@ def _verbatim_environment(expander: Expander, token: Token) -> bool:
 
 def _begin(expander: Expander, token: Token) -> bool:
     name = expander.name()
+    expander.stepped = ""  # what a label in the text refers to
     known = _environment_of(expander, name)
     if known is None and (command := _command_of(expander, name, "", token.at)):
         expander.macros.open(name, token.at)

@@ -49,9 +49,9 @@ class Expander(TokenStream):
         self.flags: dict[str, bool] = {}
         self.counters = Counters()
         self.loaded: set[str] = set()
-        self.missing: dict[
-            str, int
-        ] = {}  # packages and classes of no distribution that are not beside the source: their line
+        # packages and classes of no distribution that are not beside the source: their line
+        self.missing: dict[str, int] = {}
+        self.first: list[Token] = []  # what is done at the beginning of the document
         self.document_class = ""
         self.notes: list[str] = []
         self.stepped = ""  # the number that \refstepcounter in the text gave
@@ -114,7 +114,9 @@ class Expander(TokenStream):
             self.count(name, token.at)
             self.push(Token(t.kind, t.text, token.at) for t in given)
             return True
-        primitive = self.primitives.get(r"\if" if name[1:] in self.flags else name)
+        counter = name[3:] if name.startswith(r"\c@") else ""
+        known = r"\if" if name[1:] in self.flags else r"\c@" if counter in self.counters.values else name
+        primitive = self.primitives.get(known)
         if primitive is not None:
             return primitive(self, token)
         if name.startswith(r"\the") and name[4:] in self.counters.values:
@@ -173,15 +175,16 @@ class Expander(TokenStream):
         r"""A counter as it is printed, \theequation."""
         own = self.macros.get(rf"\the{counter}")
         if own is not None:
-            return latex_of(self.expand(own.body)).strip()
+            return unstyled(latex_of(self.expand(own.body)))
         return self.counters.printed(counter, self.printed)
 
     def number(self, tokens: Iterable[Token]) -> int:
         r"""A sum of digits, \value{…}, \arabic{…}."""
-        text = latex_of(self.expand(tokens)).strip()
+        values = self.counters.values
+        shown = [plain(str(values.get(t.text[3:], 0)), t.at)[0] if t.text.startswith(r"\c@") else t for t in tokens]
+        text = latex_of(self.expand(shown)).strip()
         for constant, value in ((r"\z@", "0"), (r"\@ne", "1"), (r"\tw@", "2"), (r"\m@ne", "-1")):
             text = text.replace(constant, value)
-        text = re.sub(r"\\c@(\w+)", lambda m: str(self.counters.values.get(m[1], 0)), text)
         return sum(int(sign + digits) for sign, digits in re.findall(r"([+-]?)\s*(\d+)", text))
 
 
@@ -189,3 +192,11 @@ def _spec(text: str) -> Iterator[tuple[str, list[Token]]]:
     """The arguments of \\NewDocumentCommand: a letter each, with its default."""
     for match in re.finditer(r"([mosODdr])\s*(?:[()]{2})?\s*(?:\{([^{}]*)\})?", text):
         yield match[1], tokenize(match[2] or "")
+
+
+def unstyled(text: str) -> str:
+    """A number without dollar signs, braces and fonts: \\textbf{2.1} is 2.1."""
+    fonts = (
+        r"\\(?:ensuremath|text\w*|math\w+|[mh]box|rm|bf|it|normalfont|(?:foot)?notesize|normalsize|small)(?![A-Za-z])"
+    )
+    return re.sub(rf"{fonts}|[${{}}]", "", text).strip()

@@ -55,30 +55,72 @@ def _part(expander: Expander, name: str, token: Token) -> bool:
 
 
 def _use(expander: Expander, token: Token) -> bool:
-    expander.optional()
+    options = latex_of(expander.optional() or ())
     for name in map(str.strip, expander.name().split(",")):
         if name not in expander.loaded:  # TeX takes in a package once
             expander.loaded.add(name)
-            if not expander.read_file(name, (".sty",)) and name not in _DISTRIBUTED:
+            if _read_style(expander, name, ".sty", options):
+                continue
+            if name not in _DISTRIBUTED:
                 expander.missing.setdefault(f"{name}.sty", expander.line(token.at)[1])
     expander.optional()
     return True
 
 
+def _later(expander: Expander, token: Token) -> bool:
+    r"""\AtBeginDocument{…}, \AtEndOfClass{…}: what is done at the beginning of the document, at the end of the file."""
+    body = expander.argument()
+    if token.text == r"\AtBeginDocument":
+        expander.first += body
+    elif (file := expander.innermost_file()) is not None:
+        file.after += body
+    return True
+
+
+def _read_style(expander: Expander, name: str, suffix: str, options: str) -> bool:
+    """Take in a package or a class beside the source with these options; whether it is there."""
+    if not expander.read_file(name, (suffix,)) or (file := expander.innermost_file()) is None:
+        return False
+    file.options = [option.strip() for option in options.split(",")]
+    return True
+
+
+def _option(expander: Expander, token: Token) -> bool:
+    r"""\DeclareOption{name}{…}, done at \ExecuteOptions{name}, and at \ProcessOptions where the name is given."""
+    star, file = expander.star(), expander.innermost_file()
+    if token.text == r"\DeclareOption":
+        name, body = "" if star else expander.name(), expander.argument()
+        if file is not None:
+            file.declared[name] = body
+        return True
+    options = (
+        latex_of(expander.argument()).split(",") if token.text == r"\ExecuteOptions" else file.options if file else []
+    )
+    for name, body in reversed(file.declared.items() if file else ()):
+        expander.push(body if name and name in options else ())
+    return True
+
+
+def _end_input(expander: Expander, token: Token) -> bool:
+    if (file := expander.innermost_file()) is not None:
+        file.begin("", 0)
+    return True
+
+
 def _class(expander: Expander, token: Token) -> bool:
-    options = latex_of(expander.optional() or ()).split(",")
+    given = latex_of(expander.optional() or ())
     name = expander.name()
     if expander.document_class and name == "subfiles":
         return True
     if name == "subfiles":
-        for option in options:
+        for option in given.split(","):
             expander.document_class = expander.document_class or "article"
             _preamble_of(expander, option.strip())
         return True
     if expander.files > 1 and expander.document_class and token.text == r"\documentclass":
         return True  # a file taken in that could stand by itself: its own preamble is read as it comes
     distributed = name in _DISTRIBUTED  # its own copy beside the source says nothing that is not known
-    beside = not distributed and expander.read_file(name, (".cls",))
+    beside = not distributed and _read_style(expander, name, ".cls", given)
     if not beside and not distributed and not name.startswith("\\"):  # \LoadClass{\@revtex@cls}
         expander.missing.setdefault(f"{name}.cls", expander.line(token.at)[1])
     if not beside or token.text == r"\LoadClass":
@@ -103,4 +145,7 @@ FILES: dict[str, Primitive] = {
     **dict.fromkeys((r"\import", r"\subimport", r"\subincludefrom", r"\includefrom"), _import),
     **dict.fromkeys((r"\usepackage", r"\RequirePackage"), _use),
     **dict.fromkeys((r"\documentclass", r"\LoadClass"), _class),
+    **dict.fromkeys((r"\AtBeginDocument", r"\AtEndOfClass", r"\AtEndOfPackage"), _later),
+    r"\endinput": _end_input,
+    **dict.fromkeys((r"\DeclareOption", r"\ExecuteOptions", r"\ProcessOptions"), _option),
 }

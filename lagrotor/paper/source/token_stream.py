@@ -32,6 +32,9 @@ class FileTokens(list[Token]):
 
     def __init__(self, text: str, at: int) -> None:
         super().__init__()
+        self.after: list[Token] = []  # what comes next once the file has ended
+        self.options: list[str] = []  # with which it is loaded
+        self.declared: dict[str, list[Token]] = {}  # what each option of it does
         self.begin(text, at)
 
     def begin(self, text: str, at: int) -> None:
@@ -104,12 +107,15 @@ class TokenStream:
 
     def leave_file(self, at: int) -> bool:
         r"""Whether a place is in a part that could stand by itself, which \end{document} ends."""
-        within = [tokens for _, tokens in self.reading if any(tokens is each for each in self.waiting)]
-        if not self.file_of(at)[0] or not within:
+        if not self.file_of(at)[0] or (within := self.innermost_file()) is None:
             return False
-        while self.waiting.pop() is not within[-1]:
+        while self.waiting.pop() is not within:
             pass
         return True
+
+    def innermost_file(self) -> FileTokens | None:
+        """What is left of the file that is read now."""
+        return next((tokens for tokens in reversed(self.waiting) if isinstance(tokens, FileTokens)), None)
 
     def next(self) -> Token | None:
         """The next token as it stands; None at the end."""
@@ -118,6 +124,8 @@ class TokenStream:
             if tokens or (isinstance(tokens, FileTokens) and tokens.read_on()):
                 return tokens.pop()
             self.waiting.pop()
+            if isinstance(tokens, FileTokens) and tokens.after:
+                self.waiting.append(tokens.after[::-1])
         return None
 
     def ahead(self) -> Iterator[Token]:

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from lagrotor.errors import InputError
+from lagrotor.paper.source.displays import read_latex
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.markup import read_source
 from lagrotor.paper.source.printed import statement_text
@@ -18,7 +19,7 @@ from lagrotor.paper.source.usage import notation_of
 CORPUS: list[dict[str, Any]] = tomllib.loads(Path(__file__).with_name("corpus.toml").read_text(encoding="utf-8"))[
     "source"
 ]
-TEX = [row for row in CORPUS if row["suffix"] == ".tex" and "numbers" in row]
+TEX = [row for row in CORPUS if row["suffix"] == ".tex" and "numbers" in row and r"\label" in row["text"]]
 
 
 def written(row: dict[str, Any], folder: Path) -> Path:
@@ -171,6 +172,61 @@ def test_a_class_may_print_numbers_as_latex_does_inside(printed: str, number: st
     own = rf"\LoadClass{{article}}\def\theequation{{{printed}}}"
     body = r"\section{A}\section{B}\begin{equation} a = b \end{equation}"
     assert equations_of(tmp_path, body, own_cls=own) == [(number, "a = b")]
+
+
+# What classes and packages beside a source do to counters, each with its twin, which does not: the numbers of a = b.
+_APPENDIX = r"\def\appendix{\par\setcounter{equation}{0}\def\theequation{\hbox{\@Alph\c@section\arabic{equation}}}}"
+_MORE = r"""\newcommand\appendices{\c@chapter\z@ \renewcommand\thechapter{\@Alph\c@chapter}\def\more{\secdef\@more\@mores}}
+\def\@more[#1]#2{\refstepcounter{chapter}}\def\@mores#1{\advance\c@chapter by 2 }"""
+_LATE = r"\AtEndOfClass{\renewcommand\theequation{\Alph{equation}}}\def\theequation{\roman{equation}}"
+_CHOSEN = r"\newif\ifown\DeclareOption{own}{\owntrue}\ExecuteOptions{%s}\ProcessOptions\ifown\def\theequation{*}\fi"
+
+
+@pytest.mark.parametrize(
+    ("own", "body", "numbers"),
+    [
+        (_APPENDIX, r"\section{A}=\appendix\section{B}==", "1 B1 B2"),
+        ("", r"\section{A}=\appendix\section{B}==", "1 2 3"),
+        (rf"\LoadClass{{book}}{_MORE}", r"\chapter{A}=\appendices\more{B}=\more*{C}=", "1.1 A.1 C.2"),
+        (r"\LoadClass{book}", r"\chapter{A}=\appendix\chapter{B}=\chapter*{C}=", "1.1 A.1 A.2"),
+        (_LATE, "==", "A B"),
+        (_LATE.replace("AtEndOfClass", "AtBeginDocument"), "==", "A B"),
+        (_LATE.replace("AtEndOfClass", "def\\late"), "==", "i ii"),
+        (_CHOSEN % "own", "=", "*"),
+        (_CHOSEN % "other", "=", "1"),
+        (r"\endinput\setcounter{equation}{4}", "=", "1"),
+        (r"\setcounter{equation}{4}\endinput", "=", "5"),
+    ],
+)
+def test_what_a_class_does_to_counters_is_done(own: str, body: str, numbers: str, tmp_path: Path) -> None:
+    text = body.replace("=", r"\begin{equation} a = b \end{equation}")
+    assert [
+        number for number, _ in equations_of(tmp_path, text, own_cls=rf"\LoadClass{{article}}{own}")
+    ] == numbers.split()
+
+
+def test_a_class_in_which_the_document_is_lost_is_left_out(tmp_path: Path) -> None:
+    body = r"\begin{equation} a = b \end{equation}\date{a}\begin{equation} c = d \end{equation}"
+    lost = r"\LoadClass{article}\def\date#1{\iffalse}"
+    assert len(equations_of(tmp_path, body, own_cls=lost)) == 2
+    assert len(equations_of(tmp_path, body, own_cls=lost.replace("false", "true"))) == 2
+
+
+# Labels of rows without a number, each with what LaTeX prints for it.
+@pytest.mark.parametrize(
+    ("body", "label"),
+    [
+        (r"\begin{eqnarray} a &=& b \nonumber\label{l} \\ c &=& d \end{eqnarray}", "1"),
+        (r"\begin{eqnarray} c &=& d \\ a &=& b \nonumber\label{l} \end{eqnarray}", "2"),
+        (r"\begin{eqnarray*} a &=& b \label{l} \end{eqnarray*}", "1"),
+        (r"\begin{equation*} a = b \label{l} \end{equation*}", "3.1"),
+        (r"\begin{subequations}\begin{align} a &= b \end{align}\label{l}\end{subequations}", "1"),
+        (r"\begin{subequations}\begin{align} a &= b \label{l}\end{align}\end{subequations}", "1a"),
+    ],
+)
+def test_a_label_refers_to_what_latex_prints(body: str, label: str) -> None:
+    text = rf"\setcounter{{section}}{{2}}\section{{S}}\subsection{{T}}{body}"
+    assert read_latex(rf"\documentclass{{article}}\begin{{document}}{text}\end{{document}}").labels == {"l": label}
 
 
 @pytest.mark.parametrize("end", ["\n\n", r"\par "])
