@@ -11,7 +11,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.chart_constants import LSODA_LEAST
-from lagrotor.benchmark.method import Method, Runner, tips
+from lagrotor.benchmark.runner import Method, Runner, tips
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models import minimal
 from lagrotor.numerics.codegen import reduce_common

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from benchmarks.structure_comparison import MASSLESS, staircase
-from lagrotor.benchmark.method import Array
+from lagrotor.benchmark.runner import Array
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
 from lagrotor.process import begin_process

@@ -13,9 +13,8 @@ from pathlib import Path
 from benchmarks.compiled_solvers import CANDIDATES
 from benchmarks.machine import machine, versions
 from benchmarks.peers import PEERS
-from lagrotor.benchmark.method import Method
 from lagrotor.benchmark.records import SPEED
-from lagrotor.benchmark.runner import Benchmark, benchmark, work_at
+from lagrotor.benchmark.runner import Benchmark, Method, benchmark, work_at
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, OURS
 from lagrotor.benchmark.throughput import Throughput, throughput
 from lagrotor.drawing import paper_style

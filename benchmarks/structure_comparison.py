@@ -20,8 +20,8 @@ import numpy as np
 from benchmarks.machine import machine, versions
 from benchmarks.peers.multibody_engines import ENGINES
 from benchmarks.peers.rig import Rig
-from lagrotor.benchmark.method import Array, Runner
 from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, STRUCTURES, Timed
+from lagrotor.benchmark.runner import Array, Runner
 from lagrotor.errors import IntegrationError
 from lagrotor.files import write_text
 from lagrotor.numerics.integrate import Engine

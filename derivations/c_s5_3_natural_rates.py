@@ -8,13 +8,12 @@
 # bars it lists elsewhere are $m = K = 1$ (4.1) and $m = 0.01$, $K = 0.1$ (5.2.1); the first mass with the second inertia
 # is measured too. Natural rates are measured after a shock a hundred times smaller.
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/natural_rates.py` and `rate_and_inclination.py`.
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/natural_rates.py`.
 
 # %%
 from lagrotor import Scene, natural_rate
 from lagrotor.pair import HEAVY_LINK
-from lagrotor.paper.rotor_pair.claims.natural_rates import C20, C21, C22
-from lagrotor.paper.rotor_pair.claims.rate_and_inclination import C23
+from lagrotor.paper.rotor_pair.claims.natural_rates import C20, C21, C22, C23
 
 # %% [markdown]
 # ## C20: one rotor at 16

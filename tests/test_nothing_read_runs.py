@@ -27,8 +27,7 @@ from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.paper import Glossary, Paper, Premise, judge
 from lagrotor.paper.certificates.certificate import PREAMBLE
-from lagrotor.paper.certificates.certificate_folder import CERTIFICATE_LIST, read_certificates
-from lagrotor.paper.certificates.checked_by_coq import foreign_word
+from lagrotor.paper.certificates.checked_by_coq import CERTIFICATE_LIST, foreign_word, read_certificates
 from lagrotor.paper.papers import opened
 from lagrotor.paper.source.check import check_source
 from lagrotor.paper.source.markup import read_source
@@ -517,7 +516,6 @@ READERS = {
     "pair/scene_document.py": "scene",
     "pair/trajectory.py": "arrays",
     "paper/catalogue.py": "program",
-    "paper/certificates/certificate_folder.py": "certificates",
     "paper/certificates/checked_by_coq.py": "certificates",
     "paper/record.py": "recorded.toml",
     "paper/scripts.py": "program",

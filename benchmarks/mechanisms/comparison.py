@@ -21,8 +21,8 @@ from benchmarks.mechanisms.engine_tools import ENGINES
 from benchmarks.mechanisms.own_tools import OWN
 from benchmarks.mechanisms.sympy_tools import SYMPY
 from benchmarks.mechanisms.tool import Ready, Rhs, Tool, forget_all, in_own_process
-from lagrotor.benchmark.method import TOLERANCES
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Measured, MechanismKind
+from lagrotor.benchmark.runner import TOLERANCES
 from lagrotor.mechanics.running.programs import motion_program
 from lagrotor.numerics.codegen import operations
 

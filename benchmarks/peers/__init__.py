@@ -6,6 +6,6 @@ They take scenes without shock and without mass in the bar.
 from benchmarks.peers.multibody_engines import BODIES
 from benchmarks.peers.sundials import SUNDIALS
 from benchmarks.peers.sympy_mechanics import SYMPY
-from lagrotor.benchmark.method import Method
+from lagrotor.benchmark.runner import Method
 
 PEERS: dict[str, Method] = SYMPY | SUNDIALS | BODIES

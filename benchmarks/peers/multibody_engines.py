@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from benchmarks.peers.rig import Rig, rig_of
 from benchmarks.peers.sympy_mechanics import angles, axes_of, check_odeint
-from lagrotor.benchmark.method import Method, Prepare, Runner
+from lagrotor.benchmark.runner import Method, Prepare, Runner
 from lagrotor.errors import IntegrationError
 
 Array = NDArray[np.float64]

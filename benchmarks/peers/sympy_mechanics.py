@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.method import Method, Prepare, Runner, tips
+from lagrotor.benchmark.runner import Method, Prepare, Runner, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.pair.scene import Scene
 

@@ -1,7 +1,7 @@
 """One scene, many methods: each at every accuracy setting, held to the reference; its points, its failures, and the front."""
 
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import groupby
@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.chart_constants import LONGEST_RUN, SAMPLE
-from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Runner, tips
 from lagrotor.errors import LagrotorError
 from lagrotor.models import minimal, spheres
 from lagrotor.models.model import integrate_model
@@ -20,6 +19,43 @@ from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 
 Array = NDArray[np.float64]
+Runner = Callable[[float], tuple[Array, int]]
+Prepare = Callable[[Scene, Array], Runner]
+Family = Literal["closed", "core", "fast", "scipy", "springs", "candidate", "peer", "trap"]
+
+TOLERANCES = tuple(10.0**-n for n in range(3, 14))
+
+
+@dataclass(frozen=True)
+class Method:
+    """A benchmarked method: its family, how its runner is made, its accuracy settings.
+
+    prepare(scene, t_eval) → runner(setting) → tips (2, n, 3) in m, and nfev. The setting is a tolerance, or one of `steps`
+    (s) of a method with equal steps. install: what pip installs for it.
+    """
+
+    family: Family
+    prepare: Prepare
+    steps: tuple[float, ...] = ()
+    install: str = ""
+
+
+def tips(scene: Scene, axes: Array) -> Array:
+    """Tips (2, n, 3) in m of axes (2, n, 3)."""
+    half = (scene.link.length if scene.link else scene.rotor.length) / 2
+    return np.array([[[-half, 0, 0]], [[half, 0, 0]]]) + scene.rotor.length * axes
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene, its output times t_eval (n,) in s, how many samples are taken of each run after the first, and a sentence."""
+
+    scene: Scene
+    t_eval: Array
+    repeats: int
+    says: str
+
+
 # Processor time, which other work on the machine does not lengthen, where its resolution is fine enough.
 _CLOCK = time.process_time if time.get_clock_info("process_time").resolution < 1e-6 else time.perf_counter
 Work = Literal["seconds", "nfev"]

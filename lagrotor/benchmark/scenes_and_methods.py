@@ -9,8 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.chart_constants import LONGEST_QUICK_RUN, LONGEST_RUN
-from lagrotor.benchmark.method import TOLERANCES, Case, Family, Method, Prepare, Runner
-from lagrotor.benchmark.runner import Benchmark, Failure, benchmark, work_at
+from lagrotor.benchmark.runner import (
+    TOLERANCES,
+    Benchmark,
+    Case,
+    Failure,
+    Family,
+    Method,
+    Prepare,
+    Runner,
+    benchmark,
+    work_at,
+)
 from lagrotor.benchmark.scipy_solvers import ENGINES, TRAPS
 from lagrotor.errors import LagrotorWarning
 from lagrotor.models.simulate import simulate

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.benchmark.chart_constants import LSODA_LEAST
-from lagrotor.benchmark.method import Method, Prepare, Runner, tips
+from lagrotor.benchmark.runner import Method, Prepare, Runner, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.model import problem_of

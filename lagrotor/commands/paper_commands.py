@@ -324,7 +324,7 @@ def audit_command(given: argparse.Namespace) -> int:
         if found is not None and waiting:
             say(f"{len(found.ids)} equations: {count_list(found.counts)}", 0)
     if given.certify is not None:
-        from lagrotor.paper.certificates.certificate_folder import certify
+        from lagrotor.paper.certificates.checked_by_coq import certify
 
         files = sum(bool(row.file) for row in certify(shown, paper, given.certify))
         say(f"{_some(files, 'certificate')} in {given.certify}; to check: lagrotor certify {given.certify}", 0)
@@ -335,8 +335,7 @@ def audit_command(given: argparse.Namespace) -> int:
 
 
 def certify_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.certificates.certificate_folder import read_certificates
-    from lagrotor.paper.certificates.checked_by_coq import check_certificates
+    from lagrotor.paper.certificates.checked_by_coq import check_certificates, read_certificates
     from lagrotor.paper.readable import from_latex
     from lagrotor.report.content import word
 

@@ -1,8 +1,9 @@
-"""Motion: a run as a GIF or an MP4, with its wheels, the bar, and the paths of the tips."""
+"""Films, as GIF or MP4: a run with its wheels, the bar, and the paths of the tips; lines that move, rods, whatever joins points,
+each leaving the path of its last point."""
 
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
@@ -15,6 +16,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from lagrotor.drawing.style import paper_style
@@ -30,6 +32,8 @@ SPOKES, ARCS = 5, 8  # few spokes, so that a turn of 0.4 rad from frame to frame
 LONGEST = 600  # s of a film
 _DPI = 100
 Pixels = NDArray[np.uint8]
+# On a figure: axes, and what gives, for a frame's number, the artists to draw.
+Stage = Callable[[Figure], tuple[Axes, Callable[[int], list[Artist]]]]
 
 
 def check_film(path: Path, duration: float, fps: float) -> None:
@@ -78,7 +82,13 @@ def film_motion(
     """
     target = Path(path)
     check_film(target, float(moving.t[-1] - moving.t[0]), fps)
-    return Film(write_film(target, _announce_seconds(_frames(moving), len(moving.t), fps, step), len(moving.t), fps))
+    count = len(moving.t)
+
+    def stage(figure: Figure) -> tuple[Axes, "_Rotors"]:
+        side, above = figure.subplots(1, 2, width_ratios=(1.5, 1))
+        return side, _Rotors(moving, side, above)
+
+    return Film(write_film(target, _announce_seconds(_frames(count, stage), count, fps, step), count, fps))
 
 
 def write_film(target: Path, frames: Iterator[Pixels], count: int, fps: float) -> Path:
@@ -144,20 +154,27 @@ def _write_mp4(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
         raise LagrotorError(f"animate: ffmpeg failed ({said or ffmpeg.returncode}): write a .gif instead")
 
 
-def _frames(moving: "FilmedMotion") -> Iterator[Pixels]:
+def _frames(count: int, stage: Stage) -> Iterator[Pixels]:
     """The frames (height, width, 3). What does not move is drawn once; of the rest only the data change."""
     with paper_style():
         figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
         canvas = FigureCanvasAgg(figure)
-        side, above = figure.subplots(1, 2, width_ratios=(1.5, 1))
-        update = _Stage(moving, side, above)
+        axes, update = stage(figure)
         canvas.draw()  # type: ignore[no-untyped-call]
         still = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
-        for i in range(len(moving.t)):
+        for i in range(count):
             canvas.restore_region(still)  # type: ignore[no-untyped-call]
             for artist in update(i):
-                side.draw_artist(artist)  # which hands it to the figure's renderer: any of the figure's axes will do
+                axes.draw_artist(artist)  # which hands it to the figure's renderer: any of the figure's axes will do
             yield np.ascontiguousarray(np.asarray(canvas.buffer_rgba())[..., :3])  # type: ignore[no-untyped-call]
+
+
+def _line(axes: Axes, colour: str, width: float, **more: Any) -> Line2D:
+    return axes.plot([], [], color=colour, linewidth=width, animated=True, solid_capstyle="round", **more)[0]
+
+
+def _clock(axes: Axes) -> Text:
+    return axes.text(0.02, 0.98, "", transform=axes.transAxes, va="top", animated=True, fontsize=11)
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +194,7 @@ class FilmedMotion:
     joined: bool
 
 
-class _Stage:
+class _Rotors:
     """The artists, and how they follow the motion: call with a frame's number for those to draw."""
 
     def __init__(self, moving: FilmedMotion, side: Axes, above: Axes) -> None:
@@ -186,20 +203,17 @@ class _Stage:
         self.paths = self.camera(moving.tips)
         self._still(side, above, RADIUS * length)
 
-        def line(axes: Axes, colour: Any, width: float, **more: Any) -> Line2D:
-            return axes.plot([], [], color=colour, linewidth=width, animated=True, solid_capstyle="round", **more)[0]
-
-        self.traces = [line(side, ink, 1.2) for ink in ROTORS]
-        self.traces_above = [line(above, ink, 1.2) for ink in ROTORS]
-        self.bar = line(side, BAR, 4.0) if moving.joined else None
-        self.bar_above = line(above, BAR, 3.0) if moving.joined else None
+        self.traces = [_line(side, ink, 1.2) for ink in ROTORS]
+        self.traces_above = [_line(above, ink, 1.2) for ink in ROTORS]
+        self.bar = _line(side, BAR, 4.0) if moving.joined else None
+        self.bar_above = _line(above, BAR, 3.0) if moving.joined else None
         self.wheels = [LineCollection([], colors=[ink], linewidths=1.3, animated=True) for ink in ROTORS]
         for drawn in self.wheels:
             side.add_collection(drawn)
-        self.marks = [line(side, MARK, 3.0) for _ in ROTORS]
-        self.axes = [line(side, INK, 2.4) for _ in ROTORS]
-        self.ends = [line(axes, INK, 0, marker="o", markersize=5) for axes in (side, above)]
-        self.clock = side.text(0.02, 0.98, "", transform=side.transAxes, va="top", animated=True, fontsize=11)
+        self.marks = [_line(side, MARK, 3.0) for _ in ROTORS]
+        self.axes = [_line(side, INK, 2.4) for _ in ROTORS]
+        self.ends = [_line(axes, INK, 0, marker="o", markersize=5) for axes in (side, above)]
+        self.clock = _clock(side)
 
     def _still(self, side: Axes, above: Axes, radius: float) -> None:
         moving, up = self.moving, self.camera
@@ -251,3 +265,52 @@ class _Stage:
             drawn += [self.wheels[k], self.axes[k], self.marks[k]]
         self.clock.set_text(f"t = {moving.t[i]:5.2f} s")
         return [*drawn, *self.ends, self.clock]
+
+
+def animate_lines(path: str | Path, t: Array, lines: Sequence[Array], fps: float, inks: Sequence[str] = ROTORS) -> Path:
+    """Write lines (m, p, 3) in m at the times t (m,) of the frames as a film, `.gif` or `.mp4`, at its own speed.
+
+    inks: their colours, again from the first where there are fewer than lines.
+
+    Seen along y where nothing moves along it, from above where nothing rises, else obliquely.
+
+    Raises InputError for a name or a rate that will not do, before anything is drawn.
+    """
+    target, flat = Path(path), _flat(lines)
+    check_film(target, float(t[-1] - t[0]), fps)
+    seen = [_projection(line, flat) for line in lines]
+
+    def stage(figure: Figure) -> tuple[Axes, Callable[[int], list[Artist]]]:
+        axes = figure.subplots()
+        _limits(axes, np.concatenate([line.reshape(-1, 2) for line in seen]))
+        drawn = [_line(axes, inks[i % len(inks)], 2.4) for i in range(len(seen))]
+        traces = [_line(axes, BAR if len(seen) > 1 and i < len(seen) - 1 else GROUND, 1.0) for i in range(len(seen))]
+        clock = _clock(axes)
+
+        def update(i: int) -> list[Artist]:
+            clock.set_text(f"t = {t[i]:5.2f} s")
+            for artist, trace, line in zip(drawn, traces, seen, strict=True):
+                trace.set_data(*line[: i + 1, -1].T)
+                artist.set_data(*line[i].T)
+            return [*traces, *drawn, clock]
+
+        return axes, update
+
+    return write_film(target, _frames(len(t), stage), len(t), fps)
+
+
+def _flat(lines: Sequence[Array]) -> int | None:
+    """The direction (0, 1, 2) along which nothing extends, if there is one: 1 before 2 before 0."""
+    extent = np.ptp(np.concatenate([line.reshape(-1, 3) for line in lines]), axis=0)
+    return next((i for i in (1, 2, 0) if extent[i] <= 1e-9 * extent.max()), None)
+
+
+def _projection(line: Array, flat: int | None) -> Array:
+    return Camera()(line) if flat is None else np.delete(line, flat, axis=-1)
+
+
+def _limits(axes: Axes, seen: Array) -> None:
+    low, high = seen.min(0), seen.max(0)
+    room = 0.08 * (high - low).max() or 1.0
+    axes.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + room), aspect="equal")
+    axes.axis("off")

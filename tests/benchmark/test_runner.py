@@ -12,8 +12,7 @@ import pytest
 from lagrotor import Scene
 from lagrotor.benchmark import runner as measure
 from lagrotor.benchmark.chart_constants import SAMPLE
-from lagrotor.benchmark.method import Case, Method
-from lagrotor.benchmark.runner import ChartPoint, Failure, benchmark, failure_sentences, front, work_at
+from lagrotor.benchmark.runner import Case, ChartPoint, Failure, Method, benchmark, failure_sentences, front, work_at
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
 from lagrotor.commands.benchmark_commands import chart_data, chart_tables
 from lagrotor.errors import LagrotorError

@@ -10,8 +10,7 @@ import pytest
 
 from lagrotor import Scene, simulate
 from lagrotor.benchmark import scenes_and_methods as module
-from lagrotor.benchmark.method import TOLERANCES, Case
-from lagrotor.benchmark.runner import ChartPoint, Failure, benchmark, reference
+from lagrotor.benchmark.runner import TOLERANCES, Case, ChartPoint, Failure, benchmark, reference
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, ratios
 from lagrotor.commands.command_line import main
 from lagrotor.drawing import paper_style

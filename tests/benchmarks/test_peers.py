@@ -10,8 +10,7 @@ import pytest
 from benchmarks.peers import PEERS
 from benchmarks.peers.sympy_mechanics import angles, axes_of, check_odeint
 from lagrotor import simulate
-from lagrotor.benchmark.method import Case
-from lagrotor.benchmark.runner import benchmark
+from lagrotor.benchmark.runner import Case, benchmark
 from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.errors import IntegrationError
 from lagrotor.numerics import measured_order

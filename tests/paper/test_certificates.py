@@ -17,13 +17,14 @@ from lagrotor.paper import Paper, Premise, Relation, Statement, decide, judge
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.certificates import checked_by_coq
 from lagrotor.paper.certificates.certificate import PREAMBLE, CertifiedLine, certificate, certified_line, file_name
-from lagrotor.paper.certificates.certificate_folder import (
+from lagrotor.paper.certificates.checked_by_coq import (
     CERTIFICATE_LIST,
     CertifiedEquation,
     certify,
+    check_certificates,
+    foreign_word,
     read_certificates,
 )
-from lagrotor.paper.certificates.checked_by_coq import check_certificates, foreign_word
 from lagrotor.paper.certificates.cofactors import cofactors_of
 from lagrotor.paper.certificates.coq_terms import Terms, comment, conditions_of_value
 from lagrotor.paper.certificates.propositions import Proposition, _letters_for_operators

@@ -115,12 +115,10 @@ def test_a_run_is_plotted() -> None:
 
 
 def test_a_film_shows_bars_braces_and_the_sense_of_the_spins(monkeypatch, tmp_path) -> None:
-    from lagrotor.drawing import skeleton
+    from lagrotor.drawing import film
 
     shown = {}
-    monkeypatch.setattr(
-        skeleton, "animate_lines", lambda path, t, lines, fps, inks: shown.update(lines=lines, inks=inks)
-    )
+    monkeypatch.setattr(film, "animate_lines", lambda path, t, lines, fps, inks: shown.update(lines=lines, inks=inks))
     braces = [Brace(0, 2, 5.0), Brace(1, (0, -1, 0), 5.0)]
     s = Structure([(0, 0), (1, 0), (1, 1)], [(0, 1)], [3, -3, 3], hinge=1, braces=braces)
     s.simulate([0, 0.1], tilt=[(0, 0.1)] * 3, tol=1e-5).animate(tmp_path / "b.gif")

@@ -2,7 +2,8 @@
 
 With s' = f(s, t) of period T, δs(T) = Φ δs(0), Φ' = (∂f/∂s) Φ, Φ(0) = 1; under constraints in their tangent space, as in
 `state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. One is 1 where
-time does not enter, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2.
+time does not enter, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2. Lyapunov's exponent is from
+the motion linearised along a run (Benettin, Galgani, Giorgilli & Strelcyn 1980).
 """
 
 from collections.abc import Mapping

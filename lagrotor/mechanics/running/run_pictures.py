@@ -102,8 +102,7 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
 
     Raises InputError when the system has no bodies and no lines are given, or for a name or rate that will not do.
     """
-    from lagrotor.drawing.film import check_film, frame_times
-    from lagrotor.drawing.skeleton import animate_lines
+    from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
     run.check_times("animate")
     check_film(Path(path), float(run.t[-1] - run.t[0]), fps)

@@ -9,7 +9,7 @@ from lagrotor.pair.lagrangians import pair_with_bar
 from lagrotor.pair.notation import ANSATZ, PAIR, theta_0
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.rotor_pair.claims.ansatz import deviations
-from lagrotor.paper.rotor_pair.claims.precession_runs import MASSLESS, OPPOSITE, PAPER_BAR, PAPER_R0, once_round
+from lagrotor.paper.rotor_pair.shocked_runs import MASSLESS, OPPOSITE, PAPER_BAR, PAPER_R0, once_round
 
 # The multiplier of the bar's constraint: the bar's force.
 (BAR_FORCE,) = pair_with_bar().multipliers

@@ -1,16 +1,21 @@
-"""A scene by the paper's program beside the exact model: the runs of figures 7, 9 to 13 and 25 to 28, and their numbers."""
+"""Runs that claims and figures share, and their numbers: after a shock, by the paper's program beside the exact model (figures 7,
+9 to 13 and 25 to 28); on the precession of a given amplitude."""
+
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import SpringRun, run_steps
 from lagrotor.models.spring_link.system import paper_system
 from lagrotor.numerics.curves import best_harmonics, peak, spectrum
 from lagrotor.numerics.pulse import PULSE_REACH
-from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
-from lagrotor.pair.quantities import Vector
+from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STEP, STIFFNESS
+from lagrotor.pair.initial_conditions import consistent_scene
+from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.single_rotor import free_precession_rate
@@ -20,6 +25,10 @@ Array = NDArray[np.float64]
 # ones of section 5 by the second, after which spectra are.
 ENERGY_FROM, SPECTRUM_FROM = 2.2, 2.3
 PAPER_RUN = 8.0  # s that the paper's runs last after the shock
+OPPOSITE, EQUAL = (10.0, -10.0), (10.0, 10.0)
+MASSLESS, PAPER_BAR = Link(), LIGHT  # the bar of the theory, and that of the listing in 5.2.1
+PAPER_R0 = 0.204  # the amplitude of figure 21
+AMPLITUDES = (0.051, 0.102, PAPER_R0)
 
 
 def shocked_scene(
@@ -142,3 +151,27 @@ def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
         "spring model, largest residual (m)": np.abs(springs - exact)[after].max(),
         "closed form, largest residual (m)": np.abs(runs["corrected"] - exact)[after].max(),
     }
+
+
+@cache
+def precession_scene(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
+    """The scene on its precession of amplitude r0, and its rate (rad/s): of opposite spins the exact orbit.
+
+    Of any other spins both axes start at x = r0 and go round the vertical, each in the sense of its own spin, at
+    G/((a + b) cos θ): the motion of equal spins with parallel axes.
+    """
+    scene = Scene(spins, link=bar)
+    if spins[0] == -spins[1] != 0:
+        orbit = exact_orbit(scene, r0)
+        return orbit.scene, orbit.frequency
+    upright = (1 - r0**2) ** 0.5
+    rate = abs(scene.momenta[0]) / (sum(scene.inertias) * upright)
+    start = [(0, np.sign(spin) * rate * r0, 0) for spin in spins]
+    return consistent_scene(spins, ((r0, 0, upright),) * 2, start, link=bar), rate
+
+
+@cache
+def once_round(spins: Spins, r0: float, bar: Link) -> Trajectory:
+    """One turn of that precession, at 361 times."""
+    scene, rate = precession_scene(spins, r0, bar)
+    return simulate(scene, np.linspace(0, 2 * np.pi / rate, 361), "minimal", 1e-11)

@@ -15,7 +15,7 @@ from typing import Any
 
 from lagrotor.files import write_text
 from lagrotor.paper import claim_tests, verdict_text
-from lagrotor.paper.certificates.certificate_folder import certify
+from lagrotor.paper.certificates.checked_by_coq import certify
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside

@@ -122,8 +122,7 @@ class StructureRun(Run):
         Raises:
             InputError: for a name, a folder or a frame rate that will not do, before anything is drawn.
         """
-        from lagrotor.drawing.film import check_film, frame_times
-        from lagrotor.drawing.skeleton import animate_lines
+        from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
         times = frame_times(float(self.t[0]), float(self.t[-1]), fps)

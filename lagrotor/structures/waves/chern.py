@@ -4,7 +4,8 @@ Fukui, Hatsugai & Suzuki, J. Phys. Soc. Jpn. 74, 1674 (2005): the flux of Berry'
 wave numbers, the bands of a group together, adds up to 2π times a whole number. The product of two waves is the symplectic
 one: with momenta p = M u' + C u/2, i (u_1† p_2 − p_1† u_2), which the motion conserves and which counts waves of positive
 rate about a stable rest positive (Shindou et al., Phys. Rev. B 87, 174427 (2013); gyroscopes: Nash et al., PNAS 112, 14495
-(2015)).
+(2015)). Along a border as many more waves run one way than the other, at a rate in a gap of the bulk, as the Chern numbers of
+the bands below the gap add up to (Hatsugai, Phys. Rev. Lett. 71, 3697 (1993)).
 """
 
 from dataclasses import dataclass

@@ -14,9 +14,8 @@ from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL
 from lagrotor.paper.rotor_pair.claims.proved_parts import energies
-from lagrotor.paper.rotor_pair.shocked_runs import after_shock, shock_of, shocked_scene
+from lagrotor.paper.rotor_pair.shocked_runs import EQUAL, after_shock, shock_of, shocked_scene
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]

@@ -13,8 +13,8 @@ from lagrotor.pair.notation import G_1, G_2, a, b, k
 from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL, OPPOSITE
 from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
+from lagrotor.paper.rotor_pair.shocked_runs import EQUAL, OPPOSITE
 from lagrotor.shown import scientific
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.natural_rate import natural_rate

@@ -14,8 +14,15 @@ from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL, OPPOSITE, PAPER_R0
-from lagrotor.paper.rotor_pair.shocked_runs import PAPER_RUN, shock_of, shocked_scene, turned_about_joint_line
+from lagrotor.paper.rotor_pair.shocked_runs import (
+    EQUAL,
+    OPPOSITE,
+    PAPER_R0,
+    PAPER_RUN,
+    shock_of,
+    shocked_scene,
+    turned_about_joint_line,
+)
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]

@@ -23,8 +23,7 @@ from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL
-from lagrotor.paper.rotor_pair.shocked_runs import shocked_scene
+from lagrotor.paper.rotor_pair.shocked_runs import EQUAL, shocked_scene
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]

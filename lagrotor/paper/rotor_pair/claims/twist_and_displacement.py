@@ -12,9 +12,15 @@ from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.quantities import Vector
 from lagrotor.pair.scene import Link
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.precession_runs import OPPOSITE
 from lagrotor.paper.rotor_pair.claims.proved_parts import axes_part, mean_displacement
-from lagrotor.paper.rotor_pair.shocked_runs import PAPER_RUN, after_shock, angle_between, shock_of, shocked_scene
+from lagrotor.paper.rotor_pair.shocked_runs import (
+    OPPOSITE,
+    PAPER_RUN,
+    after_shock,
+    angle_between,
+    shock_of,
+    shocked_scene,
+)
 from lagrotor.theory.natural_rate import natural_rate
 
 Array = NDArray[np.float64]

@@ -15,7 +15,7 @@ from lagrotor.models.spring_link.system import paper_system
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.precession_runs import EQUAL
+from lagrotor.paper.rotor_pair.shocked_runs import EQUAL
 from lagrotor.shown import scientific
 
 Array = NDArray[np.float64]
