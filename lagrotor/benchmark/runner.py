@@ -9,16 +9,15 @@ from statistics import median
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.benchmark.chart_constants import LONGEST_RUN, SAMPLE
 from lagrotor.errors import LagrotorError
 from lagrotor.models import minimal, spheres
 from lagrotor.models.model import integrate_model
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 
-Array = NDArray[np.float64]
 Runner = Callable[[float], tuple[Array, int]]
 Prepare = Callable[[Scene, Array], Runner]
 Family = Literal["closed", "core", "fast", "scipy", "springs", "candidate", "peer", "trap"]

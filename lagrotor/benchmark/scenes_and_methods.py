@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.benchmark.chart_constants import LONGEST_QUICK_RUN, LONGEST_RUN
 from lagrotor.benchmark.runner import (
@@ -26,12 +25,11 @@ from lagrotor.errors import LagrotorWarning
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import paper_system
+from lagrotor.numerics.arrays import Array
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, SCENES, STIFFNESS
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series_orbit import series_orbit
-
-Array = NDArray[np.float64]
 
 AMPLITUDE, SERIES_ORDER = 0.204, 21  # the start lies on the periodic orbit to 1e-12
 _TEN = np.linspace(0, 10, 1001)

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.benchmark.chart_constants import LSODA_LEAST
 from lagrotor.benchmark.runner import Method, Prepare, Runner, tips
@@ -12,11 +11,11 @@ from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.model import problem_of
 from lagrotor.numerics.adams import adams
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.segment import RightHandSide, Segment, StopError, Stretch
 from lagrotor.pair.scene import Scene
 
-Array = NDArray[np.float64]
 Solver = Callable[[Segment, float], Stretch]  # a segment and a local error
 # Name → scipy's integrator with a compiled loop, and its settings.
 SOLVERS: dict[str, tuple[str, dict[str, Any]]] = {

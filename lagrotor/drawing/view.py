@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.files import write_text
 from lagrotor.numerics.any_run import optional_package
+from lagrotor.numerics.arrays import Array
 
 if TYPE_CHECKING:
     from lagrotor.drawing.film import FilmedMotion
@@ -22,7 +22,6 @@ FRAMES = 600  # of a view at most, so that it stays small
 FPS = 30.0
 _HERE = Path(__file__).parent
 _LARGEST = 32_000  # what a coordinate is written up to, as a 16-bit number
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

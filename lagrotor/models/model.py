@@ -15,8 +15,8 @@ from math import hypot, inf, nan, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import pulse_windows
@@ -88,7 +88,6 @@ def typical_rate(scene: Scene) -> float:
     return rate + (abs(scene.momenta[0]) + abs(scene.momenta[1])) / inertia
 
 
-Array = NDArray[np.float64]
 _BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
 _BUDGET = 1_000_000.0  # evaluations of one integration, where a caller sets none
 

@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES, read_arrays, write_arrays, write_beside, write_text
+from lagrotor.numerics.arrays import Array
 from lagrotor.shown import Shown, scientific
 
-Array = NDArray[np.float64]
 _SAYS = {
     "end": "the last time was reached",
     "lost": "the last time was reached, but neighbouring motions part: nothing is known of the states",

@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
 
+Array = NDArray[np.float64]
+
 
 def finite_array(
     where: str, given: ArrayLike, shape: tuple[int, ...] | None = None, kind: type = float
@@ -31,7 +33,7 @@ def finite_array(
     return array
 
 
-def real_array(given: ArrayLike) -> NDArray[np.float64] | None:
+def real_array(given: ArrayLike) -> Array | None:
     """Real numbers as they are given; None for texts, dates, complex numbers, truths and what else is none."""
     try:
         plain = np.asarray(given)
@@ -43,7 +45,7 @@ def real_array(given: ArrayLike) -> NDArray[np.float64] | None:
         return None
 
 
-def increasing_array(where: str, given: ArrayLike, what: str = "numbers") -> NDArray[np.float64]:
+def increasing_array(where: str, given: ArrayLike, what: str = "numbers") -> Array:
     """Increasing finite numbers (n,), n > 0. Raises InputError for anything else."""
     numbers, text = real_array(given), repr(given)
     text = text if len(text) < 60 else f"{text[:57]}…"
@@ -54,6 +56,6 @@ def increasing_array(where: str, given: ArrayLike, what: str = "numbers") -> NDA
     return numbers
 
 
-def check_times(where: str, given: ArrayLike) -> NDArray[np.float64]:
+def check_times(where: str, given: ArrayLike) -> Array:
     """Increasing finite times in s (n,). Raises InputError for anything else."""
     return increasing_array(f"{where}: t", given, "times")

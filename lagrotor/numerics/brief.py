@@ -4,11 +4,9 @@ from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.pulse import Window
-
-Array = NDArray[np.float64]
 
 _LOOKS = 2**14  # intervals of a run, at whose ends forces of t are looked at
 _CELL = 8  # intervals of the smallest cell

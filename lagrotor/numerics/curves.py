@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from lagrotor.numerics.arrays import Array
 
 
 def measured_order(amplitudes: ArrayLike, errors: ArrayLike) -> float:

@@ -12,15 +12,14 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from sympy.printing.numpy import SciPyPrinter
 from sympy.printing.pycode import AbstractPythonCodePrinter, MpmathPrinter, PythonCodePrinter
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
 from lagrotor.numerics.generated import function_of
 
-Array = NDArray[np.float64]
 _BLOCK = 8192  # values at once: what a processor keeps close
 
 

@@ -1,11 +1,10 @@
 """How bodies turn along a run: rotation matrices carried by their axes and axial spins. No angle is singular."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.arrays import Array as Array
 
-Array = NDArray[np.float64]
 _ONE = np.eye(3)
 # v @ _LEVI_CIVITA is the cross product matrix of v, row by row.
 _LEVI_CIVITA = np.array(

@@ -5,11 +5,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError
+from lagrotor.numerics.arrays import Array as Array
 
-Array = NDArray[np.float64]
 RightHandSide = Callable[[float, Array], list[float]]
 Projection = Callable[[Array], Array]
 

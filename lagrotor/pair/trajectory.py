@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.any_run import Quantity, Run, read_run
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.shown import scientific
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from lagrotor.drawing.film import FilmedMotion
     from lagrotor.drawing.view import View
 
-Array = NDArray[np.float64]
 
 # How far the length of a stored axis may be off one: what the loosest tolerances leave.
 UNIT_ERROR = 1e-3

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.structures.assembly import Assembly
 
-Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 Complex = NDArray[np.complex128]
 

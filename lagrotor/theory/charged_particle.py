@@ -26,10 +26,10 @@ from math import sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError, InputError
-from lagrotor.numerics.arrays import check_times
+from lagrotor.numerics.arrays import Array, check_times
 from lagrotor.numerics.generated import generated
 from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
@@ -38,7 +38,6 @@ from lagrotor.theory.calibrated_factors import LARGEST_SWING
 if TYPE_CHECKING:
     import sympy as sp
 
-Array = NDArray[np.float64]
 _LOCAL = 1e-9, 1e-12  # of the path's integration
 _IN_LINE = 0.999  # sin(h)/(k cos beta), beyond which the bar lies across the joint line no more: the coordinates end
 

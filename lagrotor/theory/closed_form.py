@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError, InputError
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import compile_program, in_blocks, program_source
 from lagrotor.pair.notation import GLOSSARY
 
-Array = NDArray[np.float64]
 # From the arguments, each (n,): estimated bounds of the errors, (outputs, n) or what broadcasts to it.
 _Bound = Callable[..., Array]
 

@@ -18,17 +18,15 @@ from math import cos, pi, sin
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
 from lagrotor.algebra import derivative
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import euler_lagrange
+from lagrotor.numerics.arrays import Array
 from lagrotor.pair.notation import G_1, G_2, TWISTED, G, Phi, a, b, rho
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.closed_form import ClosedForm
 from lagrotor.theory.toppling import twisted_lagrangian
-
-Array = NDArray[np.float64]
 
 
 def parallel_residual() -> tuple[sp.Expr, ...]:

@@ -9,15 +9,14 @@ from dataclasses import dataclass
 from math import exp, pi, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.generated import generated
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.shown import Shown
 from lagrotor.theory.natural_rate import natural_frequency_value
-
-Array = NDArray[np.float64]
 
 # A pulse that peaks later than this many widths after the start has lost less than 1e-8 of its impulse before it.
 _WIDTHS_BEFORE = 4.0

@@ -4,7 +4,6 @@ from functools import cache
 from math import cos, sin, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.benchmark.scipy_solvers import run_by
@@ -15,9 +14,9 @@ from lagrotor.models.model import Model, integrate_model
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spheres import CLEARANCE
 from lagrotor.models.spring_link.rigid_body import printed_rotation
+from lagrotor.numerics.arrays import Array
 from lagrotor.pair.scene import Link, Scene
 
-Array = NDArray[np.float64]
 _EPS = float(np.finfo(float).eps)
 _TINIEST = float(np.finfo(float).smallest_subnormal)
 # Both axes lean by this, and sweep past the pole in 1 s.

@@ -4,16 +4,15 @@ from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.sweeps.ensemble import sweep
+from lagrotor.numerics.arrays import Array
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
-Array = NDArray[np.float64]
 USEFUL = 0.1  # of the amplitude: an error beyond it is no longer a correction
 _TIMES = 12
 

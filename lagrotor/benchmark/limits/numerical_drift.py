@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit
 from lagrotor.benchmark.scipy_solvers import run_by
@@ -12,11 +11,11 @@ from lagrotor.models import spheres
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.simulate import simulate
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 
-Array = NDArray[np.float64]
 # A displaced start in large motion; a bar of which the paired precession is elliptic, so that errors only grow slowly.
 DRIFTING = Scene((10.0, -10.0), rates=((1.5, 1.0, 0.0), (1.5, -0.5, 0.0)))
 STEADY = Scene((10.0, -10.0), link=Link(1.0, 0.3, 0.02))

@@ -5,7 +5,6 @@ from functools import lru_cache
 from math import exp, log, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.models.minimal import MODEL
@@ -13,12 +12,12 @@ from lagrotor.models.model import integrate_model
 from lagrotor.models.orbits.floquet import floquet_of
 from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.simulate import simulate
+from lagrotor.numerics.arrays import Array
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series, shape_of
 from lagrotor.theory.parallel_twist import parallel_scene
 
-Array = NDArray[np.float64]
 PAIR = Scene((10.0, -10.0))
 _PHASES = np.linspace(0, 2 * pi, 25)
 

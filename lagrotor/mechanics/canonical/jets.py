@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
 from lagrotor.mechanics.canonical.polynomials import Polynomial
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import compile_program
 
-Array = NDArray[np.float64]
 _Z = sp.Symbol("z", real=True)
 _NAMES = {
     "arcsin": "asin",

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
 from lagrotor.algebra import decide_zero, derivative
 from lagrotor.errors import DomainError, InputError
@@ -20,6 +19,7 @@ from lagrotor.mechanics.canonical.jets import JetSpace, TruncatedSeries, jet_spa
 from lagrotor.mechanics.canonical.polynomials import Polynomial
 from lagrotor.mechanics.canonical.return_maps import ReturnMapForm, largest_difference, map_normal_form
 from lagrotor.mechanics.lagrangian import clock_parts, gradient, t
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.brief import brief_windows
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.integrate import Problem, integrate
@@ -27,7 +27,6 @@ from lagrotor.numerics.printers import compile_program
 from lagrotor.numerics.pulse import Window
 from lagrotor.numerics.segment import StopError
 
-Array = NDArray[np.float64]
 _LOCAL = (1e-11, 1e-13)  # errors of a step: of the map that is compared, and of the one that is read
 _MOST = 200_000  # evaluations
 _RESCALED = 6  # times, until the units are those of the orbit

@@ -30,8 +30,8 @@ from lagrotor.mechanics.canonical.polynomials import (
     variable,
 )
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
+from lagrotor.numerics.arrays import Array
 
-Array = NDArray[np.float64]
 _RESONANT = 1e-7  # |1 − e^{iα·(a − b)}| that is zero in floating-point numbers
 _NEAR = 1e-6  # of 1 or −1: a multiplier that is taken to be it
 

@@ -5,12 +5,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
 from lagrotor.mechanics.running.singular import singular_position
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
@@ -19,7 +19,6 @@ from lagrotor.numerics.pulse import Window, windows_since
 from lagrotor.numerics.segment import Integrate, StopError, Stretch, by_units
 from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
-Array = NDArray[np.float64]
 Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
 _AHEAD = 0.05  # of a turn, in which it is seen what spent the evaluations of a run

@@ -13,7 +13,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from lagrotor.errors import InputError, IntegrationError, near
@@ -21,8 +20,8 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression, unknown_functions, with_jets
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.switches import Event, Impact
+from lagrotor.numerics.arrays import Array as Array
 
-Array = NDArray[np.float64]
 Orders = tuple[int, ...]
 Kind = TypeVar("Kind", bound=Equations)
 _BEYOND = 1e-12  # of a piece, by which it is followed beyond its knots

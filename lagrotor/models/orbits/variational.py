@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.models.minimal import MODEL, RATIOS, program
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.generated import generated
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
 from lagrotor.pair.scene import Scene
@@ -17,7 +17,6 @@ from lagrotor.pair.scene import Scene
 if TYPE_CHECKING:
     from lagrotor.models.programs.minimal_program import Ratio
 
-Array = NDArray[np.float64]
 _LAST_STEP = 1e-8  # of Newton's method, relative: the next is its square
 
 

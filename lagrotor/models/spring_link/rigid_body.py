@@ -6,13 +6,11 @@ R (3, 3) takes body components to world components, v = R v_body, and grows by R
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.numerics.rotations import skew_matrix, turn_about
-
-Array = NDArray[np.float64]
 
 _LEAST = np.finfo(float).smallest_normal
 _CLOSE = 1e-9  # how far a given rotation may be from orthogonal, an inertia from symmetric

@@ -1,13 +1,12 @@
 """The paired precession by the ansatz, by the paper's correction and by the series, beside the exact orbit at one phase."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from lagrotor.models.orbits.shooting import ExactOrbit
 from lagrotor.models.simulate import simulate
+from lagrotor.numerics.arrays import Array
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories
-
-Array = NDArray[np.float64]
 
 
 def ansatz_axes(sines: ArrayLike, phase: Array) -> Array:

@@ -4,13 +4,13 @@
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import SpringRun, run_steps
 from lagrotor.models.spring_link.system import paper_system
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.curves import best_harmonics, peak, spectrum
 from lagrotor.numerics.pulse import PULSE_REACH
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STEP, STIFFNESS
@@ -20,7 +20,6 @@ from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.single_rotor import free_precession_rate
 
-Array = NDArray[np.float64]
 # The peak of the paper's shocks is at 2 s. They are over by the first of these (s), after which energies are read; the wider
 # ones of section 5 by the second, after which spectra are.
 ENERGY_FROM, SPECTRUM_FROM = 2.2, 2.3

@@ -6,11 +6,10 @@ and r_2(Phi) = r_1(Phi + pi) with x → −x. `harmonics` is the array (X, Y, Z)
 """
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.printers import in_blocks
-
-Array = NDArray[np.float64]
 
 
 def axes_of(harmonics: Array, phase: ArrayLike) -> Array:

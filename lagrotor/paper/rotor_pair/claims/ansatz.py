@@ -5,10 +5,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.system import paper_system
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.quantities import Spins
@@ -28,7 +28,6 @@ from lagrotor.paper.rotor_pair.shocked_runs import (
 )
 from lagrotor.shown import scientific
 
-Array = NDArray[np.float64]
 WITHIN = 0.05  # "agrees", "constant": to one part in twenty, the difference that two curves drawn over each other do not show
 VANISHES = 0.9  # the power in r₀ of a relative deviation that goes to zero with the amplitude; 1 is the next order
 _ROUNDING = 1e-9  # of B, over half a second in steps of 1 ms

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem, join_bar, paper_bodies, paper_system, step_limit
+from lagrotor.numerics.arrays import Array
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STEP, STIFFNESS
 from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Scene
@@ -18,7 +18,6 @@ from lagrotor.paper.rotor_pair.claims.proved_parts import energies
 from lagrotor.paper.rotor_pair.shocked_runs import EQUAL, after_shock, shock_of, shocked_scene
 from lagrotor.shown import scientific
 
-Array = NDArray[np.float64]
 PRINTED = {"before": 100.0, "after": 100.45}  # J
 _HALF_UNIT = 0.5  # J: 100 is printed without decimals
 LAST_DIGIT = 0.01  # J: "about 100.45" is read off a graph, to one unit of its last digit; "constant" to the same

@@ -4,9 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from lagrotor.models.simulate import simulate
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.curves import harmonics_at
 from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.notation import G_1, G_2, a, b, k
@@ -19,7 +20,6 @@ from lagrotor.shown import scientific
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.natural_rate import natural_rate
 
-Array = NDArray[np.float64]
 RANK = 1e-9  # singular values below it count as zero; the least along the run is near one
 DIRECTION = 0.01  # the direction of a mode in a run of a small shock, to one part in a hundred
 REST = 1e-3  # what two modes leave of the motion: the square of the shock, left out, is below it

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.curves import Harmonics, best_harmonics, harmonics_at
 from lagrotor.pair.examples import LIGHT
 from lagrotor.pair.quantities import Spins, Vector
@@ -25,7 +25,6 @@ from lagrotor.paper.rotor_pair.shocked_runs import (
 )
 from lagrotor.theory.natural_rate import natural_rate
 
-Array = NDArray[np.float64]
 SHOCK: Vector = (40, -11, 0)  # N, of the listing in 5.2.1
 NEARER = (
     0.5  # shared: the formula's pinch within half of it, so that the run is nearer to the formula than to a plain sine

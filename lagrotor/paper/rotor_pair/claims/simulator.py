@@ -7,7 +7,6 @@ from math import inf
 from unittest.mock import patch
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.rigid_body import (
@@ -18,6 +17,7 @@ from lagrotor.models.spring_link.rigid_body import (
 )
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import RigidBodySystem, paper_system
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.curves import measured_order
 from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
@@ -26,7 +26,6 @@ from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import EQUAL, shocked_scene
 from lagrotor.shown import scientific
 
-Array = NDArray[np.float64]
 _ROUNDING = 100 * float(np.finfo(float).eps)  # what a few products of 3 × 3 matrices may lose
 ENFORCED = 0.1  # a joint is kept where its gap, and the error of the axes, are below a tenth of the motion
 INVERTERS = ("inv", "solve", "pinv", "lstsq", "tensorinv", "tensorsolve")  # numpy's ways to invert a matrix

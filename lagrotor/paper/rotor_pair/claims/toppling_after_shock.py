@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from math import inf, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import run_solver
 from lagrotor.models.spring_link.system import paper_system
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STIFFNESS
 from lagrotor.pair.quantities import Spins, Vector
@@ -27,7 +27,6 @@ from lagrotor.paper.rotor_pair.shocked_runs import (
 from lagrotor.shown import scientific
 from lagrotor.theory.natural_rate import natural_rate
 
-Array = NDArray[np.float64]
 FALLEN = 0.5  # |x| of an axis that is 30° from upright
 TILTED, FLAT = 75.0, 90.0  # degrees: toppled along x, where 90° is a dead point, and across it
 IN_PLANE = 0.01  # a y of an axis that would not be seen: the pair stays in the X-Z plane

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.curves import mean_between, measured_order
 from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.quantities import Vector
@@ -23,7 +23,6 @@ from lagrotor.paper.rotor_pair.shocked_runs import (
 )
 from lagrotor.theory.natural_rate import natural_rate
 
-Array = NDArray[np.float64]
 ALIKE = 0.1  # (7) holds to one part in ten, the accuracy to which a graph is compared with another
 PARTED = 0.1  # rad, 6°: an angle that is seen
 STIFFER = (10.0, 100.0, 1000.0)  # kg m², bars that resist twisting more and more

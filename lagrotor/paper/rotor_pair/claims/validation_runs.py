@@ -6,19 +6,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import LagrotorWarning
 from lagrotor.models.spring_link.rigid_body import finite_rotation, printed_rotation
 from lagrotor.models.spring_link.run import run_steps
 from lagrotor.models.spring_link.system import paper_system
+from lagrotor.numerics.arrays import Array
 from lagrotor.pair.examples import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
 from lagrotor.paper.rotor_pair.shocked_runs import EQUAL
 from lagrotor.shown import scientific
 
-Array = NDArray[np.float64]
 PRINTED_ENERGY = 100.0  # J
 _HALF_UNIT = 0.5  # J: 100 is printed without decimals
 _START = 0.1  # s, a hundredth of the paper's 10 s: what figure 8 shows at its left edge
