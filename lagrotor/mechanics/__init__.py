@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.bodies.rigid_bodies import Frame as Frame
     from lagrotor.mechanics.canonical.action_variables import Libration as Libration
     from lagrotor.mechanics.canonical.action_variables import libration as libration
-    from lagrotor.mechanics.canonical.generating_functions import GeneratedTransformation as GeneratedTransformation
+    from lagrotor.mechanics.canonical.hamiltonians import GeneratedTransformation as GeneratedTransformation
     from lagrotor.mechanics.canonical.hamiltonians import Hamiltonian as Hamiltonian
     from lagrotor.mechanics.canonical.hamiltonians import rotational_bracket as rotational_bracket
     from lagrotor.mechanics.canonical.normal_forms import NormalForm as NormalForm

@@ -28,10 +28,10 @@ from lagrotor.proved.exact_structure import exact_number
 from lagrotor.proved.families import FamilyProof, prove_family
 from lagrotor.proved.fields import Field, scene_field, scene_numbers
 from lagrotor.proved.multipliers import Kind
-from lagrotor.proved.near_rest import MotionNearRest
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.subjects import of_scene
 from lagrotor.proved.tape import paced
+from lagrotor.proved.taylor_models import MotionNearRest
 
 A, B = (1, -1, -1, -1, 1, 1), (-1, 1, -1, 1, -1, 1)
 FREE, CONDITIONS = (4, 5, 6), (0, 2, 4)

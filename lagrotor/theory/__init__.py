@@ -33,7 +33,9 @@ if TYPE_CHECKING:
     from lagrotor.theory.impulse_response import impulse_matrices as impulse_matrices
     from lagrotor.theory.impulse_response import shock_displacement as shock_displacement
     from lagrotor.theory.impulse_response import shock_energy as shock_energy
+    from lagrotor.theory.natural_frequency import free_precession_rate as free_precession_rate
     from lagrotor.theory.natural_frequency import linear_pair as linear_pair
+    from lagrotor.theory.natural_frequency import pair_precession_rate as pair_precession_rate
     from lagrotor.theory.natural_rate import natural_rate_error as natural_rate_error
     from lagrotor.theory.paired_precession.series import paired_series as paired_series
     from lagrotor.theory.paired_precession.series_orbit import PrecessionOrbit as PrecessionOrbit
@@ -55,8 +57,6 @@ if TYPE_CHECKING:
     from lagrotor.theory.rate_shift import frequency_shift as frequency_shift
     from lagrotor.theory.rate_shift import shift_coefficient as shift_coefficient
     from lagrotor.theory.rate_shift import twist_coefficient as twist_coefficient
-    from lagrotor.theory.single_rotor import free_precession_rate as free_precession_rate
-    from lagrotor.theory.single_rotor import pair_precession_rate as pair_precession_rate
     from lagrotor.theory.toppling import linear_toppling as linear_toppling
     from lagrotor.theory.toppling import toppling_growth as toppling_growth
     from lagrotor.theory.toppling import toppling_polynomial as toppling_polynomial

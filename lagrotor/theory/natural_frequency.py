@@ -1,4 +1,5 @@
-"""The natural frequency of the coupled pair, derived for any spins and any bar, and the formulas of its limits.
+"""The natural frequency of the coupled pair, derived for any spins and any bar, and the formulas of its limits; beside it the
+steady precession of one free rotor, and the rate of the pair under the paper's ansatz from its first integrals.
 
 `lagrotor.theory.natural_rate` evaluates them for a scene.
 """
@@ -7,9 +8,10 @@ from functools import cache
 
 import sympy as sp
 
-from lagrotor.mechanics import LinearSystem
-from lagrotor.pair.lagrangians import INERTIAS, axes_pair
-from lagrotor.pair.notation import AXES, G_1, G_2, K, a, b, ell, m
+from lagrotor.mechanics import LinearSystem, euler_lagrange
+from lagrotor.mechanics.lagrangian import linear_solve
+from lagrotor.pair.lagrangians import INERTIAS, ansatz_integrals, axes_pair, rotor_lagrangian
+from lagrotor.pair.notation import ANSATZ, AXES, G_1, G_2, I3, ROTOR, A, B, G, J, K, a, b, ell, m, omega
 from lagrotor.theory.closed_form import ClosedForm
 
 _G, _A, _B, _G1, _G2 = sp.symbols("G a b G_1 G_2", positive=True)
@@ -66,3 +68,45 @@ def _formula(put: dict[sp.Symbol, sp.Expr]) -> str:
 def _text(expression: sp.Expr) -> str:
     """On one line, as people write it."""
     return str(expression).replace("**2", "²").replace("*", " ").replace("sqrt(", "√(").replace(" - ", " − ")
+
+
+@cache
+def pair_precession_rate() -> ClosedForm:
+    """phi' of the ansatz pair from its integrals A and B, for any J and I_3; the paper's (5.15) for J = I_3 = I."""
+    theta_1, theta_2 = ANSATZ.q[:2]
+    phi_v, psi_v = ANSATZ.v[2:]
+    integral_A, integral_B = ansatz_integrals()
+    matrix, given = sp.linear_eq_to_matrix([integral_A - A, integral_B - B], [phi_v, psi_v])
+    rate = linear_solve(matrix, given, "pair_precession_rate: the integrals do not give the rates")[0]
+    numerator, denominator = sp.fraction(sp.factor(rate))
+    return ClosedForm(
+        "pair_precession_rate",
+        ("phi'",),
+        (numerator / denominator,),
+        (theta_1, theta_2, A, B, J, I3),
+        (sp.Ne(sp.factor(denominator), 0),),
+        "the ansatz phi_1' = −phi_2', psi_1' = −psi_2'; a link that exerts nothing",
+        "5.15",
+    )
+
+
+@cache
+def free_precession_rate() -> ClosedForm:
+    """G / (J cos theta): the steady precession of one free grounded rotor about the angular momentum it has (5.23).
+
+    From theta'' = 0 in the Euler–Lagrange equation of theta, sin theta phi' (J cos theta phi' − G) = 0.
+    """
+    theta, (theta_v, phi_v, psi_v), theta_a = ROTOR.q[0], ROTOR.v, ROTOR.a[0]
+    steady = euler_lagrange(rotor_lagrangian(), ROTOR)[0].subs(
+        {theta_a: 0, theta_v: 0, psi_v: omega - phi_v * sp.cos(theta)}
+    )
+    rate = next(root for root in sp.solve(steady, phi_v) if root != 0)
+    return ClosedForm(
+        "free_precession_rate",
+        ("phi'",),
+        (rate.subs(omega, G / I3),),
+        (theta, G, J),
+        (sp.Ne(sp.cos(theta), 0),),
+        "one grounded rotor, no gravity, theta constant",
+        "5.23",
+    )

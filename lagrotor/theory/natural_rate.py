@@ -23,7 +23,7 @@ def natural_frequency_value() -> str:
 @generated(((),))
 def _free_rate() -> str:
     """(theta, G, J) → [phi'], numbers."""
-    from lagrotor.theory.single_rotor import free_precession_rate
+    from lagrotor.theory.natural_frequency import free_precession_rate
 
     return free_precession_rate().code()
 

@@ -22,10 +22,9 @@ from lagrotor.proved.balls import exact, precision, upper
 from lagrotor.proved.closed_orbits import OrbitProblem
 from lagrotor.proved.families import FamilyProof, prove_family
 from lagrotor.proved.fields import field_of
-from lagrotor.proved.near_rest import MotionNearRest, NearRest
 from lagrotor.proved.stepping import Motion
 from lagrotor.proved.tape import paced
-from lagrotor.proved.taylor_models import Order, TaylorModel
+from lagrotor.proved.taylor_models import MotionNearRest, NearRest, Order, TaylorModel
 from lagrotor.proved.verification import family_checking, near_rest_checking, orbit_checking
 
 ORDER = Order(9, 7)

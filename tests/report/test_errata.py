@@ -10,7 +10,7 @@ from lagrotor.paper import Audit, Verdict
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.content import Report
 from lagrotor.report.errata import errata, latex_document
-from lagrotor.report.markdown import errata_sheet
+from lagrotor.report.text_forms import errata_sheet
 
 
 @pytest.fixture(scope="module")

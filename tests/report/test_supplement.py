@@ -17,7 +17,7 @@ from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_prose, latex_table
-from lagrotor.report.supplement import supplement
+from lagrotor.report.text_forms import supplement
 
 HOSTILE = r'<script>alert("1 & 2")</script> | `a` *b* _c_ 50% #1 $x$ {y} ~ ^ \end{document} ±θ²≤☃'
 LONG = sp.Add(*sp.symbols("x_1:60"))

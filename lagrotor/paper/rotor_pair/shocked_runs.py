@@ -18,7 +18,7 @@ from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory
-from lagrotor.theory.single_rotor import free_precession_rate
+from lagrotor.theory.natural_frequency import free_precession_rate
 
 # The peak of the paper's shocks is at 2 s. They are over by the first of these (s), after which energies are read; the wider
 # ones of section 5 by the second, after which spectra are.

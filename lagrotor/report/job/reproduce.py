@@ -30,9 +30,8 @@ from lagrotor.report.job.kept import Kept
 from lagrotor.report.job.processes import cores, results
 from lagrotor.report.job.reach import digest
 from lagrotor.report.job.steps import Derived, JobStep, steps
-from lagrotor.report.markdown import errata_sheet, markdown
 from lagrotor.report.page.pages import FOLDER, pages, whole_page
-from lagrotor.report.supplement import supplement
+from lagrotor.report.text_forms import errata_sheet, markdown, supplement
 
 StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 

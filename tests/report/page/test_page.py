@@ -34,10 +34,10 @@ from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.job.folder import CONTENTS
-from lagrotor.report.markdown import markdown
 from lagrotor.report.page import page_pieces
 from lagrotor.report.page.page_sections import sections
 from lagrotor.report.page.pages import pages, whole_page
+from lagrotor.report.text_forms import markdown
 
 HOSTILE = '<script>alert("1 & 2")</script> | `a` *b* _c_'
 VOID = {"meta", "img", "br", "link", "hr", "input"}
