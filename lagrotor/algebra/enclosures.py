@@ -305,10 +305,6 @@ def _asin(x: Any) -> Any:
     return -i * _log(i * x + _sqrt(1 - x * x))
 
 
-def _asinh(x: Any) -> Any:
-    return _log(x + iv.sqrt(x * x + 1)) if not _is_complex(x) else _unknown("asinh")
-
-
 def _acosh(x: Any) -> Any:
     if _is_complex(x) or x.a < -1:
         return _unknown("acosh")
@@ -317,22 +313,8 @@ def _acosh(x: Any) -> Any:
     return _log(x + iv.sqrt(x * x - 1)) if x.a >= 1 else _unknown("acosh")
 
 
-def _atanh(x: Any) -> Any:
-    return (_log(1 + x) - _log(1 - x)) / 2 if not _is_complex(x) and x.a > -1 and x.b < 1 else _unknown("atanh")
-
-
 def _unknown(name: str) -> Any:
     raise NotExactError(f"{name} is not enclosed here.")
-
-
-def _abs(x: Any) -> Any:
-    if not _is_complex(x):
-        return abs(x)
-    return iv.sqrt(x.real * x.real + x.imag * x.imag)
-
-
-def _sign(x: Any) -> Any:
-    return iv.mpf(1) if _real(x).a > 0 else iv.mpf(-1) if x.b < 0 else _unknown("sign")
 
 
 def _sin(x: Any) -> Any:
@@ -368,11 +350,13 @@ _FUNCTIONS: dict[Any, Any] = {
     sp.acot: lambda x: _atan(1 / x),
     sp.asec: lambda x: iv.pi / 2 - _asin(1 / x),
     sp.acsc: lambda x: _asin(1 / x),
-    sp.asinh: _asinh,
+    sp.asinh: lambda x: _unknown("asinh") if _is_complex(x) else _log(x + iv.sqrt(x * x + 1)),
     sp.acosh: _acosh,
-    sp.atanh: _atanh,
-    sp.Abs: _abs,
-    sp.sign: _sign,
+    sp.atanh: lambda x: (
+        (_log(1 + x) - _log(1 - x)) / 2 if not _is_complex(x) and x.a > -1 and x.b < 1 else _unknown("atanh")
+    ),
+    sp.Abs: lambda x: iv.sqrt(x.real * x.real + x.imag * x.imag) if _is_complex(x) else abs(x),
+    sp.sign: lambda x: iv.mpf(1) if _real(x).a > 0 else iv.mpf(-1) if x.b < 0 else _unknown("sign"),
     sp.re: lambda x: x.real,
     sp.im: lambda x: x.imag,
     sp.conjugate: lambda x: iv.mpc(x.real, -x.imag) if _is_complex(x) else x,

@@ -59,7 +59,8 @@ def split_roots(
         if not root.square:
             dependent.append(Dependent(root.base, ring.polynomials.zero, ring.one, ()))
             continue
-        parity, members = _parity(root.square, numbers, polynomials), 0
+        exponents, members = _exponents(root.square, numbers, polynomials), 0
+        parity = sum((n % 2) << place for place, n in enumerate(exponents))
         for row, row_members in rows:
             if parity ^ row < parity:
                 parity, members = parity ^ row, members ^ row_members
@@ -133,10 +134,6 @@ def _exponents(square: PolyElement, numbers: list[int], polynomials: list[PolyEl
         while not (division := square.div(polynomial))[1]:
             square, exponents[-1] = division[0], exponents[-1] + 1
     return exponents
-
-
-def _parity(square: PolyElement, numbers: list[int], polynomials: list[PolyElement]) -> int:
-    return sum((n % 2) << place for place, n in enumerate(_exponents(square, numbers, polynomials)))
 
 
 def _expressed(

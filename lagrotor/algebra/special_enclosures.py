@@ -67,10 +67,6 @@ def _gamma(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
     return iv.gamma(x)
 
 
-def _factorial(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
-    return _gamma([orders[0] + 1], [values[0] + 1])
-
-
 def _binomial(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
     if all(order.is_Integer for order in orders):
         value = sp.binomial(*orders)
@@ -209,7 +205,7 @@ def _elliptic(orders: Sequence[sp.Expr], values: Sequence[Any], second: bool = F
 
 SPECIAL: dict[Any, Any] = {
     sp.gamma: _gamma,
-    sp.factorial: _factorial,
+    sp.factorial: lambda orders, values: _gamma([orders[0] + 1], [values[0] + 1]),
     sp.binomial: _binomial,
     sp.beta: _beta,
     sp.loggamma: _log_gamma,

@@ -31,7 +31,7 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
     """One row a tool and mechanism; a tool that was left out has its reason."""
     return [
         (
-            _links(x),
+            f"{x.n} {x.kind if x.n > 1 else x.kind.removesuffix('s')}",
             x.tool,
             *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)),
             x.reason or _by(x),
@@ -139,10 +139,6 @@ def _number(value: float | None, unit: float) -> str:
 
 def _off(difference: float | None) -> str:
     return "—" if difference is None else scientific(difference)
-
-
-def _links(x: Measured) -> str:
-    return f"{x.n} {x.kind if x.n > 1 else x.kind.removesuffix('s')}"
 
 
 def _by(x: Measured) -> str:

@@ -7,9 +7,10 @@ are run: `python -m benchmarks.speed`, `python -m benchmarks.mechanisms --record
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 from lagrotor.errors import LagrotorError
 
@@ -22,7 +23,7 @@ LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscop
 MECHANISM_ERROR = 1e-8  # rad, at which runs of mechanisms are timed
 CHAIN_SIZES = (16, 64, 256)  # of the chains
 CHAIN_ERROR = 1e-6  # m, at which runs of chains are timed
-_UNREADABLE = OSError, ValueError, KeyError, TypeError
+Record = TypeVar("Record")
 
 
 @dataclass(frozen=True)
@@ -91,10 +92,7 @@ class Timed:
 
 def recorded_speed() -> dict[str, Any]:
     """machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises LagrotorError if unreadable."""
-    try:
-        return dict(json.loads(SPEED.read_text(encoding="utf-8")))
-    except _UNREADABLE as error:
-        raise _unreadable(SPEED, error) from None
+    return _read(SPEED, dict)
 
 
 def recorded_multiple(record: dict[str, Any], name: str, error: str, of: str) -> float | None:
@@ -105,24 +103,21 @@ def recorded_multiple(record: dict[str, Any], name: str, error: str, of: str) ->
 
 def recorded_mechanisms() -> Comparison:
     """Tools on mechanisms. Raises LagrotorError if it is unreadable."""
-    try:
-        data = json.loads(MECHANISMS.read_text(encoding="utf-8"))
-        measured = [Measured(**x) for x in data.pop("measured")]
-        decided = [Decided(**x) for x in data.pop("decided")]
-        return Comparison(**data, measured=measured, decided=decided)
-    except _UNREADABLE as error:
-        raise _unreadable(MECHANISMS, error) from None
+    return _read(MECHANISMS, _comparison)
+
+
+def _comparison(data: dict[str, Any]) -> Comparison:
+    measured = [Measured(**x) for x in data.pop("measured")]
+    return Comparison(**data | {"measured": measured, "decided": [Decided(**x) for x in data["decided"]]})
 
 
 def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
     """Chains of rotors: machine and versions, and the rows. Raises LagrotorError if it is unreadable."""
-    try:
-        data = json.loads(STRUCTURES.read_text(encoding="utf-8"))
-        return data, [
-            Timed(**row | {"error": math.inf if row["error"] is None else row["error"]}) for row in data["rows"]
-        ]
-    except _UNREADABLE as error:
-        raise _unreadable(STRUCTURES, error) from None
+    return _read(STRUCTURES, lambda data: (data, list(map(_timed, data["rows"]))))
+
+
+def _timed(row: dict[str, Any]) -> Timed:
+    return Timed(**row | {"error": math.inf if row["error"] is None else row["error"]})
 
 
 def recorded_bodies_and_lagrangians() -> dict[str, Any]:
@@ -131,11 +126,11 @@ def recorded_bodies_and_lagrangians() -> dict[str, Any]:
 
     Raises LagrotorError if it is unreadable.
     """
+    return _read(BODIES_AND_LAGRANGIANS, dict)
+
+
+def _read(file: Path, made: Callable[[Any], Record]) -> Record:
     try:
-        return dict(json.loads(BODIES_AND_LAGRANGIANS.read_text(encoding="utf-8")))
-    except _UNREADABLE as error:
-        raise _unreadable(BODIES_AND_LAGRANGIANS, error) from None
-
-
-def _unreadable(file: Path, error: Exception) -> LagrotorError:
-    return LagrotorError(f"{file} cannot be read ({error}): install lagrotor anew")
+        return made(json.loads(file.read_text(encoding="utf-8")))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise LagrotorError(f"{file} cannot be read ({error}): install lagrotor anew") from None

@@ -35,18 +35,6 @@ AMPLITUDE, SERIES_ORDER = 0.204, 21  # the start lies on the periodic orbit to 1
 _TEN = np.linspace(0, 10, 1001)
 
 
-def _displaced_case(quick: bool) -> Case:
-    return Case(_scene_on_orbit(Link()), _TEN, _repeats(quick), f"paired precession, r0 = {AMPLITUDE}, 10 s")
-
-
-def _shock_case(quick: bool) -> Case:
-    return Case(SCENES["free-precession"].scene, _TEN, _repeats(quick), "shock of 5.2.1 on a light bar, 10 s")
-
-
-def _heavy_case(quick: bool) -> Case:
-    return Case(_scene_on_orbit(HEAVY_LINK), _TEN, _repeats(quick), "bar of 1 kg, 10 s")
-
-
 def _long_case(quick: bool) -> Case:
     scene, turns = _scene_on_orbit(Link()), 100 if quick else 1000
     t_eval = np.linspace(0, turns * 2 * np.pi / natural_rate(scene), 1001)
@@ -57,15 +45,17 @@ def _scene_on_orbit(bar: Link) -> Scene:
     return series_orbit(Scene((10, -10), link=bar), AMPLITUDE, SERIES_ORDER).start
 
 
-def _repeats(quick: bool) -> int:
-    return 1 if quick else 2
+def _ten_seconds(scene: Scene, quick: bool, says: str) -> Case:
+    return Case(scene, _TEN, 1 if quick else 2, says)
 
 
 # Name → case; quick: fewer repeats, and 100 turns for 1,000. Each is made when it is needed: a paired start is a series.
 CASES: dict[str, Callable[[bool], Case]] = {
-    "displaced": _displaced_case,
-    "shock": _shock_case,
-    "heavy": _heavy_case,
+    "displaced": lambda quick: _ten_seconds(
+        _scene_on_orbit(Link()), quick, f"paired precession, r0 = {AMPLITUDE}, 10 s"
+    ),
+    "shock": lambda quick: _ten_seconds(SCENES["free-precession"].scene, quick, "shock of 5.2.1 on a light bar, 10 s"),
+    "heavy": lambda quick: _ten_seconds(_scene_on_orbit(HEAVY_LINK), quick, "bar of 1 kg, 10 s"),
     "long": _long_case,
 }
 

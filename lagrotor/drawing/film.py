@@ -278,7 +278,7 @@ def animate_lines(path: str | Path, t: Array, lines: Sequence[Array], fps: float
     """
     target, flat = Path(path), _flat(lines)
     check_film(target, float(t[-1] - t[0]), fps)
-    seen = [_projection(line, flat) for line in lines]
+    seen = [Camera()(line) if flat is None else np.delete(line, flat, axis=-1) for line in lines]
 
     def stage(figure: Figure) -> tuple[Axes, Callable[[int], list[Artist]]]:
         axes = figure.subplots()
@@ -303,10 +303,6 @@ def _flat(lines: Sequence[Array]) -> int | None:
     """The direction (0, 1, 2) along which nothing extends, if there is one: 1 before 2 before 0."""
     extent = np.ptp(np.concatenate([line.reshape(-1, 3) for line in lines]), axis=0)
     return next((i for i in (1, 2, 0) if extent[i] <= 1e-9 * extent.max()), None)
-
-
-def _projection(line: Array, flat: int | None) -> Array:
-    return Camera()(line) if flat is None else np.delete(line, flat, axis=-1)
 
 
 def _limits(axes: Axes, seen: Array) -> None:

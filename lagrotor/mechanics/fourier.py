@@ -37,7 +37,7 @@ class FourierSeries:
 
     def __mul__(self, other: "FourierSeries") -> "FourierSeries":
         """Product; terms beyond the order are dropped."""
-        one, two = self._by_power(), other._by_power()
+        one, two = self.by_power(), other.by_power()
         total: dict[int, dict[int, Coefficient]] = defaultdict(lambda: defaultdict(int))
         for n, first in one.items():
             for m, second in two.items():
@@ -45,7 +45,8 @@ class FourierSeries:
                     add_twice_the_product(total[n + m], first, second)
         return FourierSeries({(n, h): v / 2 for n, waves in total.items() for h, v in waves.items() if v}, self.order)
 
-    def _by_power(self) -> dict[int, dict[int, Coefficient]]:
+    def by_power(self) -> dict[int, dict[int, Coefficient]]:
+        """The coefficients {n: {h: value}}; empty for every other n."""
         powers: dict[int, dict[int, Coefficient]] = defaultdict(dict)
         for (n, h), value in self.terms.items():
             powers[n][h] = value

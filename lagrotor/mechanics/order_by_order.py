@@ -81,9 +81,7 @@ class Unknowns:
 
     def series(self, known: FourierSeries) -> GrowingSeries:
         """An unknown that begins with the terms of `known`."""
-        terms: dict[int, dict[int, Coefficient]] = defaultdict(dict)
-        for (n, h), value in known.terms.items():
-            terms[n][h] = value
+        terms = known.by_power()
         made = GrowingSeries(lambda n: terms.get(n, {}), self._all)
         self._known[made] = terms
         return made

@@ -112,10 +112,6 @@ def section_blocks(report: Report) -> Iterator[Block]:
             yield from _shown(report.part(name), report)
 
 
-def _model(_: Report) -> Iterator[Block]:
-    yield ["Sliders and both tips in motion, in a browser:", File("index.html#model", "index.html")]
-
-
 def _summary(report: Report) -> Iterator[Block]:
     if report.changes:
         yield [Bold("Changed against the record."), "; ".join(report.changes)]
@@ -233,7 +229,9 @@ def _made(report: Report) -> Iterator[Block]:
 
 
 _PARTS: dict[str, Callable[[Report], Iterator[Block]]] = {
-    "model": _model,
+    "model": lambda _: iter(
+        [["Sliders and both tips in motion, in a browser:", File("index.html#model", "index.html")]]
+    ),
     "summary": _summary,
     "verdicts": _verdicts,
     "notation": lambda report: iter([Rows(("Symbol", "Meaning", "Unit"), list(notation(report)))]),

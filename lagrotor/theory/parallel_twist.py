@@ -76,12 +76,8 @@ def twist_growth() -> ClosedForm:
         "5",
         1,
         rho,
-        _twist_bound,
+        lambda *values: np.asarray(twist_growth_error()(*values)),
     )
-
-
-def _twist_bound(*arguments: Array) -> Array:
-    return np.asarray(twist_growth_error()(*arguments))
 
 
 @cache

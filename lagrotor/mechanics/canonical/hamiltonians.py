@@ -130,14 +130,31 @@ class Hamiltonian:
     def generated(self, F: sp.Expr, P: Sequence[sp.Symbol]) -> "GeneratedTransformation":
         """The canonical transformation of the generating function F(q, P, t): see the head of the module.
 
+        P: the new momenta, symbols of their own.
+
         Raises:
-            DomainError: for kinetic momenta or constraints; else as `generated_transformation`.
+            DomainError: for kinetic momenta or constraints.
+            InputError: for a P that is no symbol or is already one of H, and an F with old momenta.
+            SingularError: where det ∂²F/∂q∂P vanishes identically: it generates nothing.
         """
         if self.constraints or not self.field.is_zero_matrix:
             raise DomainError(
                 "generated: H must have canonical momenta and no constraints: use independent coordinates"
             )
-        return generated_transformation(self.H, self.q, self.p, self._function("generated: F", F), P)
+        F, q, p = self._function("generated: F", F), self.q, self.p
+        new = vector_of("generated: P", P, len(q))
+        taken = {*q, *p, t} | self.H.free_symbols
+        if len({*new}) < len(new) or not all(isinstance(s, sp.Symbol) and s not in taken for s in new):
+            raise InputError(f"generated: P = {new} must be {len(q)} symbols that H does not have: name new ones")
+        if old := F.free_symbols & {*p}:
+            raise InputError(
+                f"generated: F = {F} contains {', '.join(sorted(map(str, old)))}: it is a function of q and P"
+            )
+        p_of = gradient(F, q)
+        if decide_zero(jacobian(p_of, new).det(method="berkowitz")).answer == "zero":
+            raise SingularError(f"generated: det ∂²F/∂q∂P = 0 for F = {F}: it generates no transformation")
+        K = shortest(self.H.xreplace(dict(zip(p, p_of, strict=True))) + derivative(F, t))
+        return GeneratedTransformation(new, tuple(p), tuple(p_of), tuple(gradient(F, new)), K)
 
     def normal_form(
         self,
@@ -178,12 +195,7 @@ class Hamiltonian:
             )
         if period is not None:
             return self._about_orbit(order, at, values or {}, detuning, period)
-        point = {s: expression(f"normal_form: {s}", v) for s, v in by_symbol("normal_form: at", at, x).items()}
-        letters = by_symbol(
-            "normal_form: values", values or {}, self.H.free_symbols.union(*(v.free_symbols for v in point.values()))
-        )
-        known = {s: expression(f"normal_form: {s}", v) for s, v in letters.items()}
-        H, point = self.H.xreplace(known), {s: v.xreplace(known) for s, v in point.items()}
+        H, point = self._with_values(at, x, values or {})
         if strange := [str(s) for s in point if s not in x]:
             raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}: name coordinates and momenta")
         turning = {p: point[p] for q, p in zip(self.q, self.p, strict=True) if p in point and not H.has(q)}
@@ -210,6 +222,16 @@ class Hamiltonian:
             at_rest |= dict(zip(p, linear_solve(jacobian(slopes, p), still, refusal), strict=True))
         return normal_form_at(H, x, at_rest, order, detuning)
 
+    def _with_values(
+        self, at: Mapping[Any, Any], named: Sequence[sp.Symbol], values: Mapping[Any, Any]
+    ) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
+        """H and a point with values of the parameters."""
+        where = "normal_form"
+        point = {s: expression(f"{where}: {s}", e) for s, e in by_symbol(f"{where}: at", at, named).items()}
+        letters = self.H.free_symbols.union(*(e.free_symbols for e in point.values()))
+        known = {s: expression(f"{where}: {s}", e) for s, e in by_symbol(f"{where}: values", values, letters).items()}
+        return self.H.xreplace(known), {s: e.xreplace(known) for s, e in point.items()}
+
     def _about_orbit(
         self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any], detuning: float, period: float
     ) -> "ReturnMapForm":
@@ -225,18 +247,11 @@ class Hamiltonian:
         if not 0 < duration < float("inf"):
             raise InputError(f"normal_form: period = {period!r} must be a positive time in s")
         x = (*self.q, *self.p)
-        point = {
-            s: expression(f"normal_form: {s}", e) for s, e in by_symbol("normal_form: at", at, (*x, *self.v, t)).items()
-        }
+        H, point = self._with_values(at, (*x, *self.v, t), values)
         if strange := [str(s) for s in point if s not in {*x, *self.v, t}]:
             raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}, {self.v} and t")
         if missing := [str(s) for s in self.q if s not in point and self.H.has(s)]:
             raise InputError(f"normal_form: {', '.join(missing)} without a value: the start needs each coordinate's")
-        letters = by_symbol(
-            "normal_form: values", values, self.H.free_symbols.union(*(e.free_symbols for e in point.values()))
-        )
-        known = {s: expression(f"normal_form: {s}", e) for s, e in letters.items()}
-        H, point = self.H.xreplace(known), {s: e.xreplace(known) for s, e in point.items()}
         no_letter("normal_form", (H.free_symbols - {*x, t}).union(*(e.free_symbols for e in point.values())))
         place = dict.fromkeys(self.q, sp.S.Zero) | {t: sp.S.Zero} | point
         if not point.keys() & {*self.p}:
@@ -335,32 +350,3 @@ class GeneratedTransformation:
             tuple(shortest(Q.subs(kept[0])) for Q in self.Q_of),
             tuple(shortest(kept[0][P]) for P in self.new),
         )
-
-
-def generated_transformation(
-    H: sp.Expr, q: Sequence[sp.Symbol], p: Sequence[sp.Symbol], F: sp.Expr, P: Sequence[sp.Symbol]
-) -> GeneratedTransformation:
-    """The canonical transformation of F(q, P, t).
-
-    Args:
-        H: of canonical q and p.
-        q: its coordinates.
-        p: its momenta.
-        F: the generating function of the second kind.
-        P: the new momenta, symbols of their own.
-
-    Raises:
-        InputError: for a P that is no symbol or is already one of H, and an F with old momenta.
-        SingularError: where det ∂²F/∂q∂P vanishes identically: it generates nothing.
-    """
-    new = vector_of("generated: P", P, len(q))
-    taken = {*q, *p, t} | H.free_symbols
-    if len({*new}) < len(new) or not all(isinstance(s, sp.Symbol) and s not in taken for s in new):
-        raise InputError(f"generated: P = {new} must be {len(q)} symbols that H does not have: name new ones")
-    if old := F.free_symbols & {*p}:
-        raise InputError(f"generated: F = {F} contains {', '.join(sorted(map(str, old)))}: it is a function of q and P")
-    p_of = gradient(F, q)
-    if decide_zero(jacobian(p_of, new).det(method="berkowitz")).answer == "zero":
-        raise SingularError(f"generated: det ∂²F/∂q∂P = 0 for F = {F}: it generates no transformation")
-    K = shortest(H.xreplace(dict(zip(p, p_of, strict=True))) + derivative(F, t))
-    return GeneratedTransformation(new, tuple(p), tuple(p_of), tuple(gradient(F, new)), K)

@@ -249,7 +249,7 @@ def normal_form_at(
         if letters:
             names = ", ".join(sorted(map(str, letters)))
             raise InputError(f"{error}: give {names} values, {{symbol: number, …}}") from None
-    plain = _expanded(H, x, at, sp.eye(len(x)), order, _number, complex)
+    plain = _expanded(H, x, at, sp.eye(len(x)), order, lambda e: complex(sp.N(e, 20)), complex)
     slope, curvature = (np.abs(plain.part(n).coefficients).max(initial=0.0) for n in (1, 2))
     if slope > 1e-9 * max(curvature, 1e-300):
         raise InputError(f"normal_form: the point is no equilibrium: ∂H/∂x is not zero there; {_STEADY}")
@@ -352,7 +352,3 @@ def _expanded(
     convert = value if kind is object else complex
     moved = {s: linear_form([convert(vectors[k, j]) for j in range(len(x))], kind) for k, s in enumerate(x)}
     return LocalSeries(at, moved, order, value).of(H)
-
-
-def _number(e: sp.Expr) -> complex:
-    return complex(sp.N(e, 20))

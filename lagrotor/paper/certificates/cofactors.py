@@ -122,7 +122,9 @@ def _quotient(node: sp.Expr, ring: PolyRing, letters: dict[sp.Symbol, PolyElemen
     parts = [_quotient(part, ring, letters) for part in (node.args if not node.is_Pow else node.args[:1])]
     if node.is_Add:
         common = tuple(map(max, *(powers for _, powers in parts)))
-        raised = (p * _monomial(ring, [a - b for a, b in zip(common, powers, strict=True)]) for p, powers in parts)
+        raised = (
+            p * ring({tuple(a - b for a, b in zip(common, powers, strict=True)): sp.QQ(1)}) for p, powers in parts
+        )
         return _bounded(reduce(lambda a, b: a + b, raised)), common
     if node.is_Mul:
         return reduce(_times, parts)
@@ -144,10 +146,6 @@ def _times(a: _Parts, b: _Parts) -> _Parts:
     if any(shared):
         over = over.ring({tuple(x - y for x, y in zip(m, shared, strict=True)): c for m, c in over.terms()})
     return over, tuple(x - y for x, y in zip(under, shared, strict=True))
-
-
-def _monomial(ring: PolyRing, powers: Sequence[int]) -> PolyElement:
-    return ring({tuple(powers): sp.QQ(1)})
 
 
 def _bounded(polynomial: PolyElement) -> PolyElement:

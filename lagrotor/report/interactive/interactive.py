@@ -117,8 +117,10 @@ def page_programs() -> dict[str, Program]:
     result = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
     result |= {"series": _series(), "orbit": horner.horner_program(PAGE_ORDER)}
     for ratio in _BARS:
-        result |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": _axes(ratio), f"start_{ratio}": _start(ratio)}
-        result[f"slopes_{ratio}"] = _slopes(ratio)
+        arguments, pair = (*MINIMAL.q, k), _pair_at(ratio)
+        result |= {f"rate_{ratio}": _rate(ratio), f"axes_{ratio}": Program(arguments, (), tuple(pair))}
+        result |= {f"start_{ratio}": _start(ratio)}
+        result |= {f"slopes_{ratio}": Program(arguments, (), tuple(pair.jacobian(MINIMAL.q)))}
     return result
 
 
@@ -144,14 +146,6 @@ def _pair_at(ratio: Ratio) -> sp.Matrix:
     embedding = minimal_embedding(curve.twist, curve.latitude)
     first, second = (mercator_axis(*MERCATOR.q[i : i + 2]).subs(embedding) for i in (0, 2))
     return first.col_join(second)
-
-
-def _axes(ratio: Ratio) -> Program:
-    return Program((*MINIMAL.q, k), (), tuple(_pair_at(ratio)))
-
-
-def _slopes(ratio: Ratio) -> Program:
-    return Program((*MINIMAL.q, k), (), tuple(_pair_at(ratio).jacobian(MINIMAL.q)))
 
 
 def _start(ratio: Ratio) -> Program:

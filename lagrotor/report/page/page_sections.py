@@ -117,10 +117,6 @@ def _derivations(report: Report) -> str:
     )
 
 
-def _errata(report: Report) -> str:
-    return "\n".join(map(erratum_entry, errata(report.verdicts, report.paper)))
-
-
 def _shown(part: ShownPart, report: Report) -> str:
     """Tables, what was found, figures."""
     parts = [side_by_side(table, report) for table in part.tables]
@@ -157,7 +153,7 @@ _PARTS: dict[str, Callable[[Report], str]] = {
     "summary": _summary,
     "verdicts": _verdicts,
     "notation": _notation,
-    "errata": _errata,
+    "errata": lambda report: "\n".join(map(erratum_entry, errata(report.verdicts, report.paper))),
     "claims": lambda report: "\n".join(claim_entry(result, report) for result in report.claims),
     "derivations": _derivations,
     "waiting": _waiting,
