@@ -24,7 +24,7 @@ from lagrotor import Link, Scene, natural_rate, paired_frequency
 from lagrotor.algebra import truncated_series
 from lagrotor.models import upright_orbit
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.orbits.shooting import flow
+from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics import measured_order
 from lagrotor.pair import leaning_lagrangian
 from lagrotor.pair.notation import G_1, G_2, LEANING, a, b, k, r0, sigma

@@ -16,7 +16,7 @@ import numpy as np
 from lagrotor import Link, Scene, consistent_scene, natural_rate, simulate
 from lagrotor.errors import LagrotorWarning
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.orbits.shooting import flow
+from lagrotor.models.orbits.variational import flow
 from lagrotor.pair import leaning_lagrangian
 from lagrotor.pair.notation import LEANING
 from lagrotor.paper import Remark, prove

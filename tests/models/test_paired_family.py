@@ -7,7 +7,7 @@ from lagrotor import Link, Scene, floquet, orbit_family, simulate
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit, trace_family
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.orbits.shooting import flow
+from lagrotor.models.orbits.variational import flow
 
 
 def test_slope_of_the_flow_is_the_derivative():

@@ -9,7 +9,7 @@ from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, paired_
 from lagrotor.errors import DomainError, InputError, LagrotorError
 from lagrotor.models import exact_orbit, upright_orbit
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.orbits.shooting import flow
+from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics import measured_order, peak, spectrum
 from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error, twist_coefficient
 from lagrotor.theory.natural_rate import TURNS

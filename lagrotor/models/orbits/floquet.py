@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
 from lagrotor.models.minimal import MODEL, scenes_from_states
-from lagrotor.models.orbits.shooting import FAILURES, Array, ExactOrbit, close_arc, exact_orbit, flow
+from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, exact_orbit
+from lagrotor.models.orbits.variational import Array, close_arc, flow
 from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
 from lagrotor.theory.averaged_motion import slow_frequency

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import DomainError, LagrotorError
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import Array, ClosedMotion, integrate_model, natural_units
-from lagrotor.models.orbits.shooting import flow
+from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics.estimated_run import UNKNOWN
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Link, Rotor, Scene

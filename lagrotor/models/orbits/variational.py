@@ -1,0 +1,86 @@
+"""The variational equations of the minimal model: its Jacobian, generated from the same program, along a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from lagrotor.models.minimal import MODEL, RATIOS, program
+from lagrotor.numerics.arrays import Array as Array
+from lagrotor.numerics.generated import generated
+from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
+from lagrotor.pair.scene import Scene
+
+if TYPE_CHECKING:
+    from lagrotor.models.programs.minimal_program import Ratio
+
+_LAST_STEP = 1e-8  # of Newton's method, relative: the next is its square
+
+
+@generated((massive, ratio) for massive in (False, True) for ratio in RATIOS)
+def _tangents(massive: bool, ratio: Ratio) -> str:
+    """parameters → the accelerations (3,) and their derivatives by the state (3, 6), of the time and the state."""
+    from lagrotor.numerics.codegen import tangent_program
+    from lagrotor.numerics.printers import rhs_source
+
+    whole = program(massive, ratio, 0)
+    directions = dict(zip(whole.arguments, np.eye(6, dtype=int).tolist(), strict=False))
+    return rhs_source(tangent_program(replace(whole, outputs=whole.outputs[3:]), directions, whole.arguments), 6)
+
+
+@dataclass(frozen=True)
+class Flow:
+    """The minimal model's flow from a state: `end` (6,), `slope` (6, 6) its derivative by the start, `rate` (6,) there."""
+
+    end: Array
+    slope: Array
+    rate: Array
+
+
+def flow(scene: Scene) -> Callable[..., Flow]:
+    """(state (U, chi, alpha, rates), time in s, tol = the tightest) → Flow, for the scene's rotor, bar and spins, without shock.
+
+    Raises SingularError without a bar; IntegrationError when the motion reaches a singular position.
+    """
+    (massive, ratio, _), parameters = MODEL.kind(scene, False)
+    accelerations = _tangents(massive, ratio)(*parameters)
+    plain = MODEL.rate(scene, False)
+
+    def rate(s: float, y: Array) -> Any:
+        numbers = np.array(accelerations(s, y[:6]))
+        turned = numbers[3:].reshape(3, 6).dot(y[6:].reshape(6, 6)).ravel()
+        return np.concatenate((y[3:6], numbers[:3], y[24:], turned))
+
+    def through(state: Array, time: float, tol: float = TIGHTEST) -> Flow:
+        start = np.concatenate([state, np.eye(6).ravel()])
+        end = integrate(Problem(rate, start, 12_000), np.array([time]), tol).states[0]
+        return Flow(end[:6], end[6:].reshape(6, 6), np.array(plain(time, end[:6])))
+
+    return through
+
+
+def close_arc(
+    through: Callable[..., Flow],
+    start: Array,
+    free: list[int],
+    time: float,
+    rows: list[int],
+    end: Array,
+    longest: float,
+) -> tuple[Array, float]:
+    """The start and the time at which these rows of the motion's end are as wanted, by Newton's method in the components `free`
+    of the start and the time; a time of 0 where it finds none below the longest."""
+    for _ in range(12):
+        now = through(start, time)
+        slope = np.column_stack([now.slope[np.ix_(rows, free)], now.rate[rows]])
+        step = -np.linalg.solve(slope, now.end[rows] - end)
+        start, time = start.copy(), time + float(step[-1])
+        start[free] += step[:-1]
+        if not (np.isfinite(start).all() and 0 < time < longest):
+            break
+        if np.abs(step).max() < _LAST_STEP * max(1.0, time, float(np.abs(start[free]).max())):
+            return start, time
+    return start, 0.0
