@@ -243,6 +243,7 @@ class _Walker:
     def _title_page(self, name: str) -> None:
         self.expander.optional()
         said = latex_of(self.expander.argument())
+        said = re.sub(r"\$\s*\^[^$]*\$|\\textsuperscript\s*\{[^{}]*\}", "", said)  # marks of notes and addresses
         if name == "title":
             self.found.title = _plain(said) or self.found.title
         else:

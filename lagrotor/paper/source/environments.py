@@ -18,6 +18,8 @@ def _environment(expander: Expander, token: Token) -> bool:
     count = expander.optional()
     default = expander.optional() if count is not None else None
     begin, end = expander.argument(), expander.argument()
+    if token.text == r"\renewenvironment" and r"\linenomath" in {part.text for part in begin}:
+        return True  # with the numbers of lines in the margin: it stays what it is
     if latex_of(begin).strip().startswith(rf"\begin{{{name}}}"):
         return True  # in iopart: what it is follows as \def\indented
     if _VERBATIM_COMMANDS & {part.text for part in begin}:

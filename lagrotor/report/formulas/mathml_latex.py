@@ -46,13 +46,13 @@ def converter() -> str:
 
 
 def mathml(source: str, display: bool = True) -> str | None:
-    """A LaTeX formula as `<math>`, on lines of its own or within one; None where latex2mathml is not installed.
+    """A LaTeX formula as `<math>`, on lines of its own or within one; None where latex2mathml is not installed or cannot set it.
 
     What a wide space parts, and a continuation `\\quad = …`, is set on a line of its own.
     """
     try:
         return _convert(source, display)
-    except ModuleNotFoundError:
+    except Exception:  # not installed; or of a print that it does not know, for which it has errors of every kind
         return None
 
 
@@ -79,8 +79,9 @@ def _convert(source: str, display: bool) -> str:
 def _lines(source: str) -> Iterator[str]:
     """The parts of a source between wide spaces outside braces and environments."""
     depth, part = 0, ""
+    opening = {r"\begin": 1, r"\end": -1, r"\left": 1, r"\right": -1}
     for token in tokenize(source):
-        depth += {"open": 1, "close": -1}.get(token.kind, 0) + {r"\begin": 1, r"\end": -1}.get(token.text, 0)
+        depth += {"open": 1, "close": -1}.get(token.kind, 0) + opening.get(token.text, 0)
         parts = token.text == r"\quad" or (token.text == "\\ " and part.endswith(";"))
         if parts and depth == 0:
             yield from [part] if part.strip() else []

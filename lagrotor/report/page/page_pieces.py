@@ -11,7 +11,7 @@ from lagrotor.paper.readable import readable
 from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.report.content import Report, anchor, word
 from lagrotor.report.facts import Fact
-from lagrotor.report.formulas.mathml_latex import mathml
+from lagrotor.report.formulas.mathml_latex import converter, mathml
 
 # Left by `readable`: an index that is not a number, a power that is not whole, a name of the program.
 _INDEX = re.compile(r"(?<![\w&])([A-Za-zͰ-Ͽ][\u0307\u0308]?)_([A-Za-z0-9]+)")
@@ -95,10 +95,15 @@ def inline(expression: sp.Basic) -> str:
 
 
 def typeset(source: str) -> str:
-    """LaTeX as a formula; its source, with a note, where the converter is not installed."""
+    """LaTeX as a formula; its source, with a note, where the converter is not installed or cannot set it."""
     formula = mathml(source)
     if formula is None:
-        return f"{code(source)}<p><small>LaTeX: install latex2mathml to have it typeset.</small></p>"
+        why = (
+            "what latex2mathml cannot set is shown as it is"
+            if converter()
+            else "install latex2mathml to have it typeset"
+        )
+        return f"{code(source)}<p><small>LaTeX: {why}.</small></p>"
     return f'<div class="wide">{formula}</div>'
 
 

@@ -130,3 +130,19 @@ def test_an_argument_may_be_longer_than_what_was_read() -> None:
     body = "x $y$ " * 20_000
     source = rf"\def\f#1\end{{}}\f {body}\end \[ a = b \]"
     assert [each.latex for each in read_latex(source).equations] == ["a = b"]
+
+
+def test_an_environment_with_numbers_of_lines_in_the_margin_stays_what_it_is() -> None:
+    r"""As packages redefine it, `array` was what they begin it with, and no formula."""
+    lines = r"{\linenomath\csname oldarray\endcsname}{\csname oldendarray\endcsname\endlinenomath}"
+    formula = r"\begin{array}{l}a\\b\end{array}"
+    patched = rf"\expandafter\let\csname oldarray\expandafter\endcsname\csname array\endcsname\renewenvironment{{array}}{lines}"
+    assert expanded(patched + formula).strip() == formula
+    own = r"\newenvironment{numbered}{\linenomath\begin{equation}}{\end{equation}\endlinenomath}"
+    (found,) = read_latex(own + r"\begin{document}\begin{numbered} a = b \end{numbered}\end{document}").equations
+    assert found.number == "1"
+
+
+def test_marks_of_addresses_are_no_part_of_a_name() -> None:
+    names = r"\author{A. Bee$^{1}$}\author{C. Dee$^{2,3}$, E. Eff\textsuperscript{1,*}}\begin{document}\end{document}"
+    assert read_latex(names).authors == ("A. Bee", "C. Dee", "E. Eff")

@@ -11,6 +11,7 @@ from lagrotor.mechanics.glossary import latex as tex
 from lagrotor.pair.notation import PAIR, ROTOR, M, Omega, ell, r0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.formulas import mathml_latex
+from lagrotor.report.page.page_pieces import typeset
 
 THIN = '<mspace width="0.167em" />'
 # Elements of MathML Core; browsers draw others as plain rows.
@@ -133,8 +134,15 @@ def test_what_a_wide_space_parts_stands_on_a_line_of_its_own() -> None:
     assert len(lines(r"a = b \quad = c")) == 2
     assert len(lines(r"a = \text{x \quad y}")) == 1, "not within braces"
     assert len(lines(r"\begin{aligned} a &= b \quad c \\ d &= e \end{aligned}")) == 1, "nor within an environment"
+    assert len(lines(r"\left\{ a = 0 \quad \text{on } y = 0 \right.")) == 1, "nor between brackets that grow"
     assert len(lines("a = b")) == 1
     assert mathml_latex.mathml(r"a \quad b", display=False).count("<math>") == 1
+
+
+def test_what_the_converter_cannot_set_is_shown_as_it_is() -> None:
+    """A report ended with a traceback."""
+    assert mathml_latex.mathml(r"\left( a") is None and "cannot set is shown" in typeset(r"\left( a")
+    assert "<pre>" not in typeset(r"\left( a \right)")
 
 
 def test_brackets_that_grow_and_matrices_stay_the_converters() -> None:
