@@ -178,7 +178,7 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "set", "P is of a sum or product of numbers, and of no events", ""
     if stem in known.sets and any(b.kind == "letter" or b.name in ("/", *_BOUNDS) for b in beside):
         yield "set", f"{box.name} is a number, and no set or group", settled(box.name, "letters")
-    if box.name == "e" and box.sup and power_in(box):
+    if box.name == "e" and box.sup:
         yield from _exponent(reader, box.sup)
     if box.name != "d" or box.sub or after is None:
         return

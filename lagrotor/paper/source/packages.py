@@ -67,8 +67,9 @@ def _derivative(mark: str, two: bool = False) -> Package:
         order = latex_of(expander.optional() or ()).strip()
         first = latex_of(expander.argument())
         rest: list[str] = []
-        while len(rest) < (2 if mark == r"\partial" and not order and not two else 1) and expander.begins("{"):
+        while len(rest) < (2 if mark == r"\partial" and not two else 1) and expander.begins("{"):
             rest.append(latex_of(expander.argument()))
+        order = "" if len(rest) > 1 else order  # of both letters it is 2, whatever is given
         if not rest:
             inside = expander.delimited("(", ")") if expander.begins("(") else None
             operand = "" if inside is None else rf"\left( {latex_of(inside)} \right)"

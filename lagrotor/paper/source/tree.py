@@ -51,7 +51,7 @@ Node: TypeAlias = Number | Letter | Call
 CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
 # Operations whose value is a vector or a matrix, and those that are one where their first argument is.
-_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "operator_gradient", "inverse")
+_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "operator_gradient", "inverse", "grad", "rot")
 _CARRYING_NAMES = (
     "sum negative quotient Derivative rate bar mean transpose Integral prime limit Sum differential laplacian plus_minus "
     "minus_plus advection at called delta Delta at_constant"

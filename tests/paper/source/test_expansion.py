@@ -98,6 +98,8 @@ DERIVATIVES = [
     ("derivative", r"\iint x \odif{x,y}", r"\iint x \,\mathrm{d} x\,\mathrm{d} y"),
     ("physics", r"\pdv{f}{x,y}", "what is differentiated by is not clear"),
     ("physics", r"\pdv{f}{x}{y}", "Derivative(Derivative(f, x), y)"),
+    ("physics", r"\pdv[2]{f}{x}{y}", "Derivative(Derivative(f, x), y)"),
+    ("physics", r"\pdv[2]{f}{x}", "Derivative(f, x, 2)"),
 ]
 
 

@@ -169,6 +169,7 @@ SETTLED = [
     (r"a = \underbrace{b + c}_{f} d", [], "as if brackets stood around it"),
     (r"R = 377\,\mathrm{\Omega}", [], "Omega is no unit"),
     (r"t = 3\,\mathrm{us}", [], "us behind the number"),
+    (r"\Phi = e^{At}", [r"A = \frac{3}{2}"], "A is a number, and no operator"),
     ("F/m", [], "the letters are a quantity"),
     (r"a = v\div r", [], "/ has its usual meaning"),
     (r"a = A_{2,x} - A_{1,y}", [], "the comma in the index of A"),
