@@ -464,7 +464,8 @@ def _names(reader: FormulaReader, row: list[Box]) -> Marks:
             name = "".join(each.name for each in run)
             called = box.kind == "bracket" and box.name == "(" and is_called(reader, run[-1], box) is True
             short = len(name) < 3 or (len(name) == 3 and name[:2] == "mg")  # of three letters names are as frequent
-            product = short and set(name) <= reader.notation.apart and not (name[0].isupper() and name[1:].islower())
+            stands = {*name[:-1], name[-1] + "_" * bool(run[-1].sub)} <= reader.notation.apart
+            product = short and stands and not (name[0].isupper() and name[1:].islower())
             if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not product):
                 yield "name", f"{name} is a product, and no name", ""
             run = []

@@ -414,7 +414,8 @@ def _evidence(known: Notation, box: Box, bracket: Box) -> bool | None:
     if simple_argument(content) and letters_in_row(content) and not bracket.sup and (listed or len(content) == 1):
         numbers = listed and stem in known.factors and any(b.kind == "number" for b in content)  # gamma(1, beta)
         other = known.called.get(unprimed(box), set()) - letters_in_row(content)
-        return None if numbers and not other else True
+        coefficient = box.sub and not listed and rf"\{box.name.lower()}" in GREEK and stem in known.factors  # \xi_4 (P)
+        return None if (numbers or coefficient) and not other else True
     if stem in known.applied:
         letters = letters_in_row(content) if box.name not in _FUNCTIONS else set()
         seen = known.called.get(unprimed(box), set()) | known.called.get(stem, set())

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from lagrotor.paper.source.boxes import Box, FormulaError, left_open
-from lagrotor.paper.source.formula_reader import FormulaReader
+from lagrotor.paper.source.formula_reader import FormulaReader, settled
 from lagrotor.paper.source.read_integral import differential_degree, holds_variation
 from lagrotor.paper.source.read_scripts import letter_of
 from lagrotor.paper.source.rows import is_related, is_unit_like, parted, strip, without_thin
@@ -20,6 +20,7 @@ from lagrotor.paper.source.tree import (
     is_vector,
     may_be_vector,
     number,
+    text_of,
     walk,
 )
 from lagrotor.paper.source.usage import arguments
@@ -75,11 +76,26 @@ def _mark_sides(reader: FormulaReader, statement: PrintedStatement) -> None:
     nodes = [side.node for side in statement.sides]
     if any(a == b for a, b in pairwise(nodes)):
         reader.guess("same", "two signs that differ in print are the same, as a dot and a rate")
+    if (acting := _may_act(nodes)) and acting not in reader.notation.letters:
+        what = f"{acting} is a factor of what follows, and no operator on it"
+        reader.guess("operator", what, settled(acting, "letters"))
     compared = [n for n in nodes if not is_printed_zero(n) and (is_vector(n) or not isinstance(n, Letter))]
     if len(set(map(is_vector, compared))) > 1 and statement.kind in ("equation", "approximation"):
         reader.guess("matrix", "what is printed as a vector and what is none are equal, and neither is a matrix")
     if statement.kind == "range" and any(isinstance(n, Letter) for node in nodes[1:] for n in walk(node)):
         reader.guess("list", "what the comma parts are values, and no components or arguments")
+
+
+def _may_act(nodes: list[Node]) -> str:
+    """The capital of L u = v, which may act on u though L is a number elsewhere; empty for other sides."""
+    sides = [n.args if isinstance(n, Call) and n.name == "product" else (n,) for n in nodes]
+    if list(map(len, sides)) != [2, 1] or not all(isinstance(n, Letter) for n in sides[0]):
+        return ""
+    (acting, on), (other,) = ([text_of(n) for n in side] for side in sides)
+    functions = ("u", "v", "w", "x", "y", "f", "g", "psi", "phi", "varphi")
+    return (
+        acting if len(acting) == 1 and acting.isupper() and on in functions and other in (*functions, "b", "0") else ""
+    )
 
 
 def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:

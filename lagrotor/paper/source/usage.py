@@ -33,8 +33,8 @@ class Notation:
     called: letter → letters that were seen as its arguments; bare: letters seen without a bracket behind them; angles: whole
     arguments of sine and cosine; lowered: indices; spelled: letter with its index → how the index is printed; declared: what
     the author says; usual: kinds of guesses that the author settles as custom has them. Of letters seen elsewhere: applied,
-    before what may be an argument; elsewhere, before another than t; factors, in a product; apart, touching no other letter;
-    raised, with an index above; differentiated; matrices; sets, and maps between them; primed, with and without a prime in one
+    before what may be an argument; elsewhere, before another than t; factors, in a product; apart, touching no other letter,
+    x_ with an index; raised, with an index above; differentiated; matrices; sets, and maps; primed, with and without it in one
     list; twice, with two primes. varied: letter → letters that it is differentiated by. seen: ket, operators, order, hessian,
     P(D), complex, modular, exponent, dot, other time, times, momentum (pi), wedge (of ∇). crossed: vectors, beside a cross or a
     nabla; arrows: letters that are printed as vectors somewhere. equal: letters and what they are equal to. numeric: letters
@@ -589,7 +589,7 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
         if simple and names - {"t"} and not box.sup:
             found.elsewhere.add(stem)
     if not any(a is not None and b is not None and touch(a, b) for a, b in ((before, box), (box, after))):
-        found.apart.add(box.name)
+        found.apart |= {box.name, f"{box.name}_" if box.sub else box.name}
     beside = ("letter", "number", "fraction", "root")
     rates = called and after is not None and any(m.endswith("dot") for b in all_boxes(after.parts[0]) for m in b.marks)
     if called and not rates:  # b y(n - k) shows no factor y; a sum of rates is no argument

@@ -170,6 +170,8 @@ SETTLED = [
     (r"R = 377\,\mathrm{\Omega}", [], "Omega is no unit"),
     (r"t = 3\,\mathrm{us}", [], "us behind the number"),
     (r"\Phi = e^{At}", [r"A = \frac{3}{2}"], "A is a number, and no operator"),
+    ("L u = v", [], "L is a factor of what follows"),
+    (r"m = gx_1 c", ["x_1 = b", "g = 2"], "gx is a product"),
     ("F/m", [], "the letters are a quantity"),
     (r"a = v\div r", [], "/ has its usual meaning"),
     (r"a = A_{2,x} - A_{1,y}", [], "the comma in the index of A"),
@@ -297,6 +299,12 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
     assert not guesses(latex)
+
+
+def test_evidence_elsewhere_in_a_paper_is_none_for_an_operator_a_coefficient_or_a_name() -> None:
+    assert guesses("L u = v", r"a = \frac{b}{L}") and not guesses("L u + b = v", r"a = \frac{b}{L}")
+    assert guesses(r"\xi_4(P)", r"\xi_4 P = b", r"a = \frac{b}{P}") and not guesses(r"\xi_4(P)")
+    assert guesses("m = gx_1 c", "x = b", "g = 2"), "gx is a name wherever x has an index"
 
 
 def test_a_dot_is_of_numbers_where_the_paper_prints_its_vectors() -> None:
