@@ -305,7 +305,13 @@ class _Reader:
         item = self.take()
         _as_letters(found)
         target = found[-1] if found else None
-        if target is not None and target.kind == "text" and item.text == "^" and _is_unit(target.name):  # \text{W/m}^2
+        if (
+            target is not None
+            and item.text == "^"
+            and (
+                target.kind == "unit" or (target.kind == "text" and _is_unit(target.name))  # \text{W/m}^2
+            )
+        ):
             above = self.argument()
             if all(b.kind == "number" or b.name == "-" for b in above):
                 found[-1] = replace(
@@ -313,7 +319,7 @@ class _Reader:
                 )
                 return
             raise FormulaError(item.at, "a unit has a power that is no number", "write it in braces, \\mathrm{m^2}")
-        if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
+        if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow", "unit"):
             why = f"{item.text} has nothing before it"
             raise FormulaError(item.at, why, "write the letter that the script belongs to")
         content = [

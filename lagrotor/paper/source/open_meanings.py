@@ -293,6 +293,11 @@ def _bar(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     below = row[place].sub or []
     if len(below) == 1 and below[0].kind == "letter":
         yield "at", f"the bar with {below[0].name} says where, and not what is held constant", ""
+    if any(b.name == "=" for b in below):  # (z - b) y(z)|_{z = b}
+        side = parted([b for b in row[:place] if b.kind != "bar"], *PARTING)[-1]
+        called = len(side) > 1 and side[-1].kind == "bracket" and side[-2].kind == "letter"
+        if letters_in_row(side[: -2 if called else -1]) & letters_in_row(parted(below, "relation")[0]):
+            yield "at", "the bar is of what stands just before it alone", ""
     closing = next((k for k in range(place + 1, len(row)) if row[k].kind == "bar"), place)
     yield from _magnitude(reader, row[place + 1 : closing])
 

@@ -20,6 +20,8 @@ def read_number(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node
     above = [b.name for b in box.sup or ()]
     if above == ["1"] or (above and after.kind == "letter" and "1" in (text, above[0])):  # 1^1 S_0
         reader.guess("power", f"{text} has a power, and is no sign of a term")
+    if re.fullmatch(r"[1-9]\d{0,2}\.000", text):
+        reader.guess("digits", f"the full stop in {text} is a decimal point, and parts no thousands")
     if len(text) > 1 and text.isdecimal() and text[0] == "0":
         reader.guess("digits", f"{text} is a number, and no row of digits")
     while (

@@ -69,6 +69,7 @@ READ = {
     r"y = k(x - x_0)": "y = k*(x - x_0)",
     r"\mathbf{J = \frac{\nabla\times B}{2}}": "Jbold = curl(Bbold)/2",
     r"y = a\underbrace{- b}_{c}": "y = a - b",
+    r"I = 5\,\mathrm{~mm}^4 + 6\,\mathrm{m/s}^2": "I = 5*unit_mm**4 + 6*unit_m*unit_s**(-2)",
     r"\vec v\cdot\operatorname{grad}(a + b) = 0": "dot(vvec, grad(a + b)) = 0",
     r"\mathbf u = \mathbf b^T e^{\mathbf A t}\mathbf C\mathbf d": "ubold = matmul(transpose(bbold), exp(Abold*t), Cbold, dbold)",
     r"\begin{cases} \dot x = y & x_0 = a\\ \dot y = -x & y_0 = b\end{cases}": "x_dot = y; x_0 = a; y_dot = -x; y_0 = b",

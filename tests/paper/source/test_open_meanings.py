@@ -172,6 +172,8 @@ SETTLED = [
     (r"\Phi = e^{At}", [r"A = \frac{3}{2}"], "A is a number, and no operator"),
     ("L u = v", [], "L is a factor of what follows"),
     (r"m = gx_1 c", ["x_1 = b", "g = 2"], "gx is a product"),
+    (r"B = (z - b) y(z)\big|_{z = b}", [], "the bar is of what stands just before it"),
+    ("I = 540.000", [], "parts no thousands"),
     ("F/m", [], "the letters are a quantity"),
     (r"a = v\div r", [], "/ has its usual meaning"),
     (r"a = A_{2,x} - A_{1,y}", [], "the comma in the index of A"),
@@ -294,7 +296,8 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         r"(a + b)(a - b) = a^2 - b^2", r"f(x, y) = x + y", r"p_i = m_i v_i", r"(\nabla^2 + k^2) p = 0",
         r"\int_0^1 f(x)\,dx + \int_0^1 g(x)\,dx = \int_0^1\frac{dx}{x}", r"a = \int_V \rho\,dV", r"\vec r = x\vec e_x",
         r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}", r"{\rm cos} x = a", r"\mathrm{d}(x^2) = 2x\,\mathrm{d}x",
-        r"a = \underbrace{b + c}_{f} + d", r"p = \frac{F}{m}", "V_1 = V_{1,2} + V_{1,3}",
+        r"\tau = \mu\frac{du}{dy}\bigg|_{y=0}", "a = 540.001", r"a = \underbrace{b + c}_{f} + d",
+        r"p = \frac{F}{m}", "V_1 = V_{1,2} + V_{1,3}",
     ],
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
