@@ -35,8 +35,8 @@ from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula, with_progress
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
-from lagrotor.paper.source.settled import ANY_BASE, is_of_argument, is_settled, other_arguments
-from lagrotor.paper.source.slips import change_to_agree, constant_value
+from lagrotor.paper.source.settled import ANY_BASE, is_of_argument, is_settled, may_not_commute, other_readings
+from lagrotor.paper.source.slips import change_to_agree, constant_value, functions_of
 from lagrotor.paper.source.substitution import WANTED, PrintedMeaning, SectionMeanings, put_for, rounds
 from lagrotor.paper.source.tree import (
     KNOWN,
@@ -79,7 +79,14 @@ _OPENING = re.compile(
     re.IGNORECASE,
 )
 _CASES = re.compile(
-    r"\b(?:now|half|halves|twice|double\w*|instead|opposite|other|another|special|cases?)\b", re.IGNORECASE
+    r"\b(?:now|half|halves|(?<!differentiating )twice|double\w*|instead|opposite|other|another|special|cases?)\b",
+    re.IGNORECASE,
+)
+# What it says of an equation that states a quantity again, with others put in.
+_AGAIN = re.compile(
+    r"(?:\b(?:substitut\w*|insert\w*|eliminat\w*|in terms of|(?:can|may) be (?:re)?written)\b"
+    r"|(?:[◦□]|^\s*(?=[a-z]))[^.;:]*\b(?:becomes?|turns? into|hence|thus|therefore|so that)\b)[^.;:□◦]*□",
+    re.IGNORECASE,
 )
 # The end of the sentence of another display, and the beginning of one, which end with the equation or begin behind it.
 _BEFORE, _BEHIND = re.compile(r"^\s*[a-z][^.;!?□]*[.;!?]"), re.compile(r"([.;:!?□]\s*)[A-Z][^.;:!?□]*$")
@@ -257,11 +264,12 @@ class _Checker:
         guesses = (*own, *(each for one in used for each in read_formula(one.latex, self.notation).guesses))
         nodes = (left.node, right.node, *(each.value for each in used))
         for each in guesses:
-            if is_of_argument(each) and (verdict == REFUTED or each not in own):
-                others = other_arguments(left.node, right.node) if each in own else ()
-                if each not in own or any(bounded(self._step, *o, printed, False, False)[0] == HOLDS for o in others):
-                    return each
-            elif not is_settled(each, nodes, [one.meaning for one in used]):
+            if is_of_argument(each) and each not in own:
+                return each
+            others = other_readings(each, left.node, right.node) if verdict == REFUTED and each in own else ()
+            if any(bounded(self._step, *other, printed, False, False)[0] == HOLDS for other in others):
+                return each
+            if not is_settled(each, nodes, [one.meaning for one in used]):
                 return each
         return ""
 
@@ -286,6 +294,8 @@ class _Checker:
         beside = bool(letters_of(right)) or (of_functions and isinstance(right, Number) and right.value != 0)
         if len(self._cited) > 1 and any(each.name in self._cited for each in self.given.known.get(left, ())):
             return True  # it is what follows from the equations that the text before it names
+        if self._is_stated_again(left):
+            return True
         dotted = _DOTTED.fullmatch(left.name) if isinstance(left, Letter) else None
         if dotted and any(_DOTTED.sub(r"\1", name) == dotted[1] for name in letters_of(right)):
             return False  # an equation of motion
@@ -307,22 +317,32 @@ class _Checker:
         if answer == "undecided":
             return "undecided", "the difference is outside what is decided exactly"
         verdict, why = self._refuted(left, right, a, b, first)
-        if verdict != REFUTED and (
-            not first or (self._is_taken(left, printed, last) and not self._says(_TO_BE_SOLVED))
-        ):
+        again = first and self._is_stated_again(left)
+        if verdict != REFUTED and (not first or self._is_taken(left, printed, last)):
             for way in ways:
+                if again and all(each.meaning == left for each in way.used):
+                    continue  # with nothing else put in, it is of something else
                 if self._are_sure(way.used, printed) and (slip := self._slip_with(left, right, way)):
                     if "sign" in slip and not way.has_signs:
                         continue
                     return REFUTED, f"with {way.named} the two sides differ; {slip}", *way.used
-        if verdict == REFUTED and ((assuming and "sign" in why) or decided(a, b) != "nonzero"):
+        if verdict == REFUTED and (
+            (assuming and "sign" in why) or may_not_commute((left, right)) or decided(a, b) != "nonzero"
+        ):
             return "undecided", "the difference is outside what is decided exactly"
         return verdict, why
 
+    def _is_stated_again(self, left: Node) -> bool:
+        """Whether a letter has a value before, and the text says that others are put into it."""
+        known = isinstance(left, Letter) and not _DOTTED.fullmatch(left.name) and left in self.given.known
+        return known and bool(self._says(_AGAIN, {name for name, *_ in self._said}))
+
     def _is_taken(self, left: Node, printed: PrintedStatement, last: bool) -> bool:
-        """Whether a side is worked out from what is given, so that its first equation is no condition."""
-        analysed = isinstance(left, Letter) or (isinstance(left, Call) and left.name in ("Derivative", "Integral"))
-        return analysed or not last or self.given.is_called(left, printed)
+        """Whether a side is worked out from what is given, so that its first equation is no condition: V′ of V′ = … = 0."""
+        called = self.given.is_called(left, printed)
+        if called or (isinstance(left, Call) and left.name in ("Derivative", "Integral", "at_constant")):
+            return not (last and self._says(_TO_BE_SOLVED))
+        return (isinstance(left, Letter) or not last) and not self._says(_TO_BE_SOLVED)
 
     def _ways(self, left: Node, right: Node, printed: PrintedStatement) -> Iterator["_Way"]:
         """The two sides with derivatives taken and premises put in: for letters of the one, of the other, of both."""
@@ -374,7 +394,8 @@ class _Checker:
         own, others = (set(letters_of(_put(side, way.put))) for side in (left, right))
         if None in (way.left, way.right) or not others or not _comparable(way.left, way.right):
             return None
-        slip = _but_for_dots(others, own) and change_to_agree(way.left, right, own | set(letters_of(right)), way.value)
+        names, factors = own | set(letters_of(right)), functions_of(_put(side, way.put) for side in (left, right))
+        slip = _but_for_dots(others, own) and change_to_agree(way.left, right, names, way.value, factors=factors)
         return slip if slip and not self._related(own | others, way.left, way.right) else None
 
     def _refuted(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> tuple[str, str]:

@@ -476,8 +476,15 @@ def _names(reader: FormulaReader, row: list[Box]) -> Marks:
             run = []
         if letter:
             run.append(box)
-        before = row[place - 1] if place else None
-        if before is not None and box.name in ("e", "E") and before.kind == "number" and before.end == box.at:
+        before, behind = (row[n] if 0 <= n < len(row) else None for n in (place - 1, place + 1))
+        exponent = behind is not None and behind.kind in ("number", "operator") and behind.at == box.end
+        if (
+            exponent
+            and before is not None
+            and box.name in ("e", "E")
+            and before.kind == "number"
+            and before.end == box.at
+        ):
             yield "e", f"{box.name} behind a number is a letter, and no power of ten", ""
 
 

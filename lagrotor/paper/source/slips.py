@@ -1,6 +1,6 @@
 """Slips of an author: one sign, factor, power, index or function of a side changed, so that it agrees with another."""
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from fractions import Fraction
 from itertools import chain, islice
 from typing import Any
@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.paper.source.compared import LARGEST, decided, nearly_equal, value_at
-from lagrotor.paper.source.tree import Call, Letter, Node, Number, has_opaque, text_of
+from lagrotor.paper.source.tree import KNOWN, Call, Letter, Node, Number, has_opaque, letters_of, text_of, walk
 
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
@@ -17,10 +17,16 @@ _MOST_SLIPS = 120  # changes that are tried
 
 
 def change_to_agree(
-    fixed: Any, changing: Node, names: set[str], value: Callable[[Node], Any], by_identity: bool = False
+    fixed: Any,
+    changing: Node,
+    names: set[str],
+    value: Callable[[Node], Any],
+    by_identity: bool = False,
+    factors: Collection[Node] = (),
 ) -> str | None:
     """The one change of a side with which it is the other, `fixed`; value: of a side as an expression.
 
+    factors: one of them may be missing, or one too many.
     by_identity: by more than to the same print, as cos x = sin x, and not by putting θ₁ for θ₂: both may be conditions.
     """
     given = value(changing)
@@ -33,7 +39,8 @@ def change_to_agree(
     if ratio is not None and not (bare and fixed == sp.Rational(str(ratio)) * given):
         return f"with the factor {ratio} of the whole they agree"
     whole = () if bare else _whole(changing)
-    for mutant, said in islice(chain(whole, slips(changing, () if by_identity else names)), _MOST_SLIPS):
+    missing = () if by_identity else _with_factors(changing, factors)
+    for mutant, said in islice(chain(whole, slips(changing, () if by_identity else names), missing), _MOST_SLIPS):
         other = value(mutant)
         if other is None or (by_identity and fixed == other):
             continue
@@ -51,7 +58,7 @@ def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]
         yield Call("power", (node, Number(Fraction(2)))), f"{node.name} squared"
     if not isinstance(node, Call):
         return
-    if node.name in _TAKEN_FOR:
+    if node.name in KNOWN:
         yield from _of_function(node)
     if node.name == "sum":
         for place, term in enumerate(node.args):
@@ -60,9 +67,9 @@ def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]
             yield from (
                 (_with(node, place, _times(factor, term)), f"{text_of(term)} {said}") for factor, said in _TWICE
             )
-    if node.name == "power" and isinstance(node.args[1], Number):
-        for more in (1, -1):
-            yield _with(node, 1, Number(node.args[1].value + more)), f"the power of {text_of(node)} changed by one"
+    if node.name == "power" and (power := _rational(node.args[1])) is not None:
+        for more, said in ((1, "one"), (-1, "one"), (2, "two"), (-2, "two")):
+            yield _with(node, 1, Number(power + more)), f"the power of {text_of(node)} changed by {said}"
     if node.name == "exp":
         yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
     for place, part in enumerate(node.args):
@@ -70,12 +77,51 @@ def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]
             yield _with(node, place, changed), said
 
 
+def _with_factors(node: Node, factors: Collection[Node]) -> Iterator[tuple[Node, str]]:
+    """The node with a term of a sum multiplied by a factor, or divided by it."""
+    if not isinstance(node, Call):
+        return
+    for place, term in enumerate(node.args) if node.name == "sum" else ():
+        for factor in factors:
+            yield _with(node, place, Call("product", (term, factor))), f"{text_of(term)} times {text_of(factor)}"
+            yield _with(node, place, Call("quotient", (term, factor))), f"{text_of(term)} by {text_of(factor)}"
+    for place, part in enumerate(node.args):
+        for changed, said in _with_factors(part, factors):
+            yield _with(node, place, changed), said
+
+
+def functions_of(nodes: Iterable[Node]) -> list[Node]:
+    """Sines, exponentials … in nodes, and what is taken for them: of what may be missing no one sets them to 1."""
+    calls = [
+        each
+        for node in nodes
+        for each in walk(node)
+        if isinstance(each, Call) and each.name in KNOWN and letters_of(each)
+    ]
+    others = [Call(_TAKEN_FOR[each.name], each.args) for each in calls if each.name in _TAKEN_FOR]
+    return list(dict.fromkeys([*calls, *others]))
+
+
 def _of_function(node: Call) -> Iterator[tuple[Node, str]]:
-    """Another function for sine or cosine, its square, and twice or half its argument."""
-    yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
-    yield Call("power", (node, Number(Fraction(2)))), f"{text_of(node)} squared"
+    """Another function for sine or cosine, its square, and twice or half the argument of any function."""
+    if node.name in _TAKEN_FOR:
+        yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
+        yield Call("power", (node, Number(Fraction(2)))), f"{text_of(node)} squared"
     for factor, said in _TWICE:
         yield Call(node.name, (_times(factor, node.args[0]),)), f"the argument of {text_of(node)} {said}"
+
+
+def _rational(node: Node) -> Fraction | None:
+    """The number that a power is: 2, −1, 3/2."""
+    if isinstance(node, Number):
+        return node.value
+    parts = [_rational(part) for part in node.args] if isinstance(node, Call) else []
+    match (node.name, *parts):
+        case ("negative", Fraction() as value):
+            return -value
+        case ("quotient", Fraction() as above, Fraction() as below) if below:
+            return above / below
+    return None
 
 
 def _times(factor: Fraction, node: Node) -> Node:

@@ -149,10 +149,11 @@ def _is_rate(node: Node) -> bool:
 
 
 def _is_meaning(node: Node) -> bool:
-    """Whether something can stand for a node: a letter, an unknown function or a derivative."""
-    return isinstance(node, Letter) or (
-        isinstance(node, Call) and node.name not in _ARITHMETIC and node.name not in KNOWN and bool(letters_of(node))
-    )
+    """Whether something can stand for a node: a letter, an unknown function or a derivative; tan δ, |Z| of a letter alone."""
+    if not isinstance(node, Call):
+        return isinstance(node, Letter)
+    known = node.name in KNOWN and not isinstance(node.args[0], Letter)
+    return node.name not in _ARITHMETIC and not known and bool(letters_of(node))
 
 
 def _holds(node: Node, part: Node) -> bool:

@@ -292,6 +292,8 @@ def _evaluated(node: Call, opaque: Opaque) -> Any:
         return sp.Matrix([sympy_expression(each, opaque) for each in node.args])
     if node.name == "rate" and opaque.rates is not None and isinstance(node.args[0], Call):
         return _rate(sympy_expression(node.args[0], opaque), opaque)
+    if node.name == "at_constant":
+        return _at_constant(node, opaque)
     if node.name not in ("Sum", "Derivative", "Integral", "at") or not isinstance(node.args[1], Letter):
         return None
     inner, name, rest = sympy_expression(node.args[0], opaque), node.args[1].name, node.args[2:]
@@ -332,6 +334,16 @@ def _apart(derivative: Call, inner: sp.Expr) -> bool:
         and not set(letters_of(derivative.args[1])) & set(letters_of(each))
     }
     return {symbol.name for symbol in inner.free_symbols if has_opaque(symbol)} <= functions
+
+
+def _at_constant(node: Call, opaque: Opaque) -> Any:
+    """(∂p/∂T)_V of an explicit expression in T and V; None where it is none, or V is not in it."""
+    derivative, *held = node.args
+    if not isinstance(derivative, Call) or derivative.name != "Derivative":
+        return None
+    names = {symbol.name for symbol in sympy_expression(derivative.args[0], opaque).free_symbols}
+    explicit = all(isinstance(each, Letter) and each.name in names for each in held)
+    return _evaluated(derivative, opaque) if explicit else None
 
 
 def _rate(inner: Any, opaque: Opaque) -> Any:

@@ -713,6 +713,50 @@ PASSAGES = {
     "the derivative of a function by a prime": (
         r"The potential is $V(r) = a r^4 - b r^2$. Its slope is", r"V'(r) = 4 a r^3 - 2 b r", "- 2 b", "+ 2 b",
     ),
+    "stated again with others put in": (
+        r"\[ E = \frac12 m\dot s^2 + \frac12 I\dot\varphi^2 - mgs \] where $I = \frac12 mR^2$ and $\dot\varphi = \dot s/R$."
+        " Substituting,",
+        r"E = \frac{3}{4}m\dot s^2 - mgs", "{4}", "{2}",
+    ),
+    "in other coordinates": (
+        r"\[ V = \frac{k}{2}(x_1 - x_2)^2 + b x_1 \] With $x_1 = u + v$ and $x_2 = u - v$ this becomes",
+        r"V = 2 k v^2 + b(u + v)", "2 k", "k",
+    ),
+    "a derivative at constant volume": (
+        r"With $p = \frac{R T}{V - b} - \frac{a}{V^2}$ the pressure rises by",
+        r"\left(\frac{\partial p}{\partial T}\right)_V = \frac{R}{V - b}", "V - b", "V + b",
+    ),
+    "a magnitude": (
+        r"The modulus is \[ |Z| = \sqrt{R^2 + \omega^2 L^2} \] and the mean power",
+        r"P = \frac{U^2 R}{2|Z|^2} = \frac{U^2 R}{2(R^2 + \omega^2 L^2)}", r"L^2", "L",
+    ),
+    "a tangent": (
+        r"The phase is given by \[ \tan\delta = \frac{2\gamma\omega}{\Omega^2} \] Then",
+        r"c = \frac{1}{1 + \tan^2\delta} = \frac{\Omega^4}{\Omega^4 + 4\gamma^2\omega^2}", r"4\gamma", r"2\gamma",
+    ),
+    "a factor before a bracket that is differentiated": (
+        r"\[ V(r) = D(1 - e^{-\alpha r})^2 \] The force follows from",
+        r"\frac{dV}{dr} = 2\alpha D(1 - e^{-\alpha r})e^{-\alpha r}", r"= 2\alpha D", r"= \alpha D",
+    ),
+    "an amplitude that is no operator": (
+        r"With $x = Ae^{-\gamma t}\cos\omega t$ the velocity is",
+        r"\dot x = -Ae^{-\gamma t}(\gamma\cos\omega t + \omega\sin\omega t)", r"+ \omega\sin", r"- \omega\sin",
+    ),
+    "differences that are quantities": (
+        r"\[ v(r) = \frac{\Delta p}{4\eta l}(R^2 - r^2) \] The flux is",
+        r"Q = 2\pi\int_0^R v(r)\,r\,dr = \frac{\pi\Delta p}{8\eta l}R^4", r"}R^4", r"}R^3",
+    ),
+    "a factor that is missing": (
+        r"\[ V(\theta) = -mgR\cos\theta - \frac12 m\Omega^2R^2\sin^2\theta \] Its slope is",
+        r"V'(\theta) = mgR\sin\theta - m\Omega^2R^2\sin\theta\cos\theta", r"\sin\theta\cos\theta", r"\sin\theta",
+    ),
+    "a factor below a root": (
+        r"Here $v = \sqrt{2gh}$. The level sinks as", r"\dot h = -\frac{a}{A}v = -\frac{a}{A}\sqrt{2gh}", "{2gh", "{gh",
+    ),
+    "a half-integer power": (
+        r"\[ B(z) = \frac{b}{(R^2 + z^2)^{3/2}} \] The derivative",
+        r"B'(z) = -\frac{3bz}{(R^2 + z^2)^{5/2}}", "5/2", "3/2",
+    ),
     "a function elsewhere": (
         r"The potential is $V(r) = a r^4 - b r^2$. There", r"V(r_0) = a r_0^4 - b r_0^2", "- b", "+ b",
     ),
@@ -851,6 +895,14 @@ def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) ->
         r"\[ x = r\cos\phi \] \[ r = 2 x \] \[ E = x^2 = \frac14 r^2 \]",
         r"\[ y = a x^2 \] For the other branch \[ \frac{dy}{dx} = -2 a x \]",
         r"\[ y = a x^2 \] To be solved is the equation \[ \frac{dy}{dx} = -2 a x \]",
+        r"$V$ is even. \[ D = V(x - y) - V = V(y - x) - V \]",  # V alone for V(0)
+        r"\[ D = V(a + b)^2 - V = V(b + a)V(a + b) - V \]",
+        r"\[ X = Re^2 + b = Re\cdot Re + b \]",  # Reynolds's number
+        r"\[ P = \sigma_x\sigma_y - \sigma_y\sigma_x = 2\sigma_x\sigma_y \]",  # Pauli's matrices
+        r"Here $T = \frac12 m v^2$. Including the rotation it becomes \[ T = \frac{7}{10} m v^2 \]",
+        r"Here $V = -mgx$ and $x = R\phi$. Measured from the top it becomes \[ V = mgR\phi \]",
+        r"Here $\varphi = kx - \omega t$, $k = 2\pi/l$. The reflected wave thus has \[ \varphi = -\frac{2\pi x}{l} - \omega t \]",
+        r"With $p = N T/V$, \[ \left(\frac{\partial p}{\partial V}\right)_S = -\frac{2p}{V} \]",
     ],
 )
 def test_what_may_be_a_law_another_case_or_another_reading_refutes_nothing(text: str, tmp_path: Path) -> None:
