@@ -47,7 +47,7 @@ _ARGUMENT = sp.Dummy("z")  # of the functions that are expanded: one, so that sy
 _LOG = sp.Dummy("log", real=True)  # the logarithm of the small quantity
 _KNOWN = (sp.Add, sp.Mul, sp.Pow, *_ANALYTIC, *_CUT, *_CUT_BEYOND_ONE, sp.log, sp.acosh, sp.gamma)
 # Numerator and denominator of the functions with poles.
-_QUOTIENTS = {
+QUOTIENTS = {
     sp.tan: (sp.sin, sp.cos), sp.cot: (sp.cos, sp.sin), sp.sec: (None, sp.cos), sp.csc: (None, sp.sin),
     sp.tanh: (sp.sinh, sp.cosh), sp.coth: (sp.cosh, sp.sinh), sp.sech: (None, sp.cosh), sp.csch: (None, sp.sinh),
 }  # fmt: skip
@@ -222,7 +222,7 @@ def _of_function(node: sp.Expr, argument: _Series, small: sp.Symbol, length: int
         return _expanded(_from_branch_point(node, inner.terms[0]), small, length)
     if not isinstance(node, _ANALYTIC):
         _check_cut(node, inner, small)
-    above, below = _QUOTIENTS.get(node.func, (None, None))
+    above, below = QUOTIENTS.get(node.func, (None, None))
     if below is not None and _vanishes(below(inner.terms[0])):
         inverse = _inverse(_composed(below(z), z, inner))
         return inverse if above is None else _times(_composed(above(z), z, inner), inverse)

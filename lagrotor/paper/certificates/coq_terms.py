@@ -12,17 +12,13 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrotor.algebra.power_series import QUOTIENTS
 from lagrotor.errors import NotExactError
 
 # sympy's function -> Coq's, of one real argument.
 _FUNCTIONS: dict[Any, str] = {
     **{sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.sinh: "sinh", sp.cosh: "cosh", sp.tanh: "tanh"},
     **{sp.exp: "exp", sp.log: "ln", sp.atan: "atan", sp.asin: "asin", sp.acos: "acos", sp.Abs: "Rabs"},
-}
-# The other circular and hyperbolic functions: the two whose quotient they are.
-QUOTIENTS: dict[Any, tuple[Any, Any]] = {
-    **{sp.cot: (sp.cos, sp.sin), sp.sec: (None, sp.cos), sp.csc: (None, sp.sin)},
-    **{sp.coth: (sp.cosh, sp.sinh), sp.sech: (None, sp.cosh), sp.csch: (None, sp.sinh)},
 }
 # What a file of certificates says itself: no letter is called so. Coq's own words, and those of the standard library.
 _TAKEN = frozenset(
@@ -100,11 +96,11 @@ class Terms:
             return self._power(node)
         if isinstance(node, AppliedUndef):
             return " ".join([self.names[node.func], *(self._within(each, 4) for each in node.args)]), 3
+        if node.func in _FUNCTIONS:
+            return f"{_FUNCTIONS[node.func]} {self._within(node.args[0], 4)}", 3
         if node.func in QUOTIENTS:
             over, under = (1 if part is None else part(*node.args, evaluate=False) for part in QUOTIENTS[node.func])
             return f"{self._within(sp.sympify(over, strict=True), 2)} / {self._within(under, 3)}", 2
-        if node.func in _FUNCTIONS:
-            return f"{_FUNCTIONS[node.func]} {self._within(node.args[0], 4)}", 3
         raise NotExactError(f"{getattr(node, 'func', node)} has no term over the reals")
 
     def _sum(self, node: sp.Expr) -> str:
@@ -175,8 +171,6 @@ def _conditions_of(node: Any) -> list[Comparison]:
         if exponent.is_Rational and exponent.q == 2 and exponent > 0:
             return [("<=", base)]
         return [("<", base)]
-    if node.func is sp.tan:
-        return [("<>", sp.cos(*node.args))]
     if node.func in QUOTIENTS:
         under = QUOTIENTS[node.func][1]
         return [("<>", under(*node.args))] if under is not sp.cosh else []

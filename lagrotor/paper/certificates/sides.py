@@ -18,9 +18,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.polys.rings import PolyElement, PolyRing
 
+from lagrotor.algebra.power_series import QUOTIENTS
 from lagrotor.errors import NotExactError
 from lagrotor.paper.certificates.cofactors import Fraction, LetterEquation, cofactors_of, elimination, one_fraction
-from lagrotor.paper.certificates.coq_terms import QUOTIENTS, Comparison, Terms
+from lagrotor.paper.certificates.coq_terms import Comparison, Terms
 
 _CIRCULAR, _EXPONENTIAL = (sp.sin, sp.cos), (sp.exp, sp.sinh, sp.cosh)
 _OPAQUE = (sp.log, sp.atan, sp.asin, sp.acos)
@@ -137,8 +138,8 @@ class Sides:
             return node.func(*map(self.value, node.args))
         if node.is_Pow and node.base is not sp.E:
             return self._power(node)
-        if node.func is sp.tan or node.func is sp.tanh or node.func in QUOTIENTS:
-            over, under = {sp.tan: (sp.sin, sp.cos), sp.tanh: (sp.sinh, sp.cosh)}.get(node.func) or QUOTIENTS[node.func]
+        if node.func in QUOTIENTS:
+            over, under = QUOTIENTS[node.func]
             above = sp.S.One if over is None else self.value(over(*node.args))
             return above / self._denominator(under(*node.args))
         return self._atom(node)
@@ -489,7 +490,7 @@ def _steps_of_angles(
     found: dict[tuple[bool, sp.Expr], int] = {}
     for expression in expressions:
         for node in sp.preorder_traversal(expression):
-            if node.func in (*_CIRCULAR, *_EXPONENTIAL, sp.tan, sp.tanh) or node.func in QUOTIENTS:
+            if node.func in (*_CIRCULAR, *_EXPONENTIAL, *QUOTIENTS):
                 circular = node.func not in (*_EXPONENTIAL, sp.tanh, sp.coth, sp.sech, sp.csch)
                 for monomial, rate in _rates(node.args[0].xreplace(put_in)).items():
                     key = circular, monomial
