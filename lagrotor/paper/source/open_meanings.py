@@ -130,8 +130,9 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
     """What stands before a factor is a factor itself where its letters are numbers; else it may act on what follows."""
     known = reader.notation
     if box.kind == "letter":
-        called = after.kind == "bracket" and then is not None and (is_printed_as_vector(then) or then.kind == "matrix")
-        if called and not is_number(known, box):
+        matrix = then is not None and (is_printed_as_vector(then) or then.kind == "matrix")
+        matrix = matrix or (then is not None and then.kind in _FACTORS and stem_of(box) in known.matrices)
+        if after.kind == "bracket" and matrix and not is_number(known, box):
             yield "matrix", f"{box.name} of its argument is a number, and no matrix", ""
         amplitude = after.kind == "function" and after.name in FUNCTIONS and box.name in _AMPLITUDES and not box.marks
         bracketed = after.kind == "bracket" and after.name in ("(", "[", r"\{")

@@ -34,6 +34,10 @@ def read_function(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
         return node, behind
     if box.name not in FUNCTIONS:
         raise left_open(box, f"{box.name} has an upper index or a power", "write brackets around what is raised")
+    if [b.kind for b in box.sup] == ["bracket"]:
+        raise left_open(
+            box, "the number in brackets counts derivatives", "write a power without them, or the derivatives"
+        )
     power = reader.expression(box.sup)
     if power == Call("negative", (number(1),)):
         inverse = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}

@@ -11,6 +11,7 @@ from lagrotor.paper.source.rows import (
     derivative_mark,
     is_measure,
     letters_in_row,
+    parted,
     without_thin,
 )
 from lagrotor.paper.source.tree import Call, Letter, Node, is_vector, number
@@ -381,7 +382,7 @@ def _mark_constant(reader: FormulaReader, box: Box, after: Box | None) -> None:
     turned = "complex" in reader.notation.seen or (after is not None and after.name == "omega")
     if box.name in ("j", "imath", "jmath") and turned and box.name not in reader.lowered:
         reader.guess("j", f"{box.name} is a letter, and not the imaginary unit", settles)
-    if box.name == "e" and not (box.sup or box.upright) and reader.notation.exponential:
+    if box.name == "e" and not (box.sup or box.upright) and (reader.notation.exponential or _is_a_limit(reader, box)):
         reader.guess("e", "e is a letter, and not Euler's number", settles)
     alone = box.name == "e" and box.sup and len(box.sup) == 1 and box.sup[0].name in INDICES and not box.upright
     if alone and any(name.startswith("e_") for name in reader.notation.bare):
@@ -391,6 +392,13 @@ def _mark_constant(reader: FormulaReader, box: Box, after: Box | None) -> None:
         reader.guess("differential", "d is a factor, and no differential of what follows", settles)
     if box.name == "D" and "P(D)" in reader.notation.seen:
         reader.guess("operator", "D is a number, and no derivative", settles)
+
+
+def _is_a_limit(reader: FormulaReader, box: Box) -> bool:
+    """Whether e is a side beside others of counting letters alone: (1 + 1/n)^n < e."""
+    sides = parted(without_thin(reader.row), "relation", "arrow", "comma")
+    letters = {b.name for b in all_boxes(reader.row) if b.kind == "letter"}
+    return [box] in sides and len(sides) > 1 and letters <= {"e", "n", "k", "m", "N"}
 
 
 def _mark_order(reader: FormulaReader, box: Box, bracket: Box) -> None:

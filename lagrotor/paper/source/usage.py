@@ -343,7 +343,7 @@ def _look(row: list[Box], found: Notation) -> None:
         elif box.sub is not None:
             _look(box.sub, found)
         if box.name == "exp" and following is not None and following.kind == "bracket":
-            found.imaginary = found.imaginary or any(b.name == "i" and not b.sub for b in following.parts[0])
+            found.imaginary |= _is_multiple_of_i(following.parts[0])
         if box.kind == "function" and following is not None and following.kind == "letter":
             after = inner[place + 2] if place + 2 < len(inner) else None
             if after is None or (after.kind in _BEHIND and after.name != "/"):
@@ -501,10 +501,12 @@ def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
         ends = row[place - 1 : next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))]
         found.maps |= {stem_of(b) for b in row[max(place - 3, 0) : place - 2] if b.kind == "letter"}
         found.sets |= {stem_of(b) for b in ends if b.kind == "letter" and b.name.isupper()}
-    if before.kind != "letter" or (place > 1 and row[place - 2].kind not in PARTING):
+    called = before.kind == "bracket" and place > 1 and row[place - 2].kind == "letter"  # U(t) = (…)
+    before = row[place - 2] if called else before
+    if before.kind != "letter" or (place > 1 + called and row[place - 2 - called].kind not in PARTING):
         return
     end = next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))
-    found.equal += [(before, row[place + 1 : end])] if box.name in ("=", ":=") else []
+    found.equal += [(before, row[place + 1 : end])] if box.name in ("=", ":=") and not called else []
     inside = [after, *(each for part in after.parts for each in part)]
     real = box.name == "in" and after.style == "bb" and any(b.name == "times" for b in after.sup or ())
     if "vec" not in before.marks and (real or any(b.kind == "matrix" for b in inside)):
@@ -610,8 +612,7 @@ def _look_at_letter(box: Box, following: Box | None, found: Notation, alone: boo
             found.exponential = True
             if len(box.sup) > 1:
                 found.seen.add("exponent")
-            if any(b.kind == "letter" and b.name in ("i", "j") for b in box.sup):
-                found.imaginary = True
+            found.imaginary |= _is_multiple_of_i(box.sup)
         return
     if box.upright:
         return
@@ -628,6 +629,11 @@ def _look_at_letter(box: Box, following: Box | None, found: Notation, alone: boo
     if name in ("delta", "Delta") and box.sub is None and (alone if following is None else following.kind in ACTED_ON):
         return  # a difference, or the sign by itself in a sentence
     found.bare.add(key)
+
+
+def _is_multiple_of_i(row: list[Box]) -> bool:
+    """Whether what is above e has i among others: e^i alone may be a vector of a basis, exp(i) the exponential of a letter."""
+    return len(without_thin(row)) > 1 and any(b.name in ("i", "j") and b.kind == "letter" and not b.sub for b in row)
 
 
 def arguments(row: list[Box]) -> list[list[Box]]:
