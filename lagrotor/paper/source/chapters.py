@@ -11,7 +11,8 @@ TAKEN = {
     MEASURES: "what d stands before is a variable, and no measure",
 }
 _OF_GROUPS = (
-    r"sub-?groups?|cosets?|(?:homo|endo|iso|auto|epi|mono)?morphisms?|monoids?|ideals|(?:prime|maximal|principal) ideal|"
+    r"sub-?groups?|cosets?|(?:homo|endo|iso|auto|epi|mono)?morphisms?|(?:monoid|semigroup)s?|associativ(?:e|ity)|"
+    r"identity element|ideals|(?:prime|maximal|principal) ideal|"
     r"abelian|(?:normal|quotient|cyclic|symmetric|alternating|dihedral|permutation|Galois|free|finite) (?:sub)?groups?|"
     r"group (?:actions?|axioms|operation)|(?:integral|euclidean) domains?|(?:commutative|polynomial|noetherian|quotient) rings?|"
     r"field extensions?|Galois|Sylow|functors?|functorial|transpositions?|permutations?|"

@@ -206,8 +206,7 @@ class _Walker:
             self._inline("$", token)
         elif token.kind == "text":
             self._text(token.text)
-            if self.body:
-                count_words(token.text, self.chapters.setdefault(_chapter(self.section), Counter()))
+            self._count(token.text)
 
     def _command(self, token: Token) -> None:
         name = token.text[1:]
@@ -325,6 +324,11 @@ class _Walker:
             else:
                 self._take(token)
 
+    def _count(self, text: str) -> None:
+        """The words that say what the chapter is about."""
+        if self.body:
+            count_words(text, self.chapters.setdefault(_chapter(self.section), Counter()))
+
     def _text(self, text: str) -> None:
         """The words of a paragraph stand by the display before them and by the one behind."""
         first, *others = _EMPTY_LINE.split(text)
@@ -371,6 +375,9 @@ class _Walker:
             found.append(token)
         latex = latex_of(found).strip()
         self.found.inline.setdefault(latex, self.section)
+        behind = self.expander.peek()
+        if latex == r"\sigma" and behind is not None:
+            self._count(f"σ{behind.text[:9]}")
         self._text(f" ${latex}$ ")
 
     def _is_display(self, token: Token) -> bool:

@@ -62,8 +62,10 @@ def mark_open_meanings(reader: FormulaReader, row: list[Box], subject: str = "")
 
 def _subject(row: list[Box], subjects: list[str]) -> Marks:
     """What no sign says in a text about groups or measures: that letters are numbers, and what d is of."""
-    letters = [b.name for b in all_boxes(row) if b.kind == "letter"]
-    if GROUPS in subjects and letters:
+    boxes = all_boxes(row)
+    letters = [b.name for b in boxes if b.kind == "letter"]
+    sets = any(b.style in ("cal", "scr", "frak") or [c.name for c in b.sup or ()] == ["-", "1"] for b in boxes)
+    if (GROUPS in subjects and letters) or (MEASURES in subjects and sets):
         yield GROUPS, TAKEN[GROUPS], ""
     if MEASURES in subjects and ("d" in letters or any(b.name == "<<" for b in row)):
         yield MEASURES, TAKEN[MEASURES], ""
@@ -77,6 +79,10 @@ def _lists(row: list[Box]) -> Marks:
         yield "list", "each bound holds for what is beside it alone", ""
     if row and all((b.kind == "letter" and b.name in UNITS) or b.name == "/" for b in without_thin(row)):
         yield "unit", "the letters are a quantity, and no unit", ""
+    for part, after in pairwise(parted(without_thin(row), "wide")):
+        last = [b for each in parted(part, "comma")[1:][-1:] for b in each]  # of a = b, u = x
+        if after and after[0].kind == "relation" and any(b.kind == "relation" for b in last):
+            yield "rows", "a row that begins with its sign continues what stands just before it", ""
     if row and row[0].kind == "operator" and row[0].name == "+":
         yield "continued", "the display begins with its sign, and continues none", ""
     for place in (k for k, b in enumerate(row) if b.name == "forall"):
@@ -174,6 +180,9 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     if stem in known.maps - known.applied and any(b.kind in ("letter", "bracket") for b in beside):
         yield "operator", f"{box.name} is a factor, and no map of what is beside it", settled(box.name, "letters")
     content = after.parts[0] if after is not None and after.kind == "bracket" and box.name == "P" else []
+    inside = after.parts[0] if after is not None and after.kind == "bracket" else []
+    if [b.name for b in inside] == ["pi"] and "pi" not in known.numeric:
+        yield "pi", "pi is the number, and nothing that the function is of", settled("pi", "numbers", "letters")
     events = [b.name.isupper() for b in content if b.kind == "letter"]
     if len(events) > 1 and all(events) and not any(b.kind == "comma" for b in content):
         yield "set", "P is of a sum or product of numbers, and of no events", ""
@@ -190,14 +199,30 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 
 def _function(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    """What exp is of."""
+    """What exp is of, and ∇ that acts on nothing."""
     after = _behind(row, place)
+    yield from _unapplied(after.parts[0] if after is not None and after.kind == "bracket" else [])
     if row[place].name != "exp" or after is None:
         return
     if after.kind == "bracket":
         yield from _exponent(reader, after.parts[0])
     elif any(b.kind == "operator" and b.name in ("+", "-") for b in row[place + 1 : place + 4]):
         yield "argument", "the argument of exp ends before the sign behind it", ""
+
+
+def _root(reader: FormulaReader, row: list[Box], place: int) -> Marks:
+    yield from _unapplied(row[place].parts[0])
+
+
+def _unapplied(row: list[Box]) -> Marks:
+    """∇ that acts on nothing in what a function or a root is of: some print a letter so."""
+    ends = (
+        after is None or after.kind == "operator"
+        for b, after in zip(row, [*row[1:], None], strict=False)
+        if b.kind == "nabla"
+    )
+    if any(ends):
+        yield "nabla", "∇ is an operator, and no letter", ""
 
 
 def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Marks:
@@ -399,7 +424,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
     "letter": _letter, "bracket": _bracket, "operator": _operator, "relation": _relation, "text": _text, "big": _big, "bar": _bar,
-    "function": _function, "matrix": _matrix, "group": _group,
+    "function": _function, "matrix": _matrix, "group": _group, "root": _root,
 }  # fmt: skip
 
 
@@ -472,7 +497,7 @@ def _names(reader: FormulaReader, row: list[Box]) -> Marks:
             short = len(name) < 3 or (len(name) == 3 and name[:2] == "mg")  # of three letters names are as frequent
             stands = {*name[:-1], name[-1] + "_" * bool(run[-1].sub)} <= reader.notation.apart
             product = short and stands and not (name[0].isupper() and name[1:].islower())
-            if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not product):
+            if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not product or name in ("or", "of")):
                 yield "name", f"{name} is a product, and no name", ""
             run = []
         if letter:

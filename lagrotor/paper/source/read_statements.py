@@ -118,7 +118,8 @@ def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
         if pieces and _continues(pieces[-1], line):
             last, first = pieces[-1][-1], line[0]
             begins = first.name in ("+", "-") and last.kind not in ("operator", "relation")
-            worded = first.kind == "relation" and any(box.kind == "text" for box in pieces[-1])
+            several = len(parts := parted(pieces[-1], "comma", "wide")) > 1 and is_related(parts[-1])  # …, u = x / a
+            worded = first.kind == "relation" and (several or any(box.kind == "text" for box in pieces[-1]))
             if worded or (begins and is_related(line)):
                 reader.guess("rows", "a row that begins with its sign continues what stands just before it")
             twice = last.kind == first.kind == "relation" and last.name == first.name  # = \\\\ =

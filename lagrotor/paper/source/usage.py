@@ -369,6 +369,8 @@ def _look_about(row: list[Box], place: int, after: Box | None, found: Notation) 
         found.matrices |= {stem_of(box)} if box.kind == "letter" else _held(box)
     if box.sup and [b.name for b in box.sup] == ["dagger"]:
         found.seen.add("operators")
+    if box.name == "pi" and before is not None and before.kind == "number":
+        found.numeric.add("pi")
     _look_at_number(box, after, found)
     if box.kind == "function":
         _look_at_function(box, after, found)
@@ -503,7 +505,7 @@ def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
         found.sets |= {stem_of(b) for b in ends if b.kind == "letter" and b.name.isupper()}
     called = before.kind == "bracket" and place > 1 and row[place - 2].kind == "letter"  # U(t) = (…)
     before = row[place - 2] if called else before
-    if before.kind != "letter" or (place > 1 + called and row[place - 2 - called].kind not in PARTING):
+    if before.kind != "letter" or (place > 1 + called and row[place - 2 - called].kind not in (*PARTING, "matrix")):
         return
     end = next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))
     found.equal += [(before, row[place + 1 : end])] if box.name in ("=", ":=") and not called else []
