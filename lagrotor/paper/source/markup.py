@@ -11,7 +11,7 @@ from lagrotor.paper.source.displays import UNCLOSED, Source, read_latex
 _FENCE = re.compile(
     r"^(?P<fence>`{3,}|~{3,})[ \t]*(?P<info>[^\n`]*)\n(?P<body>.*?)^(?P=fence)`*[ \t]*$", re.MULTILINE | re.DOTALL
 )
-_INLINE = re.compile(r"(?<![\\$\w])\$(?![\s$])((?:[^$\n\\]|\\.|\n(?!\s*\n))*?)(?<!\s)\$(?![\d$])")
+_INLINE = re.compile(r"(?<![\\$A-Za-z0-9_])\$(?![\s$])((?:[^$\n\\]|\\.|\n(?!\s*\n))*?)(?<!\s)\$(?![\d$])")
 _DISPLAY = re.compile(
     r"(?<!\\)\$\$((?:(?!\n\s*\n\s*(?:[A-Za-z]{3,}[\s,.:]|#)).)*?)(?<!\\)\$\$[ \t]*(\n?[ \t]*\((?P<label>[\w:.\-]+)\))?",
     re.DOTALL,

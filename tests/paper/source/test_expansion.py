@@ -9,7 +9,7 @@ from lagrotor.paper.source import token_stream
 from lagrotor.paper.source.displays import read_latex
 from lagrotor.paper.source.expansion import Expander
 from lagrotor.paper.source.formula import read_formula
-from lagrotor.paper.source.markup import read_source
+from lagrotor.paper.source.markup import markdown_as_latex, read_source
 from lagrotor.paper.source.primitives import PRIMITIVES
 from lagrotor.paper.source.printed import statement_text
 from lagrotor.paper.source.tokens import latex_of
@@ -148,3 +148,8 @@ def test_an_environment_with_numbers_of_lines_in_the_margin_stays_what_it_is() -
 def test_marks_of_addresses_are_no_part_of_a_name() -> None:
     names = r"\author{A. Bee$^{1}$}\author{C. Dee$^{2,3}$, E. Eff\textsuperscript{1,*}}\begin{document}\end{document}"
     assert read_latex(names).authors == ("A. Bee", "C. Dee", "E. Eff")
+
+
+def test_a_formula_of_markdown_may_follow_any_letter_but_latin_ones() -> None:
+    """Behind 函数 no formula began, and the one after it ended another: US$5 and 10$ are prices."""
+    assert markdown_as_latex("函数$f(x)$的 é$a$ US$5 and 10$") == r"函数\(f(x)\)的 é\(a\) US 5 and 10 "
