@@ -112,7 +112,7 @@ def _row(reader: FormulaReader, row: list[Box]) -> Marks:
         if box.kind == "big":
             for part in _indices_below(box):
                 yield from _row(reader, part)
-        if box.sup and power_in(box):
+        if box.sup and (box.kind == "big" or power_in(box)):
             yield from _row(reader, box.sup)
     yield from _apart(reader, row)
     yield from _names(reader, inner)
@@ -210,6 +210,13 @@ def _function(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "argument", "the argument of exp ends before the sign behind it", ""
 
 
+def _binomial(reader: FormulaReader, row: list[Box], place: int) -> Marks:
+    r"""Of numbers and of letters that count; \binom{\nu}{e_L} is a column of two."""
+    letters = [b for part in row[place].parts for b in all_boxes(part) if b.kind == "letter"]
+    if any((len(b.name) > 1 and b.name != "alpha") or any(c.kind == "letter" for c in b.sub or ()) for b in letters):
+        yield "binomial", "two in a bracket are a binomial, and no column", ""
+
+
 def _root(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     yield from _unapplied(row[place].parts[0])
 
@@ -299,7 +306,8 @@ def _enclosed(reader: FormulaReader, box: Box, before: Box | None, content: list
 def _magnitude(reader: FormulaReader, content: list[Box]) -> Marks:
     known, letters = reader.notation, [b for b in all_boxes(content) if b.kind == "letter"]
     only = content[0] if len(content) == 1 and content[0].kind == "letter" else None
-    shown = not only or is_printed_as_vector(only) or stem_of(only) in known.factors | known.numeric
+    shown = not only or is_printed_as_vector(only) or stem_of(only) in known.numeric
+    shown = shown or (only is not None and stem_of(only) in known.factors and only.name[0].islower())  # |S| may count
     if any(b.kind == "comma" for b in content) or not (shown and all(is_number(known, b) for b in letters)):
         yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
 
@@ -361,6 +369,7 @@ def _operator(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         letters = [c for c in all_boxes(beside) if c.kind == "letter"]
         plain = known.arrows and not (known.raised or known.upper)  # vectors are marked, and these are none
         plain = plain and all(is_number(known, c) and c.name not in known.arrows for c in letters)
+        plain = plain and (any(b.kind != "letter" for b in beside) or {*map(stem_of, letters)} <= known.numeric)
         if along or not (numbers or vectors or plain):
             yield "cdot", "the dot multiplies numbers or joins vectors as these are printed", ""
     elif box.name in ("pm", "mp") and any(
@@ -425,6 +434,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
     "letter": _letter, "bracket": _bracket, "operator": _operator, "relation": _relation, "text": _text, "big": _big, "bar": _bar,
     "function": _function, "matrix": _matrix, "group": _group, "root": _root,
+    "binomial": _binomial,
 }  # fmt: skip
 
 

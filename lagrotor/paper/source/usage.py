@@ -237,7 +237,8 @@ def _named(box: Box, marks: list[str], primes: int, index: Iterable[str], raised
         name += f"_{part}"
     if rates:
         name += f"_{'d' * rates}ot"
-    return f"{name}_" if name in CALLED or iskeyword(name) else name
+    planck = name == "hbar" and box.name == "h"  # a mean h is no ħ
+    return f"{name}_" if name in CALLED or iskeyword(name) or planck else name
 
 
 def index_of(box: Box) -> list[str] | None:
@@ -444,7 +445,7 @@ def _look_at_number(box: Box, after: Box | None, found: Notation) -> None:
     elif box.name == "/" and after is not None:
         held = [after]
     elif box.kind == "big" and box.sub and box.sup:
-        held = [*box.sub, *box.sup]
+        held = [b for part in (box.sub, box.sup) if all(b.kind != "bar" for b in part) for b in part]  # but of |S|
     elif box.kind == "function" and box.name in _OF_NUMBERS[:-1] and after is not None:
         held = without_thin(after.parts[0]) if after.kind in ("bracket", "fraction") else [after]
     for each in held:
