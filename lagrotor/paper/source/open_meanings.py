@@ -64,7 +64,10 @@ def _subject(row: list[Box], subjects: list[str]) -> Marks:
     """What no sign says in a text about groups or measures: that letters are numbers, and what d is of."""
     boxes = all_boxes(row)
     letters = [b.name for b in boxes if b.kind == "letter"]
-    sets = any(b.style in ("cal", "scr", "frak") or [c.name for c in b.sup or ()] == ["-", "1"] for b in boxes)
+    sets = any(
+        b.style in ("cal", "scr", "frak") or b.name == "prod" or [c.name for c in b.sup or ()] == ["-", "1"]
+        for b in boxes
+    )
     if (GROUPS in subjects and letters) or (MEASURES in subjects and sets):
         yield GROUPS, TAKEN[GROUPS], ""
     if MEASURES in subjects and ("d" in letters or any(b.name == "<<" for b in row)):
@@ -308,7 +311,8 @@ def _magnitude(reader: FormulaReader, content: list[Box]) -> Marks:
     only = content[0] if len(content) == 1 and content[0].kind == "letter" else None
     shown = not only or is_printed_as_vector(only) or stem_of(only) in known.numeric
     shown = shown or (only is not None and stem_of(only) in known.factors and only.name[0].islower())  # |S| may count
-    if any(b.kind == "comma" for b in content) or not (shown and all(is_number(known, b) for b in letters)):
+    minor = [b.kind for b in content] == ["number"]  # |4|
+    if minor or any(b.kind == "comma" for b in content) or not (shown and all(is_number(known, b) for b in letters)):
         yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
 
 
@@ -407,6 +411,8 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     rest = row[place + 1 : next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))]
     if "int" not in box.name and any(b.kind == "operator" and b.name in ("+", "-", "pm") for b in rest[1:]):
         yield "reach", f"the {box.name} is of the term that follows it alone", ""
+    if "bar" in [b.kind for b in box.sup or ()]:
+        yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
     if box.name in ("sum", "prod"):
         counted = len(below) > 2 and is_plain_letter(below[0]) and below[1].name == "=" and bool(box.sup)
         counted = counted and sum(b.kind == "relation" for b in below) == 1
