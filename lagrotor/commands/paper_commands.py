@@ -208,9 +208,11 @@ def derive_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
     from lagrotor.paper.source.stated_system import write_derivation
 
-    made = write_derivation(Catalogue(given.folder))
+    made, refused = write_derivation(Catalogue(given.folder))
+    for identifier, why in refused.items():
+        say(f"equation {identifier} is left out: {why}", 0)
     print(f"{made}; judge it with: lagrotor audit --paper {given.folder}")
-    return 0
+    return int(bool(refused))
 
 
 def check_command(given: argparse.Namespace) -> int:

@@ -223,6 +223,7 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
     ]
     return (
         premise.small is None
+        and not premise.defines
         and bool(entries)
         and all(any(_are_multiples(entry, e) for e in equations) for entry in entries)
     )

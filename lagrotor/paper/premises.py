@@ -25,6 +25,8 @@ class Premise:
         small: for an approximation, the quantity in which only the leading terms are kept; `put` then brings it in, and a letter
             on both sides of a row stands on the right for its scaled value.
         broken: how far the paper's own scene is from it, in words; empty where the scene keeps it.
+        defines: it says what a letter of the print stands for, and nothing of what is derived: an equation that says the same is
+            no circle then.
     """
 
     says: str
@@ -32,6 +34,7 @@ class Premise:
     small: sp.Symbol | None = None
     broken: str = ""
     where: tuple[Relational, ...] = ()
+    defines: bool = False
 
     def __post_init__(self) -> None:
         for side in (each for row in self.put.items() for each in row):

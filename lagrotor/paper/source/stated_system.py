@@ -98,6 +98,7 @@ class StatedSystem:
         self._check_letters(identifier)
         derived = self._derived(identifier, match)
         self._check_signs(identifier, derived)
+        self._check_said(identifier, derived)
         return derived
 
     def _derived(self, identifier: str, match: re.Match[str]) -> sp.Expr:
@@ -149,7 +150,10 @@ class StatedSystem:
         said = (each.func(*map(self._along, each.args), evaluate=False) for each in self.where)
         return (
             *([Premise("the constraints hold", where=tuple(kept))] if kept else []),
-            *(Premise("as the text says", where=(each,)) for each in said),
+            *(
+                Premise("as the text says", where=(each,), defines=not each.free_symbols <= self._fixed)
+                for each in said
+            ),
         )
 
     def _refusal(self, identifier: str, says: str) -> InputError:
@@ -185,6 +189,19 @@ class StatedSystem:
                         raise self._refusal(
                             identifier, f'{says}: write "{letter} = …", or positive=True for {letter} in symbols.py'
                         )
+
+    def _check_said(self, identifier: str, derived: sp.Expr) -> None:
+        """Raise InputError where a print needs more of its letters than is said: a, where a + b alone is."""
+        said = [self._along(each.lhs - each.rhs) for each in self.where]
+        letters = sorted(set[sp.Basic]().union(*(e.free_symbols for e in said)) - self._fixed - {t}, key=str)
+        slopes = sp.Matrix([[e.diff(s) for s in letters] for e in said])
+        for e in (self._along(member - derived) for line in self.paper.lines(identifier) for member in line.members):
+            own = sp.Matrix([[e.diff(s) for s in letters]])
+            if any(own) and slopes.col_join(own).rank(iszerofunc=_is_zero) > slopes.rank(iszerofunc=_is_zero):
+                name = next(s for s in letters if e.has(s))
+                only = next(f"{each.lhs} = {each.rhs}" for each in self.where if each.has(name))
+                says = f" is printed with {name}, of which where says {only} only: say what {name} is, or leave the equation out"
+                raise self._refusal(identifier, says)
 
     @cached_property
     def _fixed(self) -> set[sp.Basic]:
@@ -259,6 +276,7 @@ class StatedSystem:
         right = line.members[-1]
         if left is not None and not more:
             if not any(each.has(*self.c.a) for each in line.members):
+                self._check_constraint(identifier, [left - each for each in line.members])
                 return self._along(left)
             if len(line.members) == 1:
                 return right + self._along(left - right)
@@ -268,6 +286,14 @@ class StatedSystem:
         if left is not None:
             reason = "has an acceleration in one of several members: print one equation"
         raise self._refusal(identifier, f" is printed as … = {right}, and {reason}, or leave it out here")
+
+    def _check_constraint(self, identifier: str, differences: Sequence[sp.Expr]) -> None:
+        """Raise InputError where a print is a constraint or its rate, which is stated and not derived."""
+        kept = [each.lhs for premise in self.premises[:1] if self.constraints for each in premise.where]
+        if any(not sp.cancel(e / each).has(*self.c.q, *self.c.v) for e in differences for each in kept if e != 0):
+            raise self._refusal(
+                identifier, " is a constraint itself, which is stated and not derived: leave it out here"
+            )
 
     def _along(self, e: sp.Expr) -> sp.Expr:
         """An expression with the accelerations of the motion put in."""
@@ -498,16 +524,22 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def write_derivation(paper: Catalogue) -> Path:
-    """Write `derivations/s_system.py`, in which each equation of [system.derives] is stated. Raises what reading raises."""
-    system = stated_system(paper)
-    for identifier in system.derives:
-        _ = system[identifier]
+def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
+    """Write `derivations/s_system.py`, in which each equation of [system.derives] is stated that can be judged.
+
+    Also id → why of those that are left out. Raises what reading raises, and InputError where none can be judged.
+    """
+    system, cells, refused = stated_system(paper), "", dict[str, str]()
     premises = ", premises=system.premises" if system.premises else ""
-    text = _HEAD + "".join(
-        _CELL.format(title=_one_line(i), said=_one_line(said), id=json.dumps(i), premises=premises)
-        for i, said in system.derives.items()
-    )
+    for i, said in system.derives.items():
+        try:
+            _ = system[i]
+        except InputError as error:
+            refused[i] = str(error)
+        else:
+            cells += _CELL.format(title=_one_line(i), said=_one_line(said), id=json.dumps(i), premises=premises)
+    if refused and not cells:
+        raise InputError("; ".join(dict.fromkeys(refused.values())))
     folder = paper.folder / "derivations"
     folder.mkdir(exist_ok=True)
-    return write_text(folder / f"{paper.about.equations_in}_system.py", text)
+    return write_text(folder / f"{paper.about.equations_in}_system.py", _HEAD + cells), refused
