@@ -128,7 +128,9 @@ class StatedSystem:
             return sum((e.diff(small, n).subs(small, 0) / sp.factorial(n) for n in range(order + 1)), sp.S.Zero)
 
         system = replace(self, L=through(2, self.L), forces=tuple(through(1, each) for each in self.forces))
-        moved = [each for each in system.accelerations.xreplace(rest) if not _is_zero(each)]
+        moved = [
+            each for each in system.accelerations.xreplace(rest) if not each.has(t) and not _is_zero(each)
+        ]  # undriven
         if moved:
             raise InputError(
                 f"{self.place}: derives: {about or 'zero'} is no equilibrium: there it has the acceleration {moved[0]}"

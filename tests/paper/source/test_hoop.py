@@ -376,6 +376,21 @@ L = "m*l**2*(alpha_dot**2 + beta_dot**2/2 + alpha_dot*beta_dot*cos(alpha - beta)
     assert judged(tmp_path, system, prints, "m") == {"of beta": "holds", "of alpha": "holds", "misprinted": "refuted"}
 
 
+def test_small_driven_motion(tmp_path: Path) -> None:
+    system = """
+[system]
+coordinates = "theta"
+L = "m*l**2*theta_dot**2/2 + m*l*(g + a*cos(Omega*t))*cos(theta)"
+forces = ["F*l*cos(Omega*t)"]
+"""
+    driven = r"\ddot\theta + \frac{g + a\cos\Omega t}{l}\theta = \frac{F}{m l}\cos\Omega t"
+    prints = {
+        "driven": (driven, "small motion theta"),
+        "misprinted": (driven.replace("m l", "m l^2"), "small motion theta"),
+    }
+    assert judged(tmp_path, system, prints, "l g m a Omega F t") == {"driven": "holds", "misprinted": "refuted"}
+
+
 def test_letters_that_the_coordinates_give_change_with_them(tmp_path: Path) -> None:
     """ℓ and r were constants in dF/dt: Laplace's integral was refuted, and so was the energy by a speed; here it is called τ."""
     system = """
