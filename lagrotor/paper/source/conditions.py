@@ -9,7 +9,19 @@ from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
 
 _TRUE = ("iftrue", "ifmmode", "ifpdf", "ifPDFTeX")
 _FALSE = ("iffalse", "ifdraft", "ifluatex", "ifxetex", "ifLuaTeX", "ifXeTeX")
-_UNKNOWN = ("ifdim", "if", "ifcat", "ifodd", "ifdefined", "ifcsname", "ifvmode", "ifhmode", "ifinner", "ifcase")
+_UNKNOWN = (
+    "ifdim",
+    "if",
+    "ifcat",
+    "ifodd",
+    "ifdefined",
+    "ifcsname",
+    "ifvmode",
+    "ifhmode",
+    "ifinner",
+    "ifcase",
+    "ifeof",
+)
 _LEVELS = ("part", "section", "subsection", "subsubsection", "appendix")
 _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
 
@@ -137,6 +149,13 @@ def _if_next(expander: Expander, token: Token) -> bool:
     return True
 
 
+def _loop(expander: Expander, token: Token) -> bool:
+    r"""\loop … \repeat is left out."""
+    while (passed := expander.next()) is not None and passed.text != r"\repeat":
+        pass
+    return True
+
+
 def _heading(expander: Expander, token: Token) -> bool:
     r"""\secdef\numbered\starred before *{…}, [short]{…} or {…}: the one that takes the heading."""
     numbered, starred = expander.argument(), expander.argument()
@@ -186,6 +205,7 @@ CONDITIONS: dict[str, Primitive] = {
     **dict.fromkeys((r"\newboolean", r"\provideboolean", r"\setboolean"), _boolean),
     **dict.fromkeys((r"\@ifnextchar", r"\@ifstar"), _if_next),
     r"\secdef": _heading,
+    r"\loop": _loop,
     r"\else": _else,
     r"\fi": lambda expander, token: True,
     r"\ifthenelse": _if_then_else,

@@ -18,7 +18,8 @@ def _defined(expander: Expander, token: Token) -> bool:
     default = expander.optional() if count is not None else None
     body = expander.argument()
     name = next((t.text for t in named if t.kind == "command"), "")
-    if not name or (token.text == r"\providecommand" and (name in expander.macros or name in expander.packages)):
+    known = (expander.macros, expander.packages, expander.primitives, _HEADINGS)
+    if not name or (token.text == r"\providecommand" and any(name in each for each in known)):
         return True
     if _is_kept(expander, name, body):
         return True
