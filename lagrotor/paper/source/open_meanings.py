@@ -25,6 +25,7 @@ from lagrotor.paper.source.rows import (
     all_boxes,
     derivative_mark,
     has_differential_above,
+    is_related,
     is_unit_like,
     letters_in_row,
     parted,
@@ -49,6 +50,7 @@ _RELATIONS = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
 _BOUNDS = frozenset(("<", ">", "<=", ">="))
 _JOINING = "where with and for if when so then thus hence since but while also let in mit wobei und für wenn pour si avec où et"
 _WORDS = frozenset(_JOINING.split())
+_SPELT = frozenset("or of max min out tot eff ref rms ext int opt".split())
 # Capitals that are amplitudes before a sine.
 _AMPLITUDES = "ABCFINQRVWXYZ"
 Marks = Iterator[tuple[str, str, str]]
@@ -93,7 +95,7 @@ def _lists(row: list[Box]) -> Marks:
             (k for k in range(place + 1, len(row)) if row[k].kind in PARTING and row[k].kind != "relation"), len(row)
         )
         names = {b.name for b in row[place:end] if b.kind == "relation"}
-        if "=" in names and names & _BOUNDS:
+        if ("=" in names and names & _BOUNDS) or not is_related(row):
             yield "condition", "what holds for all ends where a space or a word does", ""
 
 
@@ -180,6 +182,8 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     box, after, then = row[place], _behind(row, place), _behind(row, place + 1)
     beside = [b for b in (row[place - 1] if place else None, after) if b is not None and b.name != "d"]
     known, stem = reader.notation, stem_of(box)
+    if place and after is not None and after.kind == "bracket" and _is_shift(row[place - 1], [box, *after.parts[0]]):
+        yield "operator", "what is of q or z is a factor of what is of the time, and no operator on it", ""
     if stem in known.maps - known.applied and any(b.kind in ("letter", "bracket") for b in beside):
         yield "operator", f"{box.name} is a factor, and no map of what is beside it", settled(box.name, "letters")
     content = after.parts[0] if after is not None and after.kind == "bracket" and box.name == "P" else []
@@ -199,6 +203,14 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         yield "differential", "d is a factor, and no differential", ""
     if after.kind == "letter" and then is not None and then.kind in _FACTORS and then.name != "d":
         yield "differential", "the differential is of the letter that follows it alone", ""
+
+
+def _is_shift(box: Box, content: list[Box]) -> bool:
+    """Whether a factor has the letter of a transform, as A(q) or 1/A(q), and what follows has not, as y(t)."""
+    held = [without_thin(b.parts[0]) for b in all_boxes([box]) if b.kind == "bracket"]
+    letters = {part[0].name for part in held if len(part) == 1} & {"q", "z"}
+    names = {b.name for b in content}
+    return bool(letters and names & {"t", "k", "n"}) and not letters & names
 
 
 def _function(reader: FormulaReader, row: list[Box], place: int) -> Marks:
@@ -458,7 +470,11 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
         if [b.kind for b in side[:3]] == ["number", "operator", "number"] and side[1].name == "-" and len(side) < 5:
             yield "range", "the numbers are taken from each other, and are no ends of a range", ""
         letters = [b for b in side if b.kind == "letter"]
-        plain = all(b.kind in ("number", "letter") or b.name in ("/", "times", "cdot") for b in side)
+        side = [
+            b for a, b in pairwise([*side[:1], *side]) if b.name != "-" or a.kind != "letter" or a.end != b.at
+        ]  # J-s
+        signs = [b for b in side if b.kind != "letter" and b.name not in ("/", "times", "cdot")]
+        plain = not any(b.kind == "operator" or letters_in_row([b]) for b in signs)
         scale = letters and letters[0].name in ("C", "F") and {b.name for b in side[0].sup or ()} & DEGREES
         if letters and plain and not scale and not any(b.sub or b.upright for b in letters):
             names = [b.name for b in letters]
@@ -513,7 +529,10 @@ def _names(reader: FormulaReader, row: list[Box]) -> Marks:
             short = len(name) < 3 or (len(name) == 3 and name[:2] == "mg")  # of three letters names are as frequent
             stands = {*name[:-1], name[-1] + "_" * bool(run[-1].sub)} <= reader.notation.apart
             product = short and stands and not (name[0].isupper() and name[1:].islower())
-            if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not product or name in ("or", "of")):
+            before = row[place - len(run) - 1] if place > len(run) else run[0]
+            below = "".join(b.name for b in before.sub or ()) + name if before.end == run[0].at else ""  # \lambda_max
+            product = product and not {name, below} & _SPELT
+            if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not product):
                 yield "name", f"{name} is a product, and no name", ""
             run = []
         if letter:

@@ -11,6 +11,7 @@ from lagrotor.paper.source.read_integral import differential_degree, holds_varia
 from lagrotor.paper.source.read_scripts import letter_of
 from lagrotor.paper.source.rows import is_related, is_unit_like, parted, strip, without_thin
 from lagrotor.paper.source.tree import (
+    KNOWN,
     Call,
     Letter,
     Node,
@@ -67,7 +68,12 @@ def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatem
         reader.guess("list", "what has no relation beside what has one is a statement of its own")
     if {"equation", "inequality"} <= kinds:
         reader.guess("condition", "an inequality beside an equation is a statement, and no condition of it")
+    given = {"t"}  # what may have its value there alone: A(n) = 1, n = 0
     for each in found:
+        if each is not found[0] and each.kind == "equation" and text_of(each.sides[0].node) in given:
+            reader.guess("condition", "the value of an argument is a statement, and no condition of what is before it")
+        first = each.sides[0].node
+        given |= {text_of(n) for n in first.args} if isinstance(first, Call) and first.name not in KNOWN else set()
         _mark_sides(reader, each)
     return found
 
@@ -342,6 +348,7 @@ def read_statement(reader: FormulaReader, row: list[Box]) -> PrintedStatement:
             raise FormulaError(row[-1].at, "a side of the relation is missing", "write it")
         if len(side) == 1 and side[0].kind == "dots" and relations and place == len(sides) - 1:
             relations.pop()
+            reader.guess("dots", "the dots at the end say that the chain goes on, and leave nothing out")
             continue
         _check_side(side)
         latex = _balanced(reader.source, side[0].at, side[-1].end)

@@ -175,6 +175,12 @@ SETTLED = [
     (r"B = (z - b) y(z)\big|_{z = b}", [], "the bar is of what stands just before it"),
     ("I = 540.000", [], "parts no thousands"),
     ("F/m", [], "the letters are a quantity"),
+    (r"h = 1.05\times 10^{-34} J-s", [], "J behind the number"),
+    (r"E = 0.5(\frac{3}{30})^2 J", [], "J behind the number"),
+    ("A(n) = 1, n = 0", [], "the value of an argument"),
+    (r"\forall c", [], "what holds for all"),
+    (r"a > b > \cdots", [], "the dots at the end"),
+    ("A(q) y(t) = u(t)", [], "what is of q or z"),
     (r"a = v\div r", [], "/ has its usual meaning"),
     (r"a = A_{2,x} - A_{1,y}", [], "the comma in the index of A"),
     (
@@ -298,6 +304,7 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}", r"{\rm cos} x = a", r"\mathrm{d}(x^2) = 2x\,\mathrm{d}x",
         r"\tau = \mu\frac{du}{dy}\bigg|_{y=0}", "a = 540.001", r"a = \underbrace{b + c}_{f} + d",
         r"p = \frac{F}{m}", "V_1 = V_{1,2} + V_{1,3}",
+        "E = 0.5 - s", "x_1 = 3, x_2 = 4", r"M(q)\ddot q(t) = u(t)", "u(x, t) = X(x) T(t)",
     ],
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
@@ -308,6 +315,7 @@ def test_evidence_elsewhere_in_a_paper_is_none_for_an_operator_a_coefficient_or_
     assert guesses("L u = v", r"a = \frac{b}{L}") and not guesses("L u + b = v", r"a = \frac{b}{L}")
     assert guesses(r"\xi_4(P)", r"\xi_4 P = b", r"a = \frac{b}{P}") and not guesses(r"\xi_4(P)")
     assert guesses("m = gx_1 c", "x = b", "g = 2"), "gx is a name wherever x has an index"
+    assert guesses(r"y = \lambda_max", "a x = b") and not guesses(r"y = \lambda_m ax", "a x = b")
 
 
 def test_a_dot_is_of_numbers_where_the_paper_prints_its_vectors() -> None:
