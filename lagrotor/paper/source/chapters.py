@@ -15,7 +15,7 @@ _OF_GROUPS = (
     r"identity element|ideals|(?:prime|maximal|principal) ideal|"
     r"abelian|(?:normal|quotient|cyclic|symmetric|alternating|dihedral|permutation|Galois|free|finite) (?:sub)?groups?|"
     r"group (?:actions?|axioms|operation)|(?:integral|euclidean) domains?|(?:commutative|polynomial|noetherian|quotient) rings?|"
-    r"field extensions?|Galois|Sylow|functors?|functorial|transpositions?|permutations?|"
+    r"field extensions?|Galois|Sylow|functors?|functorial|transpositions?|permutations?|ordinals?|"
     r"conjugacy class(?:es)?|(?:sub|bi)modules?|^-modules?|sheaf|sheaves|automat(?:a|on)|regular expressions?|cardinality|"
     r"Untergruppen?|Nebenklassen?|Homomorphism(?:us|en)|(?:homo|endo|iso|auto)?mor(?:phismes?|fismos?)|sous-groupes?|"
     r"anneaux?|subgrupos?"

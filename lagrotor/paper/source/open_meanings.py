@@ -50,7 +50,7 @@ _RELATIONS = ("=", ":=", "<", ">", "<=", ">=", "!=", "<<", ">>", "propto")
 _BOUNDS = frozenset(("<", ">", "<=", ">="))
 _JOINING = "where with and for if when so then thus hence since but while also let in mit wobei und für wenn pour si avec où et"
 _WORDS = frozenset(_JOINING.split())
-_SPELT = frozenset("or of max min out tot eff ref rms ext int opt".split())
+_SPELT = frozenset(("or", "of", "max", "min", "out", "tot", "eff", "ref", "rms", "ext", "int", "opt"))
 # Capitals that are amplitudes before a sine.
 _AMPLITUDES = "ABCFINQRVWXYZ"
 Marks = Iterator[tuple[str, str, str]]
@@ -142,7 +142,9 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
     known = reader.notation
     if box.kind == "letter":
         matrix = then is not None and (is_printed_as_vector(then) or then.kind == "matrix")
-        matrix = matrix or (then is not None and then.kind in _FACTORS and stem_of(box) in known.matrices)
+        matrix = matrix or (
+            then is not None and then.kind in _FACTORS and stem_of(box) in known.matrices and then.name != "d"
+        )
         if after.kind == "bracket" and matrix and not is_number(known, box):
             yield "matrix", f"{box.name} of its argument is a number, and no matrix", ""
         amplitude = after.kind == "function" and after.name in FUNCTIONS and box.name in _AMPLITUDES and not box.marks
@@ -529,8 +531,8 @@ def _names(reader: FormulaReader, row: list[Box]) -> Marks:
             short = len(name) < 3 or (len(name) == 3 and name[:2] == "mg")  # of three letters names are as frequent
             stands = {*name[:-1], name[-1] + "_" * bool(run[-1].sub)} <= reader.notation.apart
             product = short and stands and not (name[0].isupper() and name[1:].islower())
-            before = row[place - len(run) - 1] if place > len(run) else run[0]
-            below = "".join(b.name for b in before.sub or ()) + name if before.end == run[0].at else ""  # \lambda_max
+            first = row[place - len(run) - 1] if place > len(run) else run[0]
+            below = "".join(b.name for b in first.sub or ()) + name if first.end == run[0].at else ""  # \lambda_max
             product = product and not {name, below} & _SPELT
             if len(run) > 1 and name[0] != "d" and (called or name.isupper() or not product):
                 yield "name", f"{name} is a product, and no name", ""

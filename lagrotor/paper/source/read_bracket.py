@@ -186,6 +186,9 @@ def read_root(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, 
 
 def read_binomial(reader: FormulaReader, row: list[Box], place: int) -> tuple[Node, int]:
     box = row[place]
+    above, below = (sorted("".join(b.name for b in part)) for part in box.parts)
+    if above == below and len(above) > 2 and "".join(above).isdigit():
+        reader.guess("matrix", "two rows of the same numbers are a binomial, and no permutation")
     return power_of(reader, Call("binomial", tuple(map(reader.expression, box.parts))), box), place + 1
 
 

@@ -85,6 +85,9 @@ def _mark_sides(reader: FormulaReader, statement: PrintedStatement) -> None:
     if (acting := _may_act(nodes)) and acting not in reader.notation.letters:
         what = f"{acting} is a factor of what follows, and no operator on it"
         reader.guess("operator", what, settled(acting, "letters"))
+    for a, b in pairwise(nodes):
+        if isinstance(a, Call) and a.name == "product" and b in a.args and all(isinstance(n, Letter) for n in a.args):
+            reader.guess("name", f"{''.join(map(text_of, a.args))} is a product, and no name")  # sk = s
     compared = [n for n in nodes if not is_printed_zero(n) and (is_vector(n) or not isinstance(n, Letter))]
     if len(set(map(is_vector, compared))) > 1 and statement.kind in ("equation", "approximation"):
         reader.guess("matrix", "what is printed as a vector and what is none are equal, and neither is a matrix")
@@ -106,7 +109,7 @@ def _may_act(nodes: list[Node]) -> str:
 
 def _pieces(reader: FormulaReader, row: list[Box]) -> list[list[Box]]:
     """Rows of a display, each continued ones with what they continue; what stands beside them is a piece of its own."""
-    if len(row) == 1 and row[0].kind == "group":
+    if len(row) == 1 and row[0].kind == "group" and not (row[0].sub or row[0].sup):
         return _pieces(reader, strip(row[0].parts[0]))
     lines = _system(row[0]) if row else None
     if lines and any(box.name == "array" for box in (row[0], *(b for part in row[0].parts for b in part))):

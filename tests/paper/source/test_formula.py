@@ -22,6 +22,7 @@ READ = {
     r"V = x_{cm}\,0.7125": "V = x_cm*(57/80)",
     r"\phi = \frac{M}{\cos\theta (I_1 + I_3)}": "phi = M/(cos(theta)*(I_1 + I_3))",
     r"x = \lambda e^{-\gamma t}": "x = lamda*exp(-gamma*t)",
+    "{x_A}^2": "x_A**2",
     r"k = 4\pi^2/T^2": "k = 4*pi**2/T**2",
     r"v = \frac{dx}{dt} = \frac{\mathrm{d}x}{\mathrm{d}t}": "v = x_dot = x_dot",
     r"a = \frac{d^2 x}{dt^2} = \frac{d\dot x}{dt}": "a = x_ddot = x_ddot",
