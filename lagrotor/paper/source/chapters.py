@@ -17,6 +17,7 @@ _OF_GROUPS = (
     r"group (?:actions?|axioms|operation)|(?:integral|euclidean) domains?|(?:commutative|polynomial|noetherian|quotient) rings?|"
     r"field extensions?|Galois|Sylow|functors?|functorial|transpositions?|permutations?|ordinals?|"
     r"conjugacy class(?:es)?|(?:sub|bi)modules?|^-modules?|sheaf|sheaves|automat(?:a|on)|regular expressions?|cardinality|"
+    r"ordinals?|transfinite|well-order\w*|axiom of choice|countable sets?|"
     r"Untergruppen?|Nebenklassen?|Homomorphism(?:us|en)|(?:homo|endo|iso|auto)?mor(?:phismes?|fismos?)|sous-groupes?|"
     r"anneaux?|subgrupos?"
 )

@@ -195,7 +195,7 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     events = [b.name.isupper() for b in content if b.kind == "letter"]
     if len(events) > 1 and all(events) and not any(b.kind == "comma" for b in content):
         yield "set", "P is of a sum or product of numbers, and of no events", ""
-    if stem in known.sets and any(b.kind == "letter" or b.name in ("/", *_BOUNDS) for b in beside):
+    if stem in known.sets - known.letters and any(b.kind == "letter" or b.name in ("/", *_BOUNDS) for b in beside):
         yield "set", f"{box.name} is a number, and no set or group", settled(box.name, "letters")
     if box.name == "e" and box.sup:
         yield from _exponent(reader, box.sup)
@@ -433,9 +433,11 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         if not (counted or (len(below) == 1 and is_plain_letter(below[0]) and not box.sup)):
             yield "sum", f"what {box.name} runs over is as it is written", ""
     elif box.name == "int":
-        variables = [b for a, b in pairwise(rest) if a.name == "d" and b.name in ("mu", "nu")]
+        over = [b.name for b in box.sub or ()]  # a letter for what is integrated over, of volumes and areas V and S
+        measures = ("mu", "nu", *("FGPQR" if len(over) == 1 and over[0] not in _AMPLITUDES else ()))
+        variables = [b for a, b in pairwise(rest) if a.name == "d" and b.name in measures]
         inside = [b.name for b in all_boxes(rest)]
-        if not box.sup and any(inside.count(b.name) == 1 for b in variables):
+        if not box.sup and any(b.name in "FGPQR" or inside.count(b.name) == 1 for b in variables):
             yield MEASURES, TAKEN[MEASURES], ""
         last = next((k for k, b in enumerate(rest) if b.kind == "big" or has_differential_above(b)), len(rest))
         ends = (k + 1 for k, b in enumerate(rest[:last]) if (b.kind, b.name, b.sup) == ("letter", "d", None))

@@ -189,7 +189,9 @@ def is_called(reader: FormulaReader, box: Box, bracket: Box) -> bool | None:
     several = any(b.kind == "operator" and b.name in ("+", "-", "pm") for b in top[1:])
     if box.sup is not None and mark_of(reader, box) is None:
         return False if several else None if evidence else (False if not simple_argument(content) else None)
-    if any(b.kind == "relation" for b in top) or (not box.sup and [b.name for b in top] == [box.name]):  # R_g (R)
+    if (
+        not top or any(b.kind == "relation" for b in top) or (not box.sup and [b.name for b in top] == [box.name])
+    ):  # R_g (R)
         return None
     if simple_argument(content) and (bracket.sup is None or (evidence is not None and len(top) == 1)):
         return True if evidence is not None or any(b.kind == "letter" for b in top) else None

@@ -500,6 +500,9 @@ def is_number(known: Notation, box: Box) -> bool:
 def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
     """A letter that is equal to a matrix or one of R^(m x n), and what a letter is equal to."""
     before, box, after = row[place - 1 : place + 2]
+    alone = place + 2 >= len(row) or row[place + 2].kind in PARTING
+    if box.name == "in" and alone and is_plain_letter(after) and after.name.isupper():
+        found.sets.add(stem_of(after))
     if box.name == "->" and place > 1 and row[place - 2].name == ":":  # a map: of what, and to what
         ends = row[place - 1 : next((k for k in range(place + 1, len(row)) if row[k].kind in PARTING), len(row))]
         found.maps |= {stem_of(b) for b in row[max(place - 3, 0) : place - 2] if b.kind == "letter"}
