@@ -195,6 +195,8 @@ def _letter(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     events = [b.name.isupper() for b in content if b.kind == "letter"]
     if len(events) > 1 and all(events) and not any(b.kind == "comma" for b in content):
         yield "set", "P is of a sum or product of numbers, and of no events", ""
+    if after is not None and after.kind == "matrix" and [b.name for b in box.sup or ()] == ["-", "1"]:
+        yield "inverse", f"{box.name} before a matrix is a number, and no matrix that is inverted", ""
     if stem in known.sets - known.letters and any(b.kind == "letter" or b.name in ("/", *_BOUNDS) for b in beside):
         yield "set", f"{box.name} is a number, and no set or group", settled(box.name, "letters")
     if box.name == "e" and box.sup:
@@ -330,6 +332,16 @@ def _magnitude(reader: FormulaReader, content: list[Box]) -> Marks:
         yield "bars", "the bars are a magnitude, and no determinant or number of elements", ""
 
 
+def _fraction(reader: FormulaReader, row: list[Box], place: int) -> Marks:
+    over, under = (without_thin(part) for part in row[place].parts)
+    if (
+        derivative_mark(row[place]) == "d"
+        and {"P", "Q"} & {b.name for b in over}
+        and {"mu", "nu"} & {b.name for b in under}
+    ):
+        yield MEASURES, TAKEN[MEASURES], ""
+
+
 def _group(reader: FormulaReader, row: list[Box], place: int) -> Marks:
     """A sum or product that no bracket encloses, beside a factor or below a power: {a + b}^2, or with a brace under it."""
     beside = [b for b in (row[place - 1] if place else None, _behind(row, place)) if b is not None]
@@ -456,7 +468,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
     "letter": _letter, "bracket": _bracket, "operator": _operator, "relation": _relation, "text": _text, "big": _big, "bar": _bar,
     "function": _function, "matrix": _matrix, "group": _group, "root": _root,
-    "binomial": _binomial,
+    "binomial": _binomial, "fraction": _fraction,
 }  # fmt: skip
 
 

@@ -594,7 +594,8 @@ def _look_beside(box: Box, before: Box | None, after: Box | None, found: Notatio
         found.entries |= {stem} if after.name == "[" and simple and len(content) == 1 and not sup else set()
         if marked or (simple and names):
             found.applied.add(stem)
-        if simple and names - {"t"} and not box.sup:
+        late = "t" in names and any(b.name in ("+", "-") for b in content)  # x(t + 1)
+        if (late or (simple and names - {"t"})) and not box.sup:
             found.elsewhere.add(stem)
     if not any(a is not None and b is not None and touch(a, b) for a, b in ((before, box), (box, after))):
         found.apart |= {box.name, f"{box.name}_" if box.sub else box.name}
