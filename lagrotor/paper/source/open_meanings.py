@@ -62,10 +62,14 @@ def mark_open_meanings(reader: FormulaReader, row: list[Box], subject: str = "")
         reader.guess(key, what, settles)
 
 
+def _letters(row: list[Box]) -> list[str]:
+    return [b.name for b in all_boxes(row) if b.kind == "letter"]
+
+
 def _subject(row: list[Box], subjects: list[str]) -> Marks:
     """What no sign says in a text about groups or measures: that letters are numbers, and what d is of."""
     boxes = all_boxes(row)
-    letters = [b.name for b in boxes if b.kind == "letter"]
+    letters = _letters(row)
     sets = any(
         b.style in ("cal", "scr", "frak") or b.name == "prod" or [c.name for c in b.sup or ()] == ["-", "1"]
         for b in boxes
@@ -449,7 +453,9 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
         measures = ("mu", "nu", *("FGPQR" if len(over) == 1 and over[0] not in _AMPLITUDES else ()))
         variables = [b for a, b in pairwise(rest) if a.name == "d" and b.name in measures]
         inside = [b.name for b in all_boxes(rest)]
-        if not box.sup and any(b.name in "FGPQR" or inside.count(b.name) == 1 for b in variables):
+        place_d = next((k for k, b in enumerate(rest[:-1]) if b.name == "d" and rest[k + 1].kind == "bracket"), 0)
+        apart = place_d and not {*_letters(rest[place_d + 1 : place_d + 2])} & {*_letters(rest[:place_d])}  # f d(a + b)
+        if not box.sup and (apart or any(b.name in "FGPQR" or inside.count(b.name) == 1 for b in variables)):
             yield MEASURES, TAKEN[MEASURES], ""
         last = next((k for k, b in enumerate(rest) if b.kind == "big" or has_differential_above(b)), len(rest))
         ends = (k + 1 for k, b in enumerate(rest[:last]) if (b.kind, b.name, b.sup) == ("letter", "d", None))
