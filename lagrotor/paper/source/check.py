@@ -35,7 +35,15 @@ from lagrotor.paper.source.dimensions import FormulaDimensions
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula, with_progress
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
-from lagrotor.paper.source.settled import ANY_BASE, is_of_argument, is_settled, may_not_commute, other_readings
+from lagrotor.paper.source.settled import (
+    ANY_BASE,
+    is_of_argument,
+    is_of_numbers,
+    is_of_operators,
+    is_settled,
+    may_not_commute,
+    other_readings,
+)
 from lagrotor.paper.source.slips import change_to_agree, constant_value, functions_of
 from lagrotor.paper.source.substitution import WANTED, PrintedMeaning, SectionMeanings, put_for, rounds
 from lagrotor.paper.source.tree import (
@@ -269,7 +277,9 @@ class _Checker:
             others = other_readings(each, left.node, right.node) if verdict == REFUTED and each in own else ()
             if any(bounded(self._step, *other, printed, False, False)[0] == HOLDS for other in others):
                 return each
-            if not is_settled(each, nodes, [one.meaning for one in used]):
+            if not (
+                is_settled(each, nodes, [one.meaning for one in used]) or (is_of_operators(each) and self._of_numbers)
+            ):
                 return each
         return ""
 
@@ -342,6 +352,9 @@ class _Checker:
         called = self.given.is_called(left, printed)
         if called or (isinstance(left, Call) and left.name in ("Derivative", "Integral", "at_constant")):
             return not (last and self._says(_TO_BE_SOLVED))
+        if isinstance(left, Call) and len(names := letters_of(left)) > 1:  # r₁ r₂ = …, both known
+            letters, section = map(Letter, names), self.readings[self.place][0].section
+            last &= len([*self.given.of(letters, self.place, section, printed)]) < len(names)
         return (isinstance(left, Letter) or not last) and not self._says(_TO_BE_SOLVED)
 
     def _ways(self, left: Node, right: Node, printed: PrintedStatement) -> Iterator["_Way"]:
@@ -474,6 +487,13 @@ class _Checker:
                 if agree(*put) and not agree(put[0], sp.S.Zero):
                     return True
         return False
+
+    @cached_property
+    def _of_numbers(self) -> bool:
+        """Whether the source prints rates, and nothing is printed or said of operators in it."""
+        formulas = [*(each.latex for each in self.source.equations), *self.source.inline]
+        words = (*self.source.words.values(), *self.source.sections.values())
+        return any(r"\dot" in each for each in formulas) and is_of_numbers((*formulas, *words))
 
     @cached_property
     def _said(self) -> list[tuple[str, str, Reading]]:

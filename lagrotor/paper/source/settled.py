@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from itertools import combinations, pairwise, product
+from itertools import combinations, groupby, pairwise, product
 
 from lagrotor.paper.source.rows import UNITS
 from lagrotor.paper.source.tree import KNOWN, Call, Letter, Node, Number, letters_of, product_of, text_of, walk
@@ -24,6 +24,7 @@ _NO_UNIT = re.compile(r"(\w+) behind the number is a letter, and no unit")
 _NOT_SUMMED = re.compile(r"the index (\w+) is not summed over")
 _DIFFERENCE = re.compile(r"(\w+) (\w+) is one quantity, a difference, and no product")
 _NO_NAME = re.compile(r"(\w+) is a product, and no name")
+_POWER = re.compile(r"the superscript of (\w+) is a power, and no index")
 _NO_NUMBER = "e is a letter, and not Euler's number"
 _ENCLOSED = ("sqrt", "Abs", "factorial")  # functions whose argument is always plain
 _ARGUMENT = re.compile(r"the argument of \w+ (?:is|ends)\b")
@@ -35,7 +36,7 @@ def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node]) -> bool:
     An index that is a letter of the step is a number; V' is the derivative, and |Z| a magnitude, where it is put in as that. What
     is an identity in e, or in Δx, is one in a number or a product. A letter that stands elsewhere without a bracket, or before
     one that is differentiated where no derivative of it is printed, is no function. What might be an operator stands in one order
-    with every other letter but those below fractions, and need not commute. `other_readings` are tried beside.
+    with every other letter but those below fractions and in exponents, and need not commute. `other_readings` are tried beside.
 
     put: the parts for which premises are put in.
     """
@@ -55,6 +56,8 @@ def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node]) -> bool:
         return any(_stem(name) == index[1] for name in letters)
     if any(isinstance(each, Call) and each.name == f"{guess.split()[0]}prime" for each in put):
         return True
+    if power := _POWER.match(guess):  # of which the derivative is taken by its base
+        return any(power[1] in map(_stem, _differentiated(each)) for each in calls)
     if guess.startswith("the bars are a magnitude"):
         return any(isinstance(each, Call) and each.name == "Abs" for each in put)
     if guess.startswith("the index of a bracket"):
@@ -77,19 +80,28 @@ def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node]) -> bool:
 
 
 def may_not_commute(nodes: Iterable[Node]) -> bool:
-    """Whether two terms of a sum are products of the same in another order, as in ab − ba: no one prints it of numbers."""
-    for each in (part for node in nodes for part in walk(node) if isinstance(part, Call) and part.name == "sum"):
+    """Whether two terms of a sum are products of the same in another order, ab − ba, or a product has a letter again, aba.
+
+    No one prints that of numbers.
+    """
+    for each in (part for node in nodes for part in walk(node) if isinstance(part, Call)):
         terms = (term.args[0] if isinstance(term, Call) and term.name == "negative" else term for term in each.args)
-        factors = {
-            tuple(map(text_of, term.args)) for term in terms if isinstance(term, Call) and term.name == "product"
-        }
-        if len({tuple(sorted(row)) for row in factors}) < len(factors):
+        products = [term.args for term in terms if isinstance(term, Call) and term.name == "product"]
+        factors = {tuple(map(text_of, row)) for row in products}
+        if each.name == "sum" and len({tuple(sorted(row)) for row in factors}) < len(factors):
+            return True
+        letters = [part for part in each.args if isinstance(part, Letter)] if each.name == "product" else []
+        if len({part for part, _ in groupby(letters)}) < len([*groupby(letters)]):
             return True
     return False
 
 
 def is_of_argument(guess: str) -> bool:
     return bool(_ARGUMENT.match(guess))
+
+
+def is_of_operators(guess: str) -> bool:
+    return bool(_NO_OPERATOR.match(guess))
 
 
 def other_readings(guess: str, left: Node, right: Node) -> Iterator[tuple[Node, Node]]:
@@ -155,6 +167,18 @@ def _named(name: str, node: Node) -> Node:
     return product_of(args) if node.name == "product" else Call(node.name, tuple(args))
 
 
+# What a paper of operators or matrices says, and prints.
+_OF_OPERATORS = re.compile(
+    r"operator|matri|ommut|quantum|tensor|algebra|\bspin|\\\\(?:hat|dagger|ket|bra|langle|hbar|otimes|circ|mathcal|operatorname)\b",
+    re.I,
+)
+
+
+def is_of_numbers(texts: Iterable[str]) -> bool:
+    """Whether no formula or sentence of a paper has a sign of operators or matrices."""
+    return not any(map(_OF_OPERATORS.search, texts))
+
+
 def _stem(name: str) -> str:
     return name.split("_")[0]
 
@@ -201,8 +225,8 @@ def _is_sum(node: Node) -> bool:
 
 
 def _below(node: Node) -> list[str]:
-    """The letters below a fraction: they are numbers."""
-    return letters_of(node.args[1]) if isinstance(node, Call) and node.name == "quotient" else []
+    """The letters below a fraction, or in an exponent: they are numbers."""
+    return letters_of(node.args[1]) if isinstance(node, Call) and node.name in ("quotient", "power") else []
 
 
 def _ordered(node: Node) -> Iterator[tuple[str, str]]:

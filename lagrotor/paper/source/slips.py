@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection, Iterable, Iterator
 from fractions import Fraction
+from functools import partial
 from itertools import chain, islice
 from typing import Any
 
@@ -46,7 +47,36 @@ def change_to_agree(
             continue
         if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
             return f"with {said} they agree"
+    return None if by_identity else _term_to_agree(fixed, changing, value, number, point)
+
+
+def _term_to_agree(
+    fixed: Any, changing: Node, value: Callable[[Node], Any], number: Any, point: dict[sp.Symbol, sp.Rational]
+) -> str | None:
+    """The number of one digit by which one term of a sum is multiplied, so that the two agree."""
+    whole = value_at(value(changing), point)
+    for with_term, term in _terms(changing):
+        without = value_at(value(with_term(Number(Fraction(0)))), point)
+        try:
+            ratio = Fraction(float((number - without) / (whole - without))).limit_denominator(9)
+        except (TypeError, ValueError, ArithmeticError):
+            continue
+        mutant = with_term(_times(ratio, term))
+        near = 0 < abs(ratio.numerator) < 10 and ratio != 1 and nearly_equal(number, value_at(value(mutant), point))
+        if near and decided(fixed, value(mutant)) == "zero":
+            return f"with {text_of(term)} times {ratio} they agree"
     return None
+
+
+def _terms(node: Node) -> Iterator[tuple[Callable[[Node], Node], Node]]:
+    """The terms of the sums in a node, each with what the node is for another in its place."""
+    if not isinstance(node, Call):
+        return
+    for place, part in enumerate(node.args):
+        inside = partial(_with, node, place)
+        if node.name == "sum":
+            yield inside, part
+        yield from ((lambda new, a=inside, b=deeper: a(b(new)), term) for deeper, term in _terms(part))
 
 
 def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]:
@@ -67,14 +97,25 @@ def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]
             yield from (
                 (_with(node, place, _times(factor, term)), f"{text_of(term)} {said}") for factor, said in _TWICE
             )
-    if node.name == "power" and (power := _rational(node.args[1])) is not None:
-        for more, said in ((1, "one"), (-1, "one"), (2, "two"), (-2, "two")):
-            yield _with(node, 1, Number(power + more)), f"the power of {text_of(node)} changed by {said}"
-    if node.name == "exp":
-        yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
+    yield from _of_power(node)
     for place, part in enumerate(node.args):
         for changed, said in slips(part, names):
             yield _with(node, place, changed), said
+
+
+def _of_power(node: Call) -> Iterator[tuple[Node, str]]:
+    """Another power by one or two, of a root by a half more, and exp of the opposite."""
+    if node.name == "power" and (power := _rational(node.args[1])) is not None:
+        for more, said in ((1, "one"), (-1, "one"), (2, "two"), (-2, "two")):
+            yield _with(node, 1, Number(power + more)), f"the power of {text_of(node)} changed by {said}"
+    if node.name == "sqrt":
+        for power in (Fraction(3, 2), Fraction(1)):
+            yield (
+                Call("power", (*node.args, Number(power))),
+                f"the power {power} for the root of {text_of(node.args[0])}",
+            )
+    if node.name == "exp":
+        yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
 
 
 def _with_factors(node: Node, factors: Collection[Node]) -> Iterator[tuple[Node, str]]:

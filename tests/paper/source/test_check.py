@@ -757,6 +757,24 @@ PASSAGES = {
         r"\[ B(z) = \frac{b}{(R^2 + z^2)^{3/2}} \] The derivative",
         r"B'(z) = -\frac{3bz}{(R^2 + z^2)^{5/2}}", "5/2", "3/2",
     ),
+    "a square of numbers where nothing is said of operators": (
+        r"\[ L = \frac m2(\dot x - \Omega y)^2 + \frac m2(\dot y + \Omega x)^2 \]",
+        r"p = \frac{\partial L}{\partial\dot y} = m(\dot y + \Omega x)", r"+ \Omega x", r"- \Omega x",
+    ),
+    "a term of another number": (
+        r"\[ F = -N k T\left[\ln\frac VN + \frac32\ln T + 1\right] \] The entropy is",
+        r"S = -\frac{\partial F}{\partial T} = N k\left[\ln\frac VN + \frac32\ln T + \frac52\right]", r"\frac52", r"\frac32",
+    ),
+    "a power for a root": (
+        r"Here $\Phi(z) = \frac{Q}{\sqrt{R^2 + z^2}}$. The field is",
+        r"E = -\frac{d\Phi}{dz} = \frac{Q z}{(R^2 + z^2)^{3/2}}", "{3/2}", "{1/2}",
+    ),
+    "a product of what is known": (
+        r"The distances are $r_1 = b(1 - k)$ and $r_2 = b + bk$. Their product is", r"r_1 r_2 = b^2(1 - k^2)", "k^2", "k",
+    ),
+    "a power of which the derivative is taken": (
+        r"With $p = C\rho^\gamma$ we have", r"\frac{dp}{d\rho} = \gamma C\rho^{\gamma - 1}", "- 1", "+ 1",
+    ),
     "a function elsewhere": (
         r"The potential is $V(r) = a r^4 - b r^2$. There", r"V(r_0) = a r_0^4 - b r_0^2", "- b", "+ b",
     ),
@@ -891,6 +909,9 @@ def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) ->
         r"\[ V(r, s) = a r^2 + s^2 \] \[ V(u, v) = a u^2 - v^2 \]",
         r"\[ W = \int_0^\infty e^{bt}\,dt = -\frac1b \]",  # b is negative
         r"\[ E = A B = -B A \]",  # operators
+        r"\[ P = S_x S_y S_x = - S_x^2 S_y \]",  # no one prints that of numbers
+        r"With operators \[ E = (A + \dot B)^2 - A^2 - \dot B^2 = 2 A\dot B - \dot B A \]",
+        r"Here $F = k x$ and $G = k y$, and in equilibrium \[ F + G = k(x - y) \]",
         r"\[ f = \sin^2 x/2 = \frac{1 - \cos x}{2} \]",
         r"\[ x = r\cos\phi \] \[ r = 2 x \] \[ E = x^2 = \frac14 r^2 \]",
         r"\[ y = a x^2 \] For the other branch \[ \frac{dy}{dx} = -2 a x \]",
