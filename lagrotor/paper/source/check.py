@@ -99,6 +99,9 @@ _AGAIN = re.compile(
 # The end of the sentence of another display, and the beginning of one, which end with the equation or begin behind it.
 _BEFORE, _BEHIND = re.compile(r"^\s*[a-z][^.;!?□]*[.;!?]"), re.compile(r"([.;:!?□]\s*)[A-Z][^.;:!?□]*$")
 _FORMULA = re.compile(r"\$[^$]*\$")
+_OWN_ZERO = re.compile(
+    r"□[\s.,]*(?:it|which|and)?\s*vanish\w*", re.IGNORECASE
+)  # of the equation itself, and no condition of it
 _TO_BE_SOLVED = re.compile(
     r"\b(?:if|when\w*|where|unless|until|only|satisf\w*|sol[uv]\w*|roots?|condition\w*|equations?|require\w*|must|equilibri\w*)\b",
     re.IGNORECASE,
@@ -207,7 +210,7 @@ class _Checker:
         self.statements = [
             _Read(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
         ]
-        self.rates = _rates(read.statement for read in self.statements)
+        self.rates = _rates(s for _, reading in readings for s in reading.statements)
 
     def findings(self, progress: Callable[[str], None] | None = None) -> Iterator[StepFinding]:
         """Every finding."""
@@ -399,7 +402,7 @@ class _Checker:
         """What the sentence of an equation says; in conditions the words of its paragraph since the last one."""
         words = self.source.words.get(self.readings[self.place][0].id, "")
         words = _BEHIND.sub(r"\1", _FORMULA.sub(lambda m: "◦" if m[0] in premises else " ", words))
-        found = condition.search(words if condition is _CONDITIONS else _BEFORE.sub("", words))
+        found = condition.search(_OWN_ZERO.sub("□", words) if condition is _CONDITIONS else _BEFORE.sub("", words))
         return found[0] if found else ""
 
     def _slip_with(self, left: Node, right: Node, way: "_Way") -> str | None:

@@ -24,7 +24,7 @@ _NO_UNIT = re.compile(r"(\w+) behind the number is a letter, and no unit")
 _NOT_SUMMED = re.compile(r"the index (\w+) is not summed over")
 _DIFFERENCE = re.compile(r"(\w+) (\w+) is one quantity, a difference, and no product")
 _NO_NAME = re.compile(r"(\w+) is a product, and no name")
-_POWER = re.compile(r"the superscript of (\w+) is a power, and no index")
+_POWER = re.compile(r"the superscript of (?:a bracket|(\w+)) is a power, and no index")
 _NO_NUMBER = "e is a letter, and not Euler's number"
 _ENCLOSED = ("sqrt", "Abs", "factorial")  # functions whose argument is always plain
 _ARGUMENT = re.compile(r"the argument of \w+ (?:is|ends)\b")
@@ -33,10 +33,11 @@ _ARGUMENT = re.compile(r"the argument of \w+ (?:is|ends)\b")
 def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node]) -> bool:
     """Whether a guess does not matter to a step of these sides and premises.
 
-    An index that is a letter of the step is a number; V' is the derivative, and |Z| a magnitude, where it is put in as that. What
-    is an identity in e, or in Δx, is one in a number or a product. A letter that stands elsewhere without a bracket, or before
-    one that is differentiated where no derivative of it is printed, is no function. What might be an operator stands in one order
-    with every other letter but those below fractions and in exponents, and need not commute. `other_readings` are tried beside.
+    An index that is a letter of the step is a number; V' is the derivative, and |Z| a magnitude, where it is put in as that.
+    What is an identity in e, or in Δx, is one in a number or a product. A letter that stands elsewhere without a bracket, before
+    another one, or before one that is differentiated where no derivative of it is printed, is no function. What might be an
+    operator stands in one order with every other letter but those below fractions and in exponents, and need not commute.
+    `other_readings` are tried beside.
 
     put: the parts for which premises are put in.
     """
@@ -57,7 +58,11 @@ def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node]) -> bool:
     if any(isinstance(each, Call) and each.name == f"{guess.split()[0]}prime" for each in put):
         return True
     if power := _POWER.match(guess):  # of which the derivative is taken by its base
-        return any(power[1] in map(_stem, _differentiated(each)) for each in calls)
+        by = {_stem(letter) for each in calls for letter in _differentiated(each)}
+        bases = [each.args[0] for each in calls if each.name == "power" and letters_of(each.args[1])]
+        return (
+            power[1] in by if power[1] else bool(bases) and all(by & {*map(_stem, letters_of(base))} for base in bases)
+        )
     if guess.startswith("the bars are a magnitude"):
         return any(isinstance(each, Call) and each.name == "Abs" for each in put)
     if guess.startswith("the index of a bracket"):
@@ -184,17 +189,17 @@ def _stem(name: str) -> str:
 
 
 def _is_no_function(name: str, nodes: Sequence[Node], calls: Sequence[Call]) -> bool:
-    brackets = {letter for each in calls for letter in _bracket_of(name, each)}
+    brackets = {letter for each in calls for bracket in _brackets_of(name, each) for letter in letters_of(bracket)}
     by = {letter for each in calls for letter in _differentiated(each)}
     if by & brackets and not any(_is_derivative_of(name, each) for node in nodes for each in walk(node)):
         return True
-    return any(_stands_alone(name, node) for node in nodes)
+    several = len({bracket for each in calls for bracket in _brackets_of(name, each)}) > 1
+    return several or any(_stands_alone(name, node) for node in nodes)
 
 
-def _bracket_of(name: str, each: Call) -> list[str]:
+def _brackets_of(name: str, each: Call) -> list[Node]:
     pairs = pairwise(each.args) if each.name == "product" else ()
-    called = [b for a, b in pairs if isinstance(a, Letter) and _stem(a.name) == name and _is_sum(b)]
-    return [letter for b in called for letter in letters_of(b)]
+    return [b for a, b in pairs if isinstance(a, Letter) and _stem(a.name) == name and _is_sum(b)]
 
 
 def _differentiated(each: Call) -> list[str]:

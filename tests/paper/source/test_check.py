@@ -772,6 +772,18 @@ PASSAGES = {
     "a product of what is known": (
         r"The distances are $r_1 = b(1 - k)$ and $r_2 = b + bk$. Their product is", r"r_1 r_2 = b^2(1 - k^2)", "k^2", "k",
     ),
+    "a factor before two brackets": (
+        r"The stream function is $\psi = U\left(r - \frac{a^2}{r}\right)\sin\theta$. The velocity is",
+        r"v = \frac1r\frac{\partial\psi}{\partial\theta} = U\left(1 - \frac{a^2}{r^2}\right)\cos\theta", "{r^2}", "{r^3}",
+    ),
+    "a power of a bracket": (
+        r"Along the adiabat $T = b\left(\frac{c}{V}\right)^{\gamma - 1}$, so that",
+        r"\frac{dT}{dV} = -(\gamma - 1)\frac{T}{V}", "{V}", "{V^2}",
+    ),
+    "rates in what is marked": (
+        r"On the curve $x = a\cos\phi$, $y = b\sin\phi$",
+        r"J = m(x\dot y - y\dot x) = mab\dot\phi \] \[ J = m(x\dot y - y\dot x) = m a b\dot\phi", r"m a b", r"2 m a b",
+    ),
     "a power of which the derivative is taken": (
         r"With $p = C\rho^\gamma$ we have", r"\frac{dp}{d\rho} = \gamma C\rho^{\gamma - 1}", "- 1", "+ 1",
     ),
@@ -820,6 +832,12 @@ def test_a_guess_of_a_name_matters_only_where_something_is_differentiated(tmp_pa
         (r"x'\frac{\partial f}{\partial x} + y = y - x'\frac{\partial f}{\partial x}", "undecided"),
     ):
         assert verdicts(tmp_path, rf"\[ E = {step} \]")[-1] == expected
+
+
+def test_what_vanishes_itself_is_no_condition(tmp_path: Path) -> None:
+    body = r"The potential is $U(x) = b x^2 - \frac{k}{x}$. Its force \[ F = -U'(x) = -2 b x + \frac{k}{x^2} \] WORDS the centre."
+    assert verdicts(tmp_path, body.replace("WORDS", "vanishes at")) == [REFUTED]
+    assert verdicts(tmp_path, body.replace("WORDS", "where the last term vanishes at")) == ["undecided"]
 
 
 CASES_OF_A_PREMISE = {
