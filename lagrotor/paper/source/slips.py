@@ -107,7 +107,8 @@ def _of_power(node: Call) -> Iterator[tuple[Node, str]]:
     """Another power by one or two, of a root by a half more, and exp of the opposite."""
     if node.name == "power" and (power := _rational(node.args[1])) is not None:
         for more, said in ((1, "one"), (-1, "one"), (2, "two"), (-2, "two")):
-            yield _with(node, 1, Number(power + more)), f"the power of {text_of(node)} changed by {said}"
+            if power + more:  # cos² nπ is 1 for whole n
+                yield _with(node, 1, Number(power + more)), f"the power of {text_of(node)} changed by {said}"
     if node.name == "sqrt":
         for power in (Fraction(3, 2), Fraction(1)):
             yield (

@@ -927,6 +927,7 @@ def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) ->
         r"\[ V(r, s) = a r^2 + s^2 \] \[ V(u, v) = a u^2 - v^2 \]",
         r"\[ W = \int_0^\infty e^{bt}\,dt = -\frac1b \]",  # b is negative
         r"\[ E = A B = -B A \]",  # operators
+        r"\[ I = 4 b\cos^2(2\pi m) = 4 b \]",  # m is whole
         r"\[ P = S_x S_y S_x = - S_x^2 S_y \]",  # no one prints that of numbers
         r"With operators \[ E = (A + \dot B)^2 - A^2 - \dot B^2 = 2 A\dot B - \dot B A \]",
         r"Here $F = k x$ and $G = k y$, and in equilibrium \[ F + G = k(x - y) \]",
