@@ -161,11 +161,8 @@ def _acting(reader: FormulaReader, box: Box, after: Box, then: Box | None) -> Ma
     elif box.kind == "bracket" and box.name in ("(", "[", r"\{"):
         held = without_thin(box.parts[0])
         applied = [stem_of(b) for b in held if b.kind == "letter"]
-        cycles = all(
-            len(row) > 1 and all(map(is_plain_letter, row)) for row in (held, without_thin(*after.parts[:1] or [[]]))
-        )
-        if after.kind == "bracket" and applied and (cycles or {*applied} <= known.applied | known.differentiated):
-            yield "bracket", "the brackets side by side are factors, and no arguments or cycles", ""
+        if after.kind == "bracket" and applied and {*applied} <= known.applied | known.differentiated:
+            yield "bracket", "the brackets side by side are factors, and none is an argument", ""
     else:
         held = without_thin(box.parts[0]) if box.kind == "fraction" and not derivative_mark(box) else []
     for each in held:
@@ -246,23 +243,8 @@ def _root(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 def _unapplied(row: list[Box]) -> Marks:
     """∇ that acts on nothing in what a function or a root is of: some print a letter so."""
-    ends = (
-        after is None or after.kind == "operator"
-        for b, after in zip(row, [*row[1:], None], strict=False)
-        if b.kind == "nabla"
-    )
-    if any(ends):
+    if any(b.kind == "nabla" and (k + 1 == len(row) or row[k + 1].kind == "operator") for k, b in enumerate(row)):
         yield "nabla", "∇ is an operator, and no letter", ""
-
-
-def _matrix(reader: FormulaReader, row: list[Box], place: int) -> Marks:
-    """A permutation is printed as two rows of the same numbers."""
-    rows = [[b for cell in line.parts for b in without_thin(cell)] for line in row[place].parts[0]]
-    first, last = ([b.name for b in rows[k]] for k in (0, -1))
-    counted = first == [*map(str, range(1, len(first) + 1))] and sorted(first) == sorted(last)
-    listed = first[:2] == ["1", "2"] and rows[0][-2].kind == "dots"
-    if len(rows) == 2 and len(first) > 2 and (counted or listed):
-        yield "matrix", "two rows of the same numbers are a matrix, and no permutation", ""
 
 
 def _exponent(reader: FormulaReader, content: list[Box]) -> Marks:
@@ -377,8 +359,6 @@ def _angles(reader: FormulaReader, box: Box, content: list[Box]) -> Marks:
         yield "mean", "angle brackets are a mean, and nothing that is generated", ""
     if len(parts) > 1 and not any(b.kind == "bar" for b in content) and box.name not in ("|",):
         yield "inner", "angle brackets with a comma are an inner product", ""
-    if {"dots", "bar"} <= {b.kind for b in content}:
-        yield "inner", "the bar joins a bra and a ket, and no generators and relations", ""
     if len(parts) == 3 and parts[1] and parts[1][0].kind == "operator":
         yield "label", "the sign behind the bar belongs to what stands in a bracket, and joins no bra and ket", ""
     for part in parts if len(parts) != 3 else (parts[0], parts[2]):
@@ -473,7 +453,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
 
 _CHECKS: dict[str, Callable[[FormulaReader, list[Box], int], Marks]] = {
     "letter": _letter, "bracket": _bracket, "operator": _operator, "relation": _relation, "text": _text, "big": _big, "bar": _bar,
-    "function": _function, "matrix": _matrix, "group": _group, "root": _root,
+    "function": _function, "group": _group, "root": _root,
     "binomial": _binomial, "fraction": _fraction,
 }  # fmt: skip
 

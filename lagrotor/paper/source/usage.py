@@ -500,7 +500,7 @@ def is_number(known: Notation, box: Box) -> bool:
 def _look_at_relation(row: list[Box], place: int, found: Notation) -> None:
     """A letter that is equal to a matrix or one of R^(m x n), and what a letter is equal to."""
     before, box, after = row[place - 1 : place + 2]
-    alone = place + 2 >= len(row) or row[place + 2].kind in PARTING
+    alone = place + 2 >= len(row) or row[place + 2].kind not in ("letter", "bracket")
     if box.name == "in" and alone and is_plain_letter(after) and after.name.isupper():
         found.sets.add(stem_of(after))
     if box.name == "->" and place > 1 and row[place - 2].name == ":":  # a map: of what, and to what
