@@ -275,7 +275,7 @@ def _vector_product(made: Node, operator: str, right: Node, at: int, before: lis
     if left_vector and right_vector:
         if operator not in ("cdot", "times"):
             raise FormulaError(at, "two vectors are multiplied by *", "write \\cdot or \\times")
-        if operator == "times" and all(isinstance(side, Call) and side.name == "matrix" for side in (made, right)):
+        if operator == "times" and any(isinstance(side, Call) and side.name == "matrix" for side in (made, right)):
             raise FormulaError(at, "× stands between matrices", "write them side by side")
         if operator == "times" and isinstance(made, Call) and made.name == "cross" and not ends_with_bracket(before):
             raise FormulaError(at, "which × comes first is open", "write brackets")
