@@ -9,6 +9,7 @@ import shutil
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import compress, product
 from pathlib import Path
 from typing import Any
 
@@ -88,12 +89,12 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     letters = _vectors(found, prints, old)
     head = _HEAD.format(name=source.name)
     write_text(folder / "equations.toml", _catalogue(head, rows, letters, _comments(folder / "equations.toml")))
-    _write_about(folder, found, rows, again)
+    titles = _write_about(folder, found, rows, again)
     _write_symbols(folder, prints, again)
     if not again:
         about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=source.name))
         write_text(folder / "README.md", about)
-    notes = (*faults, *found.notes, *differences)
+    notes = (*faults, *found.notes, *differences, *titles)
     numbers = {row["id"]: row.get("number") for row in old.get("equation", [])}
     moved = [
         f"{row['id']} is ({row['number']})"
@@ -148,26 +149,15 @@ def _merged(
     found: Source, prints: list[Print], old: list[dict[str, Any]], derived: set[str]
 ) -> tuple[list[dict[str, Any]], list[str], list[str]]:
     """The rows of equations.toml: those of the source, with what was known of them; ids changed; ids gone."""
-    by_label = {row["label"]: row for row in old if row.get("label")}
-    by_print: dict[str, list[dict[str, Any]]] = {}
-    for row in old:
-        by_print.setdefault(str(row.get("latex")), []).append(row)
-    by_id = {row["id"]: row for row in old}
+    before, ids = _known(found.equations, old), {row["id"] for row in old}
     taken: set[str] = set()
     rows: list[dict[str, Any]] = []
     changed: list[str] = []
-    for each, made in zip(found.equations, prints, strict=True):
-        known = by_label.get(each.label) if each.label else None
-        same = [row for row in by_print.get(each.latex, []) if row["id"] not in taken]
-        known = known or (same[0] if same else None)
-        if known is None and not each.label:
-            near = by_id.get(each.id)
-            known = near if near is not None and near["id"] not in taken and not near.get("label") else None
-        if known is not None and known["id"] in taken:
-            known = None
+    for place, (each, made) in enumerate(zip(found.equations, prints, strict=True)):
+        known = old[before[place]] if place in before else None
         row = _row(each, made, known, changed)
         if known is None:
-            while row["id"] in taken or row["id"] in by_id:
+            while row["id"] in taken or row["id"] in ids:
                 row["id"] += "'"
         taken.add(row["id"])
         rows.append(row)
@@ -180,6 +170,49 @@ def _merged(
     return [*rows, *kept], changed, gone
 
 
+def _known(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
+    """Place of an equation → place of its row before: alike in label and print, in label, in print.
+
+    What then remains between the same two is paired in order where it is as many, else by its id; what has two labels is two.
+    """
+    known: dict[int, int] = {}
+    names = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]
+    for kept in ((True, True), (True, False), (False, True)):
+        rows: dict[tuple[str, ...], list[int]] = {}
+        for place in sorted({*range(len(old))}.difference(known.values())):
+            rows.setdefault(tuple(compress(names[place], kept)), []).append(place)
+        rows.pop(("",), None)
+        for place, each in enumerate(equations):
+            if place not in known and (alike := rows.get(tuple(compress((each.label, each.latex), kept)))):
+                known[place] = alike.pop(0)
+    gone = {place for place, row in enumerate(old) if row.get("read") == "gone"}
+    news = _between({place: known.get(place) for place in range(len(equations))})
+    olds = _between(
+        {place: place if place in known.values() else None for place in range(len(old)) if place not in gone}
+    )
+    for last, left in olds.items():
+        new = news.get(last, [])
+        pairs = zip(new, left, strict=True) if len(new) == len(left) else product(new, left)
+        for one, other in pairs:
+            if (len(new) == len(left) or equations[one].id == old[other]["id"]) and not (
+                equations[one].label and names[other][0]
+            ):
+                known[one] = other
+    return known
+
+
+def _between(places: Mapping[int, int | None]) -> dict[int, list[int]]:
+    """The row that stands before → the places behind it that have none."""
+    found: dict[int, list[int]] = {}
+    last = -1
+    for place, row in places.items():
+        if row is None:
+            found.setdefault(last, []).append(place)
+        else:
+            last = row
+    return found
+
+
 def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
     title = each.label or f"displayed equation {each.id}"
     row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section, "title": title}
@@ -190,6 +223,10 @@ def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed:
         same = known.get("latex") == each.latex
         kept = ("id",) if known.get("title") == known.get("label") else ("id", "title")
         row |= {k: v for k, v in known.items() if k not in (*row, "line", "changed", "print") or k in kept}
+        before = known.get(
+            "line", ()
+        )  # what the author added to a line, such as an order, stays with what is read alike
+        lines = [dict(next((old for old in before if old | line == old), line)) for line in lines]
         if same and known.get("read") != "unconfirmed" and known.get("line"):
             row |= {k: v for k, v in known.items() if k in ("read", "print", "guesses", "aside", "reading")}
             row["read"] = known.get("read", "")
@@ -280,12 +317,22 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
     file = folder / "equations.toml"
     given = toml(file)
     rows = {row["id"]: row for row in given.get("equation", [])}
-    labels = {row["label"]: identifier for identifier, row in rows.items() if row.get("label")}
-    labels |= {f"({row['number']})": identifier for identifier, row in rows.items() if row.get("number")}
-    wanted = [each if each in rows else labels.get(each, each) for each in ids]
+    names: dict[str, list[str]] = {}
+    for identifier, row in rows.items():
+        for name in (row.get("label"), f"({row.get('number')})"):
+            if row.get("read") != "gone":
+                names.setdefault(str(name), []).append(identifier)
+    wanted = []
+    for each in ids:
+        said = [each] if each in rows else names.get(each, [each])
+        if len(said) > 1:
+            raise InputError(f"{each} is more than one equation: name one by its id, {', '.join(said[:8])}")
+        wanted += said
     for identifier in wanted:
         if identifier not in rows:
             raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
+        if rows[identifier].get("read") == "gone":
+            raise InputError(f"equation {identifier} is no longer in the source: there is no print to confirm it by")
         if not rows[identifier].get("line"):
             raise InputError(
                 f"equation {identifier} has no line to confirm: `lagrotor readings {folder}` says where its reading stopped, or "
@@ -305,19 +352,12 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
 # ---- paper.toml and symbols.py
 
 
-def _write_about(folder: Path, found: Source, rows: list[dict[str, Any]], again: bool) -> None:
+def _write_about(folder: Path, found: Source, rows: list[dict[str, Any]], again: bool) -> list[str]:
+    """Write paper.toml, or renew its sections; what is to be said of them."""
     file = folder / "paper.toml"
-    sections = [f"{_text(number)} = {_text(title)}" for number, title in found.sections.items()]
     if again:
-        about, text = toml(file), read_text(file)
-        missing = [
-            row for row, number in zip(sections, found.sections, strict=True) if number not in about.get("sections", {})
-        ]
-        if missing:
-            made = "\n".join(["[sections]", *missing])
-            text = re.sub(r"^\[sections\][ \t]*$", lambda _: made, text, count=1, flags=re.MULTILINE)
-            write_text(file, text if made in text else f"{text.rstrip()}\n\n{made}\n")
-        return
+        return _renew_sections(file, found.sections)
+    sections = [f"{_text(number)} = {_text(title)}" for number, title in found.sections.items()]
     head = [
         f"title = {_text(found.title)}",
         f"authors = {json.dumps(found.authors, ensure_ascii=False)}",
@@ -328,6 +368,32 @@ def _write_about(folder: Path, found: Source, rows: list[dict[str, Any]], again:
     if found.preamble:
         head.append(f"preamble = '''{found.preamble}'''")
     write_text(file, "\n".join([*head, "", "[sections]", *sections]) + "\n" + proposed_system(rows))
+    return []
+
+
+def _renew_sections(file: Path, sections: Mapping[str, str]) -> list[str]:
+    """The titles of the source, in its order; one that the source has nowhere is the author's, which stays and is said."""
+    text, known = read_text(file), toml(file).get("sections", {})
+    own = {number: title for number, title in known.items() if title not in sections.values()}
+    made = {**sections, **own}
+    if [*made.items()] != [*known.items()]:
+        head, found, rest = _in_two(text, r"^\[ *sections *\][^\n]*\n?")
+        block, table, after = _in_two(rest, r"^\[")
+        comments = [line for line in block.splitlines() if line.startswith("#")]
+        rows = [f"{_text(number)} = {_text(title)}" for number, title in made.items()]
+        block = "\n".join([(found or "[sections]").rstrip("\n"), *comments, *rows])
+        write_text(file, f"{head.rstrip()}\n\n{block}\n" + (f"\n{table}{after}" if table else ""))
+    return [
+        f'section {number} is "{sections[number]}", which paper.toml calls "{title}": it stays so'
+        for number, title in own.items()
+        if number in sections
+    ]
+
+
+def _in_two(text: str, pattern: str) -> tuple[str, str, str]:
+    """What stands before the first match, the match, and what stands behind it."""
+    match = re.search(pattern, text, re.MULTILINE)
+    return (text[: match.start()], match[0], text[match.end() :]) if match else (text, "", "")
 
 
 def _write_symbols(folder: Path, prints: Iterable[Print], again: bool) -> None:
@@ -335,7 +401,8 @@ def _write_symbols(folder: Path, prints: Iterable[Print], again: bool) -> None:
     letters = dict.fromkeys(letter for each in prints for letter in each.letters)
     known = read_text(file) if again and file.is_file() else ""
     if known:
-        new = [name for name in letters if not re.search(rf"[\"' ]{re.escape(_stem(name))}[\"' ]", known)]
+        names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", known) for name in call.split()}
+        new = [name for name in letters if _stem(name) not in names]
         if new:
             write_text(file, known.rstrip("\n") + "\n" + "\n".join(map(_letter, new)) + "\n")
         return

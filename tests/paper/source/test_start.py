@@ -101,6 +101,90 @@ def test_the_folders_of_texinputs_are_looked_into(tmp_path: Path, monkeypatch: p
     assert begin_paper(tmp_path / "with", file).read == 1
 
 
+DOCUMENT = r"\documentclass{article}\begin{document}\section{One}"
+
+
+def made_again(folder: Path, *bodies: str) -> dict[str, dict[str, Any]]:
+    """The rows after a source of the first body, all confirmed, has become one of the second."""
+    file = folder / "paper.tex"
+    for body in bodies:
+        file.write_text(rf"{DOCUMENT}{body}\end{{document}}", encoding="utf-8")
+        begin_paper(folder / "mine", file)
+        if body is bodies[0]:
+            confirm(folder / "mine", rows(folder / "mine"))
+    return rows(folder / "mine")
+
+
+def displays(*prints: str) -> str:
+    return "".join(rf"\begin{{equation}}{each}\end{{equation}}" for each in prints)
+
+
+def test_an_equation_before_others_without_labels_leaves_them_confirmed(tmp_path: Path) -> None:
+    found = made_again(tmp_path, displays("a = 1", "b = 2", "c = 3"), displays("z = 0", "a = 1", "b = 4", "c = 3"))
+    assert [(i, row["latex"], row["read"]) for i, row in found.items()] == [
+        ("1'", "z = 0", "unconfirmed"),
+        ("1", "a = 1", "confirmed"),
+        ("2", "b = 4", "unconfirmed"),
+        ("3", "c = 3", "confirmed"),
+    ]
+    assert found["2"]["changed"] == "b = 2" and "changed" not in found["1'"]
+
+
+def test_a_print_that_another_label_has_is_not_taken_from_it(tmp_path: Path) -> None:
+    first = displays(r"\label{A} x = 1", r"\label{B} x = 1")
+    found = made_again(tmp_path, first, displays("x = 1") + first)
+    assert [(i, row.get("label"), row["read"]) for i, row in found.items()] == [
+        ("1'", None, "unconfirmed"),
+        ("1", "A", "confirmed"),
+        ("2", "B", "confirmed"),
+    ]
+
+
+def test_titles_of_sections_move_with_them_and_those_of_the_author_stay(tmp_path: Path) -> None:
+    made_again(tmp_path, displays("x = 1") + r"\section{Two}" + displays("y = 2"))
+    about = tmp_path / "mine" / "paper.toml"
+    text = about.read_text(encoding="utf-8").replace('"One"', '"Mine"').replace("[sections]", "[sections] # as printed")
+    about.write_text(text + '\n[system]\ncoordinates = ["q"]\n', encoding="utf-8")
+    file = tmp_path / "paper.tex"
+    file.write_text(
+        file.read_text(encoding="utf-8").replace(r"\section{Two}", r"\section{New}\[ u = 3 \]\section{Two}")
+    )
+    notes = begin_paper(tmp_path / "mine", file).notes
+    given = tomllib.loads(about.read_text(encoding="utf-8"))
+    assert list(given["sections"].items()) == [("1", "Mine"), ("2", "New"), ("3", "Two")]
+    assert given["system"] == {"coordinates": ["q"]} and "# as printed" in about.read_text(encoding="utf-8")
+    assert notes == ('section 1 is "One", which paper.toml calls "Mine": it stays so',)
+
+
+def test_a_letter_is_declared_though_a_meaning_has_it_as_a_word(tmp_path: Path) -> None:
+    made_again(tmp_path, displays("x = 1"))
+    symbols = tmp_path / "mine" / "symbols.py"
+    symbols.write_text(symbols.read_text(encoding="utf-8").replace('"?"', '"mass of a ball"', 1), encoding="utf-8")
+    made_again(tmp_path, displays("x = 1", "a = 2"))
+    assert [line.split()[0] for line in symbols.read_text(encoding="utf-8").splitlines()[5:]] == ["x", "a"]
+
+
+def test_what_was_added_to_a_line_stays_where_it_is_read_alike(source: Path) -> None:
+    folder, file = source.parent / "mine", source.parent / "mine" / "equations.toml"
+    text = file.read_text(encoding="utf-8").replace("[[equation.line]]", "[[equation.line]]\norder = 2")
+    file.write_text(text, encoding="utf-8")
+    source.write_text(TEX.replace("p = m v", "p = m v^2"), encoding="utf-8")
+    begin_paper(folder, source)
+    assert [row["line"][0].get("order") for row in rows(folder).values()] == [2, None, 2]
+
+
+def test_what_is_no_longer_in_the_source_or_has_another_name_is_not_confirmed(source: Path) -> None:
+    folder = source.parent / "mine"
+    confirm(folder, ["1"])
+    source.write_text(TEX.replace(r"\label{eq:T} T = \half m v^2", r"\label{eq:p} q = 1"), encoding="utf-8")
+    begin_paper(folder, source)
+    with pytest.raises(InputError, match="eq:p is more than one equation"):
+        confirm(folder, ["eq:p"])
+    with pytest.raises(InputError, match="1 is no longer in the source"):
+        confirm(folder, ["1"])
+    assert rows(folder)[confirm(folder, ["(1)"])[0]]["latex"] == "q = 1"
+
+
 def test_comments_stay_above_their_equation(source: Path) -> None:
     folder = source.parent / "mine"
     file = folder / "equations.toml"
