@@ -44,9 +44,13 @@ _LETTERS = {
     "−": "$-$", "–": "--", "⁻": "$^-$", "·": r"$\cdot$", "±": r"$\pm$", "∓": r"$\mp$", "×": r"$\times$", "ℓ": r"$\ell$",
     "≤": r"$\leq$", "≥": r"$\geq$", "≈": r"$\approx$", "≠": r"$\neq$", "→": r"$\to$", "…": r"\ldots{}", "°": r"$^\circ$",
     "′": "$'$", "ᵀ": "$^T$", "√": r"$\surd$",
-    "§": r"$\mathsection$", "é": r"\'e", "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
+    "§": r"$\mathsection$", "ß": r"\ss{}", "ø": r"\o{}", "Ø": r"\O{}", "ł": r"\l{}", "Ł": r"\L{}", "æ": r"\ae{}", "œ": r"\oe{}",
+    "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
     "~": r"\~{}", '"': "''",
 } | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip
+_ACCENTS = dict(
+    zip("\u0301\u0300\u0302\u0308\u0303\u0304\u0327\u030c\u030b\u0306\u030a\u0323", "'`^\"~=cvHurd", strict=True)
+)
 _DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
 _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 # A letter with its dot and its index: mathematics, unless it is a Latin letter alone.
@@ -83,7 +87,10 @@ def _character(character: str) -> str:
         return _LETTERS[character]
     if character.isascii() or character in GREEK or character in _DOTS or character in _LOW:
         return character
-    return unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode() or "?"
+    letter, *marks = unicodedata.normalize("NFKD", character)
+    if letter.isascii() and letter.isalpha() and len(marks) == 1 and marks[0] in _ACCENTS:
+        return rf"\{_ACCENTS[marks[0]]}{{{letter}}}"
+    return "".join((letter, *marks)).encode("ascii", "ignore").decode() or "?"
 
 
 def _letter(match: re.Match[str]) -> str:

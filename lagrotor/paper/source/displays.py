@@ -12,6 +12,7 @@ from lagrotor.paper.source.chapters import count_words, subjects_of
 from lagrotor.paper.source.counters import Counters
 from lagrotor.paper.source.expansion import STYLES, Expander, unstyled
 from lagrotor.paper.source.groups import Macro
+from lagrotor.paper.source.headings import names_of_authors, plain_heading
 from lagrotor.paper.source.primitives import PRIMITIVES
 from lagrotor.paper.source.source_faults import faults_of
 from lagrotor.paper.source.tokens import BRACES, NESTING, Token, latex_of, tokenize
@@ -217,7 +218,7 @@ class _Walker:
         elif name in _LEVELS and self.body:
             star = self.expander.star()
             self.expander.optional()
-            self._section(name, latex_of(self.expander.argument()), star)
+            self._section(name, latex_of(self.expander.expand(self.expander.argument())), star)
         elif name == "label" and self.expander.stepped:
             self.found.labels[self.expander.name()] = self.expander.stepped
         elif name in ("title", "author"):
@@ -241,12 +242,11 @@ class _Walker:
 
     def _title_page(self, name: str) -> None:
         self.expander.optional()
-        said = latex_of(self.expander.argument())
-        said = re.sub(r"\$\s*\^[^$]*\$|\\textsuperscript\s*\{[^{}]*\}", "", said)  # marks of notes and addresses
+        said = latex_of(self.expander.expand(self.expander.argument()))
         if name == "title":
-            self.found.title = _plain(said) or self.found.title
+            self.found.title = plain_heading(said) or self.found.title
         else:
-            self.found.authors += tuple(filter(None, map(_plain, re.split(r"\\and\b|\\\\|,", said))))
+            self.found.authors += names_of_authors(said)
 
     def _begin(self, name: str, token: Token) -> None:
         if name == "document":
@@ -341,7 +341,7 @@ class _Walker:
     # ---- sections
 
     def _section(self, level: str, heading: str, star: bool) -> None:
-        title = _plain(heading)
+        title = plain_heading(heading)
         own = re.match(r"(\d+(?:\.\d+)*)\.?\s+(.*)", title) if not self.whole else None
         if level == "part":
             return
@@ -694,10 +694,3 @@ def _plain_number(text: str) -> str:
     for mark, sign in _MARKS.items():
         text = text.replace(mark, sign)
     return re.sub(r"^\((.*)\)$", r"\1", text.strip()).strip()
-
-
-def _plain(text: str) -> str:
-    """A heading or a name without commands and braces."""
-    text = re.sub(r"\\(?:thanks|footnote|label|inst|orcid|email|affil)\s*\{[^{}]*\}", "", text)
-    text = re.sub(r"\\[A-Za-z]+\*?|[{}$*]|\\\\", " ", text)
-    return " ".join(re.sub(r"\\([&%_#])", r"\1", text).split())

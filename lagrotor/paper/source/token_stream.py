@@ -82,12 +82,13 @@ class TokenStream:
         self.end += len(text) + 1
 
     def read_file(self, name: str, suffixes: tuple[str, ...] = (".tex", "")) -> bool:
-        """Take in a file beside the source, or in a folder of TEXINPUTS; whether it is there."""
+        """Take in a file beside the source, beside the file that names it, or in a folder of TEXINPUTS; whether it is there."""
         if self.file is None or suffixes[0] in self.bare:
             return False
+        within = next((path for path, tokens in self.reading if tokens is self.innermost_file()), self.file)
         for suffix in suffixes:
-            for folder in (self.file.parent, self.file.parent.parent, *_tex_inputs()):
-                path = folder / f"{name}{suffix}"
+            for folder in (self.file.parent, within.parent, self.file.parent.parent, *_tex_inputs()):
+                path = folder / (name.replace('"', "") + suffix)
                 if not path.is_file() and path.parent.is_dir():  # as kpathsea finds it on every system
                     path = next(
                         (each for each in path.parent.iterdir() if each.name.lower() == path.name.lower()), path

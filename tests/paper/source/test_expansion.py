@@ -145,9 +145,51 @@ def test_an_environment_with_numbers_of_lines_in_the_margin_stays_what_it_is() -
     assert found.number == "1"
 
 
-def test_marks_of_addresses_are_no_part_of_a_name() -> None:
-    names = r"\author{A. Bee$^{1}$}\author{C. Dee$^{2,3}$, E. Eff\textsuperscript{1,*}}\begin{document}\end{document}"
-    assert read_latex(names).authors == ("A. Bee", "C. Dee", "E. Eff")
+def test_a_file_is_sought_beside_the_one_that_names_it_and_its_name_may_stand_in_quotes(tmp_path: Path) -> None:
+    (tmp_path / "part").mkdir()
+    (tmp_path / "part" / "one.tex").write_text(r"\[ a = 1 \]\input{two}\input{three}", encoding="utf-8")
+    (tmp_path / "part" / "two.tex").write_text(r"\[ b = 2 \]", encoding="utf-8")
+    (tmp_path / "of its own.tex").write_text(r"\[ c = 3 \]", encoding="utf-8")
+    file = tmp_path / "paper.tex"
+    body = r"\import{part/}{one}\input{two}\input{"
+    file.write_text(
+        rf'\documentclass{{article}}\begin{{document}}{body}"of its own.tex"}}\end{{document}}', encoding="utf-8"
+    )
+    found = read_source(file)
+    assert [each.latex for each in found.equations] == ["a = 1", "b = 2", "c = 3"]
+    assert [note.split()[0] for note in found.notes] == ["three", "two"], "behind its end a file names none"
+
+
+IEEE = (
+    r"\IEEEauthorblockN{1\textsuperscript{st} A. Bee} \IEEEauthorblockA{\textit{dept. name}\\ City\\ a@b.c} \and C.~Dee"
+)
+NAMES = {
+    r"A. Bee$^{1}$}\author{C. Dee$^{2,3}$, E. Eff\textsuperscript{1,*}": ("A. Bee", "C. Dee", "E. Eff"),
+    r"A. Bee\thanks{Paid by \url{http://a_b}} \and C.\,Dee \\ Univ. of X, Y \\ \texttt{a\_b@c}": ("A. Bee", "C. Dee"),
+    r"Jos\'e \surname{Garc\'{\i}a}\corref{cor1} and {\O}. \c{S}. Stra{\ss}e": ("José García", "Ø. Ş. Straße"),
+    IEEE: ("A. Bee", "C. Dee"),
+    r"A.~Bee,~\IEEEmembership{Member,~IEEE,} and~C.~Dee \\ E. Eff": ("A. Bee", "C. Dee", "E. Eff"),
+    r"Anders Sand (12345)": ("Anders Sand (12345)",),
+}
+TITLES = {
+    r"On $E=mc^2$ \& 5\%:\\[2ex] a \textbf{b}\thanks{x}": "On E=mc² & 5%: a b",
+    r"\vspace{-2cm}\texorpdfstring{$\alpha$}{alpha}-decay of $\beta$ in {\em H$_2$O} at \$5": "alpha-decay of β in H₂O at $5",
+    r"\own{} ``G\"odel'' \{\LaTeX\}": 'own "Gödel" {LaTeX}',
+}
+
+
+@pytest.mark.parametrize("given", NAMES)
+def test_marks_and_addresses_are_no_part_of_a_name(given: str) -> None:
+    assert read_latex(rf"\author{{{given}}}\begin{{document}}\end{{document}}").authors == NAMES[given]
+
+
+@pytest.mark.parametrize("given", TITLES)
+def test_a_title_keeps_its_letters_and_formulas(given: str) -> None:
+    found = read_latex(
+        rf"\newcommand{{\own}}{{own}}\title{{{given}}}\begin{{document}}\section{{{given}}}\end{{document}}"
+    )
+    assert found.title == TITLES[given]
+    assert found.sections["1"] == TITLES[given]
 
 
 def test_a_formula_of_markdown_may_follow_any_letter_but_latin_ones() -> None:

@@ -1,0 +1,57 @@
+r"""Titles, headings and names of authors as plain text: accents as letters, formulas as they are read, notes left out."""
+
+import re
+import unicodedata
+
+from lagrotor.paper.readable import from_latex
+
+_GROUP = r"\{(?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\})*\}"
+_NOTES = re.compile(
+    r"\\(?:thanks|thanksref|footnote|footnotemark|label|inst|orcid\w*|email|affil|cor(?:ref)?|fnref|tnoteref|cite\w*|(?:eq)?ref"
+    rf"|IEEEmembership|IEEEauthorblockA|IEEEcompsoc\w+|[hv]space|textsuperscript|color)\*?\s*(?:\[[^][]*\]|{_GROUP})+"
+    r"|\$\s*\^[^$]*\$|\b\d+(?=\\textsuperscript)"  # marks of notes and addresses
+)
+_LATTER = re.compile(rf"\\(?:texorpdfstring\s*{_GROUP}|textcolor\s*(?:\[\w+\])?\{{[^{{}}]*\}})")
+_FORMULA = re.compile(rf"\$((?:[^$\\]|\\.)*)\$|\\\((.*?)\\\)|\\ensuremath\s*({_GROUP})", re.DOTALL)
+_ACCENT = re.compile(
+    r"\\(?:(['`^\"~=.])|([cvHukrdb])(?![A-Za-z]))\s*(?:\{\s*\\?([A-Za-z])\s*\}|\\([ij])(?![A-Za-z])|([A-Za-z]))"
+)
+_MARKS = dict(
+    zip(
+        "'`^\"~=.cvHukrdb",
+        "\u0301\u0300\u0302\u0308\u0303\u0304\u0307\u0327\u030c\u030b\u0306\u0328\u030a\u0323\u0331",
+        strict=True,
+    )
+)
+_LETTERS = {
+    "ss": "ß", "o": "ø", "O": "Ø", "l": "ł", "L": "Ł", "ae": "æ", "AE": "Æ", "oe": "œ", "OE": "Œ", "aa": "å", "AA": "Å",
+    "i": "i", "j": "j", "LaTeX": "LaTeX", "TeX": "TeX", "textquotesingle": "'",
+}  # fmt: skip
+# A line of an author's block that is an address.
+_ADDRESS = re.compile(r"@|\d|\b(?:Univ|Inst|Dep|Facult|Lab|School|Coll|Cent|E-?mail|http)", re.IGNORECASE)
+
+
+def plain_heading(text: str) -> str:
+    r"""A heading or a name: Jos\'e~\surname{Garc{\'\i}a}\thanks{…} is José García, $E=mc^2$ is E=mc²."""
+    text = re.sub(r"``|''", '"', _LATTER.sub(" ", _NOTES.sub("", text)))
+    text = _ACCENT.sub(_accented, re.sub(r"(?<!\\)\\[,;:!/ ]", " ", text))
+    text = _FORMULA.sub(lambda found: from_latex(next(filter(None, found.groups()), "")), text)
+    text = re.sub(rf"\\({'|'.join(_LETTERS)})(?![A-Za-z])(?:\s+|\{{\}})?", lambda found: _LETTERS[found[1]], text)
+    text = re.sub(r"\\[A-Za-z]+\*?(?=\{)|(?<!\\)[{}$*]", "", text)
+    text = re.sub(r"\\[A-Za-z]+\*?|\\\\(?:\[[^][]*\])?|~", " ", text)
+    return " ".join(re.sub(r"\\([&%_#${}])", r"\1", text).split())
+
+
+def _accented(found: re.Match[str]) -> str:
+    mark = _MARKS[found[1] or found[2]]
+    return unicodedata.normalize("NFC", (found[3] or found[4] or found[5]) + mark)
+
+
+def names_of_authors(text: str) -> tuple[str, ...]:
+    r"""The names in the argument of \author, between \and, commas and lines; lines that are addresses are left out."""
+    names: list[str] = []
+    for block in re.split(r"\\(?:and|And|AND)\b", _NOTES.sub("", re.sub(r"(?<!\\)\\[,;:!/ ]", " ", text))):
+        first, *others = re.split(r"\\\\(?:\[[^][]*\])?", block)
+        lines = [first, *(line for line in others if not _ADDRESS.search(plain_heading(line)))]
+        names += (plain_heading(each) for line in lines for each in re.split(r",|(?<=[\s~])and(?=[\s~])", line))
+    return tuple(filter(None, names))
