@@ -7,9 +7,17 @@ from pathlib import Path
 from lagrotor.errors import InputError
 from lagrotor.files import read_text
 from lagrotor.paper.source.displays import UNCLOSED, Source, read_latex
+from lagrotor.paper.source.headings import plain_heading
 
 _FENCE = re.compile(
-    r"^(?P<fence>`{3,}|~{3,})[ \t]*(?P<info>[^\n`]*)\n(?P<body>.*?)^(?P=fence)`*[ \t]*$", re.MULTILINE | re.DOTALL
+    r"^(?P<fence>`{3,}|~{3,}|:{3,}(?=\{math\}))[ \t]*(?P<info>[^\n`]*)\n(?P<body>.*?)^(?P=fence)`*[ \t]*$",
+    re.MULTILINE | re.DOTALL,
+)
+_FRONT = re.compile(r"\A---[ \t]*\n(.*?\n)(?:---|\.\.\.)[ \t]*\n", re.DOTALL)
+# Directives of MyST that hold text, as a note or a theorem does.
+_TEXT = re.compile(
+    r"\{(?:note|admonition|tip|hint|important|warning|caution|danger|attention|seealso|dropdown|margin|sidebar|aside|topic|card"
+    r"|tab-\w+|prf:\w+|proof:\w+|exercise|solution)[\w-]*\}"
 )
 _INLINE = re.compile(r"(?<![\\$A-Za-z0-9_])\$(?![\s$])((?:[^$\n\\]|\\.|\n(?!\s*\n))*?)(?<!\s)\$(?![\d$])")
 _DISPLAY = re.compile(
@@ -40,9 +48,27 @@ def read_source(file: Path) -> Source:
     if suffix in (".tex", ".ltx", ".latex"):
         found = read_latex(text, file, file.stem)
     else:
-        title = re.search(r"^# +(.*)$", text, re.MULTILINE) or re.search(r"^title:\s*(.*)$", text, re.MULTILINE)
-        found = read_latex(markdown_as_latex(text), None, title[1].strip(" \"'") if title else file.stem)
+        front = matter[1] if (matter := _FRONT.match(text)) else ""
+        title = re.search(r"^title:[ \t]*(.+)$", front, re.MULTILINE) or re.search(
+            r"^# +(.*?)[ #]*$", _FENCE.sub("", text), re.MULTILINE
+        )
+        found = read_latex(markdown_as_latex(text), None, plain_heading(_unquoted(title[1])) if title else file.stem)
+        found.authors = _authors(front)
     return found
+
+
+def _authors(front: str) -> tuple[str, ...]:
+    """The names in the front matter: `author: A. Bee`, `authors: [A. Bee, C. Dee]`, or a list of names or of `name: …`."""
+    said = re.search(r"^authors?:[ \t]*(.*(?:\n(?:[ \t]+|-).*)*)", front, re.MULTILINE)
+    first, _, listed = said[1].partition("\n") if said else ("", "", "")
+    item = re.match(r"[ \t]*(?=-)", listed)
+    begins = rf"^{item[0]}(?:-[ \t]+(?:name:[ \t]*)?|[ \t]{{2}}name:[ \t]*)([^:\n]+)$" if item else ""
+    names = re.findall(begins, listed, re.MULTILINE) if item else first.strip("[]").split(",")
+    return tuple(filter(None, (plain_heading(_unquoted(name)) for name in names)))
+
+
+def _unquoted(text: str) -> str:
+    return text.strip().strip("\"'")
 
 
 def _cells(text: str, file: Path) -> str:
@@ -50,8 +76,8 @@ def _cells(text: str, file: Path) -> str:
     try:
         notebook = json.loads(text)
         cells = notebook["cells"] if "cells" in notebook else notebook["worksheets"][0]["cells"]
-        sources = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown"]
-    except (ValueError, KeyError, TypeError, IndexError):
+        sources = ["".join(cell.get("source") or "") for cell in cells if cell.get("cell_type") == "markdown"]
+    except (ValueError, KeyError, TypeError, IndexError, AttributeError):
         raise InputError(f"{file}: it is no notebook: give one that Jupyter can open") from None
     return "\n\n".join(sources).encode("utf-8", "replace").decode()  # half a letter is ?
 
@@ -65,8 +91,10 @@ def markdown_as_latex(text: str) -> str:
         kept.append(made + "\n" * max(lines, 0))
         return f"\x00{len(kept) - 1}\x00"
 
-    text = re.sub(r"\A---\n.*?\n---\n", lambda m: keep("", m[0]), text, flags=re.DOTALL)
+    text = _FRONT.sub(lambda m: keep("", m[0]), text)
     text = re.sub(r"<!--.*?-->", lambda m: keep("", m[0]), text, flags=re.DOTALL)
+    while (held := _FENCE.sub(lambda m: f"\n{m['body']}" if _TEXT.match(m["info"]) else m[0], text)) != text:
+        text = held
     text = _FENCE.sub(lambda m: keep(_fenced(m["info"].strip(), m["body"]), m[0]), text)
     text = re.sub(r"(?<!`)(`+)(?!`)[^\n]*?(?<!`)\1(?!`)", lambda m: keep("", m[0]), text)
     text = _DISPLAY.sub(lambda m: keep(_displayed(m[1], m["label"] or ""), m[0]), text)

@@ -195,3 +195,44 @@ def test_a_title_keeps_its_letters_and_formulas(given: str) -> None:
 def test_a_formula_of_markdown_may_follow_any_letter_but_latin_ones() -> None:
     """Behind 函数 no formula began, and the one after it ended another: US$5 and 10$ are prices."""
     assert markdown_as_latex("函数$f(x)$的 é$a$ US$5 and 10$") == r"函数\(f(x)\)的 é\(a\) US 5 and 10 "
+
+
+AUTHORS = {
+    "author: A. Bee": ("A. Bee",),
+    'authors: [A. Bee, "C. Dee$^1$"]': ("A. Bee", "C. Dee"),
+    "author:\n- A. Bee\n- C. Dee": ("A. Bee", "C. Dee"),
+    "authors:\n  - name: A. Bee\n    affiliations:\n      - Univ\n  - name: C. Dee": ("A. Bee", "C. Dee"),
+    "authors:\n  - name: A. Bee\n  - C. Dee\n  - email: x@y\n    name: E. Eff": ("A. Bee", "C. Dee", "E. Eff"),
+    "kernelspec: python": (),
+}
+
+
+@pytest.mark.parametrize("given", AUTHORS)
+def test_title_and_authors_of_markdown_are_those_of_its_front_matter(tmp_path: Path, given: str) -> None:
+    file = tmp_path / "notes.md"
+    file.write_text(f"---\ntitle: On $x$\n{given}\n---\n```python\n# no title\n```\n$$ x = 1 $$\n", encoding="utf-8")
+    found = read_source(file)
+    assert (found.title, found.authors) == ("On x", AUTHORS[given])
+    file.write_text("```python\n# no title\n```\n# Notes\n$$ x = 1 $$\n", encoding="utf-8")
+    assert read_source(file).title == "Notes"
+
+
+def test_formulas_within_notes_and_theorems_of_myst_are_read_and_those_in_code_are_not(tmp_path: Path) -> None:
+    file = tmp_path / "notes.md"
+    inner = "```{math}\n:label: one\nx = 1\n```"
+    note = f"````{{note}}\n{inner}\n````\n:::{{math}}\ny = 2\n:::\n```{{prf:theorem}} A\n$$ z = 3 $$\n```\n"
+    file.write_text(f"{note}````python\n{inner}\n````\n```{{code-cell}}\n$$ w = 4 $$\n```\n", encoding="utf-8")
+    assert [(each.latex, each.place[1]) for each in read_source(file).equations] == [
+        ("x = 1", 3),
+        ("y = 2", 7),
+        ("z = 3", 11),
+    ]
+
+
+def test_cells_without_a_source_are_passed_over(tmp_path: Path) -> None:
+    file = tmp_path / "notes.ipynb"
+    file.write_text('{"cells": [{"cell_type": "markdown"}, {"cell_type": "markdown", "source": ["$$x = 1$$"]}, {}]}')
+    assert [each.latex for each in read_source(file).equations] == ["x = 1"]
+    file.write_text('{"cells": [1]}')
+    with pytest.raises(InputError, match="no notebook"):
+        read_source(file)
