@@ -379,10 +379,10 @@ def _renew_sections(file: Path, sections: Mapping[str, str]) -> list[str]:
     if [*made.items()] != [*known.items()]:
         head, found, rest = _in_two(text, r"^\[ *sections *\][^\n]*\n?")
         block, table, after = _in_two(rest, r"^\[")
-        comments = [line for line in block.splitlines() if line.startswith("#")]
         rows = [f"{_text(number)} = {_text(title)}" for number, title in made.items()]
-        block = "\n".join([(found or "[sections]").rstrip("\n"), *comments, *rows])
-        write_text(file, f"{head.rstrip()}\n\n{block}\n" + (f"\n{table}{after}" if table else ""))
+        others = [line for line in block.splitlines() if line.startswith("#") or "=" not in line]
+        block = "\n".join([(found or "[sections]").rstrip("\n"), *rows, *others])
+        write_text(file, f"{head.rstrip()}\n\n{block.rstrip()}\n" + (f"\n{table}{after}" if table else ""))
     return [
         f'section {number} is "{sections[number]}", which paper.toml calls "{title}": it stays so'
         for number, title in own.items()

@@ -144,7 +144,7 @@ def test_titles_of_sections_move_with_them_and_those_of_the_author_stay(tmp_path
     made_again(tmp_path, displays("x = 1") + r"\section{Two}" + displays("y = 2"))
     about = tmp_path / "mine" / "paper.toml"
     text = about.read_text(encoding="utf-8").replace('"One"', '"Mine"').replace("[sections]", "[sections] # as printed")
-    about.write_text(text + '\n[system]\ncoordinates = ["q"]\n', encoding="utf-8")
+    about.write_text(text + '\n# [system]\n# L = "1"\n\n[system]\ncoordinates = ["q"]\n', encoding="utf-8")
     file = tmp_path / "paper.tex"
     file.write_text(
         file.read_text(encoding="utf-8").replace(r"\section{Two}", r"\section{New}\[ u = 3 \]\section{Two}")
@@ -152,6 +152,9 @@ def test_titles_of_sections_move_with_them_and_those_of_the_author_stay(tmp_path
     notes = begin_paper(tmp_path / "mine", file).notes
     given = tomllib.loads(about.read_text(encoding="utf-8"))
     assert list(given["sections"].items()) == [("1", "Mine"), ("2", "New"), ("3", "Two")]
+    assert '"3" = "Two"\n\n# [system]\n# L = "1"\n\n[system]' in about.read_text(encoding="utf-8"), (
+        "comments stay below"
+    )
     assert given["system"] == {"coordinates": ["q"]} and "# as printed" in about.read_text(encoding="utf-8")
     assert notes == ('section 1 is "One", which paper.toml calls "Mine": it stays so',)
 
