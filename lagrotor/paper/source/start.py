@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import compress, product
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -66,12 +67,28 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
         raise InputError(f"{folder} is there already and is no paper: choose a new or an empty folder")
     if not folder.resolve().parent.is_dir():
         raise InputError(f"{folder}: the folder {folder.resolve().parent} is missing: make it first")
-    if source is None:
-        shutil.copytree(beside(_EXAMPLE), folder, ignore=_NOT_COPIED, dirs_exist_ok=True)
-        about = (folder / "paper.toml").read_text(encoding="utf-8")
-        title = f"title = {_text(folder.resolve().name)}"
-        write_text(folder / "paper.toml", re.sub(r"^title = .*$", lambda _: title, about, count=1, flags=re.MULTILINE))
-        return Begun(folder, 1, 1)
+    if again and source is not None:
+        return _from_source(folder, source, again)
+    with TemporaryDirectory(prefix=f".{folder.resolve().name}.", dir=folder.resolve().parent) as beside_it:
+        made = Path(beside_it) / "paper"  # made whole there, so that what is interrupted leaves nothing
+        begun = _example(made, folder.resolve().name) if source is None else _from_source(made, source, again)
+        if folder.is_dir():
+            for each in made.iterdir():
+                each.rename(folder / each.name)
+        else:
+            made.rename(folder)
+    return replace(begun, folder=folder)
+
+
+def _example(folder: Path, title: str) -> Begun:
+    shutil.copytree(beside(_EXAMPLE), folder, ignore=_NOT_COPIED)
+    about = read_text(folder / "paper.toml")
+    made = re.sub(r"^title = .*$", lambda _: f"title = {_text(title)}", about, count=1, flags=re.MULTILINE)
+    write_text(folder / "paper.toml", made)
+    return Begun(folder, 1, 1)
+
+
+def _from_source(folder: Path, source: Path, again: bool) -> Begun:
     given = read_source(source)
     faults = [f"{file or source.name}:{line}: {said}" for file, line, said in given.faults]
     if not given.equations:
@@ -86,11 +103,12 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     prints = [read_print(each.latex, notation, each.lead, each.subject) for each in found.equations]
     rows, changed, gone = _merged(found, prints, old.get("equation", []), _derived(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
-    letters = _vectors(found, prints, old)
-    head = _HEAD.format(name=source.name)
-    write_text(folder / "equations.toml", _catalogue(head, rows, letters, _comments(folder / "equations.toml")))
     titles = _write_about(folder, found, rows, again)
     _write_symbols(folder, prints, again)
+    text = _catalogue(
+        _HEAD.format(name=source.name), rows, _vectors(found, prints, old), _comments(folder / "equations.toml")
+    )
+    write_text(folder / "equations.toml", text)  # last: what stands before it is of these equations
     if not again:
         about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=source.name))
         write_text(folder / "README.md", about)

@@ -3,6 +3,7 @@
 import tomllib
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
@@ -258,6 +259,19 @@ def test_a_folder_that_is_no_paper_is_refused_before_anything_is_written(source:
     with pytest.raises(InputError, match="no displayed equation"):
         begin_paper(tmp_path / "new", tmp_path / "empty.tex")
     assert not (tmp_path / "new").exists()
+
+
+def test_what_is_interrupted_leaves_nothing(source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half a folder was no paper, and none could be made there."""
+    folder = tmp_path / "new"
+    with monkeypatch.context() as patched:
+        patched.setattr("lagrotor.paper.source.start._write_symbols", Mock(side_effect=KeyboardInterrupt))
+        with pytest.raises(KeyboardInterrupt):
+            begin_paper(folder, source)
+    assert {each.name for each in tmp_path.iterdir()} == {"mine", "paper.tex"}
+    folder.mkdir()
+    assert begin_paper(folder, source).folder == folder and rows(folder) == rows(tmp_path / "mine")
+    assert {each.name for each in tmp_path.iterdir()} == {"mine", "new", "paper.tex"}
 
 
 def test_a_notebook_of_the_older_format_is_read(tmp_path: Path) -> None:
