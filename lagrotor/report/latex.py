@@ -87,7 +87,7 @@ def _character(character: str) -> str:
         return _LETTERS[character]
     if character.isascii() or character in GREEK or character in _DOTS or character in _LOW:
         return character
-    letter, *marks = unicodedata.normalize("NFKD", character)
+    letter, *marks = list(unicodedata.normalize("NFKD", character))
     if letter.isascii() and letter.isalpha() and len(marks) == 1 and marks[0] in _ACCENTS:
         return rf"\{_ACCENTS[marks[0]]}{{{letter}}}"
     return "".join((letter, *marks)).encode("ascii", "ignore").decode() or "?"

@@ -8,10 +8,10 @@ from lagrotor.paper.readable import from_latex
 _GROUP = r"\{(?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\})*\}"
 _NOTES = re.compile(
     r"\\(?:thanks|thanksref|footnote|footnotemark|label|inst|orcid\w*|email|affil|cor(?:ref)?|fnref|tnoteref|cite\w*|(?:eq)?ref"
-    rf"|IEEEmembership|IEEEauthorblockA|IEEEcompsoc\w+|[hv]space|textsuperscript|color)\*?\s*(?:\[[^][]*\]|{_GROUP})+"
+    rf"|IEEEmembership|(?:IEEE)?authorblockA|(?:IEEE)?authorrefmark|altaffilmark|aff|corresp|IEEEcompsoc\w+|[hv]space|textsuperscript|color)\*?\s*(?:\[[^][]*\]|{_GROUP})+"
     r"|\$\s*\^[^$]*\$|\b\d+(?=\\textsuperscript)"  # marks of notes and addresses
 )
-_LATTER = re.compile(rf"\\(?:texorpdfstring\s*{_GROUP}|textcolor\s*(?:\[\w+\])?\{{[^{{}}]*\}})")
+_LATTER = re.compile(rf"\\(?:(?:texorpdfstring|href)\s*{_GROUP}|textcolor\s*(?:\[\w+\])?\{{[^{{}}]*\}})")
 _FORMULA = re.compile(rf"\$((?:[^$\\]|\\.)*)\$|\\\((.*?)\\\)|\\ensuremath\s*({_GROUP})", re.DOTALL)
 _ACCENT = re.compile(
     r"\\(?:(['`^\"~=.])|([cvHukrdb])(?![A-Za-z]))\s*(?:\{\s*\\?([A-Za-z])\s*\}|\\([ij])(?![A-Za-z])|([A-Za-z]))"
