@@ -43,7 +43,8 @@ END = "\\end{document}\n"
 _LETTERS = {
     "−": "$-$", "–": "--", "⁻": "$^-$", "·": r"$\cdot$", "±": r"$\pm$", "∓": r"$\mp$", "×": r"$\times$", "ℓ": r"$\ell$",
     "≤": r"$\leq$", "≥": r"$\geq$", "≈": r"$\approx$", "≠": r"$\neq$", "→": r"$\to$", "…": r"\ldots{}", "°": r"$^\circ$",
-    "′": "$'$", "ᵀ": "$^T$", "√": r"$\surd$",
+    "∫": r"$\int$", "∂": r"$\partial$", "∇": r"$\nabla$", "∞": r"$\infty$", "⟨": r"$\langle$", "⟩": r"$\rangle$",
+    "†": r"$\dagger$", "′": "$'$", "ᵀ": "$^T$", "√": r"$\surd$",
     "§": r"$\mathsection$", "ß": r"\ss{}", "ø": r"\o{}", "Ø": r"\O{}", "ł": r"\l{}", "Ł": r"\L{}", "æ": r"\ae{}", "œ": r"\oe{}",
     "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
     "~": r"\~{}", '"': "''",
@@ -95,6 +96,8 @@ def _character(character: str) -> str:
 
 def _letter(match: re.Match[str]) -> str:
     stem, dot, index = match.groups()
+    if stem in _LOW:  # of no letter, as the limit of an integral
+        stem, index = "", stem + index
     if stem.isascii() and not dot and not index:
         return stem
     drawn = GREEK.get(stem, stem)
