@@ -8,6 +8,7 @@ import sympy as sp
 
 from lagrotor.mechanics.glossary import GREEK, latex
 from lagrotor.paper.readable import readable
+from lagrotor.paper.source.headings import ACCENTS
 from lagrotor.paper.source.tokens import tokenize
 
 _HEAD = r"""\documentclass[11pt]{article}
@@ -49,9 +50,7 @@ _LETTERS = {
     "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
     "~": r"\~{}", '"': "''",
 } | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip
-_ACCENTS = dict(
-    zip("\u0301\u0300\u0302\u0308\u0303\u0304\u0327\u030c\u030b\u0306\u030a\u0323", "'`^\"~=cvHurd", strict=True)
-)
+_ACCENTS = {mark: name for name, mark in ACCENTS.items() if name not in ".kb"}  # those that the font of the head has
 _DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
 _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 # A letter with its dot and its index: mathematics, unless it is a Latin letter alone.

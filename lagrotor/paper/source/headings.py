@@ -16,13 +16,11 @@ _FORMULA = re.compile(rf"\$((?:[^$\\]|\\.)*)\$|\\\((.*?)\\\)|\\ensuremath\s*({_G
 _ACCENT = re.compile(
     r"\\(?:(['`^\"~=.])|([cvHukrdb])(?![A-Za-z]))\s*(?:\{\s*\\?([A-Za-z])\s*\}|\\([ij])(?![A-Za-z])|([A-Za-z]))"
 )
-_MARKS = dict(
-    zip(
-        "'`^\"~=.cvHukrdb",
-        "\u0301\u0300\u0302\u0308\u0303\u0304\u0307\u0327\u030c\u030b\u0306\u0328\u030a\u0323\u0331",
-        strict=True,
-    )
-)
+# The command of an accent → its mark in Unicode.
+ACCENTS = {
+    "'": "\u0301", "`": "\u0300", "^": "\u0302", '"': "\u0308", "~": "\u0303", "=": "\u0304", ".": "\u0307", "c": "\u0327",
+    "v": "\u030c", "H": "\u030b", "u": "\u0306", "k": "\u0328", "r": "\u030a", "d": "\u0323", "b": "\u0331",
+}  # fmt: skip
 _LETTERS = {
     "ss": "ß", "o": "ø", "O": "Ø", "l": "ł", "L": "Ł", "ae": "æ", "AE": "Æ", "oe": "œ", "OE": "Œ", "aa": "å", "AA": "Å",
     "i": "i", "j": "j", "LaTeX": "LaTeX", "TeX": "TeX", "textquotesingle": "'",
@@ -43,7 +41,7 @@ def plain_heading(text: str) -> str:
 
 
 def _accented(found: re.Match[str]) -> str:
-    mark = _MARKS[found[1] or found[2]]
+    mark = ACCENTS[found[1] or found[2]]
     return unicodedata.normalize("NFC", (found[3] or found[4] or found[5]) + mark)
 
 
