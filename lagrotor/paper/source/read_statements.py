@@ -19,6 +19,7 @@ from lagrotor.paper.source.tree import (
     is_printed_zero,
     is_scalar,
     is_vector,
+    letters_of,
     may_be_vector,
     number,
     text_of,
@@ -66,10 +67,15 @@ def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatem
     kinds = {each.kind for each in found}
     if len(found) > 1 and "expression" in kinds:
         reader.guess("list", "what has no relation beside what has one is a statement of its own")
-    if {"equation", "inequality"} <= kinds:
+    if "inequality" in kinds and kinds & {"equation", "approximation", "other"}:
         reader.guess("condition", "an inequality beside an equation is a statement, and no condition of it")
     given = {"t"}  # what may have its value there alone: A(n) = 1, n = 0
+    before: set[str] = set()
     for each in found:
+        letters = {name for side in each.sides for name in letters_of(side.node)}
+        if each.kind == "inequality" == found[0].kind and len(letters) == 1 and letters <= before:
+            reader.guess("condition", "the last bound is a statement, and no condition of what is before it")
+        before |= letters
         if each is not found[0] and each.kind == "equation" and text_of(each.sides[0].node) in given:
             reader.guess("condition", "the value of an argument is a statement, and no condition of what is before it")
         first = each.sides[0].node

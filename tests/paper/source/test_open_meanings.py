@@ -179,6 +179,8 @@ SETTLED = [
     (r"E = 0.5(\frac{3}{30})^2 J", [], "J behind the number"),
     ("sk = s", [], "sk is a product"),
     (r"\sigma = \binom{1234}{1423}", [], "and no permutation"),
+    (r"\cos x\approx 1,\quad x\ll 1", [], "and no condition"),
+    (r"\frac{x}{a}\le 1,\quad x\ge 2", [], "and no condition"),
     ("A(n) = 1, n = 0", [], "the value of an argument"),
     (r"\forall c", [], "what holds for all"),
     (r"a > b > \cdots", [], "the dots at the end"),
@@ -306,7 +308,8 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}", r"{\rm cos} x = a", r"\mathrm{d}(x^2) = 2x\,\mathrm{d}x",
         r"\tau = \mu\frac{du}{dy}\bigg|_{y=0}", "a = 540.001", r"a = \underbrace{b + c}_{f} + d",
         r"p = \frac{F}{m}", "V_1 = V_{1,2} + V_{1,3}",
-        "E = 0.5 - s", r"a = \binom{10}{3}", "x_1 = 3, x_2 = 4", r"M(q)\ddot q(t) = u(t)", "u(x, t) = X(x) T(t)",
+        "E = 0.5 - s", r"0 < x < a,\quad 0 < y < b", r"a = \binom{10}{3}", "x_1 = 3, x_2 = 4",
+        r"M(q)\ddot q(t) = u(t)", "u(x, t) = X(x) T(t)",
     ],
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
