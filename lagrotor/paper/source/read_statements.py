@@ -69,7 +69,8 @@ def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatem
         reader.guess("list", "what has no relation beside what has one is a statement of its own")
     if "inequality" in kinds and kinds & {"equation", "approximation", "other"}:
         reader.guess("condition", "an inequality beside an equation is a statement, and no condition of it")
-    given = {"t"}  # what may have its value there alone: A(n) = 1, n = 0
+    places = ("t", "x", "y", "z", "r")  # what may have its value there alone: u = 0, x = 1; A(n) = 1, n = 0
+    given = {*places} if found and text_of(found[0].sides[0].node) not in places else {"t"}
     before: set[str] = set()
     for each in found:
         letters = {name for side in each.sides for name in letters_of(side.node)}

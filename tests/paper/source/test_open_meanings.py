@@ -181,6 +181,7 @@ SETTLED = [
     (r"\sigma = \binom{1234}{1423}", [], "and no permutation"),
     (r"\cos x\approx 1,\quad x\ll 1", [], "and no condition"),
     (r"\frac{x}{a}\le 1,\quad x\ge 2", [], "and no condition"),
+    (r"\varphi = 0, y = \pm 1", [], "the value of an argument"),
     ("A(n) = 1, n = 0", [], "the value of an argument"),
     (r"\forall c", [], "what holds for all"),
     (r"a > b > \cdots", [], "the dots at the end"),
@@ -308,7 +309,7 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}", r"{\rm cos} x = a", r"\mathrm{d}(x^2) = 2x\,\mathrm{d}x",
         r"\tau = \mu\frac{du}{dy}\bigg|_{y=0}", "a = 540.001", r"a = \underbrace{b + c}_{f} + d",
         r"p = \frac{F}{m}", "V_1 = V_{1,2} + V_{1,3}",
-        "E = 0.5 - s", r"0 < x < a,\quad 0 < y < b", r"a = \binom{10}{3}", "x_1 = 3, x_2 = 4",
+        "E = 0.5 - s", r"0 < x < a,\quad 0 < y < b", r"a = \binom{10}{3}", "x_1 = 3, x_2 = 4", "x = 3, y = 4",
         r"M(q)\ddot q(t) = u(t)", "u(x, t) = X(x) T(t)",
     ],
 )  # fmt: skip
