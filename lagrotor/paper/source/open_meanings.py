@@ -430,7 +430,7 @@ def _big(reader: FormulaReader, row: list[Box], place: int) -> Marks:
             yield "sum", f"what {box.name} runs over is as it is written", ""
     elif box.name == "int":
         over = [b.name for b in box.sub or ()]  # a letter for what is integrated over, of volumes and areas V and S
-        measures = ("mu", "nu", *("FGPQR" if len(over) == 1 and over[0] not in _AMPLITUDES else ()))
+        measures = ("mu", "nu", "lambda", *("FGPQR" if len(over) == 1 and over[0] not in _AMPLITUDES else ()))
         variables = [b for a, b in pairwise(rest) if a.name == "d" and b.name in measures]
         inside = [b.name for b in all_boxes(rest)]
         place_d = next((k for k, b in enumerate(rest[:-1]) if b.name == "d" and rest[k + 1].kind == "bracket"), 0)
@@ -472,9 +472,8 @@ def _apart(reader: FormulaReader, row: list[Box]) -> Marks:
         if [b.kind for b in side[:3]] == ["number", "operator", "number"] and side[1].name == "-" and len(side) < 5:
             yield "range", "the numbers are taken from each other, and are no ends of a range", ""
         letters = [b for b in side if b.kind == "letter"]
-        side = [
-            b for a, b in pairwise([*side[:1], *side]) if b.name != "-" or a.kind != "letter" or a.end != b.at
-        ]  # J-s
+        if [b.name for b in side[-2:-1]] == ["-"] and side[-3].name.isupper() and side[-1].at == side[-2].end:  # J-s
+            del side[-2]
         signs = [b for b in side if b.kind != "letter" and b.name not in ("/", "times", "cdot")]
         plain = not any(b.kind == "operator" or letters_in_row([b]) for b in signs)
         scale = letters and letters[0].name in ("C", "F") and {b.name for b in side[0].sup or ()} & DEGREES
@@ -601,6 +600,8 @@ def _repeated(row: list[Box]) -> Marks:
 def _indices(term: list[Box]) -> Counter[str]:
     found: Counter[str] = Counter()
     for box in all_boxes(term):
+        if box.kind == "bracket" and box.closing in (r"\rangle", ">") and len(box.parts[0]) == 1:  # d_{ab}|a⟩|b⟩
+            found.update(b.name for b in box.parts[0] if b.name in INDICES)
         if box.kind in ("letter", "partial", "nabla"):
             for script in (box.sub, None if power_in(box) and box.sup and box.sup[0].kind != "letter" else box.sup):
                 if script and all(b.kind in ("letter", "comma", "thin", "number") and len(b.name) < 9 for b in script):

@@ -182,6 +182,8 @@ SETTLED = [
     (r"\cos x\approx 1,\quad x\ll 1", [], "and no condition"),
     (r"\frac{x}{a}\le 1,\quad x\ge 2", [], "and no condition"),
     (r"\varphi = 0, y = \pm 1", [], "the value of an argument"),
+    (r"|\psi\rangle = d_{ab} |a\rangle |b\rangle", [], "the index a is not summed over"),
+    (r"\int_A x^2 d\lambda_1 < \infty", [], "and no measure"),
     ("A(n) = 1, n = 0", [], "the value of an argument"),
     (r"\forall c", [], "what holds for all"),
     (r"a > b > \cdots", [], "the dots at the end"),
@@ -309,7 +311,8 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         r"k = 0.4\,\mathrm{cm}^2\,\mathrm{g}^{-1}", r"{\rm cos} x = a", r"\mathrm{d}(x^2) = 2x\,\mathrm{d}x",
         r"\tau = \mu\frac{du}{dy}\bigg|_{y=0}", "a = 540.001", r"a = \underbrace{b + c}_{f} + d",
         r"p = \frac{F}{m}", "V_1 = V_{1,2} + V_{1,3}",
-        "E = 0.5 - s", r"0 < x < a,\quad 0 < y < b", r"a = \binom{10}{3}", "x_1 = 3, x_2 = 4", "x = 3, y = 4",
+        "E = 0.5 - s", r"F = \frac{2s-3}{s^2}", r"0 < x < a,\quad 0 < y < b", r"a = \binom{10}{3}", "x = 3, y = 4",
+        r"E = \int_A I(\lambda) d\lambda", r"1 = \sum_n |n\rangle\langle n|",
         r"M(q)\ddot q(t) = u(t)", "u(x, t) = X(x) T(t)",
     ],
 )  # fmt: skip
