@@ -57,7 +57,7 @@ def at_most(calls: "int | Calls", work: Callable[..., _Result], *arguments: Any)
     left, shared.begun = shared.left, True
     tracer = sys.gettrace()
 
-    def count(frame: FrameType, *event: Any) -> None:
+    def count(frame: FrameType, event: str, argument: Any) -> None:
         nonlocal left
         left -= 1
         if left < 0 and not frame.f_code.co_flags & CO_GENERATOR:  # where one is closed an error is lost

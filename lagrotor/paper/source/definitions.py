@@ -1,7 +1,8 @@
 r"""Definitions of commands: \newcommand, \def, \let, \NewDocumentCommand, \DeclarePairedDelimiter …"""
 
 from collections.abc import Iterable
-from itertools import pairwise
+from dataclasses import replace
+from itertools import chain, pairwise
 
 from lagrotor.paper.source.expansion import Expander, Primitive
 from lagrotor.paper.source.groups import Macro, numbered
@@ -70,6 +71,18 @@ def _let(expander: Expander, token: Token) -> bool:
         elif source.text != target.text:
             kind = "primitive" if source.kind == "command" else source.kind
             expander.macros[target.text] = Macro((Token(kind, source.text, source.at),))
+    return True
+
+
+def _extended(expander: Expander, token: Token) -> bool:
+    r"""\g@addto@macro\appendix{…}, \apptocmd{\appendix}{…}{}{}, \pretocmd: more behind or before what a command does."""
+    named, added = expander.argument(), expander.argument()
+    if token.text.endswith("tocmd"):
+        expander.argument(), expander.argument()
+    if named and named[0].kind == "command":
+        known = expander.macros.get(named[0].text) or Macro((Token("primitive", named[0].text, token.at),))
+        parts = (added, known.body) if token.text.startswith(r"\pre") else (known.body, added)
+        expander.macros.define_globally(named[0].text, replace(known, body=tuple(chain(*parts))))
     return True
 
 
@@ -142,6 +155,7 @@ DEFINITIONS: dict[str, Primitive] = {
     **dict.fromkeys((r"\def", r"\gdef", r"\edef", r"\xdef"), _def),
     **dict.fromkeys(_DOCUMENT_COMMANDS.split(), _document_command),
     **dict.fromkeys((r"\DeclarePairedDelimiter", r"\DeclarePairedDelimiterX"), _pair),
+    **dict.fromkeys((r"\g@addto@macro", r"\appto", r"\gappto", r"\apptocmd", r"\preto", r"\pretocmd"), _extended),
     r"\csname": _named,
     r"\let": _let,
     r"\DeclareMathOperator": _operator,

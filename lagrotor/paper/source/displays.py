@@ -215,7 +215,7 @@ class _Walker:
             self.expander.stepped = ""
         if name == "begin":
             self._begin(self.expander.name(), token)
-        elif name in _LEVELS and self.body:
+        elif name in _LEVELS and self.body and ((after := self.expander.peek()) is None or after.kind != "close"):
             star = self.expander.star()
             self.expander.optional()
             self._section(name, latex_of(self.expander.expand(self.expander.argument())), star)

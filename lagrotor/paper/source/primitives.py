@@ -18,6 +18,13 @@ def _ensured(expander: Expander, token: Token) -> bool:
     return True
 
 
+def _of_titles(expander: Expander, token: Token) -> bool:
+    r"""\titleformat\section[…]{…}: how a heading looks is none."""
+    expander.star()
+    expander.argument()
+    return True
+
+
 def _style(expander: Expander, token: Token) -> bool:
     r"""\tikzset{…} and \tikzstyle{name} = […]: what keys hold, {\begin{…}} too, is set in parts, in a picture."""
     expander.argument()
@@ -40,5 +47,6 @@ PRIMITIVES: dict[str, Primitive] = {
     **COUNTING,
     **dict.fromkeys(_WITHOUT_EFFECT, _ignored),
     **dict.fromkeys((r"\tikzset", r"\tikzstyle", r"\pgfkeys", r"\pgfplotsset"), _style),
+    **dict.fromkeys((r"\titleformat", r"\titlespacing"), _of_titles),
     r"\ensuremath": _ensured,
 }

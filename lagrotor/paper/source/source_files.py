@@ -109,7 +109,7 @@ def _end_input(expander: Expander, token: Token) -> bool:
 
 def _class(expander: Expander, token: Token) -> bool:
     given = latex_of(expander.optional() or ())
-    name = expander.name()
+    name = latex_of(expander.expand(expander.argument())).strip()
     if expander.document_class and name == "subfiles":
         return True
     if name == "subfiles":
