@@ -69,8 +69,8 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
         raise InputError(f"{folder}: the folder {folder.resolve().parent} is missing: make it first")
     if again and source is not None:
         return _from_source(folder, source, again)
-    with TemporaryDirectory(prefix=f".{folder.resolve().name}.", dir=folder.resolve().parent) as beside_it:
-        made = Path(beside_it) / "paper"  # made whole there, so that what is interrupted leaves nothing
+    with TemporaryDirectory(prefix=".made.", dir=folder if folder.is_dir() else folder.resolve().parent) as near:
+        made = Path(near) / "paper"  # made whole there, so that what is interrupted leaves nothing
         begun = _example(made, folder.resolve().name) if source is None else _from_source(made, source, again)
         if folder.is_dir():
             for each in made.iterdir():
