@@ -1,14 +1,15 @@
-"""What a chapter is about, where letters may be no numbers: it has words of such texts alone, several on each page."""
+"""What a chapter is about, where letters may be no numbers: it has words of such texts, several on each page."""
 
 import re
 from collections import Counter
 from collections.abc import Mapping
 
-GROUPS, MEASURES = "groups", "measures"
+GROUPS, MEASURES, PROOFS = "groups", "measures", "proofs"
 # What a reading takes for certain elsewhere, and not in such a text.
 TAKEN = {
     GROUPS: "letters are numbers, and no elements of a group, sets or maps",
     MEASURES: "what d stands before is a variable, and no measure",
+    PROOFS: "letters are numbers or functions of them, and no sets, maps or matrices",
 }
 _OF_GROUPS = (
     r"sub-?groups?|cosets?|(?:homo|endo|iso|auto|epi|mono)?morphisms?|(?:monoid|semigroup)s?|associativ(?:e|ity)|"
@@ -26,8 +27,26 @@ _OF_MEASURES = (
     r"Radon|Nikod[yý]m|absolutely continuous|Lebesgue|Borel|(?:sigma|σ)-(?:algebras?|fields?|finite)|^-algebras?|"
     r"probability (?:measures?|spaces?)|messbare?n?|mesurables?|测度|可测|可积函数|几乎处处"
 )
+_OF_PROOFS = (
+    r"theorems?|lemmas?|corollar(?:y|ies)|propositions?|proofs?|axioms?|bijecti\w+|surjecti\w+|injecti\w+|random variables?|"
+    r"i\.i\.d\.|estimators?|priors?|posteriors?|likelihood|regression|neural|reward|polic(?:y|ies)|loss function|vert(?:ex|ices)|"
+    r"graphs? with|finite sets?|subsets?|vector spaces?|linear maps?|Banach|Hilbert space|Satz|Beweis|Lemmata?|théorèmes?|"
+    r"démonstration|preuve|teoremas?|teorema|demostración|dimostrazione|定理|引理|证明|推论"
+)
+# Of a text about quantities, whose letters are numbers.
+_OF_QUANTITIES = (
+    r"veloc\w+|speeds?|accelerat\w+|mass(?:es|ive)?|forces?|energ\w+|moment(?:um|a)|torques?|pressures?|temperatures?|currents?|"
+    r"voltages?|wave-?(?:length|number|function|packet)s?|frequenc\w+|oscillat\w+|pendulums?|particles?|electrons?|photons?|atoms?|"
+    r"electr\w+|magnet\w+|quantum|Hamiltonians?|Lagrangians?|gravit\w+|viscos\w+|fluids?|spins?|gyroscop\w+|radi(?:us|i)|"
+    r"physic\w*|Geschwindigkeit|Kraft|Masse|vitesse|masse|velocidad|fuerza|velocità|forza|速度|质量|能量|电场"
+)
 _CHINESE = "子群|同态|同构|陪集|置换|阿贝尔群|交换群"
-_WORDS = re.compile(rf"(?P<{GROUPS}>\b(?:{_OF_GROUPS})\b|{_CHINESE})|(?P<{MEASURES}>{_OF_MEASURES})", re.IGNORECASE)
+_QUANTITIES = "quantities"
+_WORDS = re.compile(
+    rf"(?P<{GROUPS}>\b(?:{_OF_GROUPS})\b|{_CHINESE})|(?P<{MEASURES}>{_OF_MEASURES})|(?P<{PROOFS}>\b(?:{_OF_PROOFS})\b)"
+    rf"|(?P<{_QUANTITIES}>\b(?:{_OF_QUANTITIES})\b)",
+    re.IGNORECASE,
+)
 _PAGE = 1500  # characters
 _LENGTH = "characters"
 
@@ -46,6 +65,8 @@ def subjects_of(chapters: Mapping[str, Counter[str]]) -> dict[str, str]:
 
 
 def _is_about(counts: Counter[str], subject: str) -> bool:
-    """Whether words of a subject stand on each page, and three of them or one in few lines."""
+    """Whether words of a subject stand on each page, and three of them or one in few lines; more than those of quantities."""
     times, length = counts[subject], counts[_LENGTH]
+    if subject == PROOFS and counts[_QUANTITIES] > times:
+        return False
     return times * _PAGE > length and (times > 2 or times * _PAGE > 4 * length)

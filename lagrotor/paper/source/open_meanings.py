@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 from lagrotor.paper.source.boxes import FUNCTIONS, Box, is_printed_as_vector
-from lagrotor.paper.source.chapters import GROUPS, MEASURES, TAKEN
+from lagrotor.paper.source.chapters import GROUPS, MEASURES, PROOFS, TAKEN
 from lagrotor.paper.source.formula_reader import FormulaReader, settled
 from lagrotor.paper.source.read_letter import is_called
 from lagrotor.paper.source.read_scripts import INDICES
@@ -67,7 +67,7 @@ def _letters(row: list[Box]) -> list[str]:
 
 
 def _subject(row: list[Box], subjects: list[str]) -> Marks:
-    """What no sign says in a text about groups or measures: that letters are numbers, and what d is of."""
+    """What no sign says in a text about groups, measures or proofs: that letters are numbers, and what d is of."""
     boxes = all_boxes(row)
     letters = _letters(row)
     sets = any(
@@ -76,6 +76,8 @@ def _subject(row: list[Box], subjects: list[str]) -> Marks:
     )
     if (GROUPS in subjects and letters) or (MEASURES in subjects and sets):
         yield GROUPS, TAKEN[GROUPS], ""
+    elif PROOFS in subjects and letters:
+        yield PROOFS, TAKEN[PROOFS], ""
     if MEASURES in subjects and ("d" in letters or any(b.name == "<<" for b in row)):
         yield MEASURES, TAKEN[MEASURES], ""
 

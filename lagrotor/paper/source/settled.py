@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import combinations, groupby, pairwise, product
 
+from lagrotor.paper.source.chapters import PROOFS, TAKEN
 from lagrotor.paper.source.rows import UNITS
 from lagrotor.paper.source.tree import KNOWN, Call, Letter, Node, Number, letters_of, product_of, text_of, walk
 
@@ -44,7 +45,8 @@ def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node]) -> bool:
     letters = {name for node in nodes for name in letters_of(node)}
     calls = [each for node in nodes for each in walk(node) if isinstance(each, Call)]
     names = {each.name for each in calls}
-    if guess.startswith(ANY_BASE) or _ARGUMENT.match(guess) or _NO_NAME.match(guess):
+    of_numbers = guess.startswith(TAKEN[PROOFS]) and not names.isdisjoint(KNOWN)  # of sets and maps there are no sines
+    if of_numbers or guess.startswith(ANY_BASE) or _ARGUMENT.match(guess) or _NO_NAME.match(guess):
         return True
     if guess.startswith(_NO_NUMBER):
         powers = (each.args[1] for each in calls if each.name == "power")

@@ -947,3 +947,13 @@ def test_a_function_of_other_letters_is_fixed_in_a_derivative(tmp_path: Path) ->
 )
 def test_what_may_be_a_law_another_case_or_another_reading_refutes_nothing(text: str, tmp_path: Path) -> None:
     assert REFUTED not in verdicts(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    "subject", ["By the lemma and the theorem, of random variables: ", "Of the energy of masses: "]
+)
+def test_in_a_text_of_proofs_only_what_numbers_alone_have_is_judged(subject: str, tmp_path: Path) -> None:
+    text = subject + r"\[ a = \sin 2x = SIGN 2\sin x\cos x \] \[ b = (u + v)^2 = u^2 + 2 u v SIGN v^2 \]"
+    matrices = subject.startswith("By")
+    assert verdicts(tmp_path, text.replace("SIGN", "+")) == [HOLDS, "undecided" if matrices else HOLDS]
+    assert verdicts(tmp_path, text.replace("SIGN", "-")) == [REFUTED, "undecided" if matrices else REFUTED]
