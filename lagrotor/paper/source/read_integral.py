@@ -44,6 +44,9 @@ def read_integral(reader: FormulaReader, row: list[Box], place: int) -> tuple[No
     elif box.sub is not None or box.sup is not None:
         bounds = [_region(reader, box)]
     variable_of = differential.args[0] if len(differential.args) == 1 else differential
+    name = variable_of.name.replace("lamda", "lambda") if isinstance(variable_of, Letter) else ""
+    if any(isinstance(each, Call) and name in each.name.split("_")[1:] for each in walk(inner)):  # B_\lambda(T)
+        reader.guess("index", f"the index {name} of a function is part of its name, and is not integrated over")
     if not reader.integrating and not before:
         further, behind = _further(reader, row, behind)
     if further:
@@ -119,16 +122,11 @@ def _taken_out(node: Node, box: Box) -> tuple[Node, Node]:
                     ordered = node.name == "matmul" and len(rest) > 1
                     return Call("matmul", tuple(rest)) if ordered else product_of(rest or [number(1)]), found
         if node.name in ("sum", "dot", "cross") and _holds(last := node.args[-1]):
-            if node.name != "sum" and _vector_differential(last):  # F·dr
+            if node.name != "sum" and any(is_differential(each) and is_vector(each) for each in walk(last)):  # F·dr
                 return node, next(filter(is_differential, walk(last)))
             inner, found = _taken_out(last, box)
             return Call(node.name, (*node.args[:-1], inner)), found
     raise FormulaError(box.at, "the differential is no factor of what is integrated", "write it at the end")
-
-
-def _vector_differential(node: Node) -> bool:
-    """Whether the differential is of a vector."""
-    return any(is_differential(each) and is_vector(each) for each in walk(node))
 
 
 def _holds(node: Node) -> bool:

@@ -183,7 +183,9 @@ def _mark_index(reader: FormulaReader, box: Box) -> None:
     several = len(below) > 2 and (names[0] or len(below[0].name) > 1)  # \sigma_{11,1} and N_{I,1}, but no a_{1,2}
     by = several and below[-2].name == "," and below[-1].name in ("1", "2", "3")
     by = by or (names[:1] == [""] and 0 < len(behind) < 3 and {*behind} <= VARIABLES)  # A_{1,x}
-    if by or names[:1] == [","] or (0 < len(behind) < 3 and all(names) and "".join(names).replace(",", "").islower()):
+    if any(b.name == ";" for b in below):
+        reader.guess("index", f"the semicolon in the index of {box.name} parts indices, and is no covariant derivative")
+    elif by or names[:1] == [","] or (0 < len(behind) < 3 and all(names) and "".join(names).replace(",", "").islower()):
         reader.guess("index", f"the comma in the index of {box.name} parts indices, and is no derivative")
     elif any(b.kind in ("operator", "relation", "bracket") and b.name not in ("+", "-", "/") for b in below):
         reader.guess("index", f"the index of {box.name} is part of the name")

@@ -61,6 +61,8 @@ SETTLED = [
     (r"a = \bar D_i\bar D_j b", [], "D is a factor"),
     (r"a = b_{,j}", [], "the comma in the index of b"),
     (r"a = b_{i,j}", [], "the comma in the index of b"),
+    (r"R_{\alpha\beta;\gamma} = a", [], "the semicolon in the index of R"),
+    (r"a = \int_0^1 b_\lambda(x) \rho(\lambda)\,d\lambda", [], "not integrated over"),
     (r"a = \Sigma x f(x)", [], "Sigma is a factor"),
     (r"a = E_t b", [], "E is a factor"),
     (r"a = m^M", [], "the superscript of m"),
@@ -314,6 +316,7 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         "E = 0.5 - s", r"F = \frac{2s-3}{s^2}", r"0 < x < a,\quad 0 < y < b", r"a = \binom{10}{3}", "x = 3, y = 4",
         r"E = \int_A I(\lambda) d\lambda", r"1 = \sum_n |n\rangle\langle n|",
         r"M(q)\ddot q(t) = u(t)", "u(x, t) = X(x) T(t)",
+        r"R_{\alpha\beta\gamma} = a", r"a = \int_0^1 b_\lambda(x) \rho(x)\,dx",
     ],
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
