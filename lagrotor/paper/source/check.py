@@ -11,7 +11,7 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain, pairwise
 from typing import Any
 
@@ -99,6 +99,11 @@ _AGAIN = re.compile(
 # The end of the sentence of another display, and the beginning of one, which end with the equation or begin behind it.
 _BEFORE, _BEHIND = re.compile(r"^\s*[a-z][^.;!?□]*[.;!?]"), re.compile(r"([.;:!?□]\s*)[A-Z][^.;:!?□]*$")
 _FORMULA = re.compile(r"\$[^$]*\$")
+_NEGATIVE = re.compile(
+    r"\$([^$<=>]+)(?:<|\\leq?\b)\s*0\s*\$|\$([^$]+)\$\s+(?:is|are|be|was)\s+negative|"
+    r"\bnegative\s+(?:\w+\s+)?\$([^$]+)\$(?![\s-]*(?:direction|axis))",
+    re.IGNORECASE,
+)
 _OWN_ZERO = re.compile(
     r"□[\s.,]*(?:it|which|and)?\s*vanish\w*", re.IGNORECASE
 )  # of the equation itself, and no condition of it
@@ -187,7 +192,9 @@ class _Way:
     def named(self) -> str:
         names = dict.fromkeys(each.name for each in self.used)
         fixing = ["the other letters fixed in derivatives and integrals"] if self.opaque.fixing else []
-        return ", ".join([*names, *fixing, *(["positive letters"] if self.opaque.assuming else [])])
+        return (
+            ", ".join([*names, *fixing, *(["positive letters"] if self.opaque.assuming else [])]) or "derivatives taken"
+        )
 
     @property
     def has_signs(self) -> bool:
@@ -325,7 +332,7 @@ class _Checker:
             return LARGE
         answer = decided(a, b) if may_agree(a, b) else "nonzero"
         ways = [way for way in self._ways(left, right, printed) if way.differs(a, b)] if answer != "zero" else []
-        if held := _holding(left, right, a, b, answer, ways):
+        if held := self._holding(left, right, a, b, answer, ways):
             return HOLDS, *held
         if answer == "undecided":
             return "undecided", "the difference is outside what is decided exactly"
@@ -344,6 +351,20 @@ class _Checker:
         ):
             return "undecided", "the difference is outside what is decided exactly"
         return verdict, why
+
+    def _holding(self, left: Node, right: Node, a: Any, b: Any, answer: str, ways: list[_Way]) -> tuple[Any, ...]:
+        """Why two sides agree, and each premise that was put in; nothing where they are not known to: answer is that of a = b."""
+        said = f"{text_of(left)} = {text_of(right)} is an identity"
+        if answer == "zero":
+            return (f"{said} where its roots are real" if radicands(a, b) else said,)
+        positive = partial(agree_for_positive, negative=self.negative)
+        for agreeing, condition in ((agree, ""), (positive, "positive letters")):
+            if condition and answer == "undecided" and agreeing(a, b):
+                return (f"{said} for {condition}",)
+            for way in ways:
+                if agreeing(way.left, way.right):
+                    return f"with {', '.join(filter(None, (way.named, condition)))}", *way.used
+        return ()
 
     def _is_stated_again(self, left: Node) -> bool:
         """Whether a letter has a value before, and the text says that others are put into it."""
@@ -517,6 +538,15 @@ class _Checker:
             if isinstance(left.node, Letter) and ">" in relations and any(each.node == number(0) for each in others)
         )
 
+    @cached_property
+    def negative(self) -> frozenset[str]:
+        """The letters of which the text says anywhere that they are negative."""
+        text = " ".join([*self.source.words.values(), *(f"${latex}$" for latex in self.source.inline)])
+        said = {next(filter(None, m.groups())) for m in _NEGATIVE.finditer(text)}
+        read = (read_formula(each, self.notation) for each in said)
+        nodes = (s.sides[0].node for each in read for s in each.statements)
+        return frozenset(each.name for each in nodes if isinstance(each, Letter))
+
     def _take_text(self, section: str) -> None:
         """Take over what the text of a section gives, at the first display of it."""
         for name, latex, reading in self._said if section not in self.told else ():
@@ -630,20 +660,6 @@ class _Checker:
             letter = [each for each, seen in own if "e" in seen.bare]  # none: e is a letter in the text alone
             places = [*letter, *(each for each, seen in own if seen.exponential), self.readings[0][0]]
             yield self._finding(places[0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
-
-
-def _holding(left: Node, right: Node, a: Any, b: Any, answer: str, ways: list[_Way]) -> tuple[Any, ...]:
-    """Why two sides agree, and each premise that was put in; nothing where they are not known to: answer is that of a = b."""
-    said = f"{text_of(left)} = {text_of(right)} is an identity"
-    if answer == "zero":
-        return (f"{said} where its roots are real" if radicands(a, b) else said,)
-    for agreeing, condition in ((agree, ""), (agree_for_positive, "positive letters")):
-        if condition and answer == "undecided" and agreeing(a, b):
-            return (f"{said} for {condition}",)
-        for way in ways:
-            if agreeing(way.left, way.right):
-                return f"with {', '.join(filter(None, (way.named, condition)))}", *way.used
-    return ()
 
 
 def _put(node: Node, put: list[dict[Node, PrintedMeaning]]) -> Node:

@@ -2,7 +2,7 @@
 
 import cmath
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from itertools import islice
 from random import Random
 from typing import Any
@@ -182,9 +182,10 @@ def radicands(*sides: Any) -> set[Any]:
     return {each.base for each in roots if each.free_symbols}
 
 
-def agree_for_positive(a: Any, b: Any) -> bool:
-    """Whether two sides with roots or magnitudes, as √(x²) = x, agree for positive letters."""
+def agree_for_positive(a: Any, b: Any, negative: Collection[str] = ()) -> bool:
+    """Whether two sides with roots or magnitudes, as √(x²) = x, agree for positive letters; negative: those that are not."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or not (radicands(a, b) or (a - b).has(sp.Abs)):
         return False
-    positive = {each: sp.Symbol(each.name, positive=True) for each in a.free_symbols | b.free_symbols}
-    return agree(a.subs(positive), b.subs(positive))
+    letters = a.free_symbols | b.free_symbols
+    positive = {each: sp.Symbol(each.name, positive=True) for each in letters}
+    return not any(each.name in negative for each in letters) and agree(a.subs(positive), b.subs(positive))

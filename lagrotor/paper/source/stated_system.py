@@ -36,7 +36,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import decide_equal
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.files import write_text
 from lagrotor.mechanics.expressions import shortest
 from lagrotor.mechanics.lagrangian import (
@@ -128,6 +128,9 @@ class StatedSystem:
             return sum((e.diff(small, n).subs(small, 0) / sp.factorial(n) for n in range(order + 1)), sp.S.Zero)
 
         system = replace(self, L=through(2, self.L), forces=tuple(through(1, each) for each in self.forces))
+        if any(each.has(sp.Derivative, sp.Subs, sp.nan, sp.zoo, sp.oo) for each in (system.L, *system.forces)):
+            raise InputError(f"{self.place}: derives: L or a force has no series at {about or 'zero'}")
+        vars(system)["_fixed"] = self._fixed  # a print may have letters of the terms that are left out
         moved = [
             each for each in system.accelerations.xreplace(rest) if not each.has(t) and not _is_zero(each)
         ]  # undriven
@@ -536,7 +539,7 @@ def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
     for i, said in system.derives.items():
         try:
             _ = system[i]
-        except InputError as error:
+        except (InputError, SingularError) as error:
             refused[i] = str(error)
         else:
             cells += _CELL.format(title=_one_line(i), said=_one_line(said), id=json.dumps(i), premises=premises)

@@ -133,6 +133,23 @@ def test_roots_are_compared_where_they_are_real_and_a_condition_is_said(
     assert HOLDS not in verdicts(tmp_path, rf"\[ y = {left} = {slip} \]")
 
 
+@pytest.mark.parametrize("said", ["For $q<0$", "As $q$ is negative,", "Of a negative charge $q$", r"With $q \le 0$"])
+def test_a_letter_that_is_said_to_be_negative_is_not_taken_as_positive(said: str, tmp_path: Path) -> None:
+    """√(q²) = q held for positive letters, in a text about an electron."""
+    step = r"\[ \omega = \frac{\sqrt{q^2} B}{m} = \frac{q B}{m} \]"
+    assert HOLDS not in verdicts(tmp_path, f"{said} we have {step}")
+    for other in (said.replace("q", "v"), "For $q>0$", r"For $q^2 - s^2 < 0$", "Along the negative $q$ axis"):
+        assert verdicts(tmp_path, f"{other} we have {step}") == [HOLDS], other
+
+
+def test_a_step_that_derivatives_alone_give_says_so(tmp_path: Path) -> None:
+    """It ended with "with" and nothing."""
+    step = r"\[ v = \frac{d}{dt} \sqrt{x^2 + y^2} = \frac{x\dot x SIGN y\dot y}{\sqrt{x^2 + y^2}} \]"
+    (good,), (slip,) = (findings(tmp_path, step.replace("SIGN", sign)) for sign in "+-")
+    assert (good.verdict, good.why) == (HOLDS, "with derivatives taken")
+    assert slip.verdict == REFUTED and slip.why.startswith("with derivatives taken the two sides differ")
+
+
 def test_what_the_text_gives_for_a_square_is_put_in_without_a_root(tmp_path: Path) -> None:
     text = (
         r"With $\omega_0^2 = g/l + k/m$, \[ \omega = \sqrt{\frac gl + \frac km - s^2} = \sqrt{\omega_0^2 SIGN s^2} \]"

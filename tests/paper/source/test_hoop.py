@@ -391,6 +391,29 @@ forces = ["F*l*cos(Omega*t)"]
     assert judged(tmp_path, system, prints, "l g m a Omega F t") == {"driven": "holds", "misprinted": "refuted"}
 
 
+def test_small_motion_of_a_force_with_a_higher_power_and_of_one_without_series(tmp_path: Path) -> None:
+    """A print with the letter of a term beyond first order was refused; |x| at zero said that the equations are singular."""
+    system = """
+[system]
+coordinates = "x y"
+L = "m*(x_dot**2 + y_dot**2)/2 - k*(x**2 + y**2)/2"
+forces = ["-c*x_dot*Abs(x_dot)", "OTHER"]
+"""
+    prints = {
+        "linear": (r"m \ddot x + k x = 0", "small motion x"),
+        "misprinted": (r"m \ddot x + c \dot x + k x = 0", "small motion x"),
+    }
+    quadratic = system.replace("OTHER", "-c*y*y_dot")
+    assert judged(tmp_path, quadratic, prints, "m k c") == {"linear": "holds", "misprinted": "refuted"}
+    kinked = stated_paper(
+        tmp_path / "kinked",
+        rf"\begin{{document}}\begin{{equation}}{prints['linear'][0]}\end{{equation}}\end{{document}}",
+        system.replace("OTHER", "-k*Abs(y)") + '[system.derives]\n1 = "small motion x"\n',
+        "m k c",
+    )
+    assert "no series at zero" in refusals(kinked.folder)[0]
+
+
 def test_letters_that_the_coordinates_give_change_with_them(tmp_path: Path) -> None:
     """ℓ and r were constants in dF/dt: Laplace's integral was refuted, and so was the energy by a speed; here it is called τ."""
     system = """
