@@ -1,7 +1,7 @@
 r"""Conditions: \if… \else \fi, \ifthenelse, \IfValueTF, \@ifnextchar; what cannot be known is taken as false."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from lagrotor.paper.source.definitions import next_name
 from lagrotor.paper.source.expansion import NO_VALUE, Expander, Package, Primitive
@@ -21,6 +21,15 @@ _UNKNOWN = (
     "ifinner",
     "ifcase",
     "ifeof",
+)
+_JOINTS = r"NOT|AND|OR|not|and|or"
+_GROUP = r"\s*\{((?:[^{}]|\{[^{}]*\})*)\}"
+_TEST = re.compile(
+    rf"\\(?P<joint>(?:{_JOINTS})(?![A-Za-z])|[()])|\\boolean\s*\{{(?P<flag>[^{{}}]*)\}}"
+    r"|\\isundefined\s*\{?\s*(?P<name>\\[A-Za-z@]+)\s*\}?"
+    rf"|\\equal{_GROUP.replace('(', '(?P<one>', 1)}{_GROUP.replace('(', '(?P<other>', 1)}"
+    rf"|(?P<rest>(?:(?!\\(?:{_JOINTS})(?![A-Za-z])|\\[()]).)+)",
+    re.DOTALL,
 )
 _LEVELS = ("part", "section", "subsection", "subsubsection", "appendix")
 _NO_CONDITIONS = ("iff", "ifthenelse", "ifstrempty", "ifbool", "iftoggle", "ifblank", "ifdef", "ifstrequal")
@@ -118,22 +127,56 @@ def _if_value(expander: Expander, token: Token) -> bool:
 
 
 def _if_then_else(expander: Expander, token: Token) -> bool:
-    r"""\ifthenelse{\boolean{long}}{…}{…}; what cannot be known is taken as false."""
+    r"""\ifthenelse{\boolean{long}\AND\equal{…}{…}}{…}{…}; what cannot be known is taken as false."""
     test, yes, no = latex_of(expander.argument()).strip(), expander.argument(), expander.argument()
-    denied = re.match(r"\\(?:NOT|not)\b\s*", test)
-    bare = test[denied.end() :] if denied else test
-    said = re.fullmatch(r"\\boolean\s*\{(\w+)\}", bare)
-    same = re.fullmatch(r"\\equal\s*\{([^{}]*)\}\s*\{([^{}]*)\}", bare)
-    if said:
-        holds = expander.flags.get(f"if{said[1]}", False)
-    elif same:
-        first, second = (latex_of(expander.expand(tokenize(each))).strip() for each in same.groups())
-        holds = first == second
-    else:
+    holds = _joined(_tests(expander, test))
+    if holds is None:
         expander.notes.append(rf"\ifthenelse{{{test}}} is taken as false")
-        holds = bool(denied)
-    expander.push(yes if holds != bool(denied) else no)
+    expander.push(yes if holds else no)
     return True
+
+
+def _joined(tests: Iterator[bool | str | None]) -> bool | None:
+    """Tests joined by AND and OR from left to right, in brackets; None: not known."""
+    whole: bool | None = False
+    joint, denied = "OR", False
+    for test in tests:
+        if test == ")":
+            break
+        if test == "NOT":
+            denied = not denied
+        elif test in ("AND", "OR"):
+            joint = str(test)
+        else:
+            value = _joined(tests) if test == "(" else test
+            parts = (whole, value if value is None else bool(value) != denied)
+            decides = joint == "OR"
+            whole = decides if decides in parts else None if None in parts else not decides
+            denied = False
+    return whole
+
+
+def _tests(expander: Expander, text: str) -> Iterator[bool | str | None]:
+    """The tests that \\ifthenelse joins, and what joins them; None for what cannot be known."""
+
+    def shown(source: str) -> str:
+        return latex_of(expander.expand(tokenize(source))).strip()
+
+    for found in _TEST.finditer(text):
+        if found["joint"]:
+            yield found["joint"].upper()
+        elif found["flag"]:
+            yield expander.flags.get(f"if{found['flag']}", f"if{found['flag']}" in _TRUE)
+        elif found["name"]:
+            yield not _is_known(expander, found["name"])
+        elif found["one"] is not None:
+            yield shown(found["one"]) == shown(found["other"])
+        elif sides := re.fullmatch(r"([^<>=]*)([<>=])([^<>=]*)", found["rest"]):
+            a, b = (shown(sides[place]) for place in (1, 3))
+            numbers = a.lstrip("-").isdecimal() and b.lstrip("-").isdecimal()
+            yield {"<": int(a) < int(b), ">": int(a) > int(b), "=": a == b}[sides[2]] if numbers else None
+        elif found["rest"].strip():
+            yield None
 
 
 def _if_next(expander: Expander, token: Token) -> bool:
@@ -146,6 +189,21 @@ def _if_next(expander: Expander, token: Token) -> bool:
     if comes and token.text == r"\@ifstar":
         expander.star()
     expander.push(first if comes else second)
+    return True
+
+
+def _if_defined(expander: Expander, token: Token) -> bool:
+    r"""\@ifundefined{name}{…}{…}, \@ifpackageloaded{…}{…}{…}, \@ifclassloaded{…}{…}{…}."""
+    name = latex_of(expander.expand(expander.argument())).strip()
+    first, second = expander.argument(), expander.argument()
+    if token.text == r"\@ifclassloaded":
+        holds = name in (expander.document_class, *expander.loaded)
+    elif token.text == r"\@ifpackageloaded":
+        holds = name in expander.loaded
+    else:
+        counted = name.startswith("c@") and name[2:] in expander.counters.values
+        holds = not counted and not _is_known(expander, rf"\{name}")
+    expander.push(first if holds else second)
     return True
 
 
@@ -172,18 +230,18 @@ def _heading(expander: Expander, token: Token) -> bool:
 
 def _boolean(expander: Expander, token: Token) -> bool:
     name = f"if{expander.name()}"
-    _set_flag(expander, name, token.text == r"\setboolean" and expander.name() == "true")
+    set_flag(expander, name, token.text == r"\setboolean" and expander.name() == "true")
     return True
 
 
 def _new_flag(expander: Expander, token: Token) -> bool:
     expander.skip_spaces()
     if (named := expander.next()) is not None and named.text.startswith(r"\if"):
-        _set_flag(expander, named.text[1:], False)
+        set_flag(expander, named.text[1:], False)
     return True
 
 
-def _set_flag(expander: Expander, name: str, value: bool) -> None:
+def set_flag(expander: Expander, name: str, value: bool) -> None:
     r"""\draftfalse and \drafttrue set \ifdraft from now on."""
 
     def setter(value: bool) -> Package:
@@ -204,6 +262,7 @@ CONDITIONS: dict[str, Primitive] = {
     ),
     **dict.fromkeys((r"\newboolean", r"\provideboolean", r"\setboolean"), _boolean),
     **dict.fromkeys((r"\@ifnextchar", r"\@ifstar"), _if_next),
+    **dict.fromkeys((r"\@ifundefined", r"\ltx@ifundefined", r"\@ifpackageloaded", r"\@ifclassloaded"), _if_defined),
     r"\secdef": _heading,
     r"\loop": _loop,
     r"\else": _else,

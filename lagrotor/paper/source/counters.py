@@ -37,6 +37,7 @@ class Counters:
     def add(self, name: str, within: str = "") -> None:
         """A new counter."""
         self.values.setdefault(name, 0)
+        self.chapters = self.chapters or name == "chapter"  # of a class beside the source
         if within:
             self.reset_by(name, within)
 
@@ -92,12 +93,18 @@ class Counters:
             return f"{printed('section')}-{self.style(value, 'Alph')}"
         if name in ("subsection", "subsubsection"):
             outer = "section" if name == "subsection" else "subsection"
-            return f"{printed(outer)}.{value}" if not self.journal else self.style(value, "Alph")
+            own = self.style(value, "Alph" if outer == "section" else "arabic")
+            return own if self.journal else f"{printed(outer)}.{value}"
         if name == "equation" and "equation" in self.resets.get("chapter", ()) and self.values["chapter"] > 0:
             return f"{printed('chapter')}.{value}"
         if name == "equation" and self.joint is not None and self.appendix:
             return f"{self.style(self.values['section'], 'Alph')}{self.joint}{value}"
         return str(value)
+
+    def before(self, name: str, printed: Callable[[str], str]) -> str:
+        r"""What a reference has before the number, \p@subsection: in revtex the numbers above, as II A."""
+        above = ("section", "subsection")[: {"subsection": 1, "subsubsection": 2}.get(name, 0) if self.journal else 0]
+        return "".join(f"{printed(each)} " for each in above)
 
     @staticmethod
     def style(value: int, style: str) -> str:

@@ -8,7 +8,7 @@ from lagrotor.paper.source.expansion import Expander, Primitive
 from lagrotor.paper.source.groups import Macro, numbered
 from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
 
-_HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
+HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
 
 
 def _defined(expander: Expander, token: Token) -> bool:
@@ -19,7 +19,7 @@ def _defined(expander: Expander, token: Token) -> bool:
     default = expander.optional() if count is not None else None
     body = expander.argument()
     name = next((t.text for t in named if t.kind == "command"), "")
-    known = (expander.macros, expander.packages, expander.primitives, _HEADINGS)
+    known = (expander.macros, expander.packages, expander.primitives, HEADINGS)
     if not name or (token.text == r"\providecommand" and any(name in each for each in known)):
         return True
     if _is_kept(expander, name, body):
@@ -108,7 +108,7 @@ def next_name(expander: Expander) -> Token | None:
 
 def _is_kept(expander: Expander, name: str, body: list[Token]) -> bool:
     """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here, or reads ahead."""
-    known = name in _HEADINGS or name in expander.primitives
+    known = name in HEADINGS or name in expander.primitives
     return any(
         t.text in (r"\@setfontsize", r"\futurelet", r"\not@math@alphabet")
         or (known and ("@" in t.text or t.text == r"\secdef") and t.kind == "command")

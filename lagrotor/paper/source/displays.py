@@ -230,7 +230,7 @@ class _Walker:
         elif name in _FAULTS and self.body:
             self.expander.macros.fault(token.at, "", _FAULTS[name])
         elif name == "appendix":
-            self.counters.begin_appendix(self.expander.star())
+            self._begin_appendix(self.expander.star())
         elif name in ("frontmatter", "mainmatter", "backmatter"):
             self.numbered_chapters = name == "mainmatter"
         elif name == "mathtoolsset":
@@ -260,7 +260,7 @@ class _Walker:
             self._until(name)
             self._end_subequations(kept)
         elif name == "appendices":
-            self.counters.begin_appendix()
+            self._begin_appendix()
         elif name == "empheq":
             self.expander.optional()
             inner = self.expander.name()
@@ -281,7 +281,19 @@ class _Walker:
             self._inline(r"\end", token)
             self.expander.name()
         elif self.body:
+            if name == "frame" and self.expander.document_class == "beamer":
+                self._begin_frame()
             self.unknown.begin(name, token.at)
+
+    def _begin_appendix(self, star: bool = False) -> None:
+        r"""\appendix: from now on letters, whatever a class or the source has \thechapter or \thesection be."""
+        self.counters.begin_appendix(star)
+        self.expander.macros.forget_globally(r"\thechapter" if self.counters.chapters else r"\thesection")
+
+    def _begin_frame(self) -> None:
+        """A slide of beamer has a number, to which a label without one refers."""
+        self.counters.step("framenumber")
+        self.heading = self.expander.printed("framenumber")
 
     def _begin_subequations(self) -> tuple[int, Macro | None]:
         """Number by letters within the next number; gives what is to be put back."""
@@ -352,8 +364,9 @@ class _Walker:
             self.section = re.sub(r"[a-z]+$", "", self.section).removeprefix("0") + _letters(self.bare)
         else:
             self.counters.step(level)
-            self.heading = self.expander.printed(level)
-            self.section, self.bare = self.heading or str(self.counters.values[level]), 0
+            printed = self.expander.printed(level)
+            self.section, self.bare = printed or str(self.counters.values[level]), 0
+            self.heading = self.counters.before(level, self.expander.printed) + printed
         self.found.sections.setdefault(self.section, title or level)
 
     # ---- formulas
@@ -399,6 +412,16 @@ class _Walker:
         for part in self._inside(token, end):
             depth += NESTING.get(part.text, 0)
             braces += BRACES.get(part.kind, 0)
+            if (
+                part.text == r"\begin"
+                and row.stepped
+                and self._is_display(part)
+                and self.expander.following()[-1] == "*"
+            ):
+                row.referred, row.stepped = (
+                    self.expander.printed("equation"),
+                    False,
+                )  # whose number a tag cannot take back
             if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or part.text in _BETWEEN):
                 self._pass_end(part)
                 if by_rows and (part.text not in _BETWEEN or _has_text(row.tokens)):

@@ -1,5 +1,6 @@
 r"""Environments: their definitions, what \begin{…} and \end{…} stand for, those that show what stands in them."""
 
+from lagrotor.paper.source.definitions import HEADINGS
 from lagrotor.paper.source.expansion import STYLES, Expander, Primitive
 from lagrotor.paper.source.groups import Macro, numbered
 from lagrotor.paper.source.tokens import Token, latex_of, tokenize
@@ -124,9 +125,10 @@ def _own_place(expander: Expander, known: tuple[Macro, tuple[Token, ...]] | None
 
 
 def _command_of(expander: Expander, name: str, verb: str, at: int) -> Token | None:
-    r"""\begin{x} is \x where the source defines \x and \endx."""
+    r"""\begin{x} is \x where the source defines \x and \endx, and where \x begins a section: \begin{chapter}{…}."""
+    command = rf"\{verb}{name}"
     defined = rf"\{name}" in expander.macros and rf"\end{name}" in expander.macros
-    return Token("command", rf"\{verb}{name}", at) if defined else None
+    return Token("command", command, at) if defined or command in HEADINGS else None
 
 
 def _display(expander: Expander, token: Token) -> bool:

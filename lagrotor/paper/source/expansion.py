@@ -49,6 +49,7 @@ class Expander(TokenStream):
         self.flags: dict[str, bool] = {}
         self.counters = Counters()
         self.loaded: set[str] = set()
+        self.passed: dict[str, list[str]] = {}  # package or class → options that it is to be loaded with
         # packages and classes of no distribution that are not beside the source: their line
         self.missing: dict[str, int] = {}
         self.first: list[Token] = []  # what is done at the beginning of the document

@@ -51,6 +51,12 @@ class Macros(dict[str, Macro | None]):
             hidden.pop(name, None)
         super().__setitem__(name, macro)
 
+    def forget_globally(self, name: str) -> None:
+        """No definition is left of a name, whatever groups are open."""
+        for hidden in self._before:
+            hidden.pop(name, None)
+        self.pop(name, None)
+
     def fault(self, at: int, mark: str, said: str) -> None:
         """Something that TeX would stop at."""
         self.faults[at, mark, said] = None

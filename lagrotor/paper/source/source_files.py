@@ -1,8 +1,12 @@
 r"""Files that a source takes in: \input, \import, packages and classes beside it, the main file of a subfile."""
 
+import re
+
 from lagrotor.files import read_text
+from lagrotor.paper.source.conditions import set_flag
 from lagrotor.paper.source.expansion import Expander, Primitive
-from lagrotor.paper.source.tokens import Token, latex_of
+from lagrotor.paper.source.groups import Macro
+from lagrotor.paper.source.tokens import Token, latex_of, tokenize
 
 # Packages and classes of the distributions of TeX that are used most: no command of the source's own is sought in them.
 _NAMES = (
@@ -81,6 +85,8 @@ def _read_style(expander: Expander, name: str, suffix: str, options: str) -> boo
     """Take in a package or a class beside the source with these options; whether it is there."""
     if not expander.read_file(name, (suffix,)) or (file := expander.innermost_file()) is None:
         return False
+    file.prefix = f"{name}@"
+    options = ",".join((options, *expander.passed.get(name + suffix, ())))
     file.options = [option.strip() for option in options.split(",")]
     return True
 
@@ -98,6 +104,34 @@ def _option(expander: Expander, token: Token) -> bool:
     )
     for name, body in reversed(file.declared.items() if file else ()):
         expander.push(body if name and name in options else ())
+    return True
+
+
+def _pass_options(expander: Expander, token: Token) -> bool:
+    r"""\PassOptionsToPackage{options}{name}: what it is loaded with, too."""
+    options, name = latex_of(expander.argument()), expander.name()
+    suffix = ".cls" if token.text.endswith("Class") else ".sty"
+    expander.passed.setdefault(name + suffix, []).append(options)
+    return True
+
+
+def _key_option(expander: Expander, token: Token) -> bool:
+    r"""\DeclareBoolOption[true]{name}, \DeclareStringOption[…]{name} of kvoptions: \ifprefix@name and \prefix@name."""
+    file = expander.innermost_file()
+    if token.text == r"\SetupKeyvalOptions":
+        given = re.search(r"prefix\s*=\s*([^\s,]*)", latex_of(expander.argument()))
+        if file is not None and given:
+            file.prefix = given[1]
+        return True
+    default, name = latex_of(expander.optional() or ()).strip(), expander.name()
+    if file is None:
+        return True
+    said = {key.strip(): value.strip() for key, _, value in (each.partition("=") for each in file.options)}
+    value = said.get(name, default) or ("true" if name in said else "")
+    if token.text == r"\DeclareBoolOption":
+        set_flag(expander, f"if{file.prefix}{name}", value == "true")
+    else:
+        expander.macros[rf"\{file.prefix}{name}"] = Macro(tuple(tokenize(value)))
     return True
 
 
@@ -147,5 +181,7 @@ FILES: dict[str, Primitive] = {
     **dict.fromkeys((r"\documentclass", r"\LoadClass"), _class),
     **dict.fromkeys((r"\AtBeginDocument", r"\AtEndOfClass", r"\AtEndOfPackage"), _later),
     r"\endinput": _end_input,
+    **dict.fromkeys((r"\SetupKeyvalOptions", r"\DeclareBoolOption", r"\DeclareStringOption"), _key_option),
+    **dict.fromkeys((r"\PassOptionsToPackage", r"\PassOptionsToClass"), _pass_options),
     **dict.fromkeys((r"\DeclareOption", r"\ExecuteOptions", r"\ProcessOptions"), _option),
 }

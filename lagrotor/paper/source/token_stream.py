@@ -34,6 +34,7 @@ class FileTokens(list[Token]):
         super().__init__()
         self.after: list[Token] = []  # what comes next once the file has ended
         self.options: list[str] = []  # with which it is loaded
+        self.prefix = ""  # of the names of what holds them
         self.declared: dict[str, list[Token]] = {}  # what each option of it does
         self.begin(text, at)
 

@@ -179,6 +179,15 @@ _APPENDIX = r"\def\appendix{\par\setcounter{equation}{0}\def\theequation{\hbox{\
 _MORE = r"""\newcommand\appendices{\c@chapter\z@ \renewcommand\thechapter{\@Alph\c@chapter}\def\more{\secdef\@more\@mores}}
 \def\@more[#1]#2{\refstepcounter{chapter}}\def\@mores#1{\advance\c@chapter by 2 }"""
 _LATE = r"\AtEndOfClass{\renewcommand\theequation{\Alph{equation}}}\def\theequation{\roman{equation}}"
+_CHAPTERS = r"\def\thechapter{\arabic{chapter}}\def\theequation{\thechapter.\arabic{equation}}"
+_TESTED = r"\newboolean{yes}\setboolean{yes}{true}\newboolean{no}\ifthenelse{%s}{\setcounter{equation}{4}}{}"
+_HOLD = (
+    r"\boolean{yes}",
+    r"\boolean{no}\OR\boolean{yes}",
+    r"\boolean{yes}\AND\NOT\boolean{no}",
+    r"\isundefined{\chapter}\AND\equal{a}{a}",
+    r"\boolean{no}\OR\(\equal{a}{b}\OR\value{section}<1\)",
+)
 _CHOSEN = r"\newif\ifown\DeclareOption{own}{\owntrue}\ExecuteOptions{%s}\ProcessOptions\ifown\def\theequation{*}\fi"
 
 
@@ -208,6 +217,16 @@ _CHOSEN = r"\newif\ifown\DeclareOption{own}{\owntrue}\ExecuteOptions{%s}\Process
         (r"\g@addto@macro\appendix{\setcounter{equation}{0}}", r"\section{A}=\appendix=", "1 1"),
         (r"\pretocmd{\section}{\setcounter{equation}{3}}{}{}", r"=\section{A}=", "1 4"),
         (r"\def\base{book}\LoadClass{\base}", r"\chapter{A}=", "1.1"),
+        (r"\LoadClass{book}", r"\begin{chapter}{A}=\end{chapter}\begin{chapter}{B}=\end{chapter}", "1.1 2.1"),
+        (r"\LoadClass{book}", r"\begin{chapters}{A}=\end{chapters}\begin{chapters}{B}=\end{chapters}", "1 2"),
+        (rf"\newcounter{{chapter}}{_CHAPTERS}", r"\chapter{A}=\appendix\chapter{B}=", "1.1 A.2"),
+        (rf"\newcounter{{chapter}}{_CHAPTERS}", r"\chapter{A}=\chapter{B}=", "1.1 2.2"),
+        (r"\@ifundefined{chapter}{}{\setcounter{equation}{4}}", "=", "1"),
+        (r"\@ifundefined{section}{}{\setcounter{equation}{4}}", "=", "5"),
+        (r"\@ifpackageloaded{side}{\setcounter{equation}{4}}{}\@ifclassloaded{article}{}{\undefined}", "=", "1"),
+        (r"\RequirePackage{side}\@ifpackageloaded{side}{\setcounter{equation}{4}}{}", "=", "5"),
+        *((_TESTED % test, "=", "5") for test in _HOLD),
+        *((_TESTED % rf"\NOT\({test}\)", "=", "1") for test in _HOLD),
         (r"\endinput\setcounter{equation}{4}", "=", "1"),
         (r"\setcounter{equation}{4}\endinput", "=", "5"),
     ],
@@ -217,6 +236,22 @@ def test_what_a_class_does_to_counters_is_done(own: str, body: str, numbers: str
     assert [
         number for number, _ in equations_of(tmp_path, text, own_cls=rf"\LoadClass{{article}}{own}")
     ] == numbers.split()
+
+
+@pytest.mark.parametrize(
+    ("options", "number"),
+    [("", "1"), ("roman", "i"), ("roman,at=3", "iv"), ("roman=false", "1"), ("at = 2, roman", "iii"), ("at=0", "1")],
+)
+def test_options_of_a_package_hold_what_it_is_loaded_with(options: str, number: str, tmp_path: Path) -> None:
+    keys = r"""\SetupKeyvalOptions{prefix=own@}\DeclareBoolOption{roman}\DeclareStringOption[0]{at}\ProcessKeyvalOptions*
+    \ifown@roman\def\theequation{\roman{equation}}\fi\ifnum\own@at>0 \setcounter{equation}{\own@at}\fi"""
+    for own in (
+        rf"\PassOptionsToPackage{{{options}}}{{keys}}\RequirePackage{{keys}}",
+        rf"\RequirePackage[{options}]{{keys}}",
+    ):
+        body = r"\begin{equation} a = b \end{equation}"
+        found = equations_of(tmp_path, body, own_cls=rf"\LoadClass{{article}}{own}", keys_sty=keys)
+        assert found == [(number, "a = b")]
 
 
 def test_a_class_in_which_the_document_is_lost_is_left_out(tmp_path: Path) -> None:
@@ -241,6 +276,33 @@ def test_a_class_in_which_the_document_is_lost_is_left_out(tmp_path: Path) -> No
 def test_a_label_refers_to_what_latex_prints(body: str, label: str) -> None:
     text = rf"\setcounter{{section}}{{2}}\section{{S}}\subsection{{T}}{body}"
     assert read_latex(rf"\documentclass{{article}}\begin{{document}}{text}\end{{document}}").labels == {"l": label}
+
+
+@pytest.mark.parametrize(
+    ("document_class", "body", "label"),
+    [
+        ("revtex4-2", r"\section{S}\subsection{T}=", "I A"),
+        ("revtex4-2", r"\section{S}\subsection{T}\subsubsection{U}=", "I A 1"),
+        ("revtex4-2", r"\section{S}=", "I"),
+        ("article", r"\section{S}\subsection{T}=", "1.1"),
+        ("beamer", r"\section{S}\begin{frame}\end{frame}\begin{frame}=\end{frame}", "2"),
+        ("article", r"\section{S}\begin{frame}\end{frame}\begin{frame}=\end{frame}", "1"),
+    ],
+)
+def test_a_label_without_a_number_refers_to_what_was_numbered_last(document_class: str, body: str, label: str) -> None:
+    text = body.replace("=", r"\begin{equation*} a = b \label{l} \end{equation*}")
+    assert read_latex(rf"\documentclass{{{document_class}}}\begin{{document}}{text}\end{{document}}").labels == {
+        "l": label
+    }
+
+
+@pytest.mark.parametrize(("star", "numbers"), [("*", ["2", "3"]), ("ed", ["1", "2"])])
+def test_a_tag_does_not_take_back_the_number_of_a_display_that_holds_another(star: str, numbers: list[str]) -> None:
+    held = rf"\fbox{{\begin{{minipage}}{{9em}}\begin{{align{star}}} a &= b \end{{align{star}}}\end{{minipage}}}}"
+    tagged = rf"\begin{{equation}} {held} \refstepcounter{{equation}}\tag{{\theequation}}\label{{l}} \end{{equation}}"
+    text = rf"{tagged}\begin{{equation}} c = d \label{{m}} \end{{equation}}"
+    labels = read_latex(rf"\documentclass{{article}}\begin{{document}}{text}\end{{document}}").labels
+    assert [labels["l"], labels["m"]] == numbers
 
 
 @pytest.mark.parametrize("end", ["\n\n", r"\par "])
