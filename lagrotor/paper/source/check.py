@@ -8,7 +8,7 @@ one change of sign, factor or power makes them agree: a slip, not a law.
 """
 
 import re
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property, partial
@@ -31,7 +31,17 @@ from lagrotor.paper.source.compared import (
     may_agree,
     radicands,
 )
-from lagrotor.paper.source.dimensions import FormulaDimensions
+from lagrotor.paper.source.consistency import (
+    BEFORE,
+    MEANINGS,
+    UNITS,
+    VALUED,
+    ReadStatement,
+    other_dimensions,
+    other_letters,
+    statement_letters,
+    two_meanings_of_e,
+)
 from lagrotor.paper.source.displays import Displayed, Source
 from lagrotor.paper.source.formula import Reading, read_formula, with_progress
 from lagrotor.paper.source.read_statements import PrintedStatement, Side
@@ -61,65 +71,25 @@ from lagrotor.paper.source.tree import (
     walk,
 )
 from lagrotor.paper.source.usage import Notation, letters_printed, notation_of
+from lagrotor.paper.source.words_beside import (
+    AGAIN,
+    CASES,
+    CONDITIONS,
+    IDENTITY,
+    NEGATIVE,
+    OPENING,
+    TO_BE_SOLVED,
+    said_of,
+)
 
-HOLDS, REFUTED, NO_IDENTITY, UNITS, MEANINGS, BEFORE, FAULT = (
-    "would hold", "would be refuted", "no identity", "dimensions differ", "two meanings", "used before it is given", "no LaTeX",
-)  # fmt: skip
+HOLDS, REFUTED, NO_IDENTITY, FAULT = "would hold", "would be refuted", "no identity", "no LaTeX"
 FOUND = (REFUTED, NO_IDENTITY, UNITS, MEANINGS, BEFORE, FAULT)
 WRONG = (REFUTED, UNITS, FAULT)
-# Formulas of the text that give a value: with a unit, or in units where it is 1.
-_VALUED = re.compile(r"\\(?:mathrm|rm|text|hbar)\b|k_")
 # Where a reading stops at what a package may define.
 _UNKNOWN = re.compile(r"(\\(?:[A-Za-z@]+|begin\{[^{}]*\})) is not known")
 # What the text may say of letters; relations that make nothing of one letter out of another.
 _RELATION = re.compile(r"=|>|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong)\b")
-# What the text says where two sides agree only under a condition.
-_CONDITIONS = re.compile(
-    r"\b(?:modulo|(?<!add )(?<!adds )(?<!sum )up to|(?:anti)?symmetr\w*|neglect\w*|drop\w*|ignor\w*|omit\w*|order|approximat\w*"
-    r"|by parts|boundary terms?|relabel\w*|renam\w*|exchang\w*|interchang\w*|rescal\w*|redefin\w*|absorb\w*|on.shell"
-    r"|constraint)\b|\bvanish\w*\b(?!\s+(?:at|for|when|if)\b(?!\s+(?:infinity|the|large|both|each)))",
-    re.IGNORECASE,
-)
-# Where the sentence of an equation begins a case of its own, for which what stands before need not hold, unless it is with a
-# premise itself; □: the equation, ◦: a premise.
-_OPENING = re.compile(
-    r"(?:^|[.;:]|\b(?:and|but|while|whereas|then)\b)\s*(?:for|if|with|when|at|on|in|near|along|after|under|as)\b[^.;:□◦]*[.;:,]?\s*□",
-    re.IGNORECASE,
-)
-_CASES = re.compile(
-    r"\b(?:now|half|halves|(?<!differentiating )twice|double\w*|instead|opposite|other|another|special|cases?)\b",
-    re.IGNORECASE,
-)
-# What it says of an equation that states a quantity again, with others put in.
-_AGAIN = re.compile(
-    r"(?:\b(?:substitut\w*|insert\w*|eliminat\w*|in terms of|(?:can|may) be (?:re)?written)\b"
-    r"|(?:[◦□]|^\s*(?=[a-z]))[^.;:]*\b(?:becomes?|turns? into|hence|thus|therefore|so that)\b)[^.;:□◦]*□",
-    re.IGNORECASE,
-)
-# The end of the sentence of another display, and the beginning of one, which end with the equation or begin behind it.
-_BEFORE, _BEHIND = re.compile(r"^\s*[a-z][^.;!?□]*[.;!?]"), re.compile(r"([.;:!?□]\s*)[A-Z][^.;:!?□]*$")
-_FORMULA = re.compile(r"\$[^$]*\$")
-_NEGATIVE = re.compile(
-    r"\$([^$<=>]+)(?:<|\\leq?\b)\s*0\s*\$|\$([^$]+)\$\s+(?:is|are|be|was)\s+negative|"
-    r"\bnegative\s+(?:\w+\s+)?\$([^$]+)\$(?![\s-]*(?:direction|axis))",
-    re.IGNORECASE,
-)
-_OWN_ZERO = re.compile(
-    r"□[\s.,]*(?:it|which|and)?\s*vanish\w*", re.IGNORECASE
-)  # of the equation itself, and no condition of it
-_TO_BE_SOLVED = re.compile(
-    r"\b(?:if|when\w*|where|unless|until|only|satisf\w*|sol[uv]\w*|roots?|condition\w*|equations?|require\w*|must|equilibri\w*)\b",
-    re.IGNORECASE,
-)
-# What it says of an equation that holds for all values of its letters; □: where the equation stands.
-_IDENTITY = re.compile(
-    r"\b(?:identit\w*|theorems?|formula\w*|recall|remember|for (?:all|any|every)|trigonometr\w*|(?:double|half).angles?)\b"
-    r"|\b(?:using|used?|since|because|note that|known?(?: that)?)[\s,:]*□",
-    re.IGNORECASE,
-)
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
-# What it says where a letter has a meaning of its own.
-_GIVES = re.compile(r"\bwhere\s*□|□[\s,.]*(?:is|are) (?:the|an?)\b|\b(?:defin|call|denot|let\b)", re.IGNORECASE)
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 
 
@@ -141,14 +111,6 @@ class StepFinding:
         """{equation, step, line, verdict, why}; the file, from the folder of the source, where it is not the source itself."""
         row = asdict(self)
         return row if self.file else {key: value for key, value in row.items() if key != "file"}
-
-
-@dataclass(frozen=True)
-class _Read:
-    """One statement of an equation."""
-
-    equation: Displayed
-    statement: PrintedStatement
 
 
 def check_source(
@@ -215,7 +177,7 @@ class _Checker:
         self.labelled: defaultdict[str, list[Displayed]] = defaultdict(list)  # those before, by label
         self.place = 0
         self.statements = [
-            _Read(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
+            ReadStatement(each, s) for each, reading in readings if not _guess(reading) for s in reading.statements
         ]
         self.rates = _rates(s for _, reading in readings for s in reading.statements)
 
@@ -237,8 +199,12 @@ class _Checker:
             for nth, statement in enumerate(reading.statements):
                 yield from self._steps(each, statement, statement if nth else self._continued(each, statement))
             self.labelled[each.label].append(each)
-        yield from self._dimensions()
-        yield from self._letters()
+        for each, why in other_dimensions(self.statements, self._values(), self.source.words):
+            yield self._finding(each, 0, None, UNITS, why)
+        equations = [each for each, _ in self.readings]
+        letters = other_letters(self.statements, lambda one, other: bounded(self._differ, one, other) is True)
+        for each, which, why in chain(letters, two_meanings_of_e(equations, self.notation)):
+            yield self._finding(each, 0, None, which, why)
 
     def _finding(self, each: Displayed, step: int, side: Side | None, verdict: str, why: str) -> StepFinding:
         line = each.place[1]
@@ -369,17 +335,17 @@ class _Checker:
     def _is_stated_again(self, left: Node) -> bool:
         """Whether a letter has a value before, and the text says that others are put into it."""
         known = isinstance(left, Letter) and not _DOTTED.fullmatch(left.name) and left in self.given.known
-        return known and bool(self._says(_AGAIN, {name for name, *_ in self._said}))
+        return known and bool(self._says(AGAIN, {name for name, *_ in self._said}))
 
     def _is_taken(self, left: Node, printed: PrintedStatement, last: bool) -> bool:
         """Whether a side is worked out from what is given, so that its first equation is no condition: V′ of V′ = … = 0."""
         called = self.given.is_called(left, printed)
         if called or (isinstance(left, Call) and left.name in ("Derivative", "Integral", "at_constant")):
-            return not (last and self._says(_TO_BE_SOLVED))
+            return not (last and self._says(TO_BE_SOLVED))
         if isinstance(left, Call) and len(names := letters_of(left)) > 1:  # r₁ r₂ = …, both known
             letters, section = map(Letter, names), self.readings[self.place][0].section
             last &= len([*self.given.of(letters, self.place, section, printed)]) < len(names)
-        return (isinstance(left, Letter) or not last) and not self._says(_TO_BE_SOLVED)
+        return (isinstance(left, Letter) or not last) and not self._says(TO_BE_SOLVED)
 
     def _ways(self, left: Node, right: Node, printed: PrintedStatement) -> Iterator["_Way"]:
         """The two sides with derivatives taken and premises put in: for letters of the one, of the other, of both."""
@@ -406,8 +372,8 @@ class _Checker:
         """Whether premises are cited, or all that the section gives; and no word is against them, or begins another case."""
         each = self.readings[self.place][0]
         names = {premise.name for premise in used}
-        case = used and (self._says(_CASES) or (not names & self._cited and self._says(_OPENING, names)))
-        return not (case or self._says(_CONDITIONS)) and all(
+        case = used and (self._says(CASES) or (not names & self._cited and self._says(OPENING, names)))
+        return not (case or self._says(CONDITIONS)) and all(
             premise.name in self._cited
             or (premise.section == each.section and self.given.is_given_once(premise, printed))
             for premise in used
@@ -419,12 +385,9 @@ class _Checker:
         labels = self.readings[self.place][0].cites
         return {f"({equation.id})" for label in labels for equation in self.labelled[label]}
 
-    def _says(self, condition: re.Pattern[str], premises: Collection[str] = ()) -> str:
-        """What the sentence of an equation says; in conditions the words of its paragraph since the last one."""
-        words = self.source.words.get(self.readings[self.place][0].id, "")
-        words = _BEHIND.sub(r"\1", _FORMULA.sub(lambda m: "◦" if m[0] in premises else " ", words))
-        found = condition.search(_OWN_ZERO.sub("□", words) if condition is _CONDITIONS else _BEFORE.sub("", words))
-        return found[0] if found else ""
+    def _says(self, what: re.Pattern[str], premises: Collection[str] = ()) -> str:
+        """What the words beside the equation in place say."""
+        return said_of(self.source.words.get(self.readings[self.place][0].id, ""), what, premises)
 
     def _slip_with(self, left: Node, right: Node, way: "_Way") -> str | None:
         """The one change of the right side with which it is the left one, the premises put in."""
@@ -443,7 +406,7 @@ class _Checker:
         of_terms = isinstance(a, sp.Add) and _but_for_dots(others, own)  # of one term, as p' = p, it may be a condition
         if (more := sorted(others - own)) and not of_terms:
             return "undecided", f"{', '.join(more)} may be related to the letters before"
-        if words := self._says(_CONDITIONS):
+        if words := self._says(CONDITIONS):
             return "undecided", f"the text beside it says: {words}"
         if not others and own:
             if (value := constant_value(a)) is not None and decided(a, value) == "zero":
@@ -456,7 +419,7 @@ class _Checker:
             ):
                 return REFUTED, f"the left side is not {b}; {slip}"
             return "undecided", "it is a condition, not an identity"
-        solved, identity = self._says(_TO_BE_SOLVED), self._says(_IDENTITY)
+        solved, identity = self._says(TO_BE_SOLVED), self._says(IDENTITY)
         if first and (not (a.has(sp.Function) and b.has(sp.Function)) or (solved and not identity)):
             return "undecided", "it may be a condition"
         slip = self._slip(left, right, a, b, first)
@@ -484,7 +447,7 @@ class _Checker:
         for name, latex, reading in chain(before, self._said):
             if reading.whole:
                 related = any(
-                    _letters_of(s) <= letters and {*s.relations} - _BOUNDS and self._may_explain(s, a, b)
+                    statement_letters(s) <= letters and {*s.relations} - _BOUNDS and self._may_explain(s, a, b)
                     for s in reading.statements
                 )
             else:
@@ -542,7 +505,7 @@ class _Checker:
     def negative(self) -> frozenset[str]:
         """The letters of which the text says anywhere that they are negative."""
         text = " ".join([*self.source.words.values(), *(f"${latex}$" for latex in self.source.inline)])
-        said = {next(filter(None, m.groups())) for m in _NEGATIVE.finditer(text)}
+        said = {next(filter(None, m.groups())) for m in NEGATIVE.finditer(text)}
         read = (read_formula(each, self.notation) for each in said)
         nodes = (s.sides[0].node for each in read for s in each.statements)
         return frozenset(each.name for each in nodes if isinstance(each, Letter))
@@ -581,85 +544,21 @@ class _Checker:
             return "undecided", f"derivatives or functions may be small as {name} is"
         return REFUTED, f"the two sides part at order {term.order} in {name}; O({name}**{power}) is claimed"
 
-    # ---- dimensions and letters
-
-    def _dimensions(self) -> Iterator[StepFinding]:
-        """Equations whose dimensions contradict those of the others.
-
-        They are known where the paper prints units, of displays or in the text. A letter that several equations need otherwise
-        than the rest has another meaning there: of these only what contradicts its own section is reported.
-        """
-        printed = [r for r in self.statements if r.statement.kind in ("equation", "approximation", "inequality")]
-        held = [
-            *self._values(),
-            *((read.equation.section, _without_values(read.statement), read) for read in printed),
-        ]
-        numbers = {
-            side.name
-            for _, sides, _ in held
-            if any(isinstance(side, Number) for side in sides)
-            for side in sides
-            if isinstance(side, Letter)
-        }
-        whole = FormulaDimensions(numbers)
-        sections: defaultdict[str, FormulaDimensions] = defaultdict(lambda: FormulaDimensions(numbers))
-        broken: list[tuple[_Read, str, bool]] = []
-        for section, sides, read in held:
-            near = sections[section.split(".")[0]].add(sides) is not None
-            why = whole.add(sides)
-            if why is not None and read is not None:
-                broken.append((read, why, near))
-        letters = Counter(name for read, _, _ in broken for name in _letters_of(read.statement))
-        for read, why, near in broken:
-            alone = all(letters[name] == 1 for name in _letters_of(read.statement))
-            if near or (alone and not _GIVES.search(_FORMULA.sub(" ", self.source.words.get(read.equation.id, "")))):
-                yield self._finding(read.equation, 0, None, UNITS, why)
-
-    def _values(self) -> Iterator[tuple[str, list[Node], None]]:
+    def _values(self) -> Iterator[tuple[str, list[Node]]]:
         """Sections and sides of what the text gives a value, m = 2 kg."""
         for latex, section in self.source.inline.items():
-            if "=" in latex and _VALUED.search(latex):
+            if "=" in latex and VALUED.search(latex):
                 reading = read_formula(latex, self.notation)
                 for each in reading.statements:
                     if each.kind == "equation" and not _guess(reading):
-                        yield section, [side.node for side in each.sides], None
+                        yield section, [side.node for side in each.sides]
 
-    def _differ(self, one: _Read, other: _Read) -> bool:
+    def _differ(self, one: ReadStatement, other: ReadStatement) -> bool:
         """Whether two definitions differ, as they are and with those before put in."""
         left, right = (each.statement.sides[1].node for each in (one, other))
         ways = ((way.left, way.right) for way in self._ways(left, right, other.statement))
         pairs = chain([(self._value(left), self._value(right))], ways)
         return all(None not in pair and decided(*pair) == "nonzero" for pair in pairs)
-
-    def _letters(self) -> Iterator[StepFinding]:
-        """Letters that are defined twice, used before they are given, or have two meanings."""
-        definitions: dict[str, tuple[int, _Read]] = {}
-        for place, read in enumerate(self.statements):
-            first = read.statement.sides[0].node
-            if not isinstance(first, Letter) or ":=" not in read.statement.relations[:1]:
-                continue
-            if first.name in definitions:
-                _, other = definitions[first.name]
-                if bounded(self._differ, other, read) is True:
-                    yield self._finding(
-                        read.equation, 0, None, MEANINGS, f"{first.name} is defined in ({other.equation.id}) otherwise"
-                    )
-                continue
-            definitions[first.name] = place, read
-        # by letter and chapter, the first use: in another chapter a letter may have another meaning
-        used: dict[tuple[str, str], tuple[int, _Read]] = {}
-        for place, read in enumerate(self.statements):
-            for name in _letters_of(read.statement):
-                used.setdefault((name, read.equation.section.split(".")[0]), (place, read))
-        for name, (place, read) in definitions.items():
-            first_use, user = used[name, read.equation.section.split(".")[0]]
-            if first_use < place and user.equation.id != read.equation.id:
-                yield self._finding(user.equation, 0, None, BEFORE, f"{name} is given in ({read.equation.id})")
-        if self.notation.exponential and "e" in self.notation.bare:
-            own = [(each, notation_of([each.latex], Notation(made=self.notation.made))) for each, _ in self.readings]
-            letter = [each for each, seen in own if "e" in seen.bare]  # none: e is a letter in the text alone
-            places = [*letter, *(each for each, seen in own if seen.exponential), self.readings[0][0]]
-            yield self._finding(places[0], 0, None, MEANINGS, "e is a letter and the base of exponentials")
 
 
 def _put(node: Node, put: list[dict[Node, PrintedMeaning]]) -> Node:
@@ -707,18 +606,6 @@ def _rates(statements: Iterable[PrintedStatement]) -> dict[sp.Symbol, sp.Symbol]
             for end in ("_1", "_2", "_3") if letter.vector else ("",):
                 rates |= {_real(a + end): _real(b + end) for a, b in pairwise(names)}
     return rates
-
-
-def _letters_of(statement: PrintedStatement) -> set[str]:
-    return {name for side in statement.sides for name in letters_of(side.node)}
-
-
-def _without_values(statement: PrintedStatement) -> list[Node]:
-    """Its sides, but those behind a ≈ with a number that the side before has not: it may be a quantity without its unit."""
-    nodes = [side.node for side in statement.sides]
-    numbers = [{each for each in walk(node) if isinstance(each, Number)} for node in nodes]
-    pairs = zip(statement.relations, numbers, numbers[1:], nodes[1:], strict=False)
-    return [nodes[0], *(node for relation, before, own, node in pairs if relation != "~" or own <= before)]
 
 
 def _guess(reading: Reading) -> str:
