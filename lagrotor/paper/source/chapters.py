@@ -29,16 +29,17 @@ _OF_MEASURES = (
 )
 _OF_PROOFS = (
     r"theorems?|lemmas?|corollar(?:y|ies)|propositions?|proofs?|axioms?|bijecti\w+|surjecti\w+|injecti\w+|random variables?|"
-    r"i\.i\.d\.|estimators?|priors?|posteriors?|likelihood|regression|neural|reward|polic(?:y|ies)|loss function|vert(?:ex|ices)|"
+    r"i\.i\.d\.|estimators?|priors?|posteriors?|likelihood|regression|neural|reward|polic(?:y|ies)|loss function|"
     r"graphs? with|finite sets?|subsets?|vector spaces?|linear maps?|Banach|Hilbert space|Satz|Beweis|Lemmata?|théorèmes?|"
     r"démonstration|preuve|teoremas?|teorema|demostración|dimostrazione|定理|引理|证明|推论"
 )
 # Of a text about quantities, whose letters are numbers.
 _OF_QUANTITIES = (
-    r"veloc\w+|speeds?|accelerat\w+|mass(?:es|ive)?|forces?|energ\w+|moment(?:um|a)|torques?|pressures?|temperatures?|currents?|"
-    r"voltages?|wave-?(?:length|number|function|packet)s?|frequenc\w+|oscillat\w+|pendulums?|particles?|electrons?|photons?|atoms?|"
-    r"electr\w+|magnet\w+|quantum|Hamiltonians?|Lagrangians?|gravit\w+|viscos\w+|fluids?|spins?|gyroscop\w+|radi(?:us|i)|"
-    r"physic\w*|Geschwindigkeit|Kraft|Masse|vitesse|masse|velocidad|fuerza|velocità|forza|速度|质量|能量|电场"
+    r"veloc\w+|speeds?|acc?eler\w+|mass(?:es|ive|a|e)?|forces?|forza|energ\w+|moment(?:um|a|o)|torques?|press(?:ure|ion)\w*|"
+    r"temperat\w+|entrop\w+|heat|calor\w*|chaleur|wärme\w*|thermo\w+|termo\w+|currents?|voltages?|wave-?\w*|ond[ae]s?|"
+    r"frequenc\w+|fréquences?|oscillat\w+|pend(?:ulums?|olo|el)|particles?|electrons?|photons?|atoms?|electr\w+|elettr\w+|"
+    r"magnet\w+|quantum|Hamiltonians?|Lagrangians?|gravit\w+|viscos\w+|flui\w+|spins?|gyroscop\w+|radi(?:us|i)|phys\w+|"
+    r"fisic\w+|físic\w+|optic\w*|Geschwindigkeit\w*|Kraft|Kräfte|Masse|Druck|vitesse\w*|fuerza\w*|速度|质量|能量|电场|温度"
 )
 _CHINESE = "子群|同态|同构|陪集|置换|阿贝尔群|交换群"
 _QUANTITIES = "quantities"
@@ -60,13 +61,20 @@ def count_words(text: str, counts: Counter[str]) -> None:
 def subjects_of(chapters: Mapping[str, Counter[str]]) -> dict[str, str]:
     """What each chapter is about; what most are about, all are."""
     about = {subject: {name for name, counts in chapters.items() if _is_about(counts, subject)} for subject in TAKEN}
+    if not _speaks_of_proofs(sum(chapters.values(), Counter())):
+        about[PROOFS] = set()
     whole = [subject for subject, names in about.items() if 2 * len(names) > len(chapters)]
     return {name: " ".join(each for each in TAKEN if each in whole or name in about[each]) for name in chapters}
 
 
 def _is_about(counts: Counter[str], subject: str) -> bool:
-    """Whether words of a subject stand on each page, and three of them or one in few lines; more than those of quantities."""
+    """Whether words of a subject stand on each page, and three of them or one in few lines."""
     times, length = counts[subject], counts[_LENGTH]
-    if subject == PROOFS and counts[_QUANTITIES] > times:
+    if subject == PROOFS and not _speaks_of_proofs(counts):
         return False
     return times * _PAGE > length and (times > 2 or times * _PAGE > 4 * length)
+
+
+def _speaks_of_proofs(counts: Counter[str]) -> bool:
+    """Whether a text has more words of proofs than of quantities."""
+    return counts[PROOFS] > counts[_QUANTITIES]
