@@ -12,7 +12,7 @@ TAKEN = {
     PROOFS: "letters are numbers or functions of them, and no sets, maps or matrices",
 }
 _OF_GROUPS = (
-    r"sub-?groups?|cosets?|(?:homo|endo|iso|auto|epi|mono)?morphisms?|(?:monoid|semigroup)s?|associativ(?:e|ity)|"
+    r"sub-?groups?|cosets?|(?:homo|endo|iso|auto|epi|mono)?morphisms?|(?:monoid|semigroup)s?|"
     r"identity element|ideals|(?:prime|maximal|principal) ideal|"
     r"abelian|(?:normal|quotient|cyclic|symmetric|alternating|dihedral|permutation|Galois|free|finite) (?:sub)?groups?|"
     r"group (?:actions?|axioms|operation)|(?:integral|euclidean) domains?|(?:commutative|polynomial|noetherian|quotient) rings?|"
@@ -24,7 +24,7 @@ _OF_GROUPS = (
 )
 _OF_MEASURES = (
     r"measurable (?:functions?|sets?|spaces?|maps?)|measure spaces?|measure theory|almost (?:everywhere|surely|sure)|"
-    r"Radon|Nikod[yý]m|absolutely continuous|Lebesgue|Borel|(?:sigma|σ)-(?:algebras?|fields?|finite)|^-algebras?|"
+    r"Radon measures?|Nikod[yý]m|absolutely continuous|Lebesgue|Borel|(?:sigma|σ)-(?:algebras?|fields?|finite)|^-algebras?|"
     r"probability (?:measures?|spaces?)|messbare?n?|mesurables?|测度|可测|可积函数|几乎处处"
 )
 _OF_PROOFS = (

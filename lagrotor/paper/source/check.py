@@ -159,6 +159,11 @@ class _Way:
         )
 
     @property
+    def roots(self) -> set[str]:
+        """The letters of which a square is given, and the positive root was taken."""
+        return {each.meaning.name for each in self.used if each.is_a_root and isinstance(each.meaning, Letter)}
+
+    @property
     def has_signs(self) -> bool:
         """Whether no sign was taken that is not printed: of a root, of letters."""
         return not self.opaque.assuming and not any(each.is_a_root for each in self.used)
@@ -297,7 +302,8 @@ class _Checker:
         if a != b and is_large(a, b):
             return LARGE
         answer = decided(a, b) if may_agree(a, b) else "nonzero"
-        ways = [way for way in self._ways(left, right, printed) if way.differs(a, b)] if answer != "zero" else []
+        tried = self._ways(left, right, printed) if answer != "zero" else ()
+        ways = [way for way in tried if way.differs(a, b) and not way.roots & self.negative]
         if held := self._holding(left, right, a, b, answer, ways):
             return HOLDS, *held
         if answer == "undecided":

@@ -142,6 +142,14 @@ def test_a_letter_that_is_said_to_be_negative_is_not_taken_as_positive(said: str
         assert verdicts(tmp_path, f"{other} we have {step}") == [HOLDS], other
 
 
+@pytest.mark.parametrize("sign", "+-")
+def test_of_a_square_no_positive_root_is_taken_where_the_text_says_negative(sign: str, tmp_path: Path) -> None:
+    """x² = a, x < 0: x + 1 = √a + 1 held."""
+    step = rf"\[ y = x + 1 = {sign.strip('+')}\sqrt{{a}} + 1 \]"
+    assert verdicts(tmp_path, rf"With $x^2 = a$, where $x < 0$, we have {step}") == ["undecided"]
+    assert (verdicts(tmp_path, rf"With $x^2 = a$, where $x > 0$, we have {step}") == [HOLDS]) == (sign == "+")
+
+
 def test_a_step_that_derivatives_alone_give_says_so(tmp_path: Path) -> None:
     """It ended with "with" and nothing."""
     step = r"\[ v = \frac{d}{dt} \sqrt{x^2 + y^2} = \frac{x\dot x SIGN y\dot y}{\sqrt{x^2 + y^2}} \]"

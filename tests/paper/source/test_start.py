@@ -314,6 +314,20 @@ def test_delimiters_with_a_body_and_derivatives_of_commath_are_read(tmp_path: Pa
     ]
 
 
+@pytest.mark.parametrize(
+    ("said", "subject"),
+    [
+        ("The gas radon decays: radon enters a house, and radon leaves it.", ""),
+        ("Take a Radon measure, the Radon measure of a set, and Radon measures.", "measures"),
+        ("The sum of vectors is associative, that of forces is associative, and their product is associative.", ""),
+        ("An associative product with an identity element and two cosets of a subgroup.", "groups"),
+    ],
+)
+def test_words_that_texts_of_physics_use_too_tell_no_subject(said: str, subject: str, tmp_path: Path) -> None:
+    (tmp_path / "paper.tex").write_text(rf"{said} \[ a b = c \]", encoding="utf-8")
+    assert [each.subject for each in read_source(tmp_path / "paper.tex").equations] == [subject]
+
+
 def test_what_a_chapter_is_about_is_kept_beside_its_equations(tmp_path: Path) -> None:
     text = r"Let \(H\) be a subgroup of a group, and take cosets of \(H\) and a homomorphism. \[ a b = c \]"
     waves = text.replace("coset", "length").replace("subgroup", "part").replace("homomorphism", "velocity")
