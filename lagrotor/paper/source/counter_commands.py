@@ -22,6 +22,7 @@ def _counted(expander: Expander, token: Token) -> bool:
         c.step(counter)
         if name == r"\refstepcounter":
             expander.stepped = expander.printed(counter) if known else ""
+            expander.refer(expander.stepped)
     elif name == r"\@addtoreset":
         c.reset_by(counter, expander.name())
     elif name == r"\counterwithout":

@@ -150,7 +150,6 @@ class _Walker:
         self.unknown = UnknownEnvironments(self.expander)
         self.found, self.whole = found, whole
         self.section, self.bare, self.numbered_chapters = "0", 0, True
-        self.heading = ""  # the number of the last section that has one: what a label without a number refers to
         self.last, self.since = "0", 0
         self.parent = ""
         self.cited: list[str] = []  # labels named since the last display
@@ -293,7 +292,7 @@ class _Walker:
     def _begin_frame(self) -> None:
         """A slide of beamer has a number, to which a label without one refers."""
         self.counters.step("framenumber")
-        self.heading = self.expander.printed("framenumber")
+        self.expander.refer(self.expander.printed("framenumber"))
 
     def _begin_subequations(self) -> tuple[int, Macro | None]:
         """Number by letters within the next number; gives what is to be put back."""
@@ -366,7 +365,7 @@ class _Walker:
             self.counters.step(level)
             printed = self.expander.printed(level)
             self.section, self.bare = printed or str(self.counters.values[level]), 0
-            self.heading = self.counters.before(level, self.expander.printed) + printed
+            self.expander.refer(self.counters.before(level, self.expander.printed) + printed)
         self.found.sections.setdefault(self.section, title or level)
 
     # ---- formulas
@@ -569,7 +568,7 @@ class _Walker:
             source = " ".join(latex_of(row.tokens).split())
             if not source.replace("&", "").strip():
                 for label in row.labels:
-                    self.found.labels[label] = row.number or row.referred or self.heading
+                    self.found.labels[label] = row.number or row.referred or self.expander.referred()
                 continue
             if group and self._continues(group, row, source):
                 group.append(row)
@@ -606,7 +605,7 @@ class _Walker:
         labels = [label for row in group for label in row.labels]
         for row in group:
             for label in row.labels:
-                self.found.labels[label] = row.number or row.referred or number or self.heading
+                self.found.labels[label] = row.number or row.referred or number or self.expander.referred()
         if len(sources) > 1:
             latex = r"\begin{aligned} " + r" \\ ".join(sources) + r" \end{aligned}"
         else:

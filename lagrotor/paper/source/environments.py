@@ -41,7 +41,9 @@ def _theorem(expander: Expander, token: Token) -> bool:
     within = expander.optional()
     expander.theorems[name] = latex_of(shared).strip() if shared is not None else name
     if shared is None:
-        expander.counters.add(name, latex_of(within).strip() if within is not None else "")
+        parent = latex_of(within or ()).strip()
+        expander.counters.add(name, parent)
+        expander.counters.within[name] = parent, "arabic"
     return True
 
 
@@ -76,6 +78,7 @@ def _begin(expander: Expander, token: Token) -> bool:
     if known is None:
         if (counter := expander.theorems.get(name)) is not None:
             expander.counters.step(counter)
+            expander.refer(expander.printed(counter))
         expander.push(tokenize(f"{{{name}}}", token.at))
         return False
     expander.count(rf"\begin{{{name}}}", token.at)

@@ -179,6 +179,15 @@ class Expander(TokenStream):
             return unstyled(latex_of(self.expand(own.body)))
         return self.counters.printed(counter, self.printed)
 
+    def refer(self, number: str) -> None:
+        r"""What a label refers to from now on, in the group that is open: \@currentlabel."""
+        self.macros[r"\@currentlabel"] = Macro(tuple(plain(number, 0)))
+
+    def referred(self) -> str:
+        """What a label refers to that has no number of its own."""
+        known = self.macros.get(r"\@currentlabel")
+        return unstyled(latex_of(known.body)) if known is not None else ""
+
     def number(self, tokens: Iterable[Token]) -> int:
         r"""A sum of digits, \value{…}, \arabic{…}."""
         values = self.counters.values

@@ -18,6 +18,16 @@ def _ensured(expander: Expander, token: Token) -> bool:
     return True
 
 
+def _overlay(expander: Expander, token: Token) -> bool:
+    r"""\uncover<2->{…} of beamer: what it shows, in which rows may end."""
+    if expander.document_class != "beamer":
+        return False
+    expander.delimited("<", ">")
+    expander.skip_spaces()
+    expander.push(expander.argument() if expander.begins("{") else ())
+    return True
+
+
 def _of_titles(expander: Expander, token: Token) -> bool:
     r"""\titleformat\section[…]{…}: how a heading looks is none."""
     expander.star()
@@ -48,5 +58,6 @@ PRIMITIVES: dict[str, Primitive] = {
     **dict.fromkeys(_WITHOUT_EFFECT, _ignored),
     **dict.fromkeys((r"\tikzset", r"\tikzstyle", r"\pgfkeys", r"\pgfplotsset"), _style),
     **dict.fromkeys((r"\titleformat", r"\titlespacing"), _of_titles),
+    **dict.fromkeys((r"\uncover", r"\only", r"\visible", r"\onslide"), _overlay),
     r"\ensuremath": _ensured,
 }

@@ -167,8 +167,13 @@ def _class(expander: Expander, token: Token) -> bool:
 def _preamble_of(expander: Expander, name: str) -> None:
     """The preamble of the main file of a subfile."""
     if name and expander.file is not None:
-        path = expander.file.parent / (name if name.endswith(".tex") else f"{name}.tex")
-        if path.is_file():
+        file = name if name.endswith(".tex") else f"{name}.tex"
+        above = (folder / file for folder in list(expander.file.absolute().parents)[:3])  # one is where TeX is called
+        path = next((each for each in above if each.is_file()), None)
+        if path is None:
+            said = f"{file}, the main file, is missing: numbers are those that the source has by itself"
+            expander.notes.append(said)
+        else:
             preamble = read_text(path, "latin-1").partition(r"\begin{document}")[0]
             expander.document_class = ""
             expander.take_in(preamble, path)

@@ -287,6 +287,17 @@ def test_a_label_refers_to_what_latex_prints(body: str, label: str) -> None:
         ("article", r"\section{S}\subsection{T}=", "1.1"),
         ("beamer", r"\section{S}\begin{frame}\end{frame}\begin{frame}=\end{frame}", "2"),
         ("article", r"\section{S}\begin{frame}\end{frame}\begin{frame}=\end{frame}", "1"),
+        ("article", r"\newtheorem{t}{T}[section]\section{S}\begin{t}\end{t}\begin{t}=\end{t}", "1.2"),
+        (
+            "article",
+            r"\newtheorem{t}{T}[section]\newtheorem{u}[t]{U}\section{S}\begin{t}\end{t}\begin{u}=\end{u}",
+            "1.2",
+        ),
+        ("article", r"\newtheorem{t}{T}\section{S}\section{V}\begin{t}=\end{t}", "1"),
+        ("article", r"\newtheorem{t}{T}[section]\section{S}\begin{t}\end{t}\begin{t}\end{t}=", "1"),
+        ("article", r"\newcounter{k}\setcounter{k}{3}\section{S}\refstepcounter{k}=", "4"),
+        ("article", r"\newcounter{k}\setcounter{k}{3}\section{S}{\refstepcounter{k}}=", "1"),
+        ("article", r"\newcounter{k}\setcounter{k}{3}\section{S}\stepcounter{k}=", "1"),
     ],
 )
 def test_a_label_without_a_number_refers_to_what_was_numbered_last(document_class: str, body: str, label: str) -> None:
@@ -294,6 +305,31 @@ def test_a_label_without_a_number_refers_to_what_was_numbered_last(document_clas
     assert read_latex(rf"\documentclass{{{document_class}}}\begin{{document}}{text}\end{{document}}").labels == {
         "l": label
     }
+
+
+@pytest.mark.parametrize(
+    ("document_class", "command", "labels"),
+    [("beamer", r"\uncover<+->", "1 2"), ("beamer", r"\only", "1 2"), ("article", r"\uncover<+->", "1 1")],
+)
+def test_rows_may_end_in_what_a_slide_uncovers(document_class: str, command: str, labels: str) -> None:
+    rows = rf"{command}{{a &= b \label{{l}} \\}} {command}{{c &= d \label{{m}}}}"
+    text = rf"\begin{{frame}}\begin{{align}} {rows} \end{{align}}\end{{frame}}"
+    found = read_latex(rf"\documentclass{{{document_class}}}\begin{{document}}{text}\end{{document}}").labels
+    assert [found["l"], found["m"]] == labels.split()
+
+
+@pytest.mark.parametrize(("main", "number"), [("main.tex", "1.1"), ("parts/main.tex", "1.1"), ("other.tex", "1")])
+def test_the_main_file_of_a_part_is_beside_it_or_above_or_said_to_be_missing(
+    main: str, number: str, tmp_path: Path
+) -> None:
+    (tmp_path / "parts").mkdir()
+    whole = r"\documentclass{book}\begin{document}\subfile{parts/one}\end{document}"
+    (tmp_path / main).write_text(whole, encoding="utf-8")
+    display = r"\begin{document}\chapter{A}\begin{equation} a = b \end{equation}\end{document}"
+    (tmp_path / "parts" / "one.tex").write_text(rf"\documentclass[main.tex]{{subfiles}}{display}", encoding="utf-8")
+    source = read_source(tmp_path / "parts" / "one.tex")
+    assert [each.number for each in source.equations] == [number]
+    assert any("main.tex, the main file, is missing" in note for note in source.notes) == (number == "1")
 
 
 @pytest.mark.parametrize(("star", "numbers"), [("*", ["2", "3"]), ("ed", ["1", "2"])])
