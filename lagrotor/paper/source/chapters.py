@@ -20,7 +20,7 @@ _OF_GROUPS = (
     r"conjugacy class(?:es)?|(?:sub|bi)modules?|^-modules?|sheaf|sheaves|automat(?:a|on)|regular expressions?|cardinality|"
     r"ordinals?|transfinite|well-order\w*|axiom of choice|countable sets?|"
     r"Untergruppen?|Nebenklassen?|Homomorphism(?:us|en)|(?:homo|endo|iso|auto)?mor(?:phismes?|fismos?)|sous-groupes?|"
-    r"anneaux?|subgrupos?"
+    r"anneaux?|subgrupos?|子群|同态|同构|陪集|置换|阿贝尔群|交换群"
 )
 _OF_MEASURES = (
     r"measurable (?:functions?|sets?|spaces?|maps?)|measure spaces?|measure theory|almost (?:everywhere|surely|sure)|"
@@ -39,13 +39,20 @@ _OF_QUANTITIES = (
     r"temperat\w+|entrop\w+|heat|calor\w*|chaleur|wärme\w*|thermo\w+|termo\w+|currents?|voltages?|wave-?\w*|ond[ae]s?|"
     r"frequenc\w+|fréquences?|oscillat\w+|pend(?:ulums?|olo|el)|particles?|electrons?|photons?|atoms?|electr\w+|elettr\w+|"
     r"magnet\w+|quantum|Hamiltonians?|Lagrangians?|gravit\w+|viscos\w+|flui\w+|spins?|gyroscop\w+|radi(?:us|i)|phys\w+|"
-    r"fisic\w+|físic\w+|optic\w*|Geschwindigkeit\w*|Kraft|Kräfte|Masse|Druck|vitesse\w*|fuerza\w*|速度|质量|能量|电场|温度"
+    r"fisic\w+|físic\w+|optic\w*|Geschwindigkeit\w*|Kraft|Kräfte|Masse|Druck|vitesse\w*|fuerza\w*|速度|质量|能量|电场|温度|"
+    r"动量|力学|物理|粒子|频率|磁场|电荷|电流|运动|波函数|哈密顿|拉格朗日|压强"
 )
-_CHINESE = "子群|同态|同构|陪集|置换|阿贝尔群|交换群"
 _QUANTITIES = "quantities"
+_LETTER = "[a-zß-ÿ]"  # Chinese words have no spaces between them
+
+
+def _whole(subject: str, words: str) -> str:
+    return rf"(?P<{subject}>(?<!{_LETTER})(?:{words})(?!{_LETTER}))"
+
+
 _WORDS = re.compile(
-    rf"(?P<{GROUPS}>\b(?:{_OF_GROUPS})\b|{_CHINESE})|(?P<{MEASURES}>{_OF_MEASURES})|(?P<{PROOFS}>\b(?:{_OF_PROOFS})\b)"
-    rf"|(?P<{_QUANTITIES}>\b(?:{_OF_QUANTITIES})\b)",
+    rf"{_whole(GROUPS, _OF_GROUPS)}|(?P<{MEASURES}>{_OF_MEASURES})|{_whole(PROOFS, _OF_PROOFS)}|"
+    rf"{_whole(_QUANTITIES, _OF_QUANTITIES)}",
     re.IGNORECASE,
 )
 _PAGE = 1500  # characters

@@ -320,6 +320,9 @@ def test_delimiters_with_a_body_and_derivatives_of_commath_are_read(tmp_path: Pa
         ("The gas radon decays: radon enters a house, and radon leaves it.", ""),
         ("Take a Radon measure, the Radon measure of a set, and Radon measures.", "measures"),
         ("The sum of vectors is associative, that of forces is associative, and their product is associative.", ""),
+        ("由动量定理和能量定理可以证明粒子的速度不变。", ""),
+        ("由引理和定理可以证明此推论。", "proofs"),
+        ("取子群的陪集和同态。", "groups"),
         ("An associative product with an identity element and two cosets of a subgroup.", "groups"),
     ],
 )
