@@ -19,7 +19,6 @@ _UNKNOWN = (
     "ifvmode",
     "ifhmode",
     "ifinner",
-    "ifcase",
     "ifeof",
 )
 _JOINTS = r"NOT|AND|OR|not|and|or"
@@ -54,6 +53,29 @@ def _condition(expander: Expander, token: Token) -> bool:
             expander.notes.append(rf"\{name} is taken as false")
     if not holds:
         _skip_to(expander, ("else", "fi"), token)
+    return True
+
+
+def _case(expander: Expander, token: Token) -> bool:
+    r"""\ifcase n … \or … \else … \fi: branch n, from 0."""
+    given = expander.argument()
+    if latex_of(given) == r"\value":
+        given += tokenize(f"{{{expander.name()}}}")
+    shown = latex_of(expander.expand(given)).strip()
+    known = shown.isdecimal() or any(each.text.startswith(r"\c@") for each in given)
+    if not known:
+        expander.notes.append(r"\ifcase is taken as false")
+        _skip_to(expander, ("else", "fi"), token)
+        return True
+    for _ in range(expander.number(given)):
+        if _skip_to(expander, ("or", "else", "fi"), token) != "or":
+            break
+
+    def other(expander: Expander) -> Iterable[Token]:
+        _skip_to(expander, ("fi",), token)
+        return ()
+
+    expander.own[r"\or"] = other
     return True
 
 
@@ -97,20 +119,21 @@ def _is_known(expander: Expander, name: str) -> bool:
     return package in expander.loaded or any(name in each for each in defined) or name[1:] in _LEVELS
 
 
-def _skip_to(expander: Expander, ends: tuple[str, ...], condition: Token) -> None:
-    """Leave out tokens to the \\else or \\fi of this condition."""
+def _skip_to(expander: Expander, ends: tuple[str, ...], condition: Token) -> str:
+    """Leave out tokens to the \\else or \\fi of this condition, and say which it was."""
     depth = 0
     while (token := expander.next()) is not None:
         if token.kind != "command":
             continue
         word = token.text[1:]
         if depth == 0 and word in ends:
-            return
+            return word
         if word == "fi":
             depth -= 1
         elif word.startswith("if") and word not in _NO_CONDITIONS:
             depth += 1
     expander.macros.fault(condition.at, condition.text, rf"{condition.text} has no \fi: what follows is left out")
+    return ""
 
 
 def _if_value(expander: Expander, token: Token) -> bool:
@@ -263,6 +286,7 @@ CONDITIONS: dict[str, Primitive] = {
     **dict.fromkeys((r"\newboolean", r"\provideboolean", r"\setboolean"), _boolean),
     **dict.fromkeys((r"\@ifnextchar", r"\@ifstar"), _if_next),
     **dict.fromkeys((r"\@ifundefined", r"\ltx@ifundefined", r"\@ifpackageloaded", r"\@ifclassloaded"), _if_defined),
+    r"\ifcase": _case,
     r"\secdef": _heading,
     r"\loop": _loop,
     r"\else": _else,

@@ -365,7 +365,8 @@ class _Walker:
             self.counters.step(level)
             printed = self.expander.printed(level)
             self.section, self.bare = printed or str(self.counters.values[level]), 0
-            self.expander.refer(self.counters.before(level, self.expander.printed) + printed)
+            before = self.counters.before(level, self.expander.printed)
+            self.expander.refer(before + printed, everywhere=True)  # a heading may stand in \hypertarget{…}{…}
         self.found.sections.setdefault(self.section, title or level)
 
     # ---- formulas

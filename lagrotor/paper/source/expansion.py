@@ -179,9 +179,13 @@ class Expander(TokenStream):
             return unstyled(latex_of(self.expand(own.body)))
         return self.counters.printed(counter, self.printed)
 
-    def refer(self, number: str) -> None:
-        r"""What a label refers to from now on, in the group that is open: \@currentlabel."""
-        self.macros[r"\@currentlabel"] = Macro(tuple(plain(number, 0)))
+    def refer(self, number: str, everywhere: bool = False) -> None:
+        r"""What a label refers to from now on, \@currentlabel: in the group that is open, or in all."""
+        said = Macro(tuple(plain(number, 0)))
+        if everywhere:
+            self.macros.define_globally(r"\@currentlabel", said)
+        else:
+            self.macros[r"\@currentlabel"] = said
 
     def referred(self) -> str:
         """What a label refers to that has no number of its own."""

@@ -153,14 +153,15 @@ def _class(expander: Expander, token: Token) -> bool:
         return True
     if expander.files > 1 and expander.document_class and token.text == r"\documentclass":
         return True  # a file taken in that could stand by itself: its own preamble is read as it comes
-    distributed = name in _DISTRIBUTED  # its own copy beside the source says nothing that is not known
+    bare = name.rpartition("/")[2]
+    distributed = bare in _DISTRIBUTED  # its own copy beside the source says nothing that is not known
     beside = not distributed and _read_style(expander, name, ".cls", given)
     if not beside and not distributed and not name.startswith("\\"):  # \LoadClass{\@revtex@cls}
         expander.missing.setdefault(f"{name}.cls", expander.line(token.at)[1])
     if not beside or token.text == r"\LoadClass":
-        expander.document_class = name
-    expander.document_class = expander.document_class or name
-    expander.counters.begin(name)
+        expander.document_class = bare
+    expander.document_class = expander.document_class or bare
+    expander.counters.begin(bare)
     return True
 
 

@@ -180,6 +180,9 @@ _MORE = r"""\newcommand\appendices{\c@chapter\z@ \renewcommand\thechapter{\@Alph
 \def\@more[#1]#2{\refstepcounter{chapter}}\def\@mores#1{\advance\c@chapter by 2 }"""
 _LATE = r"\AtEndOfClass{\renewcommand\theequation{\Alph{equation}}}\def\theequation{\roman{equation}}"
 _CHAPTERS = r"\def\thechapter{\arabic{chapter}}\def\theequation{\thechapter.\arabic{equation}}"
+_CASE = (
+    r"\def\style{%s}%s\ifcase\style \setcounter{equation}{1}\or\setcounter{equation}{2}\else\setcounter{equation}{3}\fi"
+)
 _TESTED = r"\newboolean{yes}\setboolean{yes}{true}\newboolean{no}\ifthenelse{%s}{\setcounter{equation}{4}}{}"
 _HOLD = (
     r"\boolean{yes}",
@@ -225,6 +228,8 @@ _CHOSEN = r"\newif\ifown\DeclareOption{own}{\owntrue}\ExecuteOptions{%s}\Process
         (r"\@ifundefined{section}{}{\setcounter{equation}{4}}", "=", "5"),
         (r"\@ifpackageloaded{side}{\setcounter{equation}{4}}{}\@ifclassloaded{article}{}{\undefined}", "=", "1"),
         (r"\RequirePackage{side}\@ifpackageloaded{side}{\setcounter{equation}{4}}{}", "=", "5"),
+        *((_CASE % (style, ""), "=", number) for style, number in (("0", "2"), ("1", "3"), ("2", "4"), ("7", "4"))),
+        *((_CASE % (style, r"\def\style{1}"), "=", "3") for style in "07"),
         *((_TESTED % test, "=", "5") for test in _HOLD),
         *((_TESTED % rf"\NOT\({test}\)", "=", "1") for test in _HOLD),
         (r"\endinput\setcounter{equation}{4}", "=", "1"),
@@ -287,6 +292,8 @@ def test_a_label_refers_to_what_latex_prints(body: str, label: str) -> None:
         ("article", r"\section{S}\subsection{T}=", "1.1"),
         ("beamer", r"\section{S}\begin{frame}\end{frame}\begin{frame}=\end{frame}", "2"),
         ("article", r"\section{S}\begin{frame}\end{frame}\begin{frame}=\end{frame}", "1"),
+        ("article", r"\section{R}\hypertarget{s}{\section{S}}=", "2"),
+        ("folder/beamer", r"\section{S}\begin{frame}\end{frame}\begin{frame}=\end{frame}", "2"),
         ("article", r"\newtheorem{t}{T}[section]\section{S}\begin{t}\end{t}\begin{t}=\end{t}", "1.2"),
         (
             "article",
