@@ -121,6 +121,8 @@ def _mark_derivative(reader: FormulaReader, box: Box, mark: str, operand: list[B
         reader.guess("derivative", "the power above is differentiated, and is none of the differential")
     if not operand and rest and rest[0].kind == "bracket" and rest[0].name == ".":
         reader.guess("at", "what is differentiated is taken at a place, and the derivative is not taken there")
+    if operand and operand[0].kind == "number":
+        reader.guess("derivative", "the number above is differentiated, and is no order")
     _mark_arguments(reader, operand or rest, box.parts[1])
     if mark in ("D", "delta"):
         reader.guess("derivative", f"the fraction with {mark} is a derivative like any other")
@@ -196,8 +198,9 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
     rest = strip(row[place:])
     if not rest or rest[0].kind == "operator":
         raise FormulaError(box.at, "the derivative has nothing to act on", "write what is differentiated")
-    if reader.integrating and (end := _differential_behind(row, place)):
-        return _operand(reader, row[:end], place, box)
+    for k in range(place + 1, len(row) - 1) if reader.integrating else ():  # of the differential it is not taken
+        if is_d(row[k], "d") and row[k + 1].kind in ("letter", "group", "thin"):
+            return _operand(reader, row[:k], place, box)
     reader.reaching = True
     node, behind = reader.factor(rest, 0)
     remaining = without_thin(rest[behind:])
@@ -213,12 +216,6 @@ def _operand(reader: FormulaReader, row: list[Box], place: int, box: Box) -> tup
         raise FormulaError(box.at, why, "write brackets around what is differentiated")
     reader.guess("reach", "a derivative acts on the whole product that follows it")
     return reader.product(rest), len(row)
-
-
-def _differential_behind(row: list[Box], place: int) -> int:
-    """Where a differential follows, of which the derivative is not taken; 0 where there is none."""
-    behind = range(place + 1, len(row) - 1)
-    return next((k for k in behind if is_d(row[k], "d") and row[k + 1].kind in ("letter", "group", "thin")), 0)
 
 
 def _by(variable: Node, order: int) -> tuple[Node, ...]:

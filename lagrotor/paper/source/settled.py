@@ -80,7 +80,7 @@ def is_settled(guess: str, nodes: Sequence[Node], put: Sequence[Node]) -> bool:
     if factor := _FACTOR.match(guess):
         return _is_no_function(factor[1], nodes, calls)
     if letter := _NO_OPERATOR.match(guess):
-        numbers = {name for each in calls for name in _below(each)}
+        numbers = {name for each in calls if each.name in ("quotient", "power") for name in letters_of(each.args[1])}
         pairs = {pair for node in nodes for pair in _ordered(node) if not numbers & {*pair}}
         return not any((b, a) in pairs for a, b in pairs if letter[1] in (_stem(a), _stem(b)))
     return False
@@ -229,11 +229,6 @@ def _stands_alone(name: str, node: Node) -> bool:
 def _is_sum(node: Node) -> bool:
     base = node.args[0] if isinstance(node, Call) and node.name == "power" else node
     return isinstance(base, Call) and base.name == "sum"
-
-
-def _below(node: Node) -> list[str]:
-    """The letters below a fraction, or in an exponent: they are numbers."""
-    return letters_of(node.args[1]) if isinstance(node, Call) and node.name in ("quotient", "power") else []
 
 
 def _ordered(node: Node) -> Iterator[tuple[str, str]]:

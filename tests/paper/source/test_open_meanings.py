@@ -62,6 +62,9 @@ SETTLED = [
     (r"a = b_{,j}", [], "the comma in the index of b"),
     (r"a = b_{i,j}", [], "the comma in the index of b"),
     (r"R_{\alpha\beta;\gamma} = a", [], "the semicolon in the index of R"),
+    (r"\theta\eta = -\eta\theta", [], "the factors commute"),
+    (r"\phi\psi = c - \psi\phi", [], "the factors commute"),
+    (r"a = \frac{\partial 2}{\partial x}", [], "the number above is differentiated"),
     (r"a = \int_0^1 b_\lambda(x) \rho(\lambda)\,d\lambda", [], "not integrated over"),
     (r"a = \Sigma x f(x)", [], "Sigma is a factor"),
     (r"a = E_t b", [], "E is a factor"),
@@ -316,7 +319,7 @@ def test_where_an_operator_can_stand_nothing_is_shown(other: str) -> None:
         "E = 0.5 - s", r"F = \frac{2s-3}{s^2}", r"0 < x < a,\quad 0 < y < b", r"a = \binom{10}{3}", "x = 3, y = 4",
         r"E = \int_A I(\lambda) d\lambda", r"1 = \sum_n |n\rangle\langle n|",
         r"M(q)\ddot q(t) = u(t)", "u(x, t) = X(x) T(t)",
-        r"R_{\alpha\beta\gamma} = a", r"a = \int_0^1 b_\lambda(x) \rho(x)\,dx",
+        r"\theta\eta = -\theta\phi", r"R_{\alpha\beta\gamma} = a", r"a = \int_0^1 b_\lambda(x) \rho(x)\,dx",
     ],
 )  # fmt: skip
 def test_what_has_no_rival_is_read_without_a_mark(latex: str) -> None:
