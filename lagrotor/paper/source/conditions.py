@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 
 from lagrotor.paper.source.definitions import next_name
 from lagrotor.paper.source.expansion import NO_VALUE, Expander, Package, Primitive
-from lagrotor.paper.source.tokens import Token, latex_of, plain, tokenize
+from lagrotor.paper.source.tokens import BRACES, Token, latex_of, plain, tokenize
 
 _TRUE = ("iftrue", "ifmmode", "ifpdf", "ifPDFTeX")
 _FALSE = ("iffalse", "ifdraft", "ifluatex", "ifxetex", "ifLuaTeX", "ifXeTeX")
@@ -87,7 +87,12 @@ def _else(expander: Expander, token: Token) -> bool:
 def _compared(expander: Expander) -> bool:
     """Whether two numbers compare as \\ifnum says; what they are made of is taken."""
     found: list[Token] = []
+    depth = 0
     while len(found) < 13 and (token := expander.next()) is not None:
+        depth += BRACES.get(token.kind, 0)
+        if token.text in (r"\else", r"\fi", r"\or") or depth < 0:  # none is part of a number
+            expander.push([token])
+            break
         found.append(token)
         if token.text in (r"\relax", r"\z@", r"\@ne", r"\tw@") or re.search(r"[<>=]\s*-?\d+\s", token.text):
             break

@@ -20,7 +20,7 @@ class Counters:
         self.values = dict.fromkeys((*_SECTIONS, "equation", "parentequation", "figure", "table"), 0)
         self.within: dict[str, tuple[str, str]] = {}
         self.resets: dict[str, list[str]] = {}
-        self.chapters = self.appendix = self.journal = self.institute = False
+        self.chapters = self.appendix = self.journal = self.institute = self.koma = False
         self.joint: str | None = None
         for outer, inner in pairwise(_SECTIONS[1:]):
             self.reset_by(inner, outer)
@@ -28,6 +28,7 @@ class Counters:
     def begin(self, document_class: str) -> None:
         """What a class sets."""
         self.chapters = document_class in (*_WITH_CHAPTERS, "amsbook")
+        self.koma = document_class.startswith("scr")
         self.journal = document_class.startswith("revtex")
         self.institute = document_class.startswith(("IEEEtran", "ieeeconf"))
         self.joint = next((sign for name, sign in _APPENDIX.items() if document_class.startswith(name)), None)
@@ -95,7 +96,11 @@ class Counters:
             outer = "section" if name == "subsection" else "subsection"
             own = self.style(value, "Alph" if outer == "section" else "arabic")
             return own if self.journal else f"{printed(outer)}.{value}"
-        if name == "equation" and "equation" in self.resets.get("chapter", ()) and self.values["chapter"] > 0:
+        if (
+            name == "equation"
+            and "equation" in self.resets.get("chapter", ())
+            and (self.koma or self.values["chapter"] > 0)
+        ):
             return f"{printed('chapter')}.{value}"
         if name == "equation" and self.joint is not None and self.appendix:
             return f"{self.style(self.values['section'], 'Alph')}{self.joint}{value}"

@@ -128,10 +128,10 @@ def _own_place(expander: Expander, known: tuple[Macro, tuple[Token, ...]] | None
 
 
 def _command_of(expander: Expander, name: str, verb: str, at: int) -> Token | None:
-    r"""\begin{x} is \x where the source defines \x and \endx, and where \x begins a section: \begin{chapter}{…}."""
+    r"""\begin{x} is \x where the source defines \x and \endx, and where \x is a heading or \appendix: \begin{chapter}{…}."""
     command = rf"\{verb}{name}"
     defined = rf"\{name}" in expander.macros and rf"\end{name}" in expander.macros
-    return Token("command", command, at) if defined or command in HEADINGS else None
+    return Token("command", command, at) if defined or command in (*HEADINGS, r"\appendix") else None
 
 
 def _display(expander: Expander, token: Token) -> bool:

@@ -197,8 +197,8 @@ class Expander(TokenStream):
         values = self.counters.values
         shown = [plain(str(values.get(t.text[3:], 0)), t.at)[0] if t.text.startswith(r"\c@") else t for t in tokens]
         text = latex_of(self.expand(shown)).strip()
-        for constant, value in ((r"\z@", "0"), (r"\@ne", "1"), (r"\tw@", "2"), (r"\m@ne", "-1")):
-            text = text.replace(constant, value)
+        for constant, value in ((r"\z@", "0"), (r"\@ne", "1"), (r"\tw@", "2"), (r"\m@ne", "-1"), (r"\@m", "1000")):
+            text = re.sub(re.escape(constant) + "(?![A-Za-z@])", value, text)
         return sum(int(sign + digits) for sign, digits in re.findall(r"([+-]?)\s*(\d+)", text))
 
 
