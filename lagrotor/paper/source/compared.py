@@ -167,6 +167,8 @@ def _all(matrix: sp.MatrixBase) -> str:
 def _single(a: Any, b: Any) -> str:
     if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
         return "undecided"
+    if a == b and radicands(a):  # also where its roots are real nowhere
+        return "zero"
     try:
         found = counted(decide_equal, a, b, [sp.Gt(each, 0) for each in radicands(a, b)])
     except WorkError:

@@ -150,6 +150,12 @@ def test_of_a_square_no_positive_root_is_taken_where_the_text_says_negative(sign
     assert (verdicts(tmp_path, rf"With $x^2 = a$, where $x > 0$, we have {step}") == [HOLDS]) == (sign == "+")
 
 
+def test_a_product_is_itself_where_its_roots_are_real_nowhere(tmp_path: Path) -> None:
+    step = r"\[ y = x\sqrt{-1 - x^2} = FACTOR\sqrt{-1 - x^2}\,x \]"
+    assert verdicts(tmp_path, step.replace("FACTOR", "")) == [HOLDS]
+    assert HOLDS not in verdicts(tmp_path, step.replace("FACTOR", "2"))
+
+
 def test_a_step_that_derivatives_alone_give_says_so(tmp_path: Path) -> None:
     """It ended with "with" and nothing."""
     step = r"\[ v = \frac{d}{dt} \sqrt{x^2 + y^2} = \frac{x\dot x SIGN y\dot y}{\sqrt{x^2 + y^2}} \]"
