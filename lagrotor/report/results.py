@@ -33,6 +33,8 @@ def opening(report: Report) -> list[tuple[str, str]]:
 
 def balance(report: Report) -> str:
     """How many equations hold and how many are refuted, and what becomes of those."""
+    if not report.verdicts:
+        return f"No equation is judged yet, of {len(report.waiting)}."
     counts = report.counts
     ways = {
         "holds": "exactly",

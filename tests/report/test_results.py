@@ -101,7 +101,9 @@ def test_balance_counts_what_was_judged(report: Report) -> None:
         "2 are refuted; for 1 of these a correction is given that itself holds; results of the paper depend on none"
         in text
     )
-    assert "None is refuted." in balance(replace(report, verdicts=()))
+    held = replace(alone, verdict="holds")
+    assert "None is refuted." in balance(replace(report, verdicts=(held,)))
+    assert balance(replace(report, verdicts=())) == "No equation is judged yet, of 68."
     open_one = replace(alone, verdict="undecided")
     assert "1 is undecided. The other 1 give a name" in balance(replace(report, verdicts=(*report.verdicts, open_one)))
 
