@@ -41,6 +41,11 @@ _RELATIONS = re.compile(
     r"[=<>]|\\(?:approx|sim|simeq|equiv|neq|ne|leq?|geq?|ll|gg|propto|to|cong|doteq|in|Rightarrow|implies|iff|Leftrightarrow"
     r"|overset|stackrel|longrightarrow|rightarrow|lesssim|gtrsim)(?![A-Za-z])"
 )
+# What a class or a package has that counts in a way of its own.
+_COUNTS = re.compile(
+    r"\\(?:(?:set|addto|step|refstep|new)counter|c@(?:equation|section|chapter)|the(?:equation|section|chapter)|@addtoreset"
+    r"|numberwithin|counterwith(?:in|out)|appendix)(?![A-Za-z@])"
+)
 _EMPTY_LINE = re.compile(r"\n\s*\n\s*")
 _PROSE = re.compile(r"[A-Za-z]{3,}[\s,.:]|[A-Za-z]{2,}\s+[A-Za-z]{2,}")
 _NO_FORMULA = (r"\[", r"\]", *(rf"\{level}" for level in _LEVELS))  # in none of these does TeX go on
@@ -73,7 +78,8 @@ class Source:
 
     notes: what could not be known of it; faults: file, line, and what TeX would stop at there; words: id → the text of the
     paragraph before and behind, formulas in $; preamble: packages that its formulas need; missing: packages and classes that are
-    loaded, and neither distributed with TeX nor beside the source: file → line; file: its name, as in places.
+    loaded, and neither distributed with TeX nor beside the source: file → line; counting: those of them, and classes and packages
+    beside the source, that may number in a way of their own; file: its name, as in places.
     """
 
     title: str
@@ -87,6 +93,7 @@ class Source:
     preamble: str = ""
     labels: dict[str, str] = field(default_factory=dict)
     missing: dict[str, int] = field(default_factory=dict)
+    counting: list[str] = field(default_factory=list)
     file: str = ""
 
 
@@ -188,6 +195,12 @@ class _Walker:
         self.found.faults = faults_of(self.expander)
         self.found.notes = list(dict.fromkeys((*self.expander.notes, *self.unknown.notes())))
         self.found.missing = self.expander.missing
+        styles = (
+            Path(name).name
+            for _, name, _, text in self.expander.starts
+            if name.endswith(STYLES) and _COUNTS.search(text)
+        )
+        self.found.counting = [*styles, *(name for name in self.found.missing if name.endswith(".cls"))]
         subjects = subjects_of(self.chapters)
         for place, each in enumerate(self.found.equations):
             if subject := subjects.get(_chapter(each.section)):

@@ -127,6 +127,11 @@ def _from_source(folder: Path, source: Path, again: bool) -> Begun:
 def _numbered(found: Source, aux: Mapping[str, str], source: Path) -> tuple[Source, list[str]]:
     """The source with the numbers that LaTeX wrote beside it, and where they differ from those that its text gives."""
     said: list[str] = []
+    if found.counting and not aux and any(each.number for each in found.equations):
+        said.append(
+            f"{' and '.join(found.counting)} may number equations in a way of {'its' if len(found.counting) == 1 else 'their'} "
+            f"own: LaTeX's numbers are taken where {source.with_suffix('.aux').name} lies beside the source"
+        )
     ids = {each.id for each in found.equations}
     labels = Counter(each.label for each in found.equations)
     for place, each in enumerate(found.equations):

@@ -342,3 +342,26 @@ def test_what_a_chapter_is_about_is_kept_beside_its_equations(tmp_path: Path) ->
     file = tmp_path / "groups" / "paper.toml"
     file.write_text(file.read_text(encoding="utf-8") + '\n[notation]\nusual = "groups"\n', encoding="utf-8")
     assert not next(readings(Catalogue(tmp_path / "groups"))).guesses, "the author says that they are numbers"
+
+
+@pytest.mark.parametrize(
+    ("style", "number", "aux", "said"),
+    [
+        (r"\setcounter{equation}{4}", "", "", True),
+        (r"\definecolor{blue}{rgb}{0,0,1}", "", "", False),  # what has no counter numbers nothing
+        (r"\setcounter{equation}{4}", "*", "", False),  # no number, nothing to say
+        (r"\setcounter{equation}{4}", "", r"\newlabel{a}{{5}{1}}", False),  # LaTeX has said it
+    ],
+)
+def test_a_style_that_may_count_in_a_way_of_its_own_is_said(
+    style: str, number: str, aux: str, said: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "own.sty").write_text(style, encoding="utf-8")
+    if aux:
+        (tmp_path / "paper.aux").write_text(aux, encoding="utf-8")
+    display = rf"\begin{{equation{number}}} x = 2 y \label{{a}} \end{{equation{number}}}"
+    text = rf"\documentclass{{article}}\usepackage{{own}}\begin{{document}}{display}\end{{document}}"
+    (tmp_path / "paper.tex").write_text(text, encoding="utf-8")
+    assert main(["init", str(tmp_path / "mine"), "--from", str(tmp_path / "paper.tex")]) == 0
+    shown = " ".join(" ".join(capsys.readouterr()).split())
+    assert ("own.sty may number equations in a way of its own" in shown) is said
