@@ -349,6 +349,8 @@ def test_page_shows_the_source_as_printed(report: Report) -> None:
 
 def test_source_stands_in_for_what_cannot_be_typeset(report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(page_pieces, "mathml", lambda source, display=True: None)
+    assert "install latex2mathml" not in whole_page(report), "it is there, and cannot set them"
+    monkeypatch.setattr(page_pieces, "converter", lambda: "")
     assert "install latex2mathml" in whole_page(report)
     assert faults(whole_page(report)) == []
 
