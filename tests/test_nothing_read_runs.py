@@ -28,11 +28,11 @@ from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.paper import Glossary, Paper, Premise, judge
 from lagrotor.paper.certificates.certificate import PREAMBLE
 from lagrotor.paper.certificates.checked_by_coq import CERTIFICATE_LIST, foreign_word, read_certificates
+from lagrotor.paper.latex.check import check_source
+from lagrotor.paper.latex.markup import read_source
+from lagrotor.paper.latex.start import begin_paper, confirm
+from lagrotor.paper.latex.stated_system import write_derivation
 from lagrotor.paper.papers import opened
-from lagrotor.paper.source.check import check_source
-from lagrotor.paper.source.markup import read_source
-from lagrotor.paper.source.start import begin_paper, confirm
-from lagrotor.paper.source.stated_system import write_derivation
 from lagrotor.report.job import kept as kept_products
 from lagrotor.report.job.folder import PRODUCTS
 from lagrotor.report.job.kept import Kept
@@ -519,10 +519,10 @@ READERS = {
     "paper/certificates/checked_by_coq.py": "certificates",
     "paper/record.py": "recorded.toml",
     "paper/scripts.py": "program",
-    "paper/source/markup.py": "notebook",
-    "paper/source/source_files.py": "LaTeX",
-    "paper/source/start.py": "LaTeX",
-    "paper/source/token_stream.py": "LaTeX",
+    "paper/latex/markup.py": "notebook",
+    "paper/latex/source_files.py": "LaTeX",
+    "paper/latex/start.py": "LaTeX",
+    "paper/latex/token_stream.py": "LaTeX",
     "paper/theorems.py": "theorem",
     "paper/title_page.py": "paper.toml",
     "report/cite.py": "own",

@@ -150,7 +150,7 @@ def judge_command(given: argparse.Namespace) -> int:
 
 
 def init_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.source.start import begin_paper
+    from lagrotor.paper.latex.start import begin_paper
 
     made = begin_paper(given.folder, given.source)
     equations = _some(made.equations, "equation")
@@ -171,10 +171,10 @@ def init_command(given: argparse.Namespace) -> int:
 
 def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
+    from lagrotor.paper.latex.formula import EVERY
+    from lagrotor.paper.latex.readings import as_printed, readings
+    from lagrotor.paper.latex.start import confirm
     from lagrotor.paper.readable import from_latex, readable
-    from lagrotor.paper.source.formula import EVERY
-    from lagrotor.paper.source.readings import as_printed, readings
-    from lagrotor.paper.source.start import confirm
 
     paper = Catalogue(given.folder)
     if given.confirm:
@@ -206,7 +206,7 @@ def readings_command(given: argparse.Namespace) -> int:
 
 def derive_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
-    from lagrotor.paper.source.stated_system import write_derivation
+    from lagrotor.paper.latex.stated_system import write_derivation
 
     made, refused = write_derivation(Catalogue(given.folder))
     for identifier, why in refused.items():
@@ -216,11 +216,11 @@ def derive_command(given: argparse.Namespace) -> int:
 
 
 def check_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.latex.check import FAULT, FOUND, WRONG, check_source
+    from lagrotor.paper.latex.formula import EVERY
+    from lagrotor.paper.latex.markup import read_source
+    from lagrotor.paper.latex.usage import declared_notation
     from lagrotor.paper.readable import readable
-    from lagrotor.paper.source.check import FAULT, FOUND, WRONG, check_source
-    from lagrotor.paper.source.formula import EVERY
-    from lagrotor.paper.source.markup import read_source
-    from lagrotor.paper.source.usage import declared_notation
     from lagrotor.paper.title_page import toml
 
     found, displayed = [], 0

@@ -14,12 +14,12 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.paper.grammar import parsed
+from lagrotor.paper.latex.formula import read_formula
+from lagrotor.paper.latex.tree import text_of
+from lagrotor.paper.latex.usage import notation_of
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.letters import FUNCTIONS, read
 from lagrotor.paper.premises import Premise, premises_of
-from lagrotor.paper.source.formula import read_formula
-from lagrotor.paper.source.tree import text_of
-from lagrotor.paper.source.usage import notation_of
 from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain
 
 _RELATIONS = {"=": sp.Eq, "!=": sp.Ne, ">=": sp.Ge, ">": sp.Gt, "<=": sp.Le, "<": sp.Lt}

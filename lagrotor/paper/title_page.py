@@ -69,7 +69,7 @@ class TitlePage:
     beginnings of the names of the derivations that state equations, and that show tests of claims. model: a module with a
     function `interactive() -> str`, a section of the page in HTML. letters: names of those that the notation begins with.
     notation: how its formulas are to be read, where the print leaves it open. preamble: what its LaTeX needs besides amsmath.
-    system: a derivation stated as text, `coordinates`, `L`, `constraints` (`lagrotor.paper.source.stated_system`).
+    system: a derivation stated as text, `coordinates`, `L`, `constraints` (`lagrotor.paper.latex.stated_system`).
     """
 
     title: str

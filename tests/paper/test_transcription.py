@@ -24,11 +24,11 @@ from lagrotor.pair.notation import (
     theta_0,
 )
 from lagrotor.paper.catalogue import Equation
+from lagrotor.paper.latex.formula import read_formula
+from lagrotor.paper.latex.tree import text_of
+from lagrotor.paper.latex.usage import declared_notation, notation_of
 from lagrotor.paper.letters import read
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.source.formula import read_formula
-from lagrotor.paper.source.tree import text_of
-from lagrotor.paper.source.usage import declared_notation, notation_of
 
 READ = (
     *("5.01", "5.02", "5.03", "5.04", "5.05", "5.07", "5.08", "5.10", "5.11", "5.12", "5.13", "5.15"),

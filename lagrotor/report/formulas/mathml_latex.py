@@ -8,7 +8,7 @@ from html import unescape
 from importlib.metadata import PackageNotFoundError, version
 from xml.etree.ElementTree import Element, tostring
 
-from lagrotor.paper.source.tokens import tokenize
+from lagrotor.paper.latex.tokens import tokenize
 
 _ACCENTS = dict(zip("→^ˆ˙¨¯‾―~∼˜", "→ˆˆ˙¨¯¯¯˜˜˜", strict=True))
 _RELATIONS = "=≠≡≈∼<>≤≥≪≫→⇒∈"

@@ -4,7 +4,7 @@ from html import escape
 
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.source.readings import typeset_lines
+from lagrotor.paper.latex.readings import typeset_lines
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, as_read, derived_heading, derived_lines

@@ -5,7 +5,7 @@
 
 # %%
 from lagrotor.paper import verdict
-from lagrotor.paper.source.stated_system import stated
+from lagrotor.paper.latex.stated_system import stated
 
 system = stated(__file__)
 

@@ -1,0 +1,228 @@
+"""What the text gives before a step: letters and unknown functions by what stands for them, to be put into the two sides."""
+
+from collections import defaultdict
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+
+from lagrotor.paper.latex.boxes import GREEK
+from lagrotor.paper.latex.read_statements import PrintedStatement
+from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, is_vector, letters_of, product_of, walk
+
+_MEMORY = 60  # displays back to which a step may refer
+_MOST_ROUNDS = 4  # of putting in: what stands for a letter may have letters that others stand for
+_ARITHMETIC = ("sum", "product", "quotient", "power", "negative", "norm", "dot", "cross", "column", "matrix")
+_BINDING = ("Derivative", "Integral", "Sum", "at", "limit")  # their second part is a letter that they use up
+
+
+@dataclass(frozen=True)
+class PrintedMeaning:
+    """What stands for a letter or an unknown function, and the print that gives it.
+
+    name: the equation, (3), or the formula of the text; latex: of the two sides; place: of the display; -1: of the text.
+    """
+
+    meaning: Node
+    value: Node
+    name: str
+    latex: str
+    section: str
+    place: int
+    statement: PrintedStatement
+
+    @property
+    def is_a_root(self) -> bool:
+        """Whether its sign is taken and not printed: of x by x² = y."""
+        return (
+            self.value != self.statement.sides[-1].node and isinstance(self.value, Call) and self.value.name == "sqrt"
+        )
+
+
+@dataclass
+class SectionMeanings:
+    """The premises before a place, by what they give."""
+
+    known: defaultdict[Node, list[PrintedMeaning]] = field(default_factory=lambda: defaultdict(list))
+    functions: defaultdict[str, list[PrintedMeaning]] = field(default_factory=lambda: defaultdict(list))
+
+    def add(self, statement: PrintedStatement, name: str, section: str, place: int) -> None:
+        """Take over what an equation gives: its left side by each other one, the last first."""
+        first, *others = statement.sides
+        if statement.kind != "equation":
+            return
+        for side in reversed(others):
+            worded = isinstance(side.node, Letter) and r"\text" in side.latex
+            if worded or is_vector(first.node) != is_vector(side.node):
+                continue
+            latex = f"{first.latex} = {side.latex}"
+            for meaning, value in _values(first.node, side.node):
+                if not _holds(value, meaning):
+                    made = PrintedMeaning(meaning, value, name, latex, section, place, statement)
+                    self.known[meaning].append(made)
+                    if isinstance(meaning, Call) and _is_of_a_letter(meaning.name):
+                        self.functions[meaning.name].append(made)
+
+    def of(self, parts: Iterable[Node], place: int, section: str, but: PrintedStatement) -> Iterator[PrintedMeaning]:
+        """For each part that something stands for, the last premise but of a statement itself, of its section first."""
+        for part in parts:
+            near = [each for each in self._given(part, but) if each.place >= place - _MEMORY or each.section == section]
+            if near:
+                yield max(near, key=lambda each: (each.section == section, each.place))
+
+    def _called(self, part: Node) -> list[PrintedMeaning]:
+        """What a function, or its derivative by a prime, is at another place of its letters: V(r_0), V(0)."""
+        if not isinstance(part, Call):
+            return []
+        name = part.name.removesuffix("prime").removesuffix("prime")
+        order = (len(part.name) - len(name)) // len("prime")
+        made = []
+        for each in self.functions.get(name, ()):
+            of = each.meaning.args if isinstance(each.meaning, Call) else ()
+            if len(of) != len(part.args) or (order and len(of) > 1) or not all(map(_is_place_of, part.args, of)):
+                continue
+            value = each.value
+            for _ in range(order):
+                value = Call("Derivative", (value, of[0]))
+            if part.args != of:
+                value = (
+                    Call("at", (value, *of, *part.args))
+                    if order
+                    else put_for(value, dict(zip(of, part.args, strict=True)))
+                )
+            made.append(replace(each, meaning=part, value=value))
+        return made
+
+    def _given(self, part: Node, but: PrintedStatement) -> list[PrintedMeaning]:
+        """What equations but a statement itself give for a part, or else for the function that it is."""
+        near = [each for each in self.known.get(part, ()) if each.statement is not but]
+        return near or [each for each in self._called(part) if each.statement is not but]
+
+    def is_called(self, node: Node, but: PrintedStatement) -> bool:
+        """Whether a node is a function at other arguments than those by which it is given, or its derivative by a prime."""
+        return any(each not in self.known.get(node, ()) for each in self._given(node, but))
+
+    def is_given_once(self, premise: PrintedMeaning, but: PrintedStatement) -> bool:
+        """Whether no equation of its section but a statement itself gives anything else for the same."""
+        near = [each for each in self._given(premise.meaning, but) if each.section == premise.section]
+        own = {each.value for each in near if each.statement is premise.statement}
+        return all(each.value in own for each in near)
+
+
+def _values(left: Node, right: Node) -> Iterator[tuple[Node, Node]]:
+    """What a side gives, and its value: itself, its rates; the rate or derivative of which a product is made."""
+    if _is_meaning(left):
+        yield left, right
+        if isinstance(left, Call) and all(isinstance(each, Letter) for each in left.args):
+            yield Letter(left.name), right  # H(p, q) = …, where H alone is meant as well
+        if isinstance(left, Letter) and not left.vector and isinstance(right, Call):
+            once = Call("rate", (right,))
+            yield Letter(f"{left.name}_dot"), once
+            yield Letter(f"{left.name}_ddot"), Call("rate", (once,))
+    elif isinstance(left, Call) and left.name == "power" and _is_meaning(left.args[0]):
+        yield left, right
+        if left.args[1] == Number(Fraction(2)):
+            yield left.args[0], Call("sqrt", (right,))
+    elif isinstance(left, Call) and left.name == "product" and not is_vector(left):
+        yield left, right
+        moving = [each for each in left.args if _is_rate(each)]
+        if len(moving) == 1:  # m d²x/dt² = F
+            rest = [each for each in left.args if each is not moving[0]]
+            yield moving[0], Call("quotient", (right, product_of(rest)))
+
+
+def _is_of_a_letter(name: str) -> bool:
+    """Whether a function has a letter for its name, and is no operation such as a mean."""
+    stem = name.split("_")[0]
+    return len(stem) == 1 or (rf"\{stem}" in GREEK and stem.lower() != "delta")
+
+
+def _is_place_of(node: Node, letter: Node) -> bool:
+    """Whether an argument is a place of a letter; V(x) beside V(r), or V in other coordinates, is another function."""
+    stem = letter.name.split("_")[0] if isinstance(letter, Letter) else ""
+    return not letters_of(node) or stem in {name.split("_")[0] for name in letters_of(node)}
+
+
+def _is_rate(node: Node) -> bool:
+    return (
+        node.name.endswith("dot") if isinstance(node, Letter) else isinstance(node, Call) and node.name == "Derivative"
+    )
+
+
+def _is_meaning(node: Node) -> bool:
+    """Whether something can stand for a node: a letter, an unknown function or a derivative; tan δ, |Z| of a letter alone."""
+    if not isinstance(node, Call):
+        return isinstance(node, Letter)
+    known = node.name in KNOWN and not isinstance(node.args[0], Letter)
+    return node.name not in _ARITHMETIC and not known and bool(letters_of(node))
+
+
+def _holds(node: Node, part: Node) -> bool:
+    return any(each == part for each in walk(node))
+
+
+def _free(node: Node, bound: tuple[Node, ...] = ()) -> Iterator[Node]:
+    """The node and its parts, but for what derivatives and integrals in it use up."""
+    if node not in bound:
+        yield node
+    if isinstance(node, Call):
+        binding = node.name in _BINDING and len(node.args) > 1
+        for place, part in enumerate(node.args):
+            if not (binding and place == 1):
+                yield from _free(part, (*bound, node.args[1]) if binding and place == 0 else bound)
+
+
+def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
+    """A node with parts replaced; not the variable of a derivative or an integral, nor what that variable is in it."""
+    if node in values:
+        return values[node]
+    if not isinstance(node, Call) or not values:
+        return node
+    if node.name in _BINDING and len(node.args) > 1:
+        inner = {key: value for key, value in values.items() if key != node.args[1]}
+        return Call(
+            node.name, (put_for(node.args[0], inner), node.args[1], *(put_for(each, values) for each in node.args[2:]))
+        )
+    return Call(node.name, tuple(put_for(each, values) for each in node.args))
+
+
+def _stands_alone(part: Node, others: Collection[Node], sides: Iterable[Node]) -> bool:
+    """Whether a part stands anywhere but in the others that are put in: by ω² = g/l no root is put in for ω in ω² + k."""
+    wider = {each: Number(Fraction(0)) for each in others if each != part and _holds(each, part)}
+    return not wider or any(_holds(put_for(side, wider), part) for side in sides)
+
+
+def _without(parts: Collection[Node], others: Collection[Node]) -> list[Node]:
+    return [each for each in parts if each not in others]
+
+
+# The parts that are put in, of the left side and of the right: those of one alone, so that the letters of the other stay;
+# those that the two do not share; all. x = f(y) and y = g(x) put into the two sides at once would exchange them.
+WANTED: tuple[Callable[[Collection[Node], Collection[Node]], list[Node]], ...] = (
+    _without,
+    lambda left, right: _without(right, left),
+    lambda left, right: [*_without(left, right), *_without(right, left)],
+    lambda left, right: [*left, *_without(right, left)],
+)
+
+
+def rounds(
+    left: Node,
+    right: Node,
+    premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]],
+    wanted: Callable[[Collection[Node], Collection[Node]], list[Node]],
+) -> list[dict[Node, PrintedMeaning]]:
+    """What is put into two sides, round by round; nothing into what stands for it: x by y and y by x would go on without end."""
+    put: list[dict[Node, PrintedMeaning]] = []
+    above: defaultdict[Node, set[Node]] = defaultdict(set)  # what a part came in with
+    for _ in range(_MOST_ROUNDS):
+        parts = (dict.fromkeys(_free(side)) for side in (left, right))
+        new = {each.meaning: each for each in premises(wanted(*parts)) if each.meaning not in above[each.meaning]}
+        new = {part: each for part, each in new.items() if _stands_alone(part, new, (left, right))}
+        if not new:
+            break
+        for meaning, each in new.items():
+            for part in walk(each.value):
+                above[part] |= {meaning, *above[meaning]}
+        put.append(new)
+        left, right = (put_for(side, {key: each.value for key, each in new.items()}) for side in (left, right))
+    return put

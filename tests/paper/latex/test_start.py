@@ -1,0 +1,367 @@
+"""A folder made from a source, and made again: what is confirmed or derived stays, what has changed is marked."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+from unittest.mock import Mock
+
+import pytest
+
+from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError
+from lagrotor.paper import Paper
+from lagrotor.paper.catalogue import Catalogue
+from lagrotor.paper.latex.markup import read_source
+from lagrotor.paper.latex.readings import readings
+from lagrotor.paper.latex.start import begin_paper, confirm
+
+TEX = r"""\documentclass{article}
+\newcommand{\half}{\frac{1}{2}}
+\begin{document}
+\section{Energy}
+\begin{equation}\label{eq:T} T = \half m v^2 \end{equation}
+\begin{equation}\label{eq:p} p = m v \end{equation}
+\begin{equation} \vec L = \vec r\times\vec p \end{equation}
+\end{document}
+"""
+
+
+def rows(folder: Path) -> dict[str, dict[str, Any]]:
+    given = tomllib.loads((folder / "equations.toml").read_text(encoding="utf-8"))
+    return {row["id"]: row for row in given["equation"]}
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    file = tmp_path / "paper.tex"
+    file.write_text(TEX, encoding="utf-8")
+    begin_paper(tmp_path / "mine", file)
+    return file
+
+
+def test_macros_are_expanded_in_what_is_stored_and_nothing_is_confirmed(source: Path) -> None:
+    folder = source.parent / "mine"
+    found = rows(folder)
+    assert found["1"]["latex"] == r"T = \frac{1}{2} m v^2" and found["1"]["label"] == "eq:T"
+    assert {row["read"] for row in found.values()} == {"unconfirmed"}
+    paper = Paper(folder)
+    assert not paper.equation("1").is_confirmed
+    assert [str(member) for line in paper.lines("1") for member in line.members] == ["m*v**2/2"]
+    assert paper.lines("3")[0].members[0].shape == (3, 1), "vectors are declared"
+
+
+def test_what_is_confirmed_stays_and_what_has_changed_is_marked(source: Path) -> None:
+    folder = source.parent / "mine"
+    confirm(folder, ["1", "2"])
+    assert Paper(folder).equation("1").is_confirmed
+    more = r"\begin{equation} q = 1 \end{equation}" + "\n" + r"\begin{equation}\label{eq:T}"
+    source.write_text(
+        TEX.replace(r"\begin{equation}\label{eq:T}", more).replace("p = m v", "p = 2 m v"), encoding="utf-8"
+    )
+    made = begin_paper(folder, source)
+    found = rows(folder)
+    assert (found["1"]["label"], found["1"]["number"], found["1"]["read"]) == ("eq:T", "2", "confirmed"), "its id stays"
+    assert (found["2"]["read"], found["2"]["changed"]) == ("unconfirmed", "p = m v") and made.changed == ("2",)
+    assert [row["latex"] for i, row in found.items() if i not in "123"] == ["q = 1"]
+
+
+def test_ids_stay_while_numbers_move_and_this_is_said(source: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = source.parent / "mine"
+    text = TEX.replace(
+        r"\begin{equation}\label{eq:T}", r"\begin{equation} q = 1 \end{equation} \begin{equation}\label{eq:T}"
+    )
+    source.write_text(text.replace(r"\label{eq:p}", r"\label{eq:momentum}"), encoding="utf-8")
+    assert begin_paper(folder, source).moved == ("1 is (2)", "2 is (3)", "3 is (4)")
+    assert main(["readings", str(folder)]) == 0
+    out = capsys.readouterr().out
+    assert "1, printed (2)  eq:T: unconfirmed" in out and "2, printed (3)  eq:momentum: unconfirmed" in out
+    assert begin_paper(folder, source).moved == (), "once"
+    assert confirm(folder, ["eq:T", "(3)"]) == ["1", "2"], "the numbers that are printed now"
+
+
+def test_readings_are_shown_with_orders_decimals_and_units(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source = tmp_path / "paper.tex"
+    rows = (r"g = 9.81\,\mathrm{m/s^2}", r"y = \frac{1}{2} x + 0{,}5 x^2 + O(x^3)")
+    body = "".join(rf"\begin{{equation}} {row} \end{{equation}}" for row in rows)
+    source.write_text(rf"\documentclass{{article}}\begin{{document}}{body}\end{{document}}", encoding="utf-8")
+    begin_paper(tmp_path / "mine", source)
+    assert main(["readings", str(tmp_path / "mine")]) == 0
+    out = capsys.readouterr().out
+    assert "g = 9.81·m·s^(−2)" in out and "O(x³)" in out and "1/2·x" in out
+
+
+def test_the_folders_of_texinputs_are_looked_into(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "style").mkdir()
+    (tmp_path / "style" / "mine.sty").write_text(r"\newcommand{\kin}{\frac12 m v^2}", encoding="utf-8")
+    (tmp_path / "text").mkdir()
+    file = tmp_path / "text" / "paper.tex"
+    head = r"\documentclass{article}\usepackage{mine}\begin{document}"
+    file.write_text(head + r"\[ T = \kin \]\end{document}", encoding="utf-8")
+    assert begin_paper(tmp_path / "without", file).read == 0
+    monkeypatch.setenv("TEXINPUTS", f".:{tmp_path / 'style'}//:")
+    assert begin_paper(tmp_path / "with", file).read == 1
+
+
+DOCUMENT = r"\documentclass{article}\begin{document}\section{One}"
+
+
+def made_again(folder: Path, *bodies: str) -> dict[str, dict[str, Any]]:
+    """The rows after a source of the first body, all confirmed, has become one of the second."""
+    file = folder / "paper.tex"
+    for body in bodies:
+        file.write_text(rf"{DOCUMENT}{body}\end{{document}}", encoding="utf-8")
+        begin_paper(folder / "mine", file)
+        if body is bodies[0]:
+            confirm(folder / "mine", rows(folder / "mine"))
+    return rows(folder / "mine")
+
+
+def displays(*prints: str) -> str:
+    return "".join(rf"\begin{{equation}}{each}\end{{equation}}" for each in prints)
+
+
+def test_an_equation_before_others_without_labels_leaves_them_confirmed(tmp_path: Path) -> None:
+    found = made_again(tmp_path, displays("a = 1", "b = 2", "c = 3"), displays("z = 0", "a = 1", "b = 4", "c = 3"))
+    assert [(i, row["latex"], row["read"]) for i, row in found.items()] == [
+        ("1'", "z = 0", "unconfirmed"),
+        ("1", "a = 1", "confirmed"),
+        ("2", "b = 4", "unconfirmed"),
+        ("3", "c = 3", "confirmed"),
+    ]
+    assert found["2"]["changed"] == "b = 2" and "changed" not in found["1'"]
+
+
+def test_a_print_that_another_label_has_is_not_taken_from_it(tmp_path: Path) -> None:
+    first = displays(r"\label{A} x = 1", r"\label{B} x = 1")
+    found = made_again(tmp_path, first, displays("x = 1") + first)
+    assert [(i, row.get("label"), row["read"]) for i, row in found.items()] == [
+        ("1'", None, "unconfirmed"),
+        ("1", "A", "confirmed"),
+        ("2", "B", "confirmed"),
+    ]
+
+
+def test_titles_of_sections_move_with_them_and_those_of_the_author_stay(tmp_path: Path) -> None:
+    made_again(tmp_path, displays("x = 1") + r"\section{Two}" + displays("y = 2"))
+    about = tmp_path / "mine" / "paper.toml"
+    text = about.read_text(encoding="utf-8").replace('"One"', '"Mine"').replace("[sections]", "[sections] # as printed")
+    about.write_text(text + '\n# [system]\n# L = "1"\n\n[system]\ncoordinates = ["q"]\n', encoding="utf-8")
+    file = tmp_path / "paper.tex"
+    file.write_text(
+        file.read_text(encoding="utf-8").replace(r"\section{Two}", r"\section{New}\[ u = 3 \]\section{Two}")
+    )
+    notes = begin_paper(tmp_path / "mine", file).notes
+    given = tomllib.loads(about.read_text(encoding="utf-8"))
+    assert list(given["sections"].items()) == [("1", "Mine"), ("2", "New"), ("3", "Two")]
+    assert '"3" = "Two"\n\n# [system]\n# L = "1"\n\n[system]' in about.read_text(encoding="utf-8"), (
+        "comments stay below"
+    )
+    assert given["system"] == {"coordinates": ["q"]} and "# as printed" in about.read_text(encoding="utf-8")
+    assert notes == ('section 1 is "One", which paper.toml calls "Mine": it stays so',)
+
+
+def test_a_letter_is_declared_though_a_meaning_has_it_as_a_word(tmp_path: Path) -> None:
+    made_again(tmp_path, displays("x = 1"))
+    symbols = tmp_path / "mine" / "symbols.py"
+    symbols.write_text(symbols.read_text(encoding="utf-8").replace('"?"', '"mass of a ball"', 1), encoding="utf-8")
+    made_again(tmp_path, displays("x = 1", "a = 2"))
+    assert [line.split()[0] for line in symbols.read_text(encoding="utf-8").splitlines()[5:]] == ["x", "a"]
+
+
+def test_what_was_added_to_a_line_stays_where_it_is_read_alike(source: Path) -> None:
+    folder, file = source.parent / "mine", source.parent / "mine" / "equations.toml"
+    text = file.read_text(encoding="utf-8").replace("[[equation.line]]", "[[equation.line]]\norder = 2")
+    file.write_text(text, encoding="utf-8")
+    source.write_text(TEX.replace("p = m v", "p = m v^2"), encoding="utf-8")
+    begin_paper(folder, source)
+    assert [row["line"][0].get("order") for row in rows(folder).values()] == [2, None, 2]
+
+
+def test_what_is_no_longer_in_the_source_or_has_another_name_is_not_confirmed(source: Path) -> None:
+    folder = source.parent / "mine"
+    confirm(folder, ["1"])
+    source.write_text(TEX.replace(r"\label{eq:T} T = \half m v^2", r"\label{eq:p} q = 1"), encoding="utf-8")
+    begin_paper(folder, source)
+    with pytest.raises(InputError, match="eq:p is more than one equation"):
+        confirm(folder, ["eq:p"])
+    with pytest.raises(InputError, match="1 is no longer in the source"):
+        confirm(folder, ["1"])
+    assert rows(folder)[confirm(folder, ["(1)"])[0]]["latex"] == "q = 1"
+
+
+def test_comments_stay_above_their_equation(source: Path) -> None:
+    folder = source.parent / "mine"
+    file = folder / "equations.toml"
+    first, mark, rest = file.read_text(encoding="utf-8").partition('[[equation]]\nid = "2"')
+    text = f"{first}# looked up\n# twice\n{mark}\n# within{rest}"
+    file.write_text(text.replace("[[equation.line]]", "# of the line\n[[equation.line]]", 1), encoding="utf-8")
+    confirm(folder, ["1"])
+    begin_paper(folder, source)
+    again = file.read_text(encoding="utf-8")
+    assert '# looked up\n# twice\n# within\n[[equation]]\nid = "2"' in again
+    assert '# of the line\n[[equation]]\nid = "1"' in again
+    assert rows(folder)["1"]["read"] == "confirmed"
+
+
+def test_an_equation_that_is_gone_stays_where_a_derivation_states_it(source: Path) -> None:
+    folder = source.parent / "mine"
+    (folder / "derivations" / "s1.py").write_text('verdict("2", 1)\n', encoding="utf-8")
+    kept = [line for line in TEX.splitlines() if "eq:p" not in line and "vec" not in line]
+    source.write_text("\n".join(kept), encoding="utf-8")
+    made = begin_paper(folder, source)
+    assert rows(folder)["2"]["read"] == "gone" and "3" not in rows(folder) and set(made.gone) == {"2", "3"}
+
+
+def test_a_confirmation_is_of_this_print_and_these_members(source: Path) -> None:
+    folder = source.parent / "mine"
+    confirm(folder, ["1"])
+    file = folder / "equations.toml"
+    file.write_text(file.read_text(encoding="utf-8").replace("1/2*m*v**2", "2*m*v**2"), encoding="utf-8")
+    assert not Paper(folder).equation("1").is_confirmed
+    with pytest.raises(InputError, match="no equation '9'"):
+        confirm(folder, ["9"])
+
+
+def test_numbers_beside_the_source_are_taken_and_a_difference_is_said(source: Path) -> None:
+    source.with_suffix(".aux").write_text(r"\newlabel{eq:T}{{7}{1}}" + "\n", encoding="utf-8")
+    made = begin_paper(source.parent / "other", source)
+    assert rows(source.parent / "other")["7"]["label"] == "eq:T"
+    assert "eq:T is (7) in paper.aux and (1) by the source" in made.notes[0]
+
+
+def test_a_label_that_two_displays_have_gives_neither_its_number(tmp_path: Path) -> None:
+    source = tmp_path / "paper.tex"
+    body = r"\begin{equation}\label{a} x = 1 \end{equation}\begin{equation}\label{a} y = 2 \end{equation}"
+    source.write_text(rf"\documentclass{{article}}\begin{{document}}{body}\end{{document}}", encoding="utf-8")
+    source.with_suffix(".aux").write_text(r"\newlabel{a}{{2}{1}}", encoding="utf-8")
+    begin_paper(tmp_path / "mine", source)
+    assert {row["latex"]: row["number"] for row in rows(tmp_path / "mine").values()} == {"x = 1": "1", "y = 2": "2"}
+
+
+def test_readings_are_shown_beside_the_print_and_confirmed(source: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = str(source.parent / "mine")
+    assert main(["readings", folder]) == 0
+    out = capsys.readouterr().out
+    assert "1  eq:T: unconfirmed" in out and r"print    T = \frac{1}{2} m v^2" in out
+    assert main(["readings", folder, "--confirm", "1"]) == 0
+    assert main(["readings", folder, "--json"]) == 0
+    assert '"status": "confirmed"' in capsys.readouterr().out
+
+
+def test_a_folder_that_is_no_paper_is_refused_before_anything_is_written(source: Path, tmp_path: Path) -> None:
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "note.txt").write_text("mine", encoding="utf-8")
+    with pytest.raises(InputError, match="is no paper"):
+        begin_paper(tmp_path / "full", source)
+    with pytest.raises(InputError, match="is a paper already"):
+        begin_paper(tmp_path / "mine")
+    (tmp_path / "empty.tex").write_text("no formula", encoding="utf-8")
+    with pytest.raises(InputError, match="no displayed equation"):
+        begin_paper(tmp_path / "new", tmp_path / "empty.tex")
+    assert not (tmp_path / "new").exists()
+
+
+def test_what_is_interrupted_leaves_nothing(source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half a folder was no paper, and none could be made there."""
+    folder = tmp_path / "new"
+    with monkeypatch.context() as patched:
+        patched.setattr("lagrotor.paper.latex.start._write_symbols", Mock(side_effect=KeyboardInterrupt))
+        with pytest.raises(KeyboardInterrupt):
+            begin_paper(folder, source)
+    assert {each.name for each in tmp_path.iterdir()} == {"mine", "paper.tex"}
+    folder.mkdir()
+    assert begin_paper(folder, source).folder == folder and rows(folder) == rows(tmp_path / "mine")
+    assert {each.name for each in tmp_path.iterdir()} == {"mine", "new", "paper.tex"}
+
+
+def test_a_notebook_of_the_older_format_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "paper.ipynb"
+    file.write_text(
+        '{"worksheets": [{"cells": [{"cell_type": "markdown", "source": ["$$x = a$$"]}]}]}', encoding="utf-8"
+    )
+    assert [each.latex for each in read_source(file).equations] == ["x = a"]
+    file.write_text('{"worksheets": []}', encoding="utf-8")
+    with pytest.raises(InputError, match="it is no notebook"):
+        read_source(file)
+
+
+def test_what_the_author_says_in_notation_settles_the_mark(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, folder = tmp_path / "paper.tex", tmp_path / "mine"
+    file.write_text(TEX.replace(r"p = m v", r"p' = k(m + v)"), encoding="utf-8")
+    begin_paper(folder, file)
+    shown = []
+    for said in ("", '[notation]\nusual = "prime"\nletters = "k"\n', '[notation]\nusual = "prime"\nfunctions = "k"\n'):
+        about = (folder / "paper.toml").read_text(encoding="utf-8").partition("\n[notation]")[0]
+        (folder / "paper.toml").write_text(f"{about}\n{said}", encoding="utf-8")
+        assert main(["readings", str(folder)]) == 0
+        shown.append(" ".join(capsys.readouterr().out.split()))
+    first, second, third = shown
+    assert 'p with a prime is a name, and no derivative ([notation] usual = "prime")' in first
+    assert "k before ( is a factor" in first and "guessed" not in second
+    assert "reads it otherwise now: repeat init" in third
+
+
+def test_delimiters_with_a_body_and_derivatives_of_commath_are_read(tmp_path: Path) -> None:
+    (file := tmp_path / "paper.tex").write_text(
+        r"\documentclass{article}\usepackage{mathtools,commath}\DeclarePairedDelimiterX{\ip}[2]{(}{)}{#1 \delimsize| #2}"
+        r"\DeclarePairedDelimiter\br{[}{]}\newrobustcmd{\q}[1]{\mathbf{#1}}\begin{document}"
+        r"\[ \ip{a}{b} + \ip*{a}{b} = \ip[\big]{a}{b} \br{x}\q{z} \] \[ \dpd[2]{f}{x}{y} + \od{g}{t} = \abs{a} \]\end{document}"
+    )
+    pair = r"\left(a | b\right)"
+    assert [each.latex for each in read_source(file).equations] == [
+        rf"{pair} + {pair} = {pair} \left[x\right]\mathbf{{z}}",
+        r"\frac{\partial^{2} f}{\partial x^{2}}{y} + \frac{\mathrm{d} g}{\mathrm{d} t} = \left| a \right|",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("said", "subject"),
+    [
+        ("The gas radon decays: radon enters a house, and radon leaves it.", ""),
+        ("Take a Radon measure, the Radon measure of a set, and Radon measures.", "measures"),
+        ("The sum of vectors is associative, that of forces is associative, and their product is associative.", ""),
+        ("由动量定理和能量定理可以证明粒子的速度不变。", ""),
+        ("由引理和定理可以证明此推论。", "proofs"),
+        ("取子群的陪集和同态。", "groups"),
+        ("An associative product with an identity element and two cosets of a subgroup.", "groups"),
+    ],
+)
+def test_words_that_texts_of_physics_use_too_tell_no_subject(said: str, subject: str, tmp_path: Path) -> None:
+    (tmp_path / "paper.tex").write_text(rf"{said} \[ a b = c \]", encoding="utf-8")
+    assert [each.subject for each in read_source(tmp_path / "paper.tex").equations] == [subject]
+
+
+def test_what_a_chapter_is_about_is_kept_beside_its_equations(tmp_path: Path) -> None:
+    text = r"Let \(H\) be a subgroup of a group, and take cosets of \(H\) and a homomorphism. \[ a b = c \]"
+    waves = text.replace("coset", "length").replace("subgroup", "part").replace("homomorphism", "velocity")
+    for name, said in (("groups", text), ("waves", waves)):
+        (tmp_path / f"{name}.tex").write_text(said, encoding="utf-8")
+        begin_paper(tmp_path / name, tmp_path / f"{name}.tex")
+    of_groups, of_waves = (next(readings(Catalogue(tmp_path / name))) for name in ("groups", "waves"))
+    assert rows(tmp_path / "groups")["0a"]["subject"] == "groups" and of_groups.guesses and not of_waves.guesses
+    file = tmp_path / "groups" / "paper.toml"
+    file.write_text(file.read_text(encoding="utf-8") + '\n[notation]\nusual = "groups"\n', encoding="utf-8")
+    assert not next(readings(Catalogue(tmp_path / "groups"))).guesses, "the author says that they are numbers"
+
+
+@pytest.mark.parametrize(
+    ("style", "number", "aux", "said"),
+    [
+        (r"\setcounter{equation}{4}", "", "", True),
+        (r"\definecolor{blue}{rgb}{0,0,1}", "", "", False),  # what has no counter numbers nothing
+        (r"\setcounter{equation}{4}", "*", "", False),  # no number, nothing to say
+        (r"\setcounter{equation}{4}", "", r"\newlabel{a}{{5}{1}}", False),  # LaTeX has said it
+    ],
+)
+def test_a_style_that_may_count_in_a_way_of_its_own_is_said(
+    style: str, number: str, aux: str, said: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "own.sty").write_text(style, encoding="utf-8")
+    if aux:
+        (tmp_path / "paper.aux").write_text(aux, encoding="utf-8")
+    display = rf"\begin{{equation{number}}} x = 2 y \label{{a}} \end{{equation{number}}}"
+    text = rf"\documentclass{{article}}\usepackage{{own}}\begin{{document}}{display}\end{{document}}"
+    (tmp_path / "paper.tex").write_text(text, encoding="utf-8")
+    assert main(["init", str(tmp_path / "mine"), "--from", str(tmp_path / "paper.tex")]) == 0
+    shown = " ".join(" ".join(capsys.readouterr()).split())
+    assert ("own.sty may number equations in a way of its own" in shown) is said
