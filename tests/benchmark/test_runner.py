@@ -30,11 +30,15 @@ def absent(scene: Scene, times: Any) -> Any:
     raise ImportError("no module", name="pydy")
 
 
+def moving(times: Any) -> Any:
+    return np.zeros((2, len(times), 3)) + np.asarray(times)[:, None]
+
+
 def halfway(scene: Scene, times: Any) -> Any:
     def run(tol: float) -> Any:
         if tol < 1e-4:
             raise RuntimeError("too tight\nand more")
-        return np.zeros((2, len(times), 3)), 1
+        return moving(times), 1
 
     return run
 
@@ -56,7 +60,7 @@ class Clock:
         def run(setting: float) -> Any:
             self.runs[setting] += 1
             self.now += self.seconds(setting, self.runs[setting])
-            return np.zeros((2, len(times), 3)), 1
+            return moving(times), 1
 
         return run
 
