@@ -31,9 +31,8 @@ WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [µs]"}
 TITLE = "Other tools on growing mechanisms"
 ALT = (
     "Four panels in logarithms over the number of links: above the time to be ready, below the time of one right-hand side; left "
-    "rods in relative angles, right gyroscopes. The right-hand sides of lagrotor rise nearly in proportion to the number, the "
-    "time until they are ready faster; sympy's methods lie higher and end where their time did not suffice; the compiled engines "
-    "are ready at once. Solid and dotted lines are of two runs, on two machines."
+    "rods in relative angles, right gyroscopes. The lines of lagrotor lie below those of sympy's methods, which end where their "
+    "time did not suffice; the compiled engines are ready at once. Solid and dotted lines are of two runs, on two machines."
 )
 
 

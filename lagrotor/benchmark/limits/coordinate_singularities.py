@@ -47,7 +47,7 @@ def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[
     scene = passing(miss)
     states, spent = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
     seen = model.observe(scene, states).axes
-    error = float(np.abs(seen[:, 1] - _great_circle(miss, np.array([_PASS]))[0]).max())
+    error = float(np.abs(seen[:, -1] - _great_circle(miss, np.array([_PASS]))[0]).max())
     check_work(f"a pass at {miss:g} rad by {model.name}", spent, seen, error, _PASS)
     return error, spent
 
