@@ -65,6 +65,12 @@ def check_engine(engine: str, caller: str = "simulate") -> None:
         raise InputError(f"{caller}: engine = {engine!r} is neither core nor fast")
 
 
+def check_progress(progress: object, caller: str = "simulate") -> None:
+    """Raises InputError where it is neither None nor can be called."""
+    if progress is not None and not callable(progress):
+        raise InputError(f"{caller}: progress = {progress!r} must be a function, or None")
+
+
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
     """Integrate from `begin` through increasing `times` with a local error `tol`; states (n, d) there.
 

@@ -16,8 +16,8 @@ from lagrotor.benchmark.runner import Case, Method, benchmark, reference
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
 from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import LagrotorError
-from lagrotor.models.spring_link.system import paper_system
-from lagrotor.pair.examples import DAMPING, LIGHT, STIFFNESS
+from lagrotor.models import paper_system
+from lagrotor.pair import DAMPING, LIGHT, STIFFNESS
 
 MOVING = np.linspace(0, 1, 6).reshape(1, 2, 3)
 PAIR = range_of_validity.PAIR

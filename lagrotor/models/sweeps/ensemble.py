@@ -25,7 +25,7 @@ from lagrotor.models.sweeps.kept_chunks import kept_chunks
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.estimated_run import Evolution, Leg, Patience, estimate_runs, first_time
-from lagrotor.numerics.integrate import check_engine, check_tolerance
+from lagrotor.numerics.integrate import check_engine, check_progress, check_tolerance
 from lagrotor.numerics.segment import Array, StopError, Stretch
 from lagrotor.numerics.taylor import march_lanes
 from lagrotor.pair.scene import Scene
@@ -119,7 +119,8 @@ def sweep(
             how many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
         engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
         chunk: trajectories at a time.
-        executor: where chunks run; here, one after another, when None.
+        executor: a `concurrent.futures.Executor` where chunks run, of dask `client.get_executor()`; here, one after another, when
+            None.
         folder: an existing folder for the finished chunks; a later sweep with the same arguments runs only those that are missing
             or damaged.
         progress: called with the number of trajectories done and of all, after each chunk.
@@ -128,6 +129,12 @@ def sweep(
         InputError: for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
     times, tolerance, members = check_times("sweep", t), check_tolerance(tol), _checked(scenes, chunk, engine)
+    check_progress(progress, "sweep")
+    if not (executor is None or isinstance(executor, Executor)):
+        known = (
+            "an executor of concurrent.futures, such as ProcessPoolExecutor(4); a dask client has client.get_executor()"
+        )
+        raise InputError(f"sweep: executor = {executor!r} must be {known}")
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
     target = None if folder is None else kept_chunks(folder, members, times, tolerance, chunk, engine)
