@@ -141,10 +141,7 @@ def record_age(name: RecordName, date: str, digest: str | None) -> str:
 
 
 def recorded_speed() -> dict[str, Any]:
-    """date, digest, machine, versions, at_error (error → method → s), set_up (method → s), throughput.
-
-    Raises LagrotorError if it is unreadable.
-    """
+    """date, digest, machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises LagrotorError."""
     return _read(SPEED, dict)
 
 

@@ -76,7 +76,6 @@ def reference(scene: Scene, t_eval: Array) -> Reference:
     """The bar eliminated (six states) and two unit vectors with multipliers (twelve), both at 1e-13.
 
     tests/benchmark/reference.json holds 10 s of the displaced pair with thirty digits, by extrapolation, to compare.
-
     Raises LagrotorError where the pair does not move, or where the two differ by more than _FLOOR.
     """
     runs = [(model, integrate_model(model, scene, t_eval, TIGHTEST)) for model in (minimal.MODEL, spheres.MODEL)]
@@ -155,9 +154,8 @@ def benchmark(
 ) -> Benchmark:
     """Run every method at every setting, all of them once before any of them again; medians of the samples' seconds.
 
-    A method is not run at a finer setting once a run of it took more than `longest` s.
-
-    Raises LagrotorError for a reference or a method that integrates nothing.
+    A method is not run at a finer setting once a run of it took more than `longest` s. Raises LagrotorError for a reference or
+    a method that integrates nothing.
     """
     truth, record = reference(case.scene, case.t_eval), _Record()
     ready = _prepare_all(case, methods, tuple(tolerances), record)

@@ -45,9 +45,8 @@ def displaced_family(n: int) -> list[Scene]:
 def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughput]:
     """Rates of an ensemble of n at 1e-6 and 1e-10, in `executor` or here, and of the closed forms; each the best of a few.
 
-    With the fast extra, where heyoka is installed, the ensembles once more by it.
-
-    Raises LagrotorError for a run whose evaluations, motion or error are not those of the work that it reports.
+    With the fast extra, where heyoka is installed, the ensembles once more by it. Raises LagrotorError for a run whose
+    evaluations, motion or error are not those of the work that it reports.
     """
     scenes = displaced_family(n)
     rows: list[Throughput] = []

@@ -69,8 +69,8 @@ def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
     """The benchmarks, the ratios of the displaced scene, and other tools as they are on record, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
-    data = {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])}
-    return data | {"other_tools": other_tools(), "other_tools_measured": other_tools_age()}
+    others = {"other_tools": other_tools(), "other_tools_measured": other_tools_age()}
+    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])} | others
 
 
 def other_tools_age() -> str:

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor import Scene, Structure, simulate, sweep
+from lagrotor import Scene, Structure, read_scene, simulate, sweep, write_scene
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates
-from lagrotor.pair import read_scene, write_scene
 
 SCENE, TIMES = Scene((10.0, -10.0)), np.linspace(0.0, 0.1, 3)
 STRUCTURE = Structure([(0, 0), (1, 0)], [(0, 1)], 10.0)

@@ -26,7 +26,8 @@ def step_grows(system: RigidBodySystem, dt: float) -> bool:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LagrotorWarning)
         run = run_steps(moving, None, dt * np.arange(0, 1001, 20), dt)
-    check_work(f"steps of {dt:g} s", run.evaluations, run.tips)
+    if not run.ending.early:
+        check_work(f"steps of {dt:g} s", run.evaluations, run.tips)
     return run.ending.early or bool(run.stretches.max() > 1e-5)
 
 

@@ -119,8 +119,7 @@ def sweep(
             how many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
         engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
         chunk: trajectories at a time.
-        executor: a `concurrent.futures.Executor` where chunks run, of dask `client.get_executor()`; here, one after another, when
-            None.
+        executor: a `concurrent.futures.Executor`, of dask `client.get_executor()`; None: chunks run here, one after another.
         folder: an existing folder for the finished chunks; a later sweep with the same arguments runs only those that are missing
             or damaged.
         progress: called with the number of trajectories done and of all, after each chunk.
