@@ -215,7 +215,7 @@ def _run_all(
             too_slow[method] = f"left out: at {setting:g} a run took {seconds:.1f} s"
         error = float(np.linalg.norm(tips - truth, axis=-1).max())
         if np.isfinite(error):
-            check_work(f"{method} at {setting:g}", nfev, tips, least=0 if methods[method].family == "closed" else 1)
+            check_work(f"{method} at {setting:g}", nfev, truth, least=0 if methods[method].family == "closed" else 1)
             record.results[method, setting], record.seconds[method, setting] = (error, nfev), [seconds]
         else:
             record.failed.append((method, setting, "a value is not finite"))
