@@ -26,7 +26,6 @@ SPEED, MECHANISMS, STRUCTURES, BODIES_AND_LAGRANGIANS = (
     for name in ("speed", "mechanisms", "structures", "bodies_and_lagrangians")
 )
 RecordName = Literal["speed", "mechanisms", "structures", "bodies_and_lagrangians"]
-# Packages whose code a record measures.
 MEASURED_PACKAGES = {
     "speed": (models, numerics, pair, theory),
     "mechanisms": (algebra, mechanics, numerics),

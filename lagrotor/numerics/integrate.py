@@ -52,10 +52,10 @@ class Problem:
     begin: float = 0.0
 
 
-def check_tolerance(tol: float) -> float:
+def check_tolerance(tol: float, caller: str = "simulate") -> float:
     """`tol` as a float, refused outside [1e-13, 0.1]."""
     if not (isinstance(tol, int | float | np.floating) and TIGHTEST <= tol <= 0.1):
-        raise InputError(f"simulate: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
+        raise InputError(f"{caller}: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
     return float(tol)
 
 

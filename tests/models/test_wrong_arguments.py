@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor import Scene, Structure, read_scene, simulate, sweep, write_scene
+from lagrotor import Paper, Scene, Structure, floquet, read_scene, simulate, sweep, write_scene
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates
@@ -37,9 +37,12 @@ class Client:
         (lambda: sweep([SCENE], TIMES, executor=4), r"sweep: executor = 4 must be .*client\.get_executor\(\)"),
         (lambda: sweep([SCENE], TIMES, executor=Client()), r"sweep: executor = .*client\.get_executor\(\)"),
         (lambda: sweep([SCENE], TIMES, folder=5), r"sweep: folder = 5 must be a path"),
+        (lambda: sweep([SCENE], TIMES, 5), r"sweep: tol = 5 must lie between"),
+        (lambda: floquet(5, 0.2), r"the paired precession needs a Scene, not 5"),
         (lambda: simulate(SCENE, TIMES).save(5), r"save: path = 5 must be a path"),
         (lambda: simulate(SCENE, TIMES).animate(5), r"animate: path = 5 must be a path"),
         (lambda: write_scene(SCENE, 5), r"write_scene: path = 5 must be a path"),
+        (lambda: Paper(5), r"Paper: folder = 5 must be a path"),
         (lambda: read_scene([]), r"path = \[\] must be a path"),
         (lambda: STRUCTURE.largest_push(of=["rates"]), r"of = \['rates'\] must be one of rates, tilts"),
         (lambda: STRUCTURE.resonances(factor="x"), r"resonances: factor = 'x' must be numbers"),

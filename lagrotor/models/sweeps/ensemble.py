@@ -127,13 +127,11 @@ def sweep(
     Raises:
         InputError: for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
-    times, tolerance, members = check_times("sweep", t), check_tolerance(tol), _checked(scenes, chunk, engine)
+    times, tolerance, members = check_times("sweep", t), check_tolerance(tol, "sweep"), _checked(scenes, chunk, engine)
     check_progress(progress, "sweep")
     if not (executor is None or isinstance(executor, Executor)):
-        known = (
-            "an executor of concurrent.futures, such as ProcessPoolExecutor(4); a dask client has client.get_executor()"
-        )
-        raise InputError(f"sweep: executor = {executor!r} must be {known}")
+        way = "an executor of concurrent.futures; a dask client has one: client.get_executor()"
+        raise InputError(f"sweep: executor = {executor!r} must be {way}")
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
     target = None if folder is None else kept_chunks(folder, members, times, tolerance, chunk, engine)
