@@ -150,10 +150,8 @@ def simulate(
     times, tolerance = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     check_progress(progress)
-    if model not in (known := ("auto", *DIRECT, *MODELS)):
-        raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
     at_zero = scene.since(float(times[0]))  # all that follows counts time from the start
-    if model in DIRECT:
+    if model in tuple(DIRECT):  # a value without a hash is refused below
         motion = DIRECT[model](at_zero, float(times[-1] - times[0]), tolerance, True)
         error = "not known" if np.isnan(motion.error) else scientific(motion.error, 1)
         missed = not motion.error <= tolerance
@@ -169,6 +167,9 @@ def simulate(
         choice = choose(at_zero, float(times[-1] - times[0]), tolerance, engine)
         if choice.motion:
             return _direct(scene, choice.model, choice.reason, times, choice.motion, tolerance)
+    elif model not in tuple(MODELS):
+        known = "auto", *DIRECT, *MODELS
+        raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
     elif engine == "fast" and not _fast_runs(MODELS[model], scene):
         raise InputError(
             f"simulate: engine='fast' does not run model={model!r} with this scene: a Taylor step may pass where its "

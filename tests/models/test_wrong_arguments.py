@@ -29,11 +29,14 @@ class Client:
 @pytest.mark.parametrize(
     ("call", "said"),
     [
-        (lambda: simulate(SCENE, TIMES, "spheres", progress=5), r"simulate: progress = 5 must be a function, or None"),
+        (
+            lambda: simulate(SCENE, TIMES, "spheres", progress=5),
+            r"simulate: progress = 5 must be a function of the time",
+        ),
         (lambda: simulate(SCENE, TIMES, progress="x"), r"simulate: progress = 'x'"),
         (lambda: simulate(SCENE, TIMES, ["minimal"]), r"simulate: model = \['minimal'\] is not one of auto"),
         (lambda: simulate(SCENE, TIMES, "sphere"), r"simulate: model = 'sphere' is not one of .*: spheres\?"),
-        (lambda: sweep([SCENE], TIMES, progress=5), r"sweep: progress = 5 must be a function, or None"),
+        (lambda: sweep([SCENE], TIMES, progress=5), r"sweep: progress = 5 must be a function of two numbers"),
         (lambda: sweep([SCENE], TIMES, executor=4), r"sweep: executor = 4 must be .*client\.get_executor\(\)"),
         (lambda: sweep([SCENE], TIMES, executor=Client()), r"sweep: executor = .*client\.get_executor\(\)"),
         (lambda: sweep([SCENE], TIMES, folder=5), r"sweep: folder = 5 must be a path"),

@@ -25,7 +25,7 @@ from lagrotor.models.sweeps.kept_chunks import kept_chunks
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.estimated_run import Evolution, Leg, Patience, estimate_runs, first_time
-from lagrotor.numerics.integrate import check_engine, check_progress, check_tolerance
+from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.segment import Array, StopError, Stretch
 from lagrotor.numerics.taylor import march_lanes
 from lagrotor.pair.scene import Scene
@@ -128,7 +128,8 @@ def sweep(
         InputError: for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
     times, tolerance, members = check_times("sweep", t), check_tolerance(tol, "sweep"), _checked(scenes, chunk, engine)
-    check_progress(progress, "sweep")
+    if not (progress is None or callable(progress)):
+        raise InputError(f"sweep: progress = {progress!r} must be a function of two numbers, or None")
     if not (executor is None or isinstance(executor, Executor)):
         way = "an executor of concurrent.futures; a dask client has one: client.get_executor()"
         raise InputError(f"sweep: executor = {executor!r} must be {way}")
