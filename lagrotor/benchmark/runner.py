@@ -213,6 +213,10 @@ def _run_all(
             continue
         if seconds > longest and methods[method].family not in _COMPILING:
             too_slow[method] = f"left out: at {setting:g} a run took {seconds:.1f} s"
+        if tips.shape != truth.shape:
+            reason = f"the run ended early, at {tips.shape[1]} of {truth.shape[1]} times"
+            record.failed.append((method, setting, reason))
+            continue
         error = float(np.linalg.norm(tips - truth, axis=-1).max())
         if np.isfinite(error):
             check_work(f"{method} at {setting:g}", nfev, truth, least=0 if methods[method].family == "closed" else 1)
