@@ -20,7 +20,8 @@ from benchmarks.mechanisms.chains import JOINTS, VALUES, chain
 from benchmarks.mechanisms.comparison import SAME, _clock, _time_of
 from benchmarks.mechanisms.sympy_tools import kane, lagrange
 from benchmarks.mechanisms.tool import forget_all, in_own_process
-from lagrotor.benchmark.records import BODIES_AND_LAGRANGIANS, LINKS, MechanismKind
+from lagrotor.benchmark.records import BODIES_AND_LAGRANGIANS, LINKS, MechanismKind, stamp
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.files import write_text
 from lagrotor.mechanics import Frame, System, coordinates
 
@@ -228,6 +229,7 @@ def _measured(send: Callable[[Any], None], spend: Callable[[], Any], name: str, 
     rhs = _made(name, tool, values)
     ready = _clock() - before
     off = np.abs(_rates(name, tool, rhs(0.0, state)) - known).max() / np.abs(known).max()
+    check_work(f"{tool} on {name}", 1, np.array([known]), float(off))  # an error that is not finite is refused
     send((ready, _time_of(lambda: rhs(0.0, state)) if off < SAME else None, float(off)))
 
 
@@ -258,6 +260,6 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m benchmarks.bodies_and_lagrangians", description=__doc__)
     parser.add_argument("--record", action="store_true", help="write the record")
     arguments = parser.parse_args()
-    made = {"machine": machine(), "longest": LONGEST, "rows": measure()}
+    made = stamp("bodies_and_lagrangians") | {"machine": machine(), "longest": LONGEST, "rows": measure()}
     if arguments.record:
         print(write_text(BODIES_AND_LAGRANGIANS, json.dumps(made, indent=1, ensure_ascii=False) + "\n"))

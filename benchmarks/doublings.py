@@ -13,6 +13,7 @@ import numpy as np
 
 from benchmarks.structure_comparison import MASSLESS, staircase
 from lagrotor.benchmark.runner import Array
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
 from lagrotor.process import begin_process
@@ -22,13 +23,18 @@ from lagrotor.structures.structure import Structure
 
 SIZES = tuple(2**k for k in range(7, 14))
 BARS = {"massless": MASSLESS, "heavy": Link(1, 0.3, 0.1)}
-_ROUNDS = 50
+_ROUNDS, _SAME = 50, 1e-9
 _ROTORS = 60_000  # evaluated in a round of each
 
 
 def times(structures: Sequence[Structure], engine: Engine, rounds: int = _ROUNDS) -> Array:
     """Processor time of an evaluation of each, in s: the least of the rounds, in which they take turns."""
     evaluated, spent = [_evaluation(s, engine) for s in structures], np.empty((rounds, len(structures)))
+    for s, (rhs, y, often) in zip(structures, evaluated, strict=True):
+        moving, known = y + np.linspace(0, 1e-3, len(y)), exact_motion(s).rhs
+        rates = np.array(known(0.0, moving))
+        off = np.abs(np.array(rhs(0.0, moving)) - rates).max() / np.abs(rates).max()
+        check_work(f"{len(s.joints)} rotors, {engine}", often, rates[None], float(off), _SAME)
     for taken in spent:
         for k, (rhs, y, often) in enumerate(evaluated):
             began = time.process_time()

@@ -13,7 +13,7 @@ from pathlib import Path
 from benchmarks.compiled_solvers import CANDIDATES
 from benchmarks.machine import machine, versions
 from benchmarks.peers import PEERS
-from lagrotor.benchmark.records import SPEED
+from lagrotor.benchmark.records import SPEED, stamp
 from lagrotor.benchmark.runner import Benchmark, Method, benchmark, work_at
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, OURS
 from lagrotor.benchmark.throughput import Throughput, throughput
@@ -31,7 +31,7 @@ def speed_record(chart: Benchmark, rates: list[Throughput]) -> str:
     """The record as JSON: seconds of each method, and of the best of OURS, at each of some errors."""
     best = {f"best of {name}": [p for p in chart.points if p.family in of] for name, of in OURS.items()}
     best |= {name: [p for p in chart.points if p.method == name] for name in chart.setup}
-    data = {
+    data = stamp("speed") | {
         "machine": machine(),
         "versions": versions(),
         "at_error": {f"{e:g}": {name: work_at(points, e) for name, points in best.items()} for e in _ERRORS},

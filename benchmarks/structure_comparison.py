@@ -20,8 +20,9 @@ import numpy as np
 from benchmarks.machine import machine, versions
 from benchmarks.peers.multibody_engines import ENGINES
 from benchmarks.peers.rig import Rig
-from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, STRUCTURES, Timed
+from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, STRUCTURES, Timed, stamp
 from lagrotor.benchmark.runner import Array, Runner
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import IntegrationError
 from lagrotor.files import write_text
 from lagrotor.numerics.integrate import Engine
@@ -82,7 +83,9 @@ def _prepared(prepare: Callable[[Rig, Array], Runner], rig: Rig) -> Run:
 
 def compared(n: int, say: Callable[[str], None], out: set[str]) -> list[Timed]:
     """Every tool on a chain of n rotors but those left out."""
-    truth = begun(staircase(n), 1e-12).tips
+    reference = begun(staircase(n), 1e-12)
+    truth, least = reference.tips, len(TIMES)
+    check_work(f"the reference of {n} rotors", reference.evaluations, truth, reference.error, CHAIN_ERROR / 10, least)
     timed, chosen = dict[str, Timed](), dict[str, tuple[Run, float, list[float]]]()
     for name, (run, settings) in tools(n).items():
         if name in out:
@@ -138,7 +141,7 @@ def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any
             else row
             for row in rows
         ]
-    return {
+    return stamp("structures") | {
         "machine": machine(),
         "versions": versions(),
         "rows": [asdict(row) | {"error": None if np.isinf(row.error) else row.error} for row in rows],

@@ -9,7 +9,7 @@
 # methods in turn. Errors and numbers of evaluations, the same everywhere, are in `b1_chart`.
 
 # %%
-from lagrotor.benchmark.records import recorded_multiple, recorded_speed
+from lagrotor.benchmark.records import record_age, recorded_multiple, recorded_speed
 from lagrotor.benchmark.scenes_and_methods import CASES, OURS
 from lagrotor.models.simulate import choose
 from lagrotor.paper import Table
@@ -17,6 +17,7 @@ from lagrotor.paper import Table
 found = recorded_speed()
 machine, at_error = found["machine"], found["at_error"]
 ERRORS = tuple(at_error)
+age = record_age("speed", found["date"], found["digest"])
 
 
 def milliseconds(value):
@@ -67,7 +68,7 @@ tables = [
             for name in names
         ),
         f"One run of {where}; {versions}. Processor time; 1001 output times. The closed form is valid on the paired "
-        f"precession, where auto takes it down to tol = 1e-{reach}; the others integrate.",
+        f"precession, where auto takes it down to tol = 1e-{reach}; the others integrate. {age}",
     ),
     Table(
         "Speed against accuracy: other tools as multiples",
@@ -78,7 +79,7 @@ tables = [
             if at_error[ERRORS[0]][name]
         ),
         "Any model: the best of the core packages, here the closed form, its fit to the start included. Core and fast: the best "
-        "of their integrations, with the core packages and with the fast extra. From the same run.",
+        f"of their integrations, with the core packages and with the fast extra. From the same run. {age}",
     ),
     Table(
         "Throughput",
@@ -86,7 +87,7 @@ tables = [
         tuple(
             (x["what"], f"{x['rate']:.3g} {x['unit']}", f"{x['share']:.2g}", x["against"]) for x in found["throughput"]
         ),
-        f"From the same run: ensembles in one process a core, the rest in one. {where}.",
+        f"From the same run: ensembles in one process a core, the rest in one. {where}. {age}",
     ),
 ]
 tables[0]

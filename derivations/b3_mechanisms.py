@@ -22,7 +22,7 @@ from lagrotor.benchmark.mechanism_tables import (
     mechanism_rows,
     target_rows,
 )
-from lagrotor.benchmark.records import LINKS, recorded_bodies_and_lagrangians, recorded_mechanisms
+from lagrotor.benchmark.records import LINKS, record_age, recorded_bodies_and_lagrangians, recorded_mechanisms
 from lagrotor.paper import Table
 
 found = recorded_mechanisms()
@@ -31,6 +31,8 @@ where, where_beside = (
     f"{machine['processor']}, {machine['cores']} cores, Python {machine['Python']}"
     for machine in (found.machine, beside["machine"])
 )
+age = record_age("mechanisms", found.date, found.digest)
+age_beside = record_age("bodies_and_lagrangians", beside["date"], beside["digest"])
 versions = ", ".join(f"{name} {number}" for name, number in found.versions.items())
 each = {kind: (found.operations[kind][-1] - found.operations[kind][-2]) // (n[-1] - n[-2]) for kind, n in LINKS.items()}
 
@@ -42,24 +44,27 @@ tables = [
     Table(
         "Mechanisms: targets and measurements",
         TARGET_HEAD,
-        tuple(target_rows(found.measured, found.decided, found.operations, found.ready)),
-        f"Multiples of processor time, on {where}. Each rod more takes {each['rods']} operations, each gyroscope more "
-        f"{each['gyroscopes']}; the first, on the ground, takes much less ({found.operations['gyroscopes'][0]} for a "
-        "gyroscope). Twice as many therefore take more than twice the operations, most so where there are few.",
+        tuple(target_rows(found.measured, found.decided, found.operations, beside["rows"])),
+        "Multiples of processor time, each within one record: rods and gyroscopes over sympy and the time to be ready are from "
+        f"the table beside sympy, the others from the tables of tools and of decisions. {age_beside} Each rod more takes "
+        f"{each['rods']} operations, each gyroscope more {each['gyroscopes']}; the first, on the ground, takes much less "
+        f"({found.operations['gyroscopes'][0]} for a gyroscope). Twice as many therefore take more than twice the "
+        "operations, most so where there are few.",
     ),
     Table(
         "Mechanisms: tools, and what each needs",
         MECHANISM_HEAD,
         tuple(mechanism_rows(found.measured)),
-        f"Processor time, medians, from the same run; {versions}. The run is one second, its error "
-        "the largest at eleven times, by scipy's DOP853 or LSODA or the tool's own integrator, "
-        "whichever is quickest. symbrim is not among them: it has bicycles, riders and a rolling disc, and neither mechanism.",
+        f"Processor time on {where}, medians; {versions}. Of lagrotor and of sympy's methods, ready and rhs are in the table "
+        "beside sympy. The run is one second, its error the largest at eleven times, by scipy's DOP853 or LSODA or the tool's "
+        "own integrator, whichever is quickest. symbrim is not among them: it has bicycles, riders and a rolling disc, and "
+        f"neither mechanism. {age}",
     ),
     Table(
         "Mechanisms: do two formulations agree?",
         DECISION_HEAD,
         tuple(decision_rows(found.decided)),
-        "The same steps with the exact decision and with sympy's simplify in its place, from a run of its own.",
+        f"The same steps with the exact decision and with sympy's simplify in its place, from a run of its own. {age}",
     ),
     Table(
         "Mechanisms from bodies and from a Lagrangian, beside sympy",
@@ -70,7 +75,7 @@ tables = [
         "with common subexpressions, then numpy's solve. rhs differs by: from lagrotor's of bodies, relative. A method that used "
         f"{beside['longest']:g} s was ended, larger mechanisms were not given to it. The bicycle is that of sympy's own test, "
         f"in its letters, the arm one of six joints. Processor time on {where_beside}, one method "
-        "after the other, ready measured once, by `python -m benchmarks.bodies_and_lagrangians --record`.",
+        f"after the other, ready measured once, by `python -m benchmarks.bodies_and_lagrangians --record`. {age_beside}",
     ),
 ]
 tables[0]

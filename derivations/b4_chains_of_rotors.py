@@ -15,11 +15,12 @@
 # %%
 import numpy as np
 
-from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, Timed, recorded_structures
+from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, Timed, record_age, recorded_structures
 from lagrotor.paper import Table
 
 record, found = recorded_structures()
 machine = record["machine"]
+age = record_age("structures", record["date"], record["digest"])
 ours = {x.n: x for x in found if x.tool == "lagrotor, fast"}
 
 
@@ -51,7 +52,7 @@ wanted = Table(
         for n in CHAIN_SIZES
     ),
     "Multiples of processor time to the same error. Pinocchio does not run 256 rotors here: its data hold four tensors of the "
-    "cube of 768 speeds, 14 GB.",
+    f"cube of 768 speeds, 14 GB. {age}",
 )
 wanted
 
@@ -81,6 +82,6 @@ table = Table(
     ),
     f"Processor time to an error of {CHAIN_ERROR:.0e} m, medians, {machine['processor']}, {machine['cores']} cores, Python "
     f"{machine['Python']}; compiling left out. A tool without a time did not come to that error with its finest step, or "
-    "did not run.",
+    f"did not run. {age}",
 )
 table

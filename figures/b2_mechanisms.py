@@ -1,7 +1,8 @@
 # %% [markdown]
 # # Figure b2: other tools on growing mechanisms
 #
-# The points of derivations/b3_mechanisms.py: time to be ready and time of a right-hand side, n rods and n gyroscopes.
+# The points of derivations/b3_mechanisms.py: time to be ready and time of a right-hand side, n rods and n gyroscopes. lagrotor
+# and sympy's methods are from the record of bodies and Lagrangians, the other tools from the record of mechanisms.
 
 # %%
 from functools import cache
@@ -10,11 +11,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator
 
-from lagrotor.benchmark.records import recorded_mechanisms
+from lagrotor.benchmark.mechanism_tables import mechanism_name
+from lagrotor.benchmark.records import LINKS, record_age, recorded_bodies_and_lagrangians, recorded_mechanisms
 from lagrotor.drawing import OKABE_ITO
 
+BESIDE = ("lagrotor, bodies", "KanesMethod", "LagrangesMethod")  # of the record of bodies and Lagrangians
 LOOKS = {
-    "lagrotor": ("blue", "o"),
+    "lagrotor, bodies": ("blue", "o"),
     "lagrotor, fast": ("sky blue", "s"),
     "KanesMethod": ("vermillion", "^"),
     "LagrangesMethod": ("orange", "v"),
@@ -28,8 +31,8 @@ WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [µs]"}
 TITLE = "Other tools on growing mechanisms"
 ALT = (
     "Four panels in logarithms over the number of links: above the time to be ready, below the time of one right-hand side; left "
-    "rods in relative angles, right gyroscopes. The lines of lagrotor rise in proportion to the number; those of sympy's "
-    "methods rise faster, lie higher, and end where their time did not suffice; the compiled engines are ready at once."
+    "rods in relative angles, right gyroscopes. The lines of lagrotor lie below those of sympy's methods, which end where their "
+    "time did not suffice; the compiled engines are ready at once. Solid and dotted lines are of two runs, on two machines."
 )
 
 
@@ -37,13 +40,14 @@ ALT = (
 @cache
 def data() -> dict[str, np.ndarray]:
     """Numbers of links, and seconds (tools, numbers) for each mechanism and measure, NaN where there is none."""
-    measured = recorded_mechanisms().measured
     found: dict[str, np.ndarray] = {}
-    for kind in ("rods", "gyroscopes"):
-        numbers = sorted({x.n for x in measured if x.kind == kind})
+    for kind, numbers in LINKS.items():
         found[f"n of {kind}"] = np.array(numbers)
+        names = {mechanism_name(kind, n): n for n in numbers}
         for what in WHAT:
-            seconds = {(x.tool, x.n): getattr(x, what) for x in measured if x.kind == kind}
+            seconds = {(x.tool, x.n): getattr(x, what) for x in recorded_mechanisms().measured if x.kind == kind}
+            beside = [x for x in recorded_bodies_and_lagrangians()["rows"] if x["mechanism"] in names]
+            seconds |= {(x["tool"], names[x["mechanism"]]): x[what] for x in beside}
             rows = [[seconds.get((name, n)) or np.nan for n in numbers] for name in LOOKS]
             found[f"{what} of {kind}"] = np.array(rows)
     return found
@@ -60,8 +64,11 @@ def measure() -> dict[str, float]:
     return found
 
 
+_BESIDE, _OTHERS = recorded_bodies_and_lagrangians(), recorded_mechanisms()
 CAPTION = (
-    "Processor time on one machine, each tool in its own process, its right-hand side equal to the others' to 1e-9. "
+    "Processor time, each tool in its own process, its right-hand side equal to the others' to 1e-9. Solid: one run on "
+    f"{_BESIDE['machine']['processor']}. {record_age('bodies_and_lagrangians', _BESIDE['date'], _BESIDE['digest'])} Dotted: "
+    f"another run on {_OTHERS.machine['processor']}. {record_age('mechanisms', _OTHERS.date, _OTHERS.digest)} "
     f"Between the smallest and the largest mechanism lagrotor's time to be ready grows as n to the power "
     f"{measure()['power of n, ready, rods']:.2f} for rods and {measure()['power of n, ready, gyroscopes']:.2f} for gyroscopes. "
     "A line ends at the time limit; fast: compiled by heyoka. Engines take their mechanisms as data and derive nothing."
@@ -78,6 +85,7 @@ def figure() -> Figure:
         for panel, kind in zip(row, ("rods", "gyroscopes"), strict=True):
             for (name, (colour, marker)), seconds in zip(LOOKS.items(), d[f"{what} of {kind}"], strict=True):
                 line = {"color": OKABE_ITO.get(colour, colour), "marker": marker, "markersize": 5, "linewidth": 1.0}
+                line["linestyle"] = "-" if name in BESIDE else ":"
                 panel.loglog(d[f"n of {kind}"], seconds * (1e6 if what == "rhs" else 1), label=name, **line)
             panel.set(xlabel=f"number of {kind} [1]", ylabel=label, title=kind)
             panel.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if what == "rhs" else (1,)))

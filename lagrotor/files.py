@@ -46,10 +46,18 @@ def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
     return target
 
 
+def path_of(where: str, path: str | Path) -> Path:
+    """Return the path of a file or a folder. Raises InputError for what is neither a text nor a Path."""
+    try:
+        return Path(path)
+    except TypeError:
+        raise InputError(f"{where} = {path!r} must be a path, as text or as a Path") from None
+
+
 def read_text(path: str | Path, otherwise: str = "") -> str:
     """The UTF-8 text of a file; otherwise: the encoding of one that is not. Raises InputError where there is none."""
     try:
-        with Path(path).open("rb") as file:
+        with path_of("path", path).open("rb") as file:
             wide = file.read(2) in (b"\xff\xfe", b"\xfe\xff")
         return Path(path).read_text(encoding="utf-16" if wide else "utf-8-sig")
     except OSError as error:

@@ -5,7 +5,6 @@ setting whose error is at most MECHANISM_ERROR, the largest of a coordinate (rad
 scipy's DOP853 at 10⁻¹³ on the right-hand side that all agree on.
 """
 
-import gc
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -23,12 +22,19 @@ from benchmarks.mechanisms.sympy_tools import SYMPY
 from benchmarks.mechanisms.tool import Ready, Rhs, Tool, forget_all, in_own_process
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Measured, MechanismKind
 from lagrotor.benchmark.runner import TOLERANCES
+from lagrotor.benchmark.work_check import check_work
+from lagrotor.errors import IntegrationError
 from lagrotor.mechanics.running.programs import motion_program
 from lagrotor.numerics.codegen import operations
 
 Array = NDArray[np.float64]
 TOOLS: dict[str, Tool] = OWN | SYMPY | ENGINES
 TIMES = np.linspace(0, 1, 11)
+BESIDE = (
+    "lagrotor",
+    "KanesMethod",
+    "LagrangesMethod",
+)  # `benchmarks.bodies_and_lagrangians` times ready and rhs of these
 SAME = 1e-9  # relative difference of right-hand sides up to which they are equal
 _LONGEST = 40.0  # s of processor time, for one tool on one mechanism; beyond, larger ones are left out
 _SAMPLES, _SAMPLE = 15, 5e-3
@@ -79,6 +85,8 @@ def measure(tool: Tool, case: Measured) -> Measured:
     difference = max(_difference(ready.rhs, ours, y) for y in _states(kind, n))
     if not difference < SAME:
         return replace(case, difference=difference, reason=f"its right-hand side differs by {difference:.1e}")
+    if case.tool in BESIDE:
+        return replace(case, difference=difference, **_run(ready, kind, n))
     y = next(_states(kind, n))
     rhs = _time_of(lambda: ready.rhs(0.0, y))
     return replace(case, ready=seconds, difference=difference, rhs=rhs, **_run(ready, kind, n))
@@ -93,19 +101,6 @@ def _prepared(tool: Tool, kind: MechanismKind, n: int) -> tuple[Ready, float]:
         ready = tool.prepare(kind, n)
         times.append(_clock() - before)
     return ready, min(times)
-
-
-def ready_in_turns(kind: MechanismKind, rounds: int = 15) -> list[float]:
-    """Median processor time, s, in which lagrotor is ready, on each of LINKS: in turns, so that load comes to all alike."""
-    times: dict[int, list[float]] = {n: [] for n in LINKS[kind]}
-    for _ in range(rounds):
-        for n, taken in times.items():
-            forget_all()
-            gc.collect()
-            before = _clock()
-            OWN["lagrotor"].prepare(kind, n)
-            taken.append(_clock() - before)
-    return [median(taken) for taken in times.values()]
 
 
 def _states(kind: MechanismKind, n: int) -> Any:
@@ -146,6 +141,7 @@ def _run(ready: Ready, kind: MechanismKind, n: int) -> dict[str, Any]:
     """The least time of a run with at most MECHANISM_ERROR: by the tool's own way, or by scipy's DOP853 or LSODA."""
     begin = start(kind, n)
     truth = _scipy(chain(kind, n).rhs(VALUES), begin, "DOP853", 1e-13)
+    check_work(f"the reference of {n} {kind}", len(truth), truth[None], least=len(TIMES))
     ways: list[tuple[str, Callable[[float], Array], tuple[float, ...]]] = [
         (name, partial(_scipy, ready.rhs, begin, name), TOLERANCES[3:]) for name in ("DOP853", "LSODA")
     ]
@@ -166,6 +162,8 @@ def _scipy(rhs: Rhs, begin: Array, name: str, tol: float) -> Array:
     from scipy.integrate import solve_ivp
 
     solution = solve_ivp(rhs, (0, TIMES[-1]), begin, name, TIMES, rtol=tol, atol=tol)
+    if not solution.success:
+        raise IntegrationError(f"{name} at {tol:g}: {solution.message}")
     return np.asarray(solution.y.T[:, : len(begin) // 2])
 
 

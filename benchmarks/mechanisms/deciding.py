@@ -13,6 +13,7 @@ import sympy as sp
 from benchmarks.mechanisms.chains import I1, I3, chain, g, l, m
 from benchmarks.mechanisms.tool import in_own_process
 from lagrotor.benchmark.records import Decided
+from lagrotor.errors import LagrotorError
 from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates
 
 LONGEST = 20.0  # s of processor time, given to simplify
@@ -59,6 +60,8 @@ PAIRS: dict[str, Callable[[], tuple[System, System]]] = {
     "triple pendulum, another mass at its end": lambda: (chain("rods", 3), _heavier(3)),
 }
 
+EXPECTED = {name: "nonzero" if "another" in name else "zero" for name in PAIRS}
+
 
 def decide_pairs() -> list[Decided]:
     """Each pair by both."""
@@ -70,6 +73,8 @@ def decide_pairs() -> list[Decided]:
         answer = left.same_as(right).answer
         ours = time.process_time() - before
         theirs, their_answer = _by_simplify(name)
+        if answer != EXPECTED[name] or their_answer not in (answer, "did not end"):
+            raise LagrotorError(f"{name}: same_as says {answer}, simplify {their_answer}, right is {EXPECTED[name]}")
         decisions.append(Decided(name, ours, answer, theirs, their_answer))
     return decisions
 

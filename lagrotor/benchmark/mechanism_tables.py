@@ -23,15 +23,20 @@ BESIDE_HEAD = (
 )
 TARGET_HEAD = ("what", "wanted", "measured")
 _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
-_METHODS = ("KanesMethod", "LagrangesMethod")
+_OURS, _METHODS = "lagrotor, bodies", ("KanesMethod", "LagrangesMethod")
 _AGREE = {"zero": "yes", "nonzero": "no"}  # a difference that is zero
+
+
+def mechanism_name(kind: MechanismKind, n: int) -> str:
+    """Return "24 rods" or "1 gyroscope"."""
+    return f"{n} {kind if n > 1 else kind.removesuffix('s')}"
 
 
 def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
     """One row a tool and mechanism; a tool that was left out has its reason."""
     return [
         (
-            f"{x.n} {x.kind if x.n > 1 else x.kind.removesuffix('s')}",
+            mechanism_name(x.kind, x.n),
             x.tool,
             *map(_number, (x.ready, x.rhs, x.run), (1e3, 1e6, 1e3)),
             x.reason or _by(x),
@@ -87,30 +92,30 @@ def target_rows(
     measured: Sequence[Measured],
     decided: Sequence[Decided],
     operations: dict[MechanismKind, list[int]],
-    ready_in: dict[MechanismKind, list[float]],
+    beside: Sequence[dict[str, Any]],
 ) -> list[_Row]:
     """What is wanted of the tool, and what was measured; — where a tool was not there.
 
-    On each of LINKS, operations: of one evaluation; ready_in: time in which lagrotor is ready, s.
+    operations: of one evaluation, on each of LINKS. beside: the rows of the record of bodies and Lagrangians.
     """
     made = {(x.kind, x.n, x.tool): x for x in measured}
+    known, none = {(x["mechanism"], x["tool"]): x for x in beside}, {"ready": None, "rhs": None}
     table, nothing = list[_Row](), Measured("rods", 0, "")
     for kind, n in _AT.items():
-        own, fast, pydy = (
-            made.get((kind, n, name), nothing) for name in ("lagrotor", "lagrotor, fast", "PyDy, Cython")
-        )
-        others = [made.get((kind, n, name), nothing) for name in _METHODS]
-        ready, rhs = _least([x.ready for x in others]), _least([x.rhs for x in others])
         where = f"{n} {kind}"
+        fast, pydy = (made.get((kind, n, name), nothing) for name in ("lagrotor, fast", "PyDy, Cython"))
+        own, *others = (known.get((where, name), none) for name in (_OURS, *_METHODS))
+        ready, rhs = (_least([x[what] for x in others]) for what in ("ready", "rhs"))
         table += [
-            (f"ready, {where}, over the faster of Kane's and Lagrange's method", "15", _ratio(ready, own.ready)),
-            (f"right-hand side, {where}, over lambdify of the best of them", "4", _ratio(rhs, own.rhs)),
+            (f"ready, {where}, over the faster of Kane's and Lagrange's method", "15", _ratio(ready, own["ready"])),
+            (f"right-hand side, {where}, over lambdify of the best of them", "4", _ratio(rhs, own["rhs"])),
             (f"right-hand side with the fast extra, {where}, over PyDy", "3", _ratio(pydy.rhs, fast.rhs)),
         ]
     for kind, numbers in LINKS.items():
-        for what, values in (("operations", operations[kind]), ("time to be ready", ready_in[kind])):
+        ready_in = [known.get((mechanism_name(kind, n), _OURS), none)["ready"] for n in numbers]
+        for what, values in (("operations", operations[kind]), ("time to be ready", ready_in)):
             doubled = [
-                f"{b / a:.2f}"
+                f"{b / a:.2f}" if a and b else "—"
                 for m, n, a, b in zip(numbers, numbers[1:], values, values[1:], strict=False)
                 if n == 2 * m
             ]

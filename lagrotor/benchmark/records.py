@@ -2,22 +2,36 @@
 method, mechanisms, and chains of rotors.
 
 They are read here, so that what is shown is the same bytes everywhere. They are renewed in a checkout, where the other tools
-are run: `python -m benchmarks.speed`, `python -m benchmarks.mechanisms --record`, `python -m benchmarks.structure_comparison`.
+are run: `python -m benchmarks.speed`, `python -m benchmarks.mechanisms --record`, `python -m benchmarks.structure_comparison`,
+`python -m benchmarks.bodies_and_lagrangians --record`. Each record has its date and a digest of the code that it measured; the
+digest is null in a record that is older than the digest.
 """
 
+import ast
 import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import UTC, datetime
+from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
+from lagrotor import algebra, mechanics, models, numerics, pair, structures, theory
 from lagrotor.errors import LagrotorError
 
 SPEED, MECHANISMS, STRUCTURES, BODIES_AND_LAGRANGIANS = (
     Path(__file__).with_name(f"recorded_{name}.json")
     for name in ("speed", "mechanisms", "structures", "bodies_and_lagrangians")
 )
+RecordName = Literal["speed", "mechanisms", "structures", "bodies_and_lagrangians"]
+MEASURED_PACKAGES = {
+    "speed": (models, numerics, pair, theory),
+    "mechanisms": (algebra, mechanics, numerics),
+    "structures": (mechanics, numerics, structures),
+    "bodies_and_lagrangians": (algebra, mechanics, numerics),
+}
 MechanismKind = Literal["rods", "gyroscopes"]
 LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # of the mechanisms
 MECHANISM_ERROR = 1e-8  # rad, at which runs of mechanisms are timed
@@ -62,15 +76,16 @@ class Decided:
 
 @dataclass(frozen=True)
 class Comparison:
-    """machine and versions; tools on mechanisms; pairs of formulations; on each of LINKS operations of one
-    evaluation, and the time in which lagrotor is ready, s."""
+    """date and digest; machine and versions; tools on mechanisms; pairs of formulations; on each of LINKS operations of one
+    evaluation."""
 
+    date: str
+    digest: str | None
     machine: dict[str, Any]
     versions: dict[str, str]
     measured: list[Measured]
     decided: list[Decided]
     operations: dict[MechanismKind, list[int]]
-    ready: dict[MechanismKind, list[float]]
 
 
 @dataclass(frozen=True)
@@ -90,8 +105,42 @@ class Timed:
     reason: str = ""
 
 
+@cache
+def code_digest(name: RecordName) -> str:
+    """Return the SHA-256 of the code that a record measures, without comments, docstrings and line numbers."""
+    digest = sha256()
+    for folder in (Path(package.__path__[0]) for package in MEASURED_PACKAGES[name]):
+        for file in sorted(folder.rglob("*.py")):
+            digest.update(
+                f"{file.relative_to(folder.parent).as_posix()} {_code(ast.parse(file.read_bytes()))}".encode()
+            )
+    return digest.hexdigest()
+
+
+def _code(node: object) -> object:
+    """Return the syntax tree as tuples. Empty fields are left out, since Python versions differ in these."""
+    if isinstance(node, ast.AST):
+        text = isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)  # such as a docstring
+        fields = ((name, _code(value)) for name, value in ast.iter_fields(node) if value not in (None, []))
+        return () if text else (type(node).__name__, *fields)
+    return tuple(part for part in map(_code, node) if part) if isinstance(node, list) else repr(node)
+
+
+def stamp(name: RecordName) -> dict[str, str]:
+    """Return the date and the digest of a record that is measured today."""
+    return {"date": datetime.now(UTC).date().isoformat(), "digest": code_digest(name)}
+
+
+def record_age(name: RecordName, date: str, digest: str | None) -> str:
+    """Return the sentence that says when a record was measured, and whether its code has changed since then."""
+    if digest == code_digest(name):
+        return f"The measurement is of {date}, with the present code."
+    packages = ", ".join(package.__name__.removeprefix("lagrotor.") for package in MEASURED_PACKAGES[name])
+    return f"The measurement is of {date}; the code that it measured ({packages}) has changed since then."
+
+
 def recorded_speed() -> dict[str, Any]:
-    """machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises LagrotorError if unreadable."""
+    """date, digest, machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises LagrotorError."""
     return _read(SPEED, dict)
 
 
@@ -112,7 +161,7 @@ def _comparison(data: dict[str, Any]) -> Comparison:
 
 
 def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
-    """Chains of rotors: machine and versions, and the rows. Raises LagrotorError if it is unreadable."""
+    """Chains of rotors: date, digest, machine and versions, and the rows. Raises LagrotorError if it is unreadable."""
     return _read(STRUCTURES, lambda data: (data, list(map(_timed, data["rows"]))))
 
 
@@ -121,8 +170,8 @@ def _timed(row: dict[str, Any]) -> Timed:
 
 
 def recorded_bodies_and_lagrangians() -> dict[str, Any]:
-    """Mechanisms from bodies and from their Lagrangian: machine, longest (s, of one tool), rows of mechanism, tool, ready and
-    rhs in s, difference, reason; note, where they are not of one quiet run.
+    """Mechanisms from bodies and from their Lagrangian: date, digest, machine, longest (s, of one tool), rows of mechanism, tool,
+    ready and rhs in s, difference, reason.
 
     Raises LagrotorError if it is unreadable.
     """

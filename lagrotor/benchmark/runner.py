@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from lagrotor.benchmark.chart_constants import LONGEST_RUN, SAMPLE
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import LagrotorError
 from lagrotor.models import minimal, spheres
 from lagrotor.models.model import integrate_model
@@ -60,6 +61,7 @@ _CLOCK = time.process_time if time.get_clock_info("process_time").resolution < 1
 Work = Literal["seconds", "nfev"]
 _COMPILING = "closed", "fast"  # families whose first run may derive or compile
 _REFUSALS = LagrotorError, RuntimeError, ValueError
+_FLOOR = 1e-6  # m, the largest difference of the reference's two formulations
 
 
 @dataclass(frozen=True)
@@ -74,10 +76,13 @@ def reference(scene: Scene, t_eval: Array) -> Reference:
     """The bar eliminated (six states) and two unit vectors with multipliers (twelve), both at 1e-13.
 
     tests/benchmark/reference.json holds 10 s of the displaced pair with thirty digits, by extrapolation, to compare.
+    Raises LagrotorError where the pair does not move, or where the two differ by more than _FLOOR.
     """
-    runs = ((model, integrate_model(model, scene, t_eval, TIGHTEST).states) for model in (minimal.MODEL, spheres.MODEL))
-    one, other = (tips(scene, model.observe(scene, states).axes) for model, states in runs)
-    return Reference(one, float(np.linalg.norm(one - other, axis=-1).max()))
+    runs = [(model, integrate_model(model, scene, t_eval, TIGHTEST)) for model in (minimal.MODEL, spheres.MODEL)]
+    one, other = (tips(scene, model.observe(scene, run.states).axes) for model, run in runs)
+    floor = float(np.linalg.norm(one - other, axis=-1).max())
+    check_work("the reference", min(run.evaluations for _, run in runs), one, floor, _FLOOR)
+    return Reference(one, floor)
 
 
 @dataclass(frozen=True)
@@ -149,7 +154,8 @@ def benchmark(
 ) -> Benchmark:
     """Run every method at every setting, all of them once before any of them again; medians of the samples' seconds.
 
-    A method is not run at a finer setting once a run of it took more than `longest` s.
+    A method is not run at a finer setting once a run of it took more than `longest` s. Raises LagrotorError for a reference or
+    a method that integrates nothing.
     """
     truth, record = reference(case.scene, case.t_eval), _Record()
     ready = _prepare_all(case, methods, tuple(tolerances), record)
@@ -207,8 +213,13 @@ def _run_all(
             continue
         if seconds > longest and methods[method].family not in _COMPILING:
             too_slow[method] = f"left out: at {setting:g} a run took {seconds:.1f} s"
+        if tips.shape != truth.shape:
+            reason = f"the run ended early, at {tips.shape[1]} of {truth.shape[1]} times"
+            record.failed.append((method, setting, reason))
+            continue
         error = float(np.linalg.norm(tips - truth, axis=-1).max())
         if np.isfinite(error):
+            check_work(f"{method} at {setting:g}", nfev, truth, least=0 if methods[method].family == "closed" else 1)
             record.results[method, setting], record.seconds[method, setting] = (error, nfev), [seconds]
         else:
             record.failed.append((method, setting, "a value is not finite"))

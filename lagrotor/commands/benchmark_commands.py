@@ -69,7 +69,16 @@ def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
     """The benchmarks, the ratios of the displaced scene, and other tools as they are on record, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
-    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0]), "other_tools": other_tools()}
+    others = {"other_tools": other_tools(), "other_tools_measured": other_tools_age()}
+    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])} | others
+
+
+def other_tools_age() -> str:
+    """Return the sentence that says when other tools were measured, and whether the code has changed since then."""
+    from lagrotor.benchmark.records import record_age, recorded_speed
+
+    record = recorded_speed()
+    return record_age("speed", record["date"], record["digest"])
 
 
 def other_tools() -> dict[str, dict[str, dict[str, float | None]]]:
@@ -118,7 +127,8 @@ def chart_tables(charts: "list[Benchmark]") -> str:
         for error, multiples in at_error.items()
         if any(multiples.values())
     ]
-    return "\n".join([*parts, table(("other tools, on record", "error (m)", "over core", "over fast"), recorded)])
+    parts += [table(("other tools, on record", "error (m)", "over core", "over fast"), recorded), other_tools_age()]
+    return "\n".join(parts)
 
 
 def stability_command(given: argparse.Namespace) -> int:

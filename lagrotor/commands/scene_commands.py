@@ -51,6 +51,7 @@ _VARIED: dict[str, tuple[str, _Change]] = {
     "link-inertia": ("inertia of the bar, kg m²", _link("inertia")),
 }
 _MOST = 100_000
+_TOLERANCE = "target for the estimated largest error of an axis over the run"
 
 
 def add_sweep(added: argparse.ArgumentParser) -> None:
@@ -65,7 +66,7 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
     )
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the runs, s (default: 10)")
     added.add_argument("--samples", type=int, default=3, metavar="N", help="times that each is read at (default: 3)")
-    added.add_argument("--tol", type=float, default=1e-8, help="local error of the solver (default: 1e-8)")
+    added.add_argument("--tol", type=float, default=1e-8, help=f"{_TOLERANCE} (default: 1e-8)")
     added.add_argument("--out", type=Path, metavar="FILE", help="write every time of every run as .csv")
     added.add_argument("--json", action="store_true", help="print a JSON list, one object a run")
 
@@ -180,9 +181,7 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
     added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
     says = "auto, closed_form, linear, averaged, minimal, spheres or euler (default: auto)"
     added.add_argument("--model", default="auto", help=says)
-    added.add_argument(
-        "--tol", type=float, default=1e-9, help="error of the axes, or the solver's of a named model (default: 1e-9)"
-    )
+    added.add_argument("--tol", type=float, default=1e-9, help=f"{_TOLERANCE} (default: 1e-9)")
     says = "core, or fast where lagrotor[fast] is installed (default: core)"
     added.add_argument("--engine", default="core", help=says)
     added.add_argument(

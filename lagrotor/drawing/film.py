@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from lagrotor.drawing.style import paper_style
 from lagrotor.drawing.wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, place_points, wheel
 from lagrotor.errors import InputError, LagrotorError
-from lagrotor.files import write_beside
+from lagrotor.files import path_of, write_beside
 from lagrotor.numerics.rotations import Array
 
 _SUFFIXES = (".gif", ".mp4")
@@ -36,8 +36,9 @@ Pixels = NDArray[np.uint8]
 Stage = Callable[[Figure], tuple[Axes, Callable[[int], list[Artist]]]]
 
 
-def check_film(path: Path, duration: float, fps: float) -> None:
+def check_film(path: str | Path, duration: float, fps: float) -> None:
     """Raises InputError unless a film of `duration` s, at `fps` frames per second, can be written to `path`."""
+    path = path_of("animate: path", path)
     if path.suffix not in _SUFFIXES:
         raise InputError(f"animate: {path}: the name must end in .gif or .mp4")
     if path.is_dir():

@@ -30,7 +30,7 @@ from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, first_time, start_beside
-from lagrotor.numerics.integrate import check_engine, check_tolerance
+from lagrotor.numerics.integrate import check_engine, check_progress, check_tolerance
 from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
@@ -149,8 +149,9 @@ def simulate(
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")
     times, tolerance = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
+    check_progress(progress)
     at_zero = scene.since(float(times[0]))  # all that follows counts time from the start
-    if model in DIRECT:
+    if model in tuple(DIRECT):  # a value without a hash is refused below
         motion = DIRECT[model](at_zero, float(times[-1] - times[0]), tolerance, True)
         error = "not known" if np.isnan(motion.error) else scientific(motion.error, 1)
         missed = not motion.error <= tolerance
@@ -166,7 +167,7 @@ def simulate(
         choice = choose(at_zero, float(times[-1] - times[0]), tolerance, engine)
         if choice.motion:
             return _direct(scene, choice.model, choice.reason, times, choice.motion, tolerance)
-    elif model not in MODELS:
+    elif model not in tuple(MODELS):
         known = "auto", *DIRECT, *MODELS
         raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
     elif engine == "fast" and not _fast_runs(MODELS[model], scene):

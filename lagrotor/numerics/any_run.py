@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple, Self
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.files import FILMS, PICTURES, read_arrays, write_arrays, write_beside, write_text
+from lagrotor.files import FILMS, PICTURES, path_of, read_arrays, write_arrays, write_beside, write_text
 from lagrotor.numerics.arrays import Array
 from lagrotor.shown import Shown, scientific
 
@@ -174,7 +174,7 @@ class Run(Shown):
         which `load` of the same class reads back. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`.
         Raises InputError for another ending.
         """
-        target = Path(path)
+        target = path_of("save: path", path)
         if target.suffix == ".npz":
             self.check_times("save")
             known = {"horizon": self.horizon, "evaluations": self.evaluations, "ending": asdict(self.ending)}
@@ -205,7 +205,7 @@ def read_run(path: str | Path) -> Saved:
     Raises InputError where that is not what the file is: not whole, or with times that decrease, or errors, evaluations or an
     ending that are none.
     """
-    about, arrays = read_arrays(Path(path))
+    about, arrays = read_arrays(path_of("load: path", path))
     try:
         t, errors = arrays.pop("t"), arrays.pop("errors")
         horizon, evaluations, ending = (about.pop(name) for name in ("horizon", "evaluations", "ending"))

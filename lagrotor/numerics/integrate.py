@@ -52,10 +52,10 @@ class Problem:
     begin: float = 0.0
 
 
-def check_tolerance(tol: float) -> float:
+def check_tolerance(tol: float, caller: str = "simulate") -> float:
     """`tol` as a float, refused outside [1e-13, 0.1]."""
     if not (isinstance(tol, int | float | np.floating) and TIGHTEST <= tol <= 0.1):
-        raise InputError(f"simulate: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
+        raise InputError(f"{caller}: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
     return float(tol)
 
 
@@ -63,6 +63,12 @@ def check_engine(engine: str, caller: str = "simulate") -> None:
     """Raises InputError where it is neither "core" nor "fast"."""
     if engine not in ("core", "fast"):
         raise InputError(f"{caller}: engine = {engine!r} is neither core nor fast")
+
+
+def check_progress(progress: object) -> None:
+    """Raises InputError where it is neither a function nor None."""
+    if progress is not None and not callable(progress):
+        raise InputError(f"simulate: progress = {progress!r} must be a function of the time (s), or None")
 
 
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from lagrotor.errors import InputError, near
-from lagrotor.files import read_toml, write_text
+from lagrotor.files import path_of, read_toml, write_text
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 Kind = TypeVar("Kind")
@@ -87,7 +87,7 @@ def write_scene(scene: Scene, path: str | Path) -> Path:
     """
     if not isinstance(scene, Scene):
         raise InputError(f"write_scene: scene = {scene!r} must be a Scene")
-    return write_text(Path(path), scene_toml(scene))
+    return write_text(path_of("write_scene: path", path), scene_toml(scene))
 
 
 def toml_value(value: Any) -> str:

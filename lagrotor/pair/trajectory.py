@@ -123,7 +123,7 @@ class Trajectory(Run):
         """
         from lagrotor.drawing.film import check_film, film_motion, frame_times
 
-        check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
+        check_film(path, float(self.t[-1] - self.t[0]), fps)
         return film_motion(self.motion(frame_times(self.t[0], self.t[-1], fps)), path, fps, step)
 
     def view(self) -> "View":

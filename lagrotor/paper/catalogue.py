@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 from lagrotor.algebra import check_names
 from lagrotor.errors import InputError
+from lagrotor.files import path_of
 from lagrotor.mechanics.glossary import Entry, Glossary
 from lagrotor.paper.letters import Letters, Line, components, declared, read, read_line
 from lagrotor.paper.scripts import importable
@@ -138,7 +139,7 @@ class Catalogue:
     modules: dict[str, ModuleType] = field(default_factory=dict, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "folder", Path(self.folder).resolve())
+        object.__setattr__(self, "folder", path_of("Paper: folder", self.folder).resolve())
         for problem in self._problems():
             raise InputError(problem)
 

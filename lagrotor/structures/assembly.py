@@ -142,7 +142,9 @@ class Assembly:
         return number
 
     def upright_tip(self, i: int) -> _Point:
-        """Where the tip of rotor i is when its axis is upright, m."""
+        """Return the place of the tip of rotor i, whose axis is upright, in m. Raises InputError for no such rotor."""
+        if i not in range(len(self.joints)):
+            raise InputError(f"upright_tip: i = {i!r} must be a rotor's number, from 0 to {len(self.joints) - 1}")
         return (*self.joints[i], self.rotor[i].length)
 
     @property

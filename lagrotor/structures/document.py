@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from lagrotor.errors import InputError
-from lagrotor.files import write_text
+from lagrotor.files import path_of, write_text
 from lagrotor.pair.scene import Link, Rotor
 from lagrotor.pair.scene_document import check_fields, part_of, read_document, toml_value
 from lagrotor.structures.assembly import Assembly, Brace
@@ -60,4 +60,4 @@ def write_structure(s: Assembly, path: str | Path) -> Path:
     Raises:
         InputError: where that cannot be.
     """
-    return write_text(Path(path), toml_of(s))
+    return write_text(path_of("write_structure: path", path), toml_of(s))

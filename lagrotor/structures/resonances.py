@@ -144,7 +144,7 @@ def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
 
 def check_kind_of_push(of: Any) -> None:
     """Raises InputError for what is neither rates nor tilts."""
-    if of not in UNIT_OF_PUSH:
+    if of not in tuple(UNIT_OF_PUSH):
         raise InputError(f"of = {of!r} must be one of {', '.join(UNIT_OF_PUSH)}")
 
 
@@ -159,6 +159,7 @@ def resonances(
     """
     check_kind_of_push(of)
     check_upright(s, "resonances")
+    finite_array("resonances: factor", factor, ())
     linear = small_motion(s)
     rates = signed_rates(linear, factor)
     if not len(rates):

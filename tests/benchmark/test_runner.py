@@ -30,11 +30,15 @@ def absent(scene: Scene, times: Any) -> Any:
     raise ImportError("no module", name="pydy")
 
 
+def moving(times: Any) -> Any:
+    return np.zeros((2, len(times), 3)) + np.asarray(times)[:, None]
+
+
 def halfway(scene: Scene, times: Any) -> Any:
     def run(tol: float) -> Any:
         if tol < 1e-4:
             raise RuntimeError("too tight\nand more")
-        return np.zeros((2, len(times), 3)), 1
+        return moving(times), 1
 
     return run
 
@@ -56,23 +60,25 @@ class Clock:
         def run(setting: float) -> Any:
             self.runs[setting] += 1
             self.now += self.seconds(setting, self.runs[setting])
-            return np.zeros((2, len(times), 3)), 1
+            return moving(times), 1
 
         return run
 
 
 def test_what_fails_or_is_absent_is_listed() -> None:
     methods = {"minimal": METHODS["minimal"], "broken": Method("core", broken), "lost": Method("core", lost)}
+    methods |= {"early": Method("springs", lambda *_: lambda tol: (np.zeros((2, 4, 3)), 9))}
     methods |= {"absent": Method("peer", absent, install="--group peers"), "halfway": Method("core", halfway)}
     found = benchmark("small", small(), methods, (1e-3, 1e-6))
     assert {(p.method, p.setting) for p in found.points} == {("minimal", 1e-3), ("minimal", 1e-6), ("halfway", 1e-3)}
     assert [str(failure) for failure in found.failures] == [
         "absent: not installed (pydy): pip install --group peers",
         "broken: does not do this",
+        "early: the run ended early, at 4 of 11 times",
         "halfway at 1e-06: too tight",
         "lost: a value is not finite",
     ]
-    assert set(found.setup) == {"minimal", "halfway", "lost"}
+    assert set(found.setup) == {"minimal", "early", "halfway", "lost"}
     assert min(p.error for p in found.points) >= found.floor
     words = chart_tables([found])
     assert "left out: broken: does not do this" in words

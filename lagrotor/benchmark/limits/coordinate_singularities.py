@@ -7,6 +7,7 @@ import numpy as np
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.benchmark.scipy_solvers import run_by
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import IntegrationError
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.minimal import scenes_from_states
@@ -45,8 +46,10 @@ def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[
     """Error of the axes (rad) after passing the pole by `miss` rad, and nfev, by DOP853 with a local error of tol."""
     scene = passing(miss)
     states, spent = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
-    seen = model.observe(scene, states[1:]).axes[:, 0]
-    return float(np.abs(seen - _great_circle(miss, np.array([_PASS]))[0]).max()), spent
+    seen = model.observe(scene, states).axes
+    error = float(np.abs(seen[:, -1] - _great_circle(miss, np.array([_PASS]))[0]).max())
+    check_work(f"a pass at {miss:g} rad by {model.name}", spent, seen, error, _PASS)
+    return error, spent
 
 
 def euler_limits(quick: bool) -> list[Limit]:
@@ -108,18 +111,23 @@ def joint_line_limits(quick: bool) -> list[Limit]:
 def passes(miss: float) -> bool:
     """Whether spheres takes a pair without spin, its axes parallel, past r_1 = r_2 = e_x at `miss` rad from it."""
     swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s, there after a quarter turn
+    times, turn = np.array([0.0, 2.0]), np.array([cos(miss) * sin(2), sin(miss) * sin(2), cos(2)])
     try:
-        integrate_model(spheres.MODEL, swing, np.array([2.0]), 1e-8)
+        run = integrate_model(spheres.MODEL, swing, times, 1e-8)
     except IntegrationError:
         return False
+    axes = spheres.MODEL.observe(swing, run.states).axes
+    check_work(f"a swing at {miss:g} rad", run.evaluations, axes, float(np.abs(axes[:, -1] - turn).max()), 1e-2)
     return True
 
 
 def fold_difference(tol: float) -> float:
     """Largest difference of the axes between minimal and spheres while a bar of 0.6 R folds over."""
     scene = scenes_from_states(Scene((3.0, -3.0), link=Link(0.6)), [[0.0, 0.3, 0.0, 0.2, 3.0, 0.1]])[0]
-    one, other = (simulate(scene, np.linspace(0, 1, 51), model, tol).axes for model in ("minimal", "spheres"))
-    return float(np.abs(one - other).max())
+    one, other = (simulate(scene, np.linspace(0, 1, 51), model, tol) for model in ("minimal", "spheres"))
+    difference = float(np.abs(one.axes - other.axes).max())
+    check_work("a bar that folds over", min(one.evaluations, other.evaluations), one.axes, difference, 1e-2)
+    return difference
 
 
 def projection_limits(quick: bool) -> list[Limit]:

@@ -5,6 +5,7 @@ from math import pi
 
 import numpy as np
 
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import InputError
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.sweeps.ensemble import sweep
@@ -44,7 +45,9 @@ def usefulness(
     starts = [exact_orbit(base, float(r0)).scene for r0 in amplitudes]
     scenes = [replace(scene, spins=(spin, -spin * (1 - float(d)))) for d in departures for scene in starts]
     times = 2 * pi / natural_rate(base) * np.arange(1, _TIMES + 1) / _TIMES
-    exact = sweep(scenes, [0.0, *times], tol).axes[:, :, 1:].reshape(len(departures), len(amplitudes), 2, _TIMES, 3)
+    runs = sweep(scenes, [0.0, *times], tol)
+    check_work("the map of errors", runs.evaluations.min(), runs.axes[:, 0], float(runs.error.max()), 10 * tol)
+    exact = runs.axes[:, :, 1:].reshape(len(departures), len(amplitudes), 2, _TIMES, 3)
     errors = np.empty((len(orders), len(departures), len(amplitudes)))
     for i, order in enumerate(orders):
         series = paired_series(order, *shape_of(base))

@@ -7,6 +7,7 @@ import numpy as np
 
 from lagrotor.benchmark.limits.threshold import Limit
 from lagrotor.benchmark.scipy_solvers import run_by
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.models import spheres
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit
@@ -42,6 +43,7 @@ def constraint_drift(scene: Scene, step: float, count: int, every: int, projecte
             r1, r2 = y[:3], y[3:6]
             bar = np.linalg.norm(np.array([k, 0, 0]) + r2 - r1) - k
             off.append(max(abs(np.linalg.norm(r1) - 1), abs(np.linalg.norm(r2) - 1), abs(bar)))
+    check_work("the drift of the constraints", 4 * count, np.array([[y, spheres.MODEL.start(scene)]]))
     return np.array(off)
 
 
@@ -108,6 +110,7 @@ def long_run(turns: int, solver: str, tol: float) -> LongRun:
             errors=np.full(len(times), np.nan), evaluations=spent,
         )  # fmt: skip
     spinning = (run.momenta[:, 0] ** 2).sum() / (2 * run.scene.rotor.I3)
+    check_work(f"{turns} turns by {solver}", run.evaluations, run.rates, least=10 * turns)
     momentum = run.joint_line_momentum
     off, ahead = run.axes - run.axes[:, :1], run.rates[:, :1]
     phase = abs(orbit.frequency) * (off * ahead).sum((0, 2)) / (ahead**2).sum()

@@ -7,6 +7,7 @@ from math import exp, log, pi
 import numpy as np
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import integrate_model
 from lagrotor.models.orbits.floquet import floquet_of
@@ -23,7 +24,10 @@ _PHASES = np.linspace(0, 2 * pi, 25)
 
 
 def _axes(scene: Scene, times: Array, local: float, start: Array | None = None) -> Array:
-    return MODEL.observe(scene, integrate_model(MODEL, scene, times, local, start=start).states).axes
+    run = integrate_model(MODEL, scene, times, local, start=start)
+    axes = MODEL.observe(scene, run.states).axes
+    check_work("a run of the pair", run.evaluations, axes)
+    return axes
 
 
 def _series(scene: Scene, order: int) -> PairedSeries:
@@ -108,7 +112,9 @@ def spin_limits(quick: bool) -> list[Limit]:
     def falls(spin: float) -> bool:
         scene = Scene((spin, spin), rates=((0.0, push, 0.0), (0.0, push, 0.0)))
         turn = 2 * pi / max(natural_rate(scene), push)
-        return bool(simulate(scene, np.linspace(0, turn, 201), "minimal", 1e-8).axes[..., 2].min() < 0)
+        run = simulate(scene, np.linspace(0, turn, 201), "minimal", 1e-8)
+        check_work(f"a push at {spin:g} rad/s", run.evaluations, run.axes)
+        return bool(run.axes[..., 2].min() < 0)
 
     return [
         Limit(

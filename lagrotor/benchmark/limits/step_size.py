@@ -10,6 +10,7 @@ from lagrotor.benchmark.limits.coordinate_singularities import euler_limits, joi
 from lagrotor.benchmark.limits.numerical_drift import drift_limits, long_limits
 from lagrotor.benchmark.limits.range_of_validity import amplitude_limits, horizon_limits, spin_limits
 from lagrotor.benchmark.limits.threshold import Limit
+from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import LagrotorWarning
 from lagrotor.models.spring_link.rigid_body import RigidBody
 from lagrotor.models.spring_link.run import run_steps
@@ -25,6 +26,8 @@ def step_grows(system: RigidBodySystem, dt: float) -> bool:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LagrotorWarning)
         run = run_steps(moving, None, dt * np.arange(0, 1001, 20), dt)
+    if not run.ending.early:
+        check_work(f"steps of {dt:g} s", run.evaluations, run.tips)
     return run.ending.early or bool(run.stretches.max() > 1e-5)
 
 

@@ -19,7 +19,7 @@ whatever F is, where det ∂²F/∂q∂P ≠ 0. Where K does not have Q, P are f
 Goldstein, Classical Mechanics, § 9.1, ch. 10; Arnold, § 48.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -280,6 +280,8 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None, k
             "into L, and leave the others out"
         )
     c, L = system.c, system.L
+    if momenta is not None and not isinstance(momenta, Iterable):
+        raise InputError(f"hamiltonian: momenta = {momenta!r} must be symbols, one for each of {c.q}")
     p = tuple(momenta) if momenta is not None else tuple(sp.Symbol(f"p_{q}", real=True) for q in c.q)
     b = gradient(L, c.v).subs(dict.fromkeys(c.v, 0))
     curl = jacobian(b, c.q)

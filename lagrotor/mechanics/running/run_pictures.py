@@ -39,6 +39,8 @@ def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | Non
     from lagrotor.drawing.run_figure import coordinates_figure, curves_figure
 
     run.check_times("plot")
+    if glossary is not None and not isinstance(glossary, Mapping):
+        raise InputError(f"plot: glossary = {glossary!r} must be the letters of a paper with their units")
     units = {str(s): f" [{entry.unit}]" for s, entry in (glossary or {}).items() if entry.unit not in ("", "1")}
     if not what:
         labels = {f"${letter_latex(q)}${units.get(str(q), '')}": run.q[:, i] for i, q in enumerate(run.system.c.q)}
@@ -105,7 +107,7 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
     from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
     run.check_times("animate")
-    check_film(Path(path), float(run.t[-1] - run.t[0]), fps)
+    check_film(path, float(run.t[-1] - run.t[0]), fps)
     frames = run.at(frame_times(run.t[0], run.t[-1], fps))
     if lines:
         points = [[vector_of("animate: a point of lines", e, 3) for e in _sequence(line)] for line in _sequence(lines)]

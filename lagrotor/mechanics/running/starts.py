@@ -9,7 +9,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import parameter_values, start_program
 from lagrotor.mechanics.small_turns import no_turn
-from lagrotor.numerics.arrays import real_array
+from lagrotor.numerics.arrays import finite_array, real_array
 
 _OFF = 1e-7  # of 1 and the largest number of a start: how far it may be off its constraints
 _SMALL = 1e-5  # of the size of what is small, how far it may be off
@@ -33,7 +33,7 @@ def consistent(
         if (size := float(np.linalg.norm(q[[system.c.q.index(s) for s in joint.quaternion]]))) < _LEAST_NORM:
             raise InputError(f"{where}: {no_turn(joint.quaternion, size)}")
     given = start_program(system)
-    rest = (t, *parameter_values(given, values, where))
+    rest = (float(finite_array(f"{where}: t", t, ())), *parameter_values(given, values, where))
     ends = np.cumsum([m * m, h, h * n, len(system.left) * m])
 
     def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:

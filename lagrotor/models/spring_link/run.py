@@ -214,7 +214,7 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
         InputError: for bad times or tolerance.
         IntegrationError: when nothing can be reached.
     """
-    times, tolerance = check_times("run_solver", t), check_tolerance(tol)
+    times, tolerance = check_times("run_solver", t), check_tolerance(tol, "run_solver")
     rate, n_b = rate_function(system, shock), len(system.vertices)
     size = max(float(np.linalg.norm(arms, axis=1).max()) for arms in system.vertices) or 1.0
     # Far from zero a clock has few digits for steps.

@@ -119,7 +119,7 @@ def sweep(
             how many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
         engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
         chunk: trajectories at a time.
-        executor: where chunks run; here, one after another, when None.
+        executor: a `concurrent.futures.Executor`, of dask `client.get_executor()`; None: chunks run here, one after another.
         folder: an existing folder for the finished chunks; a later sweep with the same arguments runs only those that are missing
             or damaged.
         progress: called with the number of trajectories done and of all, after each chunk.
@@ -127,7 +127,12 @@ def sweep(
     Raises:
         InputError: for bad arguments, no scene, or a folder with a chunk of another sweep.
     """
-    times, tolerance, members = check_times("sweep", t), check_tolerance(tol), _checked(scenes, chunk, engine)
+    times, tolerance, members = check_times("sweep", t), check_tolerance(tol, "sweep"), _checked(scenes, chunk, engine)
+    if not (progress is None or callable(progress)):
+        raise InputError(f"sweep: progress = {progress!r} must be a function of two numbers, or None")
+    if not (executor is None or isinstance(executor, Executor)):
+        way = "an executor of concurrent.futures; a dask client has one: client.get_executor()"
+        raise InputError(f"sweep: executor = {executor!r} must be {way}")
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
     target = None if folder is None else kept_chunks(folder, members, times, tolerance, chunk, engine)

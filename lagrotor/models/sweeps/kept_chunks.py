@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lagrotor.about import __version__
 from lagrotor.errors import InputError
-from lagrotor.files import read_arrays, write_arrays
+from lagrotor.files import path_of, read_arrays, write_arrays
 from lagrotor.numerics.any_run import Ending
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import UNIT_ERROR
@@ -62,7 +62,7 @@ def kept_chunks(
     folder: str | Path, scenes: Sequence[Scene], times: NDArray[np.float64], tol: float, chunk: int, engine: str
 ) -> KeptChunks:
     """Those of this sweep in an existing folder. Raises InputError where there is none."""
-    path = Path(folder)
+    path = path_of("sweep: folder", folder)
     if not path.is_dir():
         raise InputError(f"sweep: there is no folder {path}: make it first")
     arguments = repr((tuple(scenes), times.tolist(), tol, chunk, engine, __version__))

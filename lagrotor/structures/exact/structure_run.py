@@ -124,7 +124,7 @@ class StructureRun(Run):
         """
         from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
-        check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
+        check_film(path, float(self.t[-1] - self.t[0]), fps)
         times = frame_times(float(self.t[0]), float(self.t[-1]), fps)
         lines, inks = self._lines(times)
         return animate_lines(path, times, lines, fps, inks)

@@ -155,6 +155,8 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
 
     Raises InputError unless the spins are opposite and there is a bar: the paired precession needs both.
     """
+    if not isinstance(scene, Scene):
+        raise InputError(f"the paired precession needs a Scene, not {scene!r}")
     if scene.link is None or scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
         raise InputError(f"the paired precession needs a bar and opposite spins, not spins = {scene.spins}")
     exact = {M: scene.rotor.mass, R: scene.rotor.length, I1: scene.rotor.I1}
