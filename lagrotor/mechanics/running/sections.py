@@ -24,12 +24,13 @@ from lagrotor.mechanics.running.function_values import with_values
 from lagrotor.mechanics.running.motion import SampledMotion, integration_of
 from lagrotor.mechanics.running.phases import march, polish
 from lagrotor.mechanics.running.programs import function_program
-from lagrotor.numerics.calibrated import BEYOND, STAGE
+from lagrotor.numerics.calibrated import BEYOND
 from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
 
 Kind = TypeVar("Kind", bound=SampledMotion)
 _ONE = 1e-5  # of a step: zeros so near to each other and in the same direction are one
 _LEAST = 1e-13  # of the section's size, below which it is zero
+_TURNS = 8  # of a stage: few, so that neighbouring motions do not part in it; more than the first steps cost
 _STEPS = 8  # times of evaluations in a panel, which has twice as many intervals between its nodes
 _HALVINGS = 8  # of a panel whose polynomial is not resolved
 _BUDGET = 60_000, 4_800  # evaluations of a stage, to begin and for each turn: three times those that a run may take
@@ -116,7 +117,7 @@ def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
     """Yield the first and the last sample of each stage; of several samples at one time a stage begins at the last."""
     i, n = 0, len(run.t)
     while (i := int(np.searchsorted(run.t, run.t[i], side="right")) - 1) < n - 1:
-        j = int(np.searchsorted(run.t, run.t[i] + STAGE.value * run.scales.turn, side="right")) - 1
+        j = int(np.searchsorted(run.t, run.t[i] + _TURNS * run.scales.turn, side="right")) - 1
         yield i, (j := max(i + 1, j))
         i = j
 
