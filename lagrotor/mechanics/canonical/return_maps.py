@@ -124,7 +124,8 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
 
     Raises:
         InputError: where F is no such map to first order.
-        SingularError: where a multiplier is 1 or −1, or double and not diagonal, or some too near to 1 beside others near −1.
+        SingularError: where a multiplier is 1 or −1, above 10⁶, or double and not diagonal, or some too near to 1 beside others
+            near −1.
     """
     check_form_order(order, detuning)
     n = len(F)
@@ -142,6 +143,11 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
         raise InputError(
             f"map_normal_form: F is no canonical map with F(0) = 0: M = {M.tolist()} of its first order has not MᵀJM = J, or F "
             "has a constant"
+        )
+    if (most := np.abs(np.linalg.eigvals(M)).max()) > 1 / _NEAR:
+        raise SingularError(
+            f"normal_form: a multiplier is {most:.2g}, too far from its reciprocal for floating-point numbers: "
+            "System.floquet gives both"
         )
     for value in (1, -1):
         if (near := np.abs(np.linalg.eigvals(M) - value).min()) < _NEAR:
