@@ -47,6 +47,8 @@ def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.E
     elif e.is_Mul:
         slopes = [_derivative(part, s, known) for part in e.args]
         slope = sp.Add(*(sp.Mul(*e.args[:i], d, *e.args[i + 1 :]) for i, d in enumerate(slopes) if d is not sp.S.Zero))
+        if slope.has(sp.DiracDelta):
+            slope = sp.Add(*(part for part in sp.Add.make_args(sp.expand_mul(slope)) if not _vanishes(part)))
     elif e.is_Pow and e.exp.is_Number:
         d = _derivative(e.base, s, known)
         slope = d if d is sp.S.Zero else e * (d * e.exp / e.base)
@@ -57,3 +59,19 @@ def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.E
         slope = sp.diff(e, s)
     known[e] = slope
     return slope
+
+
+def _vanishes(product: sp.Expr) -> bool:
+    """Whether a product is f δ(g), f zero wherever g is, as x δ(x): no distribution but zero."""
+    for delta in sp.Mul.make_args(product):
+        if isinstance(delta, sp.DiracDelta) and len(delta.args) == 1:
+            f, g = product / delta, delta.args[0]
+            put = {g: sp.S.Zero, -g: sp.S.Zero}
+            for s in sorted(g.free_symbols, key=str):
+                slope = _derivative(g, s, {})
+                if slope != 0 and s not in slope.free_symbols:
+                    put = {s: -g.xreplace({s: sp.S.Zero}) / slope}
+                    break
+            if sp.expand(f.xreplace(put)) == 0:
+                return True
+    return False
