@@ -4,18 +4,19 @@ One unknown after another is eliminated by a factor of degree one or two in it; 
 is not returned. Where no factor can be solved so, the equilibrium is refused with what to give.
 """
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
-from math import isfinite
+from math import isfinite, log10
 from typing import Any
 
 import sympy as sp
 
 from lagrotor.algebra import decide_zero, derivative, normal_form
-from lagrotor.algebra.enclosed_roots import Box, roots_in_box
+from lagrotor.algebra.enclosed_roots import Box, kinks_in, roots_in_box
 from lagrotor.algebra.enclosures import enclosures
-from lagrotor.errors import InputError, NotExactError, SingularError
+from lagrotor.errors import InputError, LagrotorWarning, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
@@ -60,7 +61,8 @@ def equilibria(
     the box.
 
     Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
-    stays undecided, as about equilibria that are not isolated.
+    stays undecided, as about equilibria that are not isolated. A LagrotorWarning names each place where a force has no
+    derivative or no value and nothing is decided.
     """
     if isinstance(unknowns, Mapping):
         raise InputError(
@@ -131,8 +133,12 @@ def _in_box(
         raise InputError(f"equilibria: {', '.join(left)} without a value: in a box every letter has one, and time none")
     roots, undecided = _at_rest(forces, constraints, edges)
     middles = [{q: sp.Float(round((low + high) / 2, 20), 17) for q, (low, high) in root.items()} for root in roots]
-    if undecided:
-        shown = ", ".join(f"{q} = {float(sum(undecided[0][q]) / 2):.6g}" for q in c.q)
+    kinks = [kinks_in((*forces, *constraints), part, edges) for part in undecided]
+    if undecided and all(kinks):
+        _warn_of_kinks(undecided, kinks, edges)
+    elif undecided:
+        first = undecided[kinks.index([])]
+        shown = ", ".join(f"{q} = {float(sum(first[q]) / 2):.6g}" for q in c.q)
         proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
         acting = set().union(*(e.free_symbols for e in (*forces, *constraints)))
         free = [f" (no force depends on {q})" for q in c.q if q not in acting]
@@ -145,6 +151,21 @@ def _in_box(
     return tuple(
         Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)
         for at, root in sorted(zip(middles, roots, strict=True), key=lambda pair: [float(x) for x in pair[0].values()])
+    )
+
+
+def _warn_of_kinks(undecided: Sequence[Box], kinks: Sequence[Sequence[sp.Expr]], box: Box) -> None:
+    """Issue a LagrotorWarning that names the places where forces have no derivative or no value, each once."""
+    digits = {q: 4 - int(log10(high - low)) for q, (low, high) in box.items()}
+    places = dict[str, sp.Expr]()
+    for part, kink in zip(undecided, kinks, strict=True):
+        middle = {q: round(float(sum(part[q]) / 2), digits[q]) + 0.0 for q in box}
+        places.setdefault(", ".join(f"{q} = {x:.6g}" for q, x in middle.items()), kink[0])
+    shown = "; ".join(f"{place}, where {kink} = 0" for place, kink in places.items())
+    warnings.warn(
+        f"equilibria: nothing is decided near {shown}: a force has no derivative or no value there",
+        LagrotorWarning,
+        stacklevel=4,
     )
 
 

@@ -121,7 +121,9 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, the larger of a and b → (a + b + σ (a − b))/2, the smaller likewise.
     """
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
-    L = getattr(system.lagrangian, "rest", system.lagrangian)  # of an energy of bodies the expression that is added to them
+    L = getattr(
+        system.lagrangian, "rest", system.lagrangian
+    )  # of an energy of bodies the expression that is added to them
     places = [*system.forces, system.dissipation, L]
     put: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
