@@ -137,13 +137,14 @@ def test_equilibria_of_forces_in_pieces(force: sp.Expr, roots: tuple[float, ...]
 
 
 @pytest.mark.parametrize(
-    "force",
-    [sp.sign(1 - x), sp.Piecewise((x + 1, x < 0), (x - 1, True)), sp.Abs(x)],
+    ("force", "roots"),
+    [(sp.sign(1 - x), []), (sp.Piecewise((x + 1, x < 0), (x - 1, True)), [1.0]), (sp.Abs(x), [])],
 )
-def test_a_jump_through_zero_proves_nothing(force: sp.Expr) -> None:
+def test_a_jump_through_zero_proves_nothing(force: sp.Expr, roots: list[float]) -> None:
     """Where the force jumps from one sign to the other no piece is zero: the slopes of the pieces would say otherwise."""
     with pytest.warns(LagrotorWarning, match="nothing is decided near x = [01], where"):
-        assert System(c, v**2 / 2, forces=(force,)).equilibria(box={x: (-0.5, 1.4)}) == ()
+        rests = System(c, v**2 / 2, forces=(force,)).equilibria(box={x: (-0.5, 1.4)})
+    assert [float(e.at[x]) for e in rests] == roots
 
 
 def test_a_coordinate_on_which_no_force_depends_is_named() -> None:
