@@ -100,8 +100,8 @@ def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> floa
 
     Args:
         scene: as in `slow_frequency`.
-        r0: amplitude.
-        momentum: as there, kg m²/s.
+        r0: sine of the inclination at the moments when the axes are parallel, with the push.
+        momentum: about the joint line beyond that of the exact paired precession of this r0 (kg m²/s).
 
     Raises:
         InputError: as `slow_frequency`.
