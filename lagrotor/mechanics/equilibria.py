@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
-from math import isfinite, log10
+from math import isfinite
 from typing import Any
 
 import sympy as sp
@@ -135,10 +135,14 @@ def _in_box(
     middles = [{q: sp.Float(round((low + high) / 2, 20), 17) for q, (low, high) in root.items()} for root in roots]
     kinks = [kinks_in((*forces, *constraints), part, edges) for part in undecided]
     if undecided and all(kinks):
-        _warn_of_kinks(undecided, kinks, edges)
+        warnings.warn(
+            f"equilibria: nothing is decided where {' or '.join(dict.fromkeys(str(kink[0]) for kink in kinks))} = 0, first "
+            f"about {_about(undecided[0], c.q)}: a force has no derivative or no value there",
+            LagrotorWarning,
+            stacklevel=3,
+        )
     elif undecided:
-        first = undecided[kinks.index([])]
-        shown = ", ".join(f"{q} = {float(sum(first[q]) / 2):.6g}" for q in c.q)
+        shown = _about(undecided[kinks.index([])], c.q)
         proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
         acting = set().union(*(e.free_symbols for e in (*forces, *constraints)))
         free = [f" (no force depends on {q})" for q in c.q if q not in acting]
@@ -154,19 +158,8 @@ def _in_box(
     )
 
 
-def _warn_of_kinks(undecided: Sequence[Box], kinks: Sequence[Sequence[sp.Expr]], box: Box) -> None:
-    """Issue a LagrotorWarning that names the places where forces have no derivative or no value, each once."""
-    digits = {q: 4 - int(log10(high - low)) for q, (low, high) in box.items()}
-    places = dict[str, sp.Expr]()
-    for part, kink in zip(undecided, kinks, strict=True):
-        middle = {q: round(float(sum(part[q]) / 2), digits[q]) + 0.0 for q in box}
-        places.setdefault(", ".join(f"{q} = {x:.6g}" for q, x in middle.items()), kink[0])
-    shown = "; ".join(f"{place}, where {kink} = 0" for place, kink in places.items())
-    warnings.warn(
-        f"equilibria: nothing is decided near {shown}: a force has no derivative or no value there",
-        LagrotorWarning,
-        stacklevel=4,
-    )
+def _about(part: Box, coordinates: Sequence[sp.Symbol]) -> str:
+    return ", ".join(f"{q} = {float(sum(part[q]) / 2):.6g}" for q in coordinates)
 
 
 def _at_rest(forces: Sequence[sp.Expr], constraints: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:

@@ -18,19 +18,11 @@ _APART = 1e-12  # of a direction: blocks that are separated
 
 
 def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray[np.complex128], Array]:
-    """Return the eigenvalues of a product of matrices and their errors.
+    """Return the eigenvalues (n,) of a product of matrices (n, n), the first of which acts first, and their errors (n,).
 
     By orthogonal iteration the factors become upper triangular in blocks, each of eigenvalues of nearly the same size. The
-    eigenvalues of a block are those of the product of its parts, in which no larger one hides them.
-
-    Parameters
-    ----------
-    factors : matrices (n, n), the first of which acts first.
-    error : of each factor, relative to its norm, and absolute where the norm is below one.
-
-    Returns
-    -------
-    values, errors : (n,) each, the largest eigenvalue first.
+    eigenvalues of a block are those of the product of its parts, in which no larger one hides them. error: of each factor,
+    relative to its norm, and absolute where the norm is below one.
     """
     start, n = np.eye(len(factors[0])), len(factors[0])
     for _ in range(_SWEEPS):
@@ -55,21 +47,10 @@ def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray
     return np.array(values, complex)[order], np.array(errors)[order]
 
 
-def resolved_multipliers(
-    values: NDArray[np.complex128], errors: Array, determinant: float | None = None
-) -> tuple[NDArray[np.complex128], Array]:
-    """Return multipliers (n,), NaN where one is smaller than its error, and the errors (n,), of NaN the bound of its size.
-
-    determinant: of the flow, by Liouville. It gives a multiplier that alone is smaller than its error.
-    """
+def resolved_multipliers(values: NDArray[np.complex128], errors: Array) -> tuple[NDArray[np.complex128], Array]:
+    """Return multipliers (n,), NaN where one is smaller than its error, and the errors (n,), of NaN the bound of its size."""
     below = ~(np.abs(values) > errors)
-    errors = np.where(below, np.abs(values) + errors, errors)
-    if determinant is not None and below.sum() == 1:
-        last = determinant / np.prod(values[~below])
-        error = np.abs(last) * (errors[~below] / np.abs(values[~below])).sum()
-        if error < np.abs(last):
-            return np.where(below, last, values), np.where(below, error, errors)
-    return np.where(below, complex(np.nan, np.nan), values), errors
+    return np.where(below, complex(np.nan, np.nan), values), np.where(below, np.abs(values) + errors, errors)
 
 
 def multiplier_rows(values: NDArray[np.complex128], errors: Array) -> dict[str, str]:

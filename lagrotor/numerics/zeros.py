@@ -52,26 +52,21 @@ def zeros_between(
 
 def chebyshev_nodes(edges: Array) -> Array:
     """Return Chebyshev's nodes of each interval between increasing edges (p + 1,), ends among them, shape (p, m)."""
-    middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
-    nodes = middle[:, None] + half[:, None] * _NODES
-    nodes[:, 0], nodes[:, -1] = edges[:-1], edges[1:]
-    return nodes
+    return edges[:-1, None] + np.diff(edges)[:, None] * (1 + _NODES) / 2
 
 
 def may_vanish(values: Array, touch: Array | float = 0.0, noise: Array | float = 0.0) -> NDArray[np.bool_]:
-    """Return for which functions the series through values (k, m) at Chebyshev's nodes may be zero; not for one that is zero
-    everywhere."""
+    """Return which series through values (k, m) at Chebyshev's nodes may be zero; one that is zero everywhere is not."""
     size = np.abs(values @ _SERIES.T)
     return (size[:, 0] <= size[:, 1:].sum(1) + touch) & (np.abs(values).max(1) > touch + noise)
 
 
-def interpolant(left: float, right: float, values: Array) -> tuple[Callable[[Array], Array], Array]:
-    """Return the polynomial through values (m, d) at Chebyshev's nodes of an interval, times (n,) → (n, d), and the size of its
-    last coefficients (d,)."""
+def interpolant(length: float, values: Array) -> tuple[Callable[[Array], Array], Array]:
+    """Return the polynomial through values (m, d) at the nodes of [0, length], and the size of its last coefficients (d,)."""
     series = _SERIES @ values
 
     def curve(times: Array) -> Array:
-        angles = np.arccos(np.clip((2 * times - left - right) / (right - left), -1, 1))
+        angles = np.arccos(np.clip(2 * times / length - 1, -1, 1))
         return np.asarray(np.cos(angles[:, None] * np.arange(len(series))) @ series)
 
     return curve, np.abs(series[-3:]).sum(0)

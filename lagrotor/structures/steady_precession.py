@@ -221,4 +221,4 @@ def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[n
     conditions = np.linalg.norm(np.linalg.pinv(right), axis=1) * np.linalg.norm(right, axis=0)
     errors = conditions * (np.linalg.norm(inner - other, 2) + TIGHTEST * np.linalg.norm(inner, 2))
     order = np.lexsort((-values.imag, np.abs(np.angle(values)), -np.round(np.abs(values), 6)))
-    return resolved_multipliers(np.append([1.0, 1.0], values[order]), np.append([0.0, 0.0], errors[order]), 1.0)
+    return resolved_multipliers(np.append([1.0, 1.0], values[order]), np.append([0.0, 0.0], errors[order]))

@@ -142,7 +142,7 @@ def test_equilibria_of_forces_in_pieces(force: sp.Expr, roots: tuple[float, ...]
 )
 def test_a_jump_through_zero_proves_nothing(force: sp.Expr, roots: list[float]) -> None:
     """Where the force jumps from one sign to the other no piece is zero: the slopes of the pieces would say otherwise."""
-    with pytest.warns(LagrotorWarning, match="nothing is decided near x = [01], where"):
+    with pytest.warns(LagrotorWarning, match="nothing is decided where (x|x - 1) = 0"):
         rests = System(c, v**2 / 2, forces=(force,)).equilibria(box={x: (-0.5, 1.4)})
     assert [float(e.at[x]) for e in rests] == roots
 
@@ -192,15 +192,15 @@ def test_equilibria_under_a_constraint_do_not_depend_on_its_units(factor: sp.Exp
 KINKS = {
     "spring at its hook": (
         -sp.Rational(981, 100) * b - 50 * (sp.sqrt(a**2 + b**2) - 1) ** 2,
-        "a = 0, b = 0, where a.* = 0",
+        "a.*2 . b.*2 = 0, ",
         [(0, -1.0981), (0, 0.9019)],
     ),
     "two hooks": (
         -sum(50 * (sp.sqrt((a - s) ** 2 + b**2) - sp.Rational(1, 2)) ** 2 for s in (1, -1)) - b**2,
-        "a = (1|-1), b = 0, where .*; a = (1|-1), b = 0, where ",
+        ".*a . 1.* or .*a . 1.* = 0, ",
         [(0, 0)],
     ),
-    "a ridge": (-sp.Abs(a) - (b - 1) ** 2, "a = 0, b = 1, where a = 0", []),
+    "a ridge": (-sp.Abs(a) - (b - 1) ** 2, "a = 0, first about a = .*, b = ", []),
 }
 
 
@@ -208,7 +208,7 @@ KINKS = {
 def test_a_kink_is_named_and_hides_no_equilibrium(kind: str) -> None:
     """The spring of length l hangs at −l − m g/k and balances at l − m g/k; twin: a degenerate rest is still refused."""
     potential, place, expected = KINKS[kind]
-    with pytest.warns(LagrotorWarning, match=f"nothing is decided near {place}"):
+    with pytest.warns(LagrotorWarning, match=f"nothing is decided where {place}"):
         places = System(d, (u**2 + w**2) / 2 + potential).equilibria(values={}, box={a: (-3, 3), b: (-3, 3)})
     assert np.array([(e.at[a], e.at[b]) for e in places], float).reshape(-1, 2) == pytest.approx(
         np.array(expected, float).reshape(-1, 2), abs=1e-12

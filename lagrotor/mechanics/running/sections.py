@@ -22,7 +22,7 @@ from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
 from lagrotor.mechanics.running.motion import SampledMotion, integration_of
-from lagrotor.mechanics.running.phases import march, polish
+from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
 from lagrotor.numerics.calibrated import BEYOND
 from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
@@ -35,7 +35,7 @@ _STEPS = 8  # times of evaluations in a panel, which has twice as many intervals
 _HALVINGS = 8  # of a panel whose polynomial is not resolved
 _BUDGET = 60_000, 4_800  # evaluations of a stage, to begin and for each turn: three times those that a run may take
 _CLOCK = 1e3  # spacings of doubles at the time, of a shortest panel
-Observer = Callable[[float, float, float, Callable[[Array], Array]], None]
+Values = Callable[[Array, Array], Array]  # of the section: states (m, d) and times (m,) → (1, m)
 
 
 def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
@@ -43,7 +43,8 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
     Times and states are as exact as the run. Every zero of the polynomials through the solver's steps is a crossing, also two
     in one step. Where the section turns round within tol of zero it is touched, and two crossings there may be one or none. The
-    search takes at most twice the evaluations of the run, by the engine "core"; they are added to the run's.
+    search takes at most twice the evaluations of the run, by the engine "core". A LagrotorWarning says where the section
+    changes faster than the polynomials can follow.
 
     Parameters
     ----------
@@ -54,11 +55,6 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     ------
     InputError
         For another direction, a section that does not change, and a run of one sample.
-
-    Warns
-    -----
-    LagrotorWarning
-        Where the section changes faster than polynomials on the solver's steps can follow.
     """
     if direction not in (-1, 0, 1):
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
@@ -122,14 +118,7 @@ def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
         i = j
 
 
-def _stage(
-    run: SampledMotion,
-    i: int,
-    j: int,
-    value: Callable[[Array, Array], Array],
-    touch: float,
-    observe: Observer,
-) -> tuple[Array, int]:
+def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, observe: Observer) -> tuple[Array, int]:
     """Observe the motion from sample i to sample j where the section may be zero; return its last state and the evaluations."""
     begin, end = run.t[[i, j]]
     lost = run.ending.kind == "lost" and begin >= run.ending.at
@@ -155,7 +144,7 @@ def _stage(
         values = value(states, times)[0][panels]
         for k in np.flatnonzero(may_vanish(values, touch) | ~np.isfinite(values).all(1)):
             left, right = edges[k : k + 2]
-            curve, last = interpolant(0.0, right - left, states[panels[k], : len(sizes)])
+            curve, last = interpolant(right - left, states[panels[k], : len(sizes)])
             if halvings and (last > max(local, _LEAST) * sizes).any():
                 look(np.array([left, (left + right) / 2, right]), states[panels[k, 0]], halvings - 1)
             else:
