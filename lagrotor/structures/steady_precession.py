@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import ConstraintError, InputError, LagrotorError
+from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_multipliers
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
-from lagrotor.numerics.multipliers import multiplier_rows, resolved_multipliers
 from lagrotor.numerics.segment import RightHandSide
 from lagrotor.pair.quantities import finite_number
 from lagrotor.shown import Shown

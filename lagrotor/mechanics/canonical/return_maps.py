@@ -31,7 +31,7 @@ from lagrotor.mechanics.canonical.polynomials import (
 )
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.numerics.arrays import Array
-from lagrotor.numerics.multipliers import multiplier_rows, resolved_multipliers
+from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_multipliers
 
 _RESONANT = 1e-7  # |1 − e^{iα·(a − b)}| that is zero in floating-point numbers
 _NEAR = 1e-6  # of 1 or −1: a multiplier that is taken to be it

@@ -20,7 +20,7 @@ from lagrotor.errors import DomainError
 from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import Array, close_arc, flow
-from lagrotor.numerics.multipliers import multiplier_rows, resolved_multipliers
+from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_multipliers
 from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
 from lagrotor.theory.averaged_motion import slow_frequency

@@ -9,10 +9,9 @@ from scipy.integrate import solve_ivp
 from scipy.special import ellipk, mathieu_a, mathieu_b
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics import System, coordinates, t
+from lagrotor.mechanics import MonodromyMatrix, System, coordinates, t
 from lagrotor.mechanics.running import monodromy
-from lagrotor.mechanics.running.monodromy import MonodromyMatrix
-from lagrotor.numerics.multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers
+from lagrotor.numerics.floquet_multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers
 
 C = coordinates("x")
 (x,), (v,) = C.q, C.v
