@@ -14,8 +14,9 @@ _FUNCTIONS = (
 
 
 def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
-    """∂e/∂s of an expression e by a symbol s."""
-    return _derivative(sp.sympify(expression, strict=True), symbol, {})
+    """Return ∂e/∂s of an expression e by a symbol s; a product f δ(g) in it is zero where f vanishes with g."""
+    slope = _derivative(sp.sympify(expression, strict=True), symbol, {})
+    return slope.replace(_vanishes, lambda _: sp.S.Zero) if slope.has(sp.DiracDelta) else slope
 
 
 def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.Expr]) -> sp.Expr:
@@ -47,8 +48,6 @@ def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.E
     elif e.is_Mul:
         slopes = [_derivative(part, s, known) for part in e.args]
         slope = sp.Add(*(sp.Mul(*e.args[:i], d, *e.args[i + 1 :]) for i, d in enumerate(slopes) if d is not sp.S.Zero))
-        if slope.has(sp.DiracDelta):
-            slope = sp.Add(*(part for part in sp.Add.make_args(sp.expand_mul(slope)) if not _vanishes(part)))
     elif e.is_Pow and e.exp.is_Number:
         d = _derivative(e.base, s, known)
         slope = d if d is sp.S.Zero else e * (d * e.exp / e.base)
@@ -62,8 +61,8 @@ def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.E
 
 
 def _vanishes(product: sp.Expr) -> bool:
-    """Whether a product is f δ(g), f zero wherever g is, as x δ(x): no distribution but zero."""
-    for delta in sp.Mul.make_args(product):
+    """Whether an expression is f δ(g), f zero wherever g is, as x δ(x)."""
+    for delta in product.args if product.is_Mul else ():
         if isinstance(delta, sp.DiracDelta) and len(delta.args) == 1:
             f, g = product / delta, delta.args[0]
             put = {g: sp.S.Zero, -g: sp.S.Zero}
