@@ -290,6 +290,8 @@ def test_hyperbolic_orbits():
     assert sorted(n.multipliers.real) == pytest.approx(
         sorted(whole.floquet(place, {}, n.period).multipliers.real), rel=1e-6
     )
+    thrice = whole.floquet(place, {}, 3 * n.period)  # the coarser of its two integrations leaves the orbit by 10⁻⁵
+    assert thrice.multipliers.real == pytest.approx(n.multipliers.real**3, rel=1e-4, abs=0)
     parametric = driven(lambda x: x**2 / 2 * (1 + sp.cos(2 * t) / 5) + x**4 / 4)
     n = parametric.normal_form(order=4, at={q: 0}, period=pi)
     assert n.stable is False and (n.multipliers.real < 0).all() and np.isnan(n.rotation_numbers()).all()
