@@ -31,7 +31,7 @@ from lagrotor.mechanics.canonical.polynomials import (
 )
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.numerics.arrays import Array
-from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_multipliers
+from lagrotor.numerics.floquet_multipliers import multiplier_rows
 
 _RESONANT = 1e-7  # |1 − e^{iα·(a − b)}| that is zero in floating-point numbers
 _NEAR = 1e-6  # of 1 or −1: a multiplier that is taken to be it
@@ -60,24 +60,17 @@ class ReturnMapForm(NormalForm):
 
     @cached_property
     def multipliers(self) -> NDArray[np.complex128]:
-        """Λ: of z_1 … z_m, w_1 … w_m; Floquet's, without the two of the motion along the orbit and across energies. One is
-        NaN where it is smaller than its error."""
-        return self._multipliers_and_errors[0]
+        """Λ: of z_1 … z_m, w_1 … w_m; Floquet's, without the two of the motion along the orbit and across energies."""
+        rates = self.weights * np.array(self.frequencies)
+        return np.exp(np.concatenate([rates, -rates]))
 
     @property
     def errors(self) -> Array:
-        """The errors of the multipliers; of NaN the bound of its size. Of a pair μ, 1/μ both have the same relative one."""
-        return self._multipliers_and_errors[1]
-
-    @cached_property
-    def _multipliers_and_errors(self) -> tuple[NDArray[np.complex128], Array]:
-        rates = self.weights * np.array(self.frequencies)
-        values = np.exp(np.concatenate([rates, -rates]))
-        right, left = np.abs(self.vectors), np.abs(np.linalg.inv(self.vectors))
-        size = (right * np.abs(values)) @ left  # of the map's first order, above each of its elements
-        relative = self.error * size.max() * left.sum(1) * right.sum(0) / np.abs(values)
-        m = len(rates)
-        return resolved_multipliers(values, np.abs(values) * np.tile(np.minimum(relative[:m], relative[m:]), 2))
+        """The errors of the multipliers; of a pair μ, 1/μ both have the same relative one."""
+        sizes, right, left = np.abs(self.multipliers), np.abs(self.vectors), np.abs(np.linalg.inv(self.vectors))
+        largest = ((right * sizes) @ left).max()  # no element of the map's first order is larger
+        relative = self.error * largest * left.sum(1) * right.sum(0) / sizes
+        return sizes * np.tile(np.minimum(*np.split(relative, 2)), 2)
 
     @cached_property
     def twist(self) -> Array:
