@@ -318,7 +318,9 @@ prove(
 #
 # ## Beside the paired precession
 #
-# There $\beta_s=\eta=0$, $s^2=\sigma r_0^2$. A momentum $P=G(s^2+d)/k$ more than its own by $Gd/k$ makes the pair turn; about
+# There $\beta_s=\eta=0$, $s^2=\sigma r_0^2$. A momentum $P=G(s^2+d)/k$ more than its own by $Gd/k$ makes the pair turn. At the
+# next order $Gd/k$ is what the pair has beyond the exact precession of the same $r_0$, the sine of the inclination where the
+# axes are parallel; $P-Gs^2/k$ is another number there. About
 # it $W=\tfrac12W_{\beta\beta}\beta_s^2+\tfrac12W_{\eta\eta}\eta^2$ and the square of the slow frequency is
 # $g^2W_{\beta\beta}W_{\eta\eta}$:
 

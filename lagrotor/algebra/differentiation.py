@@ -14,8 +14,9 @@ _FUNCTIONS = (
 
 
 def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
-    """∂e/∂s of an expression e by a symbol s."""
-    return _derivative(sp.sympify(expression, strict=True), symbol, {})
+    """Return ∂e/∂s of an expression e by a symbol s; a product f δ(g) in it is zero where f vanishes with g."""
+    slope = _derivative(sp.sympify(expression, strict=True), symbol, {})
+    return slope.replace(_vanishes, lambda _: sp.S.Zero) if slope.has(sp.DiracDelta) else slope
 
 
 def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.Expr]) -> sp.Expr:
@@ -57,3 +58,19 @@ def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.E
         slope = sp.diff(e, s)
     known[e] = slope
     return slope
+
+
+def _vanishes(product: sp.Expr) -> bool:
+    """Whether an expression is f δ(g), f zero wherever g is, as x δ(x)."""
+    for delta in product.args if product.is_Mul else ():
+        if isinstance(delta, sp.DiracDelta) and len(delta.args) == 1:
+            f, g = product / delta, delta.args[0]
+            put = {g: sp.S.Zero, -g: sp.S.Zero}
+            for s in sorted(g.free_symbols, key=str):
+                slope = _derivative(g, s, {})
+                if slope != 0 and s not in slope.free_symbols:
+                    put = {s: -g.xreplace({s: sp.S.Zero}) / slope}
+                    break
+            if sp.expand(f.xreplace(put)) == 0:
+                return True
+    return False

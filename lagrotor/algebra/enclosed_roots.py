@@ -145,6 +145,21 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
     return roots, undecided
 
 
+def kinks_in(equations: Sequence[sp.Expr], part: Box, box: Box) -> list[sp.Expr]:
+    """Return the expressions that may vanish in a narrow part of a box, or in the parts next to it, and leave the equations
+    without a derivative or a value there: denominators, radicands, arguments at which a function changes its form."""
+    if any(high - low > _LEAST * (box[s][1] - box[s][0]) for s, (low, high) in part.items() if s in box):
+        return []
+    near = {s: (2 * low - high, 2 * high - low) for s, (low, high) in part.items()}
+    pieces = [e.rewrite(_PIECEWISE, sp.Piecewise) for e in equations]
+    powers = set().union(*(e.atoms(sp.Pow) for e in pieces))
+    relations = set().union(*(e.atoms(sp.core.relational.Relational) for e in pieces))
+    parts = {p.base for p in powers if not (p.exp.is_Integer and p.exp.is_positive)} | {
+        r.lhs - r.rhs for r in relations
+    }
+    return sorted((e for e in parts if e.free_symbols & {*part} and _may_vanish(e, near)), key=sp.default_sort_key)
+
+
 class _Equations:
     """Equations, their derivatives by the unknowns row by row, and what vanishes where another piece of a function begins."""
 

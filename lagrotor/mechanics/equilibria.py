@@ -4,6 +4,7 @@ One unknown after another is eliminated by a factor of degree one or two in it; 
 is not returned. Where no factor can be solved so, the equilibrium is refused with what to give.
 """
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
@@ -13,9 +14,9 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import decide_zero, derivative, normal_form
-from lagrotor.algebra.enclosed_roots import Box, roots_in_box
+from lagrotor.algebra.enclosed_roots import Box, kinks_in, roots_in_box
 from lagrotor.algebra.enclosures import enclosures
-from lagrotor.errors import InputError, NotExactError, SingularError
+from lagrotor.errors import InputError, LagrotorWarning, NotExactError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
@@ -60,7 +61,8 @@ def equilibria(
     the box.
 
     Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
-    stays undecided, as about equilibria that are not isolated.
+    stays undecided, as about equilibria that are not isolated. A LagrotorWarning names each place where a force has no
+    derivative or no value and nothing is decided.
     """
     if isinstance(unknowns, Mapping):
         raise InputError(
@@ -131,8 +133,16 @@ def _in_box(
         raise InputError(f"equilibria: {', '.join(left)} without a value: in a box every letter has one, and time none")
     roots, undecided = _at_rest(forces, constraints, edges)
     middles = [{q: sp.Float(round((low + high) / 2, 20), 17) for q, (low, high) in root.items()} for root in roots]
-    if undecided:
-        shown = ", ".join(f"{q} = {float(sum(undecided[0][q]) / 2):.6g}" for q in c.q)
+    kinks = [kinks_in((*forces, *constraints), part, edges) for part in undecided]
+    if undecided and all(kinks):
+        warnings.warn(
+            f"equilibria: nothing is decided where {' or '.join(dict.fromkeys(str(kink[0]) for kink in kinks))} = 0, first "
+            f"about {_about(undecided[0], c.q)}: a force has no derivative or no value there",
+            LagrotorWarning,
+            stacklevel=3,
+        )
+    elif undecided:
+        shown = _about(undecided[kinks.index([])], c.q)
         proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
         acting = set().union(*(e.free_symbols for e in (*forces, *constraints)))
         free = [f" (no force depends on {q})" for q in c.q if q not in acting]
@@ -146,6 +156,10 @@ def _in_box(
         Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)
         for at, root in sorted(zip(middles, roots, strict=True), key=lambda pair: [float(x) for x in pair[0].values()])
     )
+
+
+def _about(part: Box, coordinates: Sequence[sp.Symbol]) -> str:
+    return ", ".join(f"{q} = {float(sum(part[q]) / 2):.6g}" for q in coordinates)
 
 
 def _at_rest(forces: Sequence[sp.Expr], constraints: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:

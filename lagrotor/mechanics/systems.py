@@ -140,7 +140,7 @@ class System(Equations):
         return state_space.state_space(self, point, values, inputs, outputs)
 
     def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
-        """The monodromy matrix of a periodic motion, and its multipliers.
+        """Return the monodromy matrix of a periodic motion and its multipliers, each with its error and NaN where it is below it.
 
         Args:
             at: coordinates and velocities at t = 0, or at the value of t. A rest in a system that is driven is a motion, too.

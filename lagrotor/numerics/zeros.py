@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
 
 from lagrotor.numerics.segment import Array
 
@@ -49,6 +50,28 @@ def zeros_between(
     return Zeros(t, index.astype(int), direction.astype(int), hidden)
 
 
+def chebyshev_nodes(edges: Array) -> Array:
+    """Return Chebyshev's nodes of each interval between increasing edges (p + 1,), ends among them, shape (p, m)."""
+    return edges[:-1, None] + np.diff(edges)[:, None] * (1 + _NODES) / 2
+
+
+def may_vanish(values: Array, touch: Array | float = 0.0, noise: Array | float = 0.0) -> NDArray[np.bool_]:
+    """Return which series through values (k, m) at Chebyshev's nodes may be zero; one that is zero everywhere is not."""
+    size = np.abs(values @ _SERIES.T)
+    return (size[:, 0] <= size[:, 1:].sum(1) + touch) & (np.abs(values).max(1) > touch + noise)
+
+
+def interpolant(length: float, values: Array) -> tuple[Callable[[Array], Array], Array]:
+    """Return the polynomial through values (m, d) at the nodes of [0, length], and the size of its last coefficients (d,)."""
+    series = _SERIES @ values
+
+    def curve(times: Array) -> Array:
+        angles = np.arccos(np.clip(2 * times / length - 1, -1, 1))
+        return np.asarray(np.cos(angles[:, None] * np.arange(len(series))) @ series)
+
+    return curve, np.abs(series[-3:]).sum(0)
+
+
 def _search(
     functions: Functions,
     left: float,
@@ -60,12 +83,9 @@ def _search(
 ) -> tuple[float, float] | None:
     middle, half = (left + right) / 2, (right - left) / 2
     values = functions(middle + half * _NODES)
-    series = values @ _SERIES.T
+    series, near = values @ _SERIES.T, may_vanish(values, touch, noise)
     size = np.abs(series)
-    rest = size[:, 1:].sum(1)
-    near = size[:, 0] <= rest + touch  # elsewhere no value of the series is zero
     falling = size[:, -3:].sum(1) <= _FALLEN * size.max(1) + touch / 10 + noise
-    near &= np.abs(values).max(1) > touch + noise  # what lies on the section crosses nothing
     if not (falling | ~near).all() or not np.isfinite(values).all():
         if halvings == 0:
             signs, t = np.sign(values), middle + half * (_NODES[:-1] + _NODES[1:]) / 2

@@ -93,6 +93,11 @@ class Resonance(Shown):
         """The factor on all spins at which the detuning is zero, by its slope here."""
         return self.at - self.detuning / self.per_factor if self.per_factor else inf
 
+    @property
+    def resonant(self) -> bool:
+        """Whether the detuning is below half of each rate that takes part; beyond, the barrier alone decides."""
+        return 2 * abs(self.detuning) < np.abs(self.rates[np.array(self.vectors[0]) > 0]).min()
+
     def push(self) -> float:
         """The push below which no start falls by this resonance."""
         d = self.order

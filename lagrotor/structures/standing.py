@@ -45,7 +45,7 @@ _MOST_TURNS = 10_000  # of the fastest mode, of an exact run
 _BOUNDED = "every small motion stays bounded"
 
 
-Kind = Literal["never", "to first order", "falls at a resonance", "holds"]
+Kind = Literal["never", "to first order", "falls at a resonance", "falls over a barrier", "holds"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -73,6 +73,8 @@ class Standing(Shown):
         - "never": it does not stand to first order, and any push falls or goes on;
         - "falls at a resonance": from every push of more than PUSH times its natural rate, in some direction, and from
           smaller ones as `largest_push` says;
+        - "falls over a barrier": likewise, but no rates resonate: so near the critical spins the barrier that the terms of third
+          and fourth order leave is lower than such a push;
         - "holds": its energy is least when upright, or no resonance through fourth order falls from such a push;
         - "to first order": it stands in the linear motion, and no more is known: something neither falls nor is pulled back,
           friction acts, there are more degrees of freedom than are expanded, rates are so far apart that `resonances` refuses
@@ -91,7 +93,7 @@ class Standing(Shown):
         except (InputError, SingularError):  # at the critical spins two modes are one, or rates are too far apart
             return "to first order"
         if found and found.push() < self._reference:
-            return "falls at a resonance"
+            return "falls at a resonance" if found.resonant else "falls over a barrier"
         return "to first order" if self._too_near else "holds"
 
     @cached_property
@@ -122,6 +124,12 @@ class Standing(Shown):
             return (
                 f"{words}, one of {self._reference:.3g} rad/s in {self.resonance.least_time(self._reference):.3g} s or more by "
                 "the normal form, which may be off by half: fall_time_error measures it"
+            )
+        if self.kind == "falls over a barrier" and self.resonance:
+            return (
+                f"{self.first_order}, but a push of about {self.resonance.push():.2g} rad/s in some direction passes the barrier "
+                f"that the terms of order {self.resonance.order} leave, and it falls; no rates resonate (the nearest: "
+                f"{self.resonance.words()})"
             )
         if self.kind == "holds" and not self.first_order.startswith(_BOUNDED):
             return (

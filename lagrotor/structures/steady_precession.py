@@ -19,10 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import ConstraintError, InputError, LagrotorError
+from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_multipliers
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
 from lagrotor.numerics.segment import RightHandSide
 from lagrotor.pair.quantities import finite_number
-from lagrotor.shown import Shown, scientific
+from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.closing import close_bars
@@ -47,7 +48,8 @@ class SteadyPrecession(Shown):
     """A periodic orbit of period T (s): axes and rates (N, 3) of its start, in 1/s, where axis and component of largest motion
     have the tilt and turn back.
 
-    multipliers (2n,): two ones, then those of the return; errors (2n,): their estimates. growth: log of the largest modulus, a
+    multipliers (2n,): two ones, then those of the return, NaN where one is smaller than its error; errors (2n,): their estimates,
+    of NaN the bound of its size. growth: log of the largest modulus, a
     turn; 0 where no multiplier is off the unit circle by more than its error. mismatch: of axes and of rates over the
     structure's rate, from the start after one period.
     """
@@ -63,19 +65,13 @@ class SteadyPrecession(Shown):
 
     def summary(self) -> dict[str, str]:
         """Period, multipliers and growth, name → words."""
-        upper = [k for k in range(2, len(self.errors)) if self.multipliers[k].imag >= 0]
-        rows = {
-            f"multiplier {i + 1}": f"{(mu := self.multipliers[k]):.8g}, of modulus {abs(mu):.8g}, known to "
-            f"{scientific(self.errors[k], 1)}"
-            for i, k in enumerate(upper)
-        }
         return (
             {
                 "tilt": f"{self.tilt:g}",
                 "period [s]": f"{self.period:.10g}",
                 "rate [rad/s]": f"{2 * pi / self.period:.10g}",
             }
-            | rows
+            | multiplier_rows(self.multipliers[2:], self.errors[2:])
             | {"growth": f"{self.growth:.6g} a turn" if self.growth else "none beyond the error"}
         )
 
@@ -180,7 +176,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
                     )
                 ) from None
     multipliers, errors = _multipliers(shoot, y, duration)
-    outside = np.abs(multipliers) > 1 + errors
+    outside = np.abs(multipliers) > 1 + errors  # not of NaN, which is small
     most = float(np.log(np.abs(multipliers[outside]).max())) if outside.any() else 0.0
     axes, rates = y.reshape(2, -1, 3)
     return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, most, mismatch)
@@ -225,4 +221,4 @@ def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[n
     conditions = np.linalg.norm(np.linalg.pinv(right), axis=1) * np.linalg.norm(right, axis=0)
     errors = conditions * (np.linalg.norm(inner - other, 2) + TIGHTEST * np.linalg.norm(inner, 2))
     order = np.lexsort((-values.imag, np.abs(np.angle(values)), -np.round(np.abs(values), 6)))
-    return np.append([1.0, 1.0], values[order]), np.append([0.0, 0.0], errors[order])
+    return resolved_multipliers(np.append([1.0, 1.0], values[order]), np.append([0.0, 0.0], errors[order]))

@@ -371,8 +371,9 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
 
     Args:
         scene: with opposite spins and a bar.
-        momentum: P about the joint line beyond the own one of the paired precession of this r0 (kg m²/s): a push, by which the
-            pair turns.
+        r0: sine of the inclination at the moments when the axes are parallel, with the push.
+        momentum: P about the joint line (kg m²/s) less that of the exact paired precession of this r0: a push, by which the pair
+            turns. That of the precession is G s²/k to leading order only; with P less G s²/k the law is off at the next order.
 
     Raises:
         InputError: unless the spins are opposite and there is a bar.

@@ -37,3 +37,24 @@ def test_a_second_derivative_does_not_depend_on_the_order() -> None:
     second = hessian(EXPRESSIONS[0], (x, y))
     assert (second - sp.hessian(EXPRESSIONS[0], (x, y))).expand().is_zero_matrix
     assert sp.expand(second[0, 1] - second[1, 0]) == 0 != sp.expand(second[0, 0] - second[1, 1])  # twin
+
+
+@pytest.mark.parametrize(
+    ("expression", "slope"),
+    [
+        (x**2 * sp.Heaviside(x), 2 * x * sp.Heaviside(x)),
+        (m * sp.sin(x) ** 2 * sp.Heaviside(sp.sin(x)), 2 * m * sp.sin(x) * sp.cos(x) * sp.Heaviside(sp.sin(x))),
+        ((y - 2 * x) * sp.Heaviside(2 * x - y), -2 * sp.Heaviside(2 * x - y)),
+        (x * sp.sign(x), sp.sign(x)),
+        (
+            (x**2 + y**2 - 1) ** 2 * sp.Heaviside(1 - x**2 - y**2),
+            4 * x * (x**2 + y**2 - 1) * sp.Heaviside(1 - x**2 - y**2),
+        ),
+    ],
+)
+def test_a_distribution_is_zero_where_its_factor_is(expression: sp.Expr, slope: sp.Expr) -> None:
+    assert sp.expand(derivative(expression, x) - slope) == 0
+    assert derivative(expression + sp.Heaviside(x - 1), x).has(
+        sp.DiracDelta
+    )  # twins: a step, and one with another factor
+    assert derivative((x - 1) * sp.Heaviside(x), x).has(sp.DiracDelta)

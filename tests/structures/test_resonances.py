@@ -467,6 +467,18 @@ def test_beside_the_critical_spins_the_exact_motion_falls_and_none_is_said_to_ho
     assert at(1.03, CORNER, [1, 0, 1]).stands().kind == "holds"
 
 
+def test_beside_the_critical_spins_a_barrier_is_no_resonance():
+    """Three equal spins: 2.97 and 2 × 0.73 rad/s do not resonate, and the exact motion falls from the barrier on, not below."""
+    s = at(1.003, CORNER, [1, 1, 1])
+    found = s.stands()
+    assert found and found.kind == "falls over a barrier" and not found.resonance.resonant
+    assert "passes the barrier that the terms of order 3 leave" in found.why and "no rates resonate" in found.why
+    barrier, pushes = found.resonance.push(), list(directions(s, 3))
+    falls = [[measured_fall(s, size * barrier * d, 40, 1e-7) < inf for d in pushes] for size in (0.5, 2)]
+    assert not any(falls[0]) and sum(falls[1]) >= 2
+    assert at(1.0607, CORNER, [1, 0, 1]).stands().resonance.resonant  # twin
+
+
 def test_how_long_it_holds():
     """As push^−4 by the form of fifth order; for ever where the energy is least, or of a free top; not at all
     beyond what is trusted. At a resonance of third order not as long as its least time."""

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from lagrotor import Link, Scene, Shock, floquet, natural_rate, shock_response, simulate
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit, mean_over, slow_frequency_error, time_to_reach_error, time_to_wander
+from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.floquet import _pushed
 from lagrotor.numerics import measured_order
 from lagrotor.pair import leaning_lagrangian
@@ -290,6 +291,21 @@ def distances(link: Link, share: float, change: float = 0.0) -> list[float]:
 def test_the_slow_frequency_is_right_to_fourth_order(link: Link, share: float) -> None:
     assert measured_order(AMPLITUDES, distances(link, share)) == pytest.approx(4, abs=0.15)
     assert measured_order(AMPLITUDES, distances(link, share, 1.0)) < 2.5
+
+
+@pytest.mark.parametrize(
+    ("link", "share"), [(Link(0.8, 0.5, 0.1), -0.5), (Link(1.5, 1.0, 0.1), -0.5), (Link(1.0), 2.0)]
+)
+def test_the_momentum_is_beyond_that_of_the_exact_precession(link: Link, share: float) -> None:
+    """Twin: less G s²/k, the precession's momentum to leading order, the law is three times and more as far off."""
+    scene, r0 = Scene((10, -10), link=link), 0.2 if share < 0 else 0.1
+    G, square = scene.momenta[0], scene.sigma * r0**2
+    start, push = MODEL.start(exact_orbit(scene, r0).scene), share * square * G / scene.k
+    precession = 2 * sum(scene.inertias) * (1 - r0**2) * start[5]
+    law, exact = slow_frequency(scene, r0, push), floquet(scene, r0, push).slow_frequency
+    other = floquet(scene, r0, push + G * square / scene.k - precession).slow_frequency
+    assert abs(law / exact - 1) < 0.01 and slow_frequency_error(scene, r0, push) < 0.01 * abs(exact)
+    assert abs(law / other - 1) > 3 * abs(law / exact - 1)
 
 
 def test_a_push_in_one_sense_holds_a_massless_bar_and_in_the_other_does_not() -> None:

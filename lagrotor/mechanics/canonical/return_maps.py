@@ -31,6 +31,7 @@ from lagrotor.mechanics.canonical.polynomials import (
 )
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.numerics.arrays import Array
+from lagrotor.numerics.floquet_multipliers import multiplier_rows
 
 _RESONANT = 1e-7  # |1 − e^{iα·(a − b)}| that is zero in floating-point numbers
 _NEAR = 1e-6  # of 1 or −1: a multiplier that is taken to be it
@@ -62,6 +63,14 @@ class ReturnMapForm(NormalForm):
         """Λ: of z_1 … z_m, w_1 … w_m; Floquet's, without the two of the motion along the orbit and across energies."""
         rates = self.weights * np.array(self.frequencies)
         return np.exp(np.concatenate([rates, -rates]))
+
+    @property
+    def errors(self) -> Array:
+        """The errors of the multipliers; of a pair μ, 1/μ both have the same relative one."""
+        sizes, right, left = np.abs(self.multipliers), np.abs(self.vectors), np.abs(np.linalg.inv(self.vectors))
+        largest = ((right * sizes) @ left).max()  # no element of the map's first order is larger
+        relative = self.error * largest * left.sum(1) * right.sum(0) / sizes
+        return sizes * np.tile(np.minimum(*np.split(relative, 2)), 2)
 
     @cached_property
     def twist(self) -> Array:
@@ -95,8 +104,8 @@ class ReturnMapForm(NormalForm):
 
     def summary(self) -> dict[str, str]:
         """As `NormalForm.summary`, with the period and the multipliers."""
-        listed = ", ".join(f"{x:.6g}" for x in self.multipliers)
-        return {"period": f"{self.period:.10g} s", "multipliers": listed} | super().summary()
+        listed = multiplier_rows(self.multipliers, self.errors)
+        return {"period": f"{self.period:.10g} s"} | listed | super().summary()
 
 
 def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) -> NormalForm:
@@ -108,7 +117,8 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
 
     Raises:
         InputError: where F is no such map to first order.
-        SingularError: where a multiplier is 1 or −1, or double and not diagonal, or some too near to 1 beside others near −1.
+        SingularError: where a multiplier is 1 or −1, above 10⁶, or double and not diagonal, or some too near to 1 beside others
+            near −1.
     """
     check_form_order(order, detuning)
     n = len(F)
@@ -126,6 +136,11 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
         raise InputError(
             f"map_normal_form: F is no canonical map with F(0) = 0: M = {M.tolist()} of its first order has not MᵀJM = J, or F "
             "has a constant"
+        )
+    if (most := np.abs(np.linalg.eigvals(M)).max()) > 1 / _NEAR:
+        raise SingularError(
+            f"normal_form: a multiplier is {most:.2g}, too far from its reciprocal for floating-point numbers: "
+            "System.floquet gives both"
         )
     for value in (1, -1):
         if (near := np.abs(np.linalg.eigvals(M) - value).min()) < _NEAR:

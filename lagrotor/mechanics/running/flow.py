@@ -75,6 +75,14 @@ def powers_of_two(sizes: Array) -> Array:
     return scale if scale.max() > _LIKE or scale.min() < 1 / _LIKE else np.ones(len(sizes))
 
 
+def _logged(rate: Rhs, log: list[float]) -> Rhs:
+    def logged(s: float, y: Array) -> Any:
+        log.append(s)
+        return rate(s, y)
+
+    return logged
+
+
 def smooth_motion(
     system: Equations,
     values: Values,
@@ -84,11 +92,13 @@ def smooth_motion(
     start: Array,
     stiff: bool,
     windows: tuple[Window, ...],
+    log: list[float] | None = None,
 ) -> Integrate:
     """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
 
     The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
-    which it is regular. windows: where something acts briefly by the clock.
+    which it is regular. windows: where something acts briefly by the clock. log: the times since the start at which the
+    right-hand side is evaluated are appended to it.
     """
     program, known = motion_program(system), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states)
@@ -98,8 +108,9 @@ def smooth_motion(
 
     def problem_of(start: Array, budget: float, companion: bool) -> Problem:
         begin = float(start[-1])
+        rate = program.rate(parameters, begin)
         return Problem(
-            program.rate(parameters, begin),
+            rate if log is None else _logged(rate, log),
             start,
             budget,
             windows=windows_since(begin, windows, companion),

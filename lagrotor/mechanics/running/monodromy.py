@@ -1,13 +1,17 @@
-"""What becomes of small displacements: Floquet multipliers of a periodic motion, the Lyapunov exponent of any.
+"""Small displacements: Floquet multipliers of a periodic motion, the Lyapunov exponent of any motion.
 
 With s' = f(s, t) of period T, δs(T) = Φ δs(0), Φ' = (∂f/∂s) Φ, Φ(0) = 1; under constraints in their tangent space, as in
 `state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. One is 1 where
-time does not enter, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2. Lyapunov's exponent is from
+time does not enter, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers
+that are 10⁻¹² times smaller than the largest. Where one is not resolved the period is cut, and the eigenvalues are those of a
+product of factors, whose periodic Schur form resolves each (Bojanczyk, Golub & Van Dooren 1992). Lyapunov's exponent is from
 the motion linearised along a run (Benettin, Galgani, Giorgilli & Strelcyn 1980).
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import reduce
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -24,11 +28,14 @@ from lagrotor.mechanics.running.programs import motion_program, parameter_values
 from lagrotor.mechanics.running.scales import clock_windows
 from lagrotor.mechanics.running.state_space import check_smooth, local_slope, motion_slope, point_state, tangent_space
 from lagrotor.mechanics.small_turns import small_states
+from lagrotor.numerics.floquet_multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import windows_since
-from lagrotor.shown import Shown
+from lagrotor.shown import Shown, scientific
 
 _LOCAL = (1e-10, 1e-12)  # errors of a step, of the integration that is read last and of the one it is compared with
+_CUTS = (1, 4, 32)  # pieces of the period, more where a multiplier is not resolved
+_RESOLVED = 1e-3  # of a multiplier, below which its error resolves it
 _CLOSED = 1e-6  # relative: what an orbit may be open by
 _MOST = 2_000_000  # evaluations
 MOST = 10_000_000  # the same, of an exponent
@@ -36,19 +43,26 @@ _PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back 
 _TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that
 
 
-@dataclass(frozen=True, eq=False)
-class MonodromyMatrix:
-    """Φ of one turn in the independent `states`, (n, n); error: how far two integrations of Φ are apart, relative to it."""
+@dataclass(frozen=True, eq=False, repr=False)
+class MonodromyMatrix(Shown):
+    """The matrix Φ (n, n) of one turn in the independent `states`, and its eigenvalues, the multipliers.
+
+    Attributes:
+        error: difference of two integrations of Φ, relative to it.
+        multipliers: (n,), the largest first; NaN where one is smaller than its error.
+        errors: absolute error of each multiplier, (n,); of one that is NaN the bound of its size.
+    """
 
     states: tuple[sp.Symbol, ...]
     matrix: Array
     error: float
+    multipliers: NDArray[np.complex128]
+    errors: Array
 
-    @property
-    def multipliers(self) -> NDArray[np.complex128]:
-        """The eigenvalues of Φ, (n,), the largest first."""
-        roots = np.linalg.eigvals(self.matrix).astype(complex)
-        return roots[np.lexsort((roots.imag, -np.abs(roots)))]
+    def summary(self) -> dict[str, str]:
+        """The states, the error of Φ and each multiplier, name → words."""
+        head = {"states": ", ".join(map(str, self.states)), "error of the matrix": scientific(self.error, 1)}
+        return head | multiplier_rows(self.multipliers, self.errors)
 
 
 def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, period: float) -> MonodromyMatrix:
@@ -71,6 +85,7 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     slope, width = motion_slope("floquet", given, values), T.shape[1]
     check_smooth("floquet", slope, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
     first, P, _ = local_slope(system, state, *_at(slope(start), size))
+    largest = max(1.0, float(np.abs(start).max()))
 
     def rate(_: float, y: Array) -> list[float]:
         f, J, _inputs = slope(y[:d])
@@ -78,22 +93,37 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
         return [*f.tolist(), *spread.ravel().tolist()]
 
     windows = windows_since(begin, clock_windows(system, values, begin + np.array([0.0, duration])))
-    whole = Problem(rate, np.concatenate([start, (P @ T).ravel()]), _MOST, windows=windows)
-    coarse, fine = (integrate(whole, np.array([duration]), local).states[-1] for local in _LOCAL)
-    end = fine[:d]
-    last, _, back = local_slope(system, end[:size], *_at(slope(end), size))
-    largest = max(1.0, float(np.abs(start).max()))
-    opened = np.abs(end - start)[n:size].max() / largest
-    other = np.abs(last - first).max() / max(1.0, float(np.abs(first).max()))
-    if not max(opened, other) < _CLOSED:
-        raise InputError(
-            f"floquet: after {duration:g} s the motion has not come back: its velocities are off by {opened:.2g} of their "
-            f"size and its coefficients by {other:.2g}; give a start on the orbit and its period"
-        )
-    one, two = ((back @ y[d:].reshape(size, width))[free] for y in (coarse, fine))
+
+    def factors(pieces: int, local: float) -> list[Array]:
+        """Return Φ as a product, the last factor first to act, of as many pieces of the period in orthonormal directions."""
+        (basis, upper), y = np.linalg.qr(P @ T), start
+        parts = [upper]
+        for a, b in pairwise(np.linspace(0, duration, pieces + 1)):
+            problem = Problem(rate, np.concatenate([y, basis.ravel()]), _MOST, windows=windows, begin=a)
+            y, spread = np.split(integrate(problem, np.array([b]), local).end, [d])
+            basis, upper = np.linalg.qr(spread.reshape(size, width))
+            parts.append(upper)
+        last, _, back = local_slope(system, y[:size], *_at(slope(y), size))
+        opened = np.abs(y - start)[n:size].max() / largest
+        other = np.abs(last - first).max() / max(1.0, float(np.abs(first).max()))
+        if local == _LOCAL[1] and not max(opened, other) < _CLOSED:
+            raise InputError(
+                f"floquet: after {duration:g} s the motion has not come back: its velocities are off by {opened:.2g} of their "
+                f"size and its coefficients by {other:.2g}; give a start on the orbit and its period"
+            )
+        return [*parts, (back @ basis)[free]]
+
+    for pieces in _CUTS:
+        coarse, fine = (factors(pieces, local) for local in _LOCAL)
+        (others, _), (roots, least) = (product_eigenvalues(*each) for each in zip((coarse, fine), _LOCAL, strict=True))
+        apart = np.abs(np.subtract.outer(roots, others)).min(1)
+        errors = np.maximum(apart + least, np.finfo(float).tiny)
+        if (errors < _RESOLVED * np.abs(roots)).all():
+            break
+    one, two = (reduce(lambda product, factor: factor @ product, parts) for parts in (coarse, fine))
     error = float(np.abs(one - two).max() / max(1.0, float(np.abs(two).max())))
     states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
-    return MonodromyMatrix(states, two, error)
+    return MonodromyMatrix(states, two, error, *resolved_multipliers(roots, errors))
 
 
 def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:

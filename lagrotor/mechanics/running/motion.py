@@ -162,8 +162,16 @@ def digest_of(system: Equations) -> str:
 
 
 def integration_of(
-    system: Equations, values: Values, engine: Engine, scales: Scales | None, h: Switched, start: Array
+    system: Equations,
+    values: Values,
+    engine: Engine,
+    scales: Scales | None,
+    h: Switched,
+    start: Array,
+    log: list[float] | None = None,
 ) -> Integrate:
+    """Return the integration of the motion; log: of a smooth one, as `smooth_motion` has it."""
     if h.smooth and scales:
-        return smooth_motion(system, values, engine, scales.sizes, scales.turn, start, scales.stiff, scales.windows)
+        known = (scales.sizes, scales.turn, start, scales.stiff, scales.windows, log)
+        return smooth_motion(system, values, engine, *known)
     return lambda start, times, local, companion, budget: march(h, start, times, local, budget, companion=companion)

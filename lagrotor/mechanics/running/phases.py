@@ -200,10 +200,9 @@ class Switched:
         gaps = [i for i, each in enumerate(closed) if each]
         own, kept = base.multiplier_names, len(base.constraints)
         names = (*own[:kept], *(f"gap {i + 1}" for i in gaps), *own[kept:], *(f"held {i + 1}" for i in sticking))
-        lagrangian = base.lagrangian.xreplace(still) if isinstance(base.lagrangian, sp.Expr) else base.lagrangian
         system = Equations(
             base.c,
-            lagrangian,
+            base.lagrangian.xreplace(still),
             (*base.constraints, *(self.impacts[i].gap for i in gaps)),
             (*base.rolling, *held),
             base.dissipation.xreplace(still),

@@ -134,7 +134,10 @@ def _rates(
         if turn is None:
             return state_space(system, point, mine, where=where).rates
         T = put_in(put(turn), by_symbol(f"{where}: values", period_values, turn.free_symbols))
-        roots = monodromy_matrix(system, point, mine, T).multipliers
+        turned = monodromy_matrix(system, point, mine, T)
+        roots = np.where(
+            np.isnan(turned.multipliers), turned.errors, turned.multipliers
+        )  # of NaN the bound of its size
         return np.asarray(np.log(roots + (roots == 0)) / float(T))
 
     return rates

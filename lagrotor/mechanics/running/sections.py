@@ -1,9 +1,14 @@
-"""Where a motion crosses a section, and Poincaré sections: on the exact motion, whatever the times at which it was read."""
+"""Crossings of sections, and Poincaré sections, on the steps of the run itself, whatever the times at which it was read.
+
+A smooth motion is integrated again from sample to sample, by the solver and the local error of the run, in stages that begin at
+samples. A first pass records the times at which the solver evaluates; a second one reads the states at Chebyshev's nodes of
+panels of _STEPS such times. Between its nodes a panel is a polynomial, resolved to the local error or halved; a section that has
+no zero by the sizes of its coefficients is left at once. So the search costs two integrations, where a run is two or more.
+"""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from itertools import pairwise
 from math import inf
 from typing import Any, TypeVar
 
@@ -16,22 +21,40 @@ from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
-from lagrotor.mechanics.running.motion import SampledMotion
-from lagrotor.mechanics.running.phases import march, polish
+from lagrotor.mechanics.running.motion import SampledMotion, integration_of
+from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
-from lagrotor.numerics.zeros import zeros_between
+from lagrotor.numerics.calibrated import BEYOND
+from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
 
 Kind = TypeVar("Kind", bound=SampledMotion)
 _ONE = 1e-5  # of a step: zeros so near to each other and in the same direction are one
 _LEAST = 1e-13  # of the section's size, below which it is zero
+_TURNS = 8  # of a stage: few, so that neighbouring motions do not part in it; more than the first steps cost
+_STEPS = 8  # times of evaluations in a panel, which has twice as many intervals between its nodes
+_HALVINGS = 8  # of a panel whose polynomial is not resolved
+_BUDGET = 60_000, 4_800  # evaluations of a stage, to begin and for each turn: three times those that a run may take
+_CLOCK = 1e3  # spacings of doubles at the time, of a shortest panel
+Values = Callable[[Array, Array], Array]  # of the section: states (m, d) and times (m,) → (1, m)
 
 
 def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
-    """The states where section(q, v, t) = 0 is crossed: upward (direction = 1), downward (−1), or both (0), with those where it
-    is touched: where it turns round at zero, to within the run's tolerance. The start is none; there may be none.
+    """Return the states where section(q, v, t) = 0 is crossed, in the order of time; there may be none.
 
-    Sought on the dense output of an integration from each sample to the next, of whose series all zeros are found. A
-    LagrotorWarning says where the section changes faster than that can be followed.
+    Times and states are as exact as the run. Every zero of the polynomials through the solver's steps is a crossing, also two
+    in one step. Where the section turns round within tol of zero it is touched, and two crossings there may be one or none. The
+    search takes at most twice the evaluations of the run, by the engine "core". A LagrotorWarning says where the section
+    changes faster than the polynomials can follow.
+
+    Parameters
+    ----------
+    section : expression in q, v and t
+    direction : 1 for upward crossings, −1 for downward ones, 0 for both and for states where the section is touched.
+
+    Raises
+    ------
+    InputError
+        For another direction, a section that does not change, and a run of one sample.
     """
     if direction not in (-1, 0, 1):
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
@@ -42,11 +65,9 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     touch = max(run.tol, _LEAST) * _change(run, section)
     passages: list[tuple[float, int, Array]] = []
     hidden: list[tuple[float, float]] = []
-    side, evaluations = 0.0, run.evaluations
+    evaluations = run.evaluations
 
     def observe(begun: float, left: float, right: float, curve: Any) -> None:
-        nonlocal side
-
         def values(s: Array) -> Array:
             return value(curve(s), begun + s)
 
@@ -57,25 +78,19 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
             at, near = begun + since, _ONE * (right - left)
             if at > run.t[0] + near and not (passages and passages[-1][1] == way and at - passages[-1][0] <= near):
                 passages.append((at, int(way), curve(np.array([since]))[0][:size]))
-        side = float(values(np.array([right]))[0, 0])
 
-    # A run without events is followed in one phase, with the time among its states.
-    phases = run.switched
-    full = (
-        run.states
-        if not phases.smooth
-        else np.array([phases.state(y, t, phases.slipping) for y, t in zip(run.states, run.t, strict=True)])
-    )
     known = value(run.states, run.t)[0]
-    for i, (a, b) in enumerate(pairwise(run.t)):
-        evaluations += march(phases, full[i], np.array([a, b]), run.local, inf, observe).evaluations
-        if side * known[i + 1] < 0:  # between the end of a piece and the beginning of the next
-            way = 1 if known[i + 1] > 0 else -1
-            near_end = bool(passages) and b - passages[-1][0] < 1e-3 * (b - a)
+    for i, j in _stages(run):
+        end, spent = _stage(run, i, j, value, touch, observe)
+        evaluations += spent
+        side = float(value(end[None], run.t[[j]])[0, 0])
+        if side * known[j] < 0:  # between the end of a stage and the beginning of the next
+            way = 1 if known[j] > 0 else -1
+            near_end = bool(passages) and run.t[j] - passages[-1][0] < 1e-3 * (run.t[j] - run.t[j - 1])
             if near_end and passages[-1][1] == -way:
-                passages.pop()  # the next piece begins before it
+                passages.pop()  # the next stage begins before it
             elif not near_end:
-                passages.append((float(b), way, full[i + 1][:size]))
+                passages.append((float(run.t[j]), way, run.states[j, :size]))
     if hidden:
         warnings.warn(
             f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "
@@ -92,6 +107,56 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     if tail:
         more[:, 0] = times
     return replace(run.read(times, np.hstack([rows, more])), evaluations=evaluations)
+
+
+def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
+    """Yield the first and the last sample of each stage; of several samples at one time a stage begins at the last."""
+    i, n = 0, len(run.t)
+    while (i := int(np.searchsorted(run.t, run.t[i], side="right")) - 1) < n - 1:
+        j = int(np.searchsorted(run.t, run.t[i] + _TURNS * run.scales.turn, side="right")) - 1
+        yield i, (j := max(i + 1, j))
+        i = j
+
+
+def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, observe: Observer) -> tuple[Array, int]:
+    """Observe the motion from sample i to sample j where the section may be zero; return its last state and the evaluations."""
+    begin, end = run.t[[i, j]]
+    lost = run.ending.kind == "lost" and begin >= run.ending.at
+    local = max(BEYOND.value, run.local) if lost else run.local  # as the run went on
+    if not run.switched.smooth:
+        stretch = march(run.switched, run.states[i], run.t[[i, j]], local, inf, observe)
+        return stretch.end, stretch.evaluations
+    sizes, spent = run.scales.sizes, 0
+
+    def states_at(times: Array, start: Array, log: list[float] | None = None) -> Array:
+        nonlocal spent
+        budget = _BUDGET[0] + _BUDGET[1] * float(times[-1] - times[0]) / run.scales.turn
+        run_on = integration_of(run.system, run.values, "core", run.scales, run.switched, run.states[0], log)
+        stretch = run_on(start, times, local, False, budget)
+        spent += stretch.evaluations
+        return stretch.states
+
+    def look(edges: Array, start: Array, halvings: int) -> Array:
+        nodes = chebyshev_nodes(edges)
+        times, m = np.append(nodes[:, :-1], edges[-1]), nodes.shape[1] - 1
+        states = states_at(times, start)
+        panels = np.arange(len(nodes))[:, None] * m + np.arange(m + 1)
+        values = value(states, times)[0][panels]
+        for k in np.flatnonzero(may_vanish(values, touch) | ~np.isfinite(values).all(1)):
+            left, right = edges[k : k + 2]
+            curve, last = interpolant(right - left, states[panels[k], : len(sizes)])
+            if halvings and (last > max(local, _LEAST) * sizes).any():
+                look(np.array([left, (left + right) / 2, right]), states[panels[k, 0]], halvings - 1)
+            else:
+                observe(float(left), 0.0, float(right - left), curve)
+        return states[-1]
+
+    log: list[float] = []
+    states_at(run.t[[i, j]], run.states[i], log)
+    times, least = begin + np.unique(log), _CLOCK * np.spacing(max(abs(begin), abs(end)))
+    edges = times[(times > begin) & (times < end - least)][_STEPS - 1 :: _STEPS]
+    edges = edges[np.diff(edges, prepend=begin) > least]
+    return look(np.concatenate([[begin], edges, [end]]), run.states[i], _HALVINGS), spent
 
 
 def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:

@@ -121,9 +121,10 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, the larger of a and b → (a + b + σ (a − b))/2, the smaller likewise.
     """
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
-    places = [*system.forces, system.dissipation]
-    if isinstance(system.lagrangian, sp.Expr):
-        places.append(system.lagrangian)
+    L = getattr(
+        system.lagrangian, "rest", system.lagrangian
+    )  # of an energy of bodies the expression that is added to them
+    places = [*system.forces, system.dissipation, L]
     put: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
     for atom in sorted({e for e in subexpressions(*places) if isinstance(e, _JUMPING)}, key=sp.default_sort_key):
@@ -144,10 +145,16 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         return system, ()
     if nested := [atom for atom in put if any(atom != other and atom.has(other) for other in put)]:
         raise InputError(f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own")
+    steps = set().union(*(derivative(L, s).atoms(sp.DiracDelta) for s in (*system.c.q, *system.c.v)))
+    if steps:
+        w = min((step.args[0] for step in steps), key=str)
+        raise InputError(
+            f"simulate: the Lagrangian jumps where {w} = 0, and its force is infinite there: give an Impact or an Event; of a "
+            f"potential without a jump write {w} as a factor"
+        )
     friction = gradient(system.dissipation.xreplace(put), system.c.v)
     forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(put))
-    L = system.lagrangian.xreplace(put) if isinstance(system.lagrangian, sp.Expr) else system.lagrangian
-    smooth = replace(system, lagrangian=L, forces=forces, dissipation=sp.S.Zero)
+    smooth = replace(system, lagrangian=system.lagrangian.xreplace(put), forces=forces, dissipation=sp.S.Zero)
     return smooth, tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
 
 
@@ -191,7 +198,7 @@ def _friction(system: Equations, w: sp.Expr, s: sp.Symbol) -> sp.Expr | None:
     """F, where the force that jumps with the sign s of w is −F s ∂w/∂v; None where it is another."""
     c = system.c
     slope = gradient(w, c.v)
-    lagrangian = isinstance(system.lagrangian, sp.Expr) and s in system.lagrangian.free_symbols
+    lagrangian = s in system.lagrangian.free_symbols
     if not any(slope) or lagrangian or any(derivative(e, v) != 0 for e in slope for v in c.v):
         return None
     i = next(i for i, e in enumerate(slope) if e != 0)

@@ -20,6 +20,7 @@ from lagrotor.errors import DomainError
 from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import Array, close_arc, flow
+from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_multipliers
 from lagrotor.pair.scene import Scene
 from lagrotor.shown import Shown
 from lagrotor.theory.averaged_motion import slow_frequency
@@ -32,7 +33,8 @@ _A, _B = np.array([[1.0, -1, -1, -1, 1, 1], [-1.0, 1, -1, 1, -1, 1]])[..., None]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Floquet(Shown):
-    """multipliers (6,), complex: four ones, mu, 1/mu. pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates).
+    """multipliers (6,), complex: four ones, mu, 1/mu, NaN where one is smaller than its error; errors (6,): bounds of their
+    errors, zero of the ones. pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates).
 
     growth: log |mu| per turn (0 on an elliptic orbit); turning: angle of mu per turn (rad) on an elliptic orbit.
     frequency: of the orbit (rad/s). error: bound of the error of pair_sum, within which the kind is "unresolved";
@@ -47,14 +49,15 @@ class Floquet(Shown):
     frequency: float
     error: float
     monodromy: Array
+    errors: Array
 
     def summary(self) -> dict[str, str]:
         """Kind, multipliers and exponents, name → words."""
-        pair = ", ".join(f"{value:.8g}" for value in self.multipliers[4:])
+        pair = multiplier_rows(self.multipliers[4:], self.errors[4:]).values()
         per_turn = f"growth {self.growth:.6g}" if self.kind == "hyperbolic" else f"angle {self.turning:.6g} rad"
         return {
             "kind": self.kind,
-            "multipliers besides 1": pair,
+            "multipliers besides 1": "; ".join(pair),
             "μ + 1/μ": f"{self.pair_sum:.12g}, known to {self.error:.1g}",
             "per turn": f"{per_turn}, known to {self.exponent_error:.1g}",
             "frequency [rad/s]": f"{self.frequency:.12g}",
@@ -71,7 +74,7 @@ class Floquet(Shown):
     def exponent_error(self) -> float:
         """Bound of the error of growth and turning, rad a turn: d log mu = d(mu + 1/mu) / |mu − 1/mu|, or the root of twice the
         sum's where the kind is unresolved and both are given as zero."""
-        apart = abs(self.multipliers[4] - self.multipliers[5])
+        apart = sqrt(abs(self.pair_sum**2 - 4))
         root = sqrt(2 * self.error)
         return root if self.kind == "unresolved" or apart <= root else min(2 * self.error / apart, root)
 
@@ -97,8 +100,8 @@ def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> floa
 
     Args:
         scene: as in `slow_frequency`.
-        r0: amplitude.
-        momentum: as there, kg m²/s.
+        r0: sine of the inclination at the moments when the axes are parallel, with the push.
+        momentum: about the joint line beyond that of the exact paired precession of this r0 (kg m²/s).
 
     Raises:
         InputError: as `slow_frequency`.
@@ -141,7 +144,10 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
         kind, turning = "elliptic", acos(total / 2)
     mu = (total + np.sqrt(complex(total * total - 4))) / 2
     multipliers = np.array([1, 1, 1, 1, mu, 1 / mu], dtype=complex)
-    return Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope)
+    known = Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope, np.zeros(6))
+    bounds = np.append(np.zeros(4), np.abs(multipliers[4:]) * known.exponent_error)
+    values, errors = resolved_multipliers(multipliers, bounds)
+    return replace(known, multipliers=values, errors=errors)
 
 
 def _error(monodromy: Array, total: float) -> float:

@@ -118,3 +118,26 @@ def test_a_letter_of_a_multipliers_name_is_not_one() -> None:
     assert [str(s) for s in rod.multipliers] == ["Lambda_1"]
     run = rod.simulate({m: 1, R: 1, g: 9.81}, (0, -1), (2, 0), np.linspace(0, 1, 5), 1e-9)
     assert run.reactions["1"] == pytest.approx(-(run.v**2).sum(1) + 9.81 * run.q[:, 1], abs=1e-7)
+
+
+SWING = coordinates("phi")
+STOPS = {
+    "Heaviside": 500 * sp.sin(SWING.q[0]) ** 2 * sp.Heaviside(sp.sin(SWING.q[0])),
+    "Max": 500 * sp.Max(0, sp.sin(SWING.q[0])) ** 2,
+    "Abs": 5 * sp.Abs(SWING.q[0] - sp.Rational(1, 10)) ** 3 + sp.Abs(SWING.q[0]),
+}
+
+
+@pytest.mark.parametrize("kind", STOPS)
+def test_a_stop_beside_bodies_is_one_of_the_lagrangian_without(kind: str) -> None:
+    """Its surface is passed exactly, as in a Lagrangian of a coordinate: twin, a potential that jumps is refused."""
+    bar = Frame(SWING).turned("z", SWING.q).body(mass=1, inertia=(1, 1, 1))
+    plain, times = SWING.v[0] ** 2 / 2, np.linspace(0, 3, 7)
+    bodies, alone = (
+        System(SWING, kinetic - STOPS[kind]).simulate({}, (-0.5,), (1,), times) for kinetic in (bar.kinetic, plain)
+    )
+    assert bodies.q == pytest.approx(alone.q, abs=1e-9) and bodies.error < 1e-8
+    assert np.abs(bodies.q - System(SWING, plain).simulate({}, (-0.5,), (1,), times).q).max() > 0.1
+    for kinetic in (bar.kinetic, plain):
+        with pytest.raises(InputError, match="the Lagrangian jumps where phi = 0"):
+            System(SWING, kinetic - sp.Heaviside(SWING.q[0]) / 3).simulate({}, (-0.5,), (1,), times)

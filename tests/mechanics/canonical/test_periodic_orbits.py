@@ -290,9 +290,25 @@ def test_hyperbolic_orbits():
     assert sorted(n.multipliers.real) == pytest.approx(
         sorted(whole.floquet(place, {}, n.period).multipliers.real), rel=1e-6
     )
+    thrice = whole.floquet(place, {}, 3 * n.period)  # the coarser of its two integrations leaves the orbit by 10⁻⁵
+    assert thrice.multipliers.real == pytest.approx(n.multipliers.real**3, rel=1e-4, abs=0)
     parametric = driven(lambda x: x**2 / 2 * (1 + sp.cos(2 * t) / 5) + x**4 / 4)
     n = parametric.normal_form(order=4, at={q: 0}, period=pi)
     assert n.stable is False and (n.multipliers.real < 0).all() and np.isnan(n.rotation_numbers()).all()
+
+
+def test_multipliers_of_a_saddle_are_known_to_their_errors_and_too_large_ones_are_refused():
+    """About x = 0 of V = −x²/2 + x³ cos(2πt/T)/10 they are exp(±T)."""
+    for T in (3, 8, 20):
+        saddle = driven(lambda x, T=T: -(x**2) / 2 + x**3 * sp.cos(2 * sp.pi * t / T) / 10)
+        if T == 20:
+            with pytest.raises(SingularError, match=r"a multiplier is 4\.9e\+08, too far from its reciprocal"):
+                saddle.normal_form(order=3, at={line.q[0]: 0}, period=T)
+            continue
+        n = saddle.normal_form(order=3, at={line.q[0]: 0}, period=T)
+        off = np.abs(n.multipliers - np.exp([T, -T]))
+        assert (off <= n.errors).all() and (n.errors < 1e-4 * np.exp([T, -T])).all()
+        assert "known to" in n.summary()["multiplier 2"]
 
 
 def test_three_degrees_of_freedom_and_the_twist_as_a_matrix():

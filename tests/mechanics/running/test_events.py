@@ -104,6 +104,70 @@ def test_fast_sections_are_resolved_and_what_cannot_be_is_announced() -> None:
         run.crossings(sp.sin(1 / (x + sp.Rational(1, 2))))
 
 
+def henon_heiles(samples: int) -> tuple[SystemRun, sp.Expr]:
+    c = coordinates("x y")
+    (a, b), (a_v, b_v) = c.q, c.v
+    system = System(c, (a_v**2 + b_v**2 - a**2 - b**2) / 2 - a**2 * b + b**3 / 3)
+    return system.simulate({}, (0, 0.1), (0.4, 0.1), np.linspace(0, 60, samples), 1e-8), a
+
+
+def van_der_pol(mu: float, duration: float, samples: int) -> tuple[SystemRun, sp.Expr]:
+    system = System(C, v**2 / 2 - x**2 / 2, forces=(mu * (1 - x**2) * v,))
+    return system.simulate({}, (2,), (0,), np.linspace(0, duration, samples), 1e-6), x
+
+
+def bumpy(samples: int) -> tuple[SystemRun, sp.Expr]:
+    """A bump 1/50 wide, over which v falls by 0.1 for 0.04 s: 0.95 is crossed four times in each half turn to the right."""
+    system = System(C, v**2 / 2 - x**2 / 2 - sp.exp(-(((x - sp.Rational(1, 10)) * 50) ** 2)) / 10)
+    return system.simulate({}, (-1,), (0,), np.linspace(0, 12.5, samples), 1e-8), v - sp.Rational(95, 100)
+
+
+# Times of crossings by scipy: DOP853 with events, rtol 1e-12; of the stiff one Radau, rtol 1e-11.
+SOUGHT = {
+    "two samples": (lambda: henon_heiles(2), 18, [2.96674186, 6.4409149, 9.89681531]),
+    "6,001 samples": (lambda: henon_heiles(6001), 18, [2.96674186, 6.4409149, 9.89681531]),
+    "stiff": (lambda: van_der_pol(1000, 3000, 301), 3, [807.08474082, 1614.28530372, 2421.48586662]),
+    "relaxation": (lambda: van_der_pol(100, 500, 2001), 6, [81.1723779, 162.59091345, 244.00944899]),
+    "narrow": (lambda: bumpy(3), 8, [1.2532359, 1.65349752, 1.69347848, 1.89240504]),
+    "impacts": (lambda: (BALL.simulate({g: 1}, (1,), (0,), np.linspace(0, 4, 2001), events=Impact(x, 0.8)), x), 4, []),
+    "friction": (
+        lambda: (
+            System(C, v**2 / 2 - x**2 / 2, forces=(-sp.sign(v) / 20 + sp.sin(t) / 5,)).simulate(
+                {}, (2,), (0,), np.linspace(0, 60, 2001), 1e-8
+            ),
+            x,
+        ),
+        18,
+        [],
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", SOUGHT)
+@pytest.mark.filterwarnings("ignore::lagrotor.errors.LagrotorWarning")
+def test_crossings_cost_no_more_than_twice_the_run_and_none_is_lost(kind: str) -> None:
+    """However many samples there are; by DOP853 from each to the next, 6,001 cost four runs, 2,001 of impacts fifty."""
+    make, count, times = SOUGHT[kind]
+    run, section = make()
+    there = run.crossings(section)
+    assert there.evaluations - run.evaluations <= 2 * run.evaluations
+    assert len(there.t) == count
+    assert there.t[: len(times)] == pytest.approx(times, abs=max(1e-6, 10 * run.error * run.t[-1]))
+
+
+def test_crossings_of_a_run_that_is_lost_are_sought_as_it_went_on() -> None:
+    """Beyond the horizon of a double pendulum its run goes on at a loose local error, and so do its crossings."""
+    c = coordinates("a b")
+    (a, b), (a_v, b_v) = c.q, c.v
+    double = System(c, a_v**2 + b_v**2 / 2 + a_v * b_v * sp.cos(a - b) + 2 * sp.cos(a) + sp.cos(b))
+    with pytest.warns(LagrotorWarning, match="part about"):
+        run = double.simulate({}, (2, 2.5), (0, 0), np.linspace(0, 400, 401), 1e-9)
+    assert run.ending.kind == "lost"
+    there = run.crossings(b_v)
+    assert there.evaluations <= 3 * run.evaluations
+    assert len(there.t) > 50 and run.scales.distance(run.at(there.t).states, there.states).max() < 1e-3
+
+
 def test_what_may_hide_an_event_is_announced_by_the_clock_of_the_run() -> None:
     fast = Event(sp.sin(1 / (x - 1 / sp.Integer(2))), velocities=(v,))
     with pytest.warns(LagrotorWarning, match=r"between t = 10\d\.\d+ and 10\d\.\d+ s a condition"):

@@ -1,13 +1,17 @@
 """Floquet multipliers: Mathieu's tongues, a pendulum's orbit with its period, a rolling disc in its turn."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 import sympy as sp
+from scipy.integrate import solve_ivp
 from scipy.special import ellipk, mathieu_a, mathieu_b
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics import System, coordinates, t
+from lagrotor.mechanics import MonodromyMatrix, System, coordinates, t
 from lagrotor.mechanics.running import monodromy
+from lagrotor.numerics.floquet_multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers
 
 C = coordinates("x")
 (x,), (v,) = C.q, C.v
@@ -89,3 +93,102 @@ def test_a_circle_of_multipliers_has_the_motion_of_its_angle() -> None:
 def test_a_period_is_a_positive_time(period: object) -> None:
     with pytest.raises(InputError, match="must be a positive time"):
         MATHIEU.floquet({x: 0, v: 0}, {a: 1, q: 1}, period)  # type: ignore[arg-type]
+
+
+def damped(c: float, stiffness: float, period: float) -> MonodromyMatrix:
+    """x'' + c x' + stiffness x = 0: exp(λ T) of the roots λ."""
+    return System(C, v**2 / 2 - stiffness * x**2 / 2, dissipation=c * v**2 / 2).floquet({x: 0}, {}, period)
+
+
+def shaken(c: float, period: float, about: float = 0) -> MonodromyMatrix:
+    """θ'' + c θ' + (1 + 1.2 cos 2t) sin θ = 0."""
+    L = v**2 / 2 + (1 + 1.2 * sp.cos(2 * t)) * sp.cos(x)
+    return System(C, L, dissipation=c * v**2 / 2).floquet({x: about}, {}, period)
+
+
+def hung() -> MonodromyMatrix:
+    """A pendulum of length one in x, y, damped: φ'' + 6 φ' + φ = 0 at its rest."""
+    c = coordinates("x y")
+    (X, Y), (U, V) = c.q, c.v
+    bound = System(c, (U**2 + V**2) / 2 - Y, (X**2 + Y**2 - 1,), dissipation=3 * (U**2 + V**2))
+    return bound.floquet({X: 0, Y: -1}, {}, 5)
+
+
+def roots(c: float, stiffness: float, period: float) -> list[float]:
+    return sorted(np.exp(np.roots([1, c, stiffness]) * period).real, reverse=True)
+
+
+# Exact, or by power series of the solution in 30 digits (the first is issue 343 of BifurcationKit).
+SMALL: dict[str, tuple[Callable[[], MonodromyMatrix], list[float], float]] = {
+    "shaken about 0": (lambda: shaken(0.1, 20 * np.pi), [3267190.66686926, 5.71574457115e-10], 1e-8),
+    "shaken about π": (lambda: shaken(10, 2 * np.pi, np.pi), [1.85530426634, 2.78008311419e-28], 1e-8),
+    "damped": (lambda: damped(3, 1, 20), roots(3, 1, 20), 1e-9),
+    "overdamped": (lambda: damped(10, 1, 30), roots(10, 1, 30), 1e-9),
+    "critical": (lambda: damped(2, 1, 20), [np.exp(-20)] * 2, 1e-5),
+    "constrained": (hung, roots(6, 1, 5), 1e-9),
+}
+
+
+@pytest.mark.parametrize("kind", SMALL)
+def test_small_multipliers_are_resolved_and_no_error_is_larger_than_told(kind: str) -> None:
+    make, expected, accuracy = SMALL[kind]
+    turned = make()
+    off = np.abs(turned.multipliers - expected)
+    assert turned.multipliers == pytest.approx(expected, rel=accuracy, abs=0)
+    assert (off <= turned.errors + 1e-9 * np.abs(expected)).all()
+    assert (turned.errors < 1e-3 * np.abs(expected)).all()
+
+
+def test_of_one_matrix_a_small_multiplier_is_rounding_and_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twin: without cuts of the period 4.7×10⁻¹⁰ was shown for 5.7×10⁻¹⁰, and 1.4×10⁻²⁰ for 1.8×10⁻²³."""
+    monkeypatch.setattr(monodromy, "_CUTS", (1,))
+    for kind in ("shaken about 0", "damped"):
+        make, (large, small), _ = SMALL[kind]
+        turned = make()
+        assert turned.multipliers[0] == pytest.approx(large, rel=1e-6)
+        assert np.isnan(turned.multipliers[1]) and turned.errors[1] > small
+        assert turned.summary()["multiplier 2"].startswith("below ")
+
+
+def test_the_multipliers_of_a_limit_cycle_have_liouvilles_determinant() -> None:
+    """Van der Pol, μ = 4: one is 1, the other exp(∫ 4 (1 − x²) dt) over the cycle, 9×10⁻¹⁵."""
+    cycle = System(C, v**2 / 2 - x**2 / 2, forces=(4 * (1 - x**2) * v,))
+
+    def rate(_: float, y: np.ndarray) -> list[float]:
+        return [y[1], 4 * (1 - y[0] ** 2) * y[1] - y[0], 4 * (1 - y[0] ** 2)]
+
+    def turns(_: float, y: np.ndarray) -> float:
+        return float(y[1])
+
+    turns.direction = -1.0  # type: ignore[attr-defined]
+    passed = solve_ivp(rate, (0, 60), (2.0, 0.0, 0.0), method="DOP853", rtol=1e-12, atol=1e-13, events=turns)
+    times, states = passed.t_events[0][-2:], passed.y_events[0][-2:]
+    turned = cycle.floquet({x: states[0, 0], v: 0}, {}, times[1] - times[0])
+    determinant = np.exp(states[1, 2] - states[0, 2])
+    assert turned.multipliers[0] == pytest.approx(1, abs=1e-6) and determinant < 1e-12
+    assert np.prod(turned.multipliers).real == pytest.approx(determinant, rel=1e-5)
+
+
+def test_random_products_are_resolved_where_their_matrix_is_not() -> None:
+    """A similarity of diagonals from 10 to 10⁻²⁰ over twelve factors; as one matrix no eigenvalue below 10⁻¹⁵ has a digit."""
+    rng = np.random.default_rng(2)
+    expected = np.array([10.0, -3.0, 2e-8, 1e-20])
+    bases = [rng.normal(size=(4, 4)) for _ in range(12)]
+    shares = np.abs(expected) ** (1 / 12) * np.eye(4)
+    signs = [np.diag(np.sign(expected)) if k == 0 else np.eye(4) for k in range(12)]
+    factors = [bases[(k + 1) % 12] @ shares @ signs[k] @ np.linalg.inv(bases[k]) for k in range(12)]
+    values, errors = product_eigenvalues(factors, 1e-13)
+    assert values.real == pytest.approx(expected, rel=1e-8, abs=0)
+    assert (np.abs(values - expected) <= errors).all() and (errors < 1e-6 * np.abs(expected)).all()
+
+
+def test_what_is_smaller_than_its_error_is_shown_by_its_bound() -> None:
+    values, bounds = resolved_multipliers(np.array([100, 1, 0.02], complex), np.array([1e-3, 1e-3, 0.5]))
+    assert values[:2] == pytest.approx([100, 1]) and np.isnan(values[2]) and bounds[2] == 0.52
+    assert multiplier_rows(values, bounds)["multiplier 3"] == "below 5×10⁻¹"
+
+
+def test_a_chart_of_strong_damping_has_no_gaps() -> None:
+    numbers = {"k": [5.0, 20.0], "q": [0.1, 0.3]}
+    chart = System(C, MATHIEU.L, dissipation=k * v**2).stability_chart({x: 0}, {a: 1}, numbers, np.pi)
+    assert np.isfinite(chart.growth).all() and (chart.growth < 0).all()
