@@ -26,7 +26,17 @@ from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
 from lagrotor.paper.readable import readable
 from lagrotor.paper.units import Dimensions, dimensions
-from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict
+from lagrotor.paper.verdicts import (
+    AGREES,
+    Answer,
+    LineVerdict,
+    Relation,
+    Series,
+    Statement,
+    Verdict,
+    difference_text,
+    shortest,
+)
 from lagrotor.paper.witness import witness
 
 # How far a series is looked at beyond the order that is claimed.
@@ -153,7 +163,7 @@ def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) 
     if whole.may_branch and (branch := _branch(relation, assumed)):
         used, finding = _needed(relation, (*assumed, *branch), _under(relation, (*assumed, *branch)))
         return _verdict(relation, finding, used, glossary)
-    return _verdict(relation, whole, (), glossary)
+    return _verdict(relation, whole, assumed if whole.answer == "refuted" else (), glossary)
 
 
 def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...], glossary: Glossary) -> LineVerdict:
@@ -170,7 +180,7 @@ def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...],
         finding.order,
         small,
         finding.domain,
-        finding.difference,
+        None if finding.difference is None else shortest(finding.difference),
         finding.place,
         finding.seen.point if finding.seen else None,
         finding.seen.enclosure if finding.seen else None,
@@ -392,7 +402,7 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     fixed, changing = terms.as_independent(small, as_Add=True)
     first, constant = leading_term(changing, small, order), _constant(fixed, under)
     if first.order is not None:
-        by = readable(str(first.coefficient))
+        by = difference_text(first.coefficient)
         reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
         return _Finding("refuted", first.vanishes_through, small, reasons=(reason,), difference=first.coefficient)
     if constant is None:
@@ -440,7 +450,7 @@ def _to_order(
     if first.order is None:
         reason = f"what was derived is known through order {furthest} in {name} only, and order {relation.claimed} is claimed"
         return _Finding("undecided", reached, small, domain, (reason,))
-    reason = f"first differs at order {first.order} in {name}, by {readable(str(first.coefficient))}"
+    reason = f"first differs at order {first.order} in {name}, by {difference_text(first.coefficient)}"
     if lead > relation.claimed:
         reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None

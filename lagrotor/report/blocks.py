@@ -146,9 +146,9 @@ def errata_blocks(report: Report) -> Iterator[Block]:
         yield Display(e.printed)
         yield [Bold(f"Correct ({e.verdict_of_correction}).")]
         yield from map(Display, e.corrected)
-        if e.premises:
-            yield [Bold("If:"), "; ".join(e.premises)]
-            yield from map(Display, e.put)
+        for label, premises, put in e.conditions:
+            yield [Bold(f"{label}:"), premises]
+            yield from map(Display, put)
         yield ["Used by:", Links(e.used_by) if e.used_by else "none", f"– {e.reach}."]
 
 

@@ -15,7 +15,7 @@ from lagrotor.report.latex import END, head, latex_prose, tidy
 class Erratum:
     """One row: `cited` is its place in the paper; printed and corrected in LaTeX; `wrong` in a line; ids that use it.
 
-    premises: those under which the correction holds, in words; put: the same in LaTeX.
+    conditions: what is said if which premises hold, in words and in LaTeX.
     """
 
     id: str
@@ -28,8 +28,7 @@ class Erratum:
     used_by: tuple[str, ...]
     survives: bool
     letters: frozenset[str] = frozenset()
-    premises: tuple[str, ...] = ()
-    put: tuple[str, ...] = ()
+    conditions: tuple[tuple[str, str, tuple[str, ...]], ...] = ()
 
     @property
     def reach(self) -> str:
@@ -51,14 +50,26 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
                 title=entry.title,
                 printed=entry.latex,
                 corrected=correction_lines(verdict),
-                premises=tuple(premise.sentence for premise in verdict.premises),
-                put=tuple(r",\quad ".join(premise.tex) for premise in verdict.premises if premise.tex),
+                conditions=tuple(_conditions(verdict)),
                 wrong=statement.wrong,
                 verdict_of_correction=(verdict.correction_verdict or "as derived").replace("-", " "),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
                 survives=not verdict.reaches_result,
                 letters=frozenset(s.name for r in statement.correction for s in r.printed.free_symbols),
             )
+
+
+def _conditions(verdict: Verdict) -> Iterator[tuple[str, str, tuple[str, ...]]]:
+    """Yield the premises of the error and of its correction, together where the first include the second."""
+    stated, needed = verdict.refuted_under, verdict.premises
+    is_common = bool(needed) and all(premise in stated for premise in needed)
+    rows = [("The error is as stated, and the correction holds, if", stated)]
+    if not is_common:
+        rows = [("The error is as stated if", stated), ("The correction holds if", needed)]
+    for label, premises in rows:
+        if premises:
+            put = tuple(r",\quad ".join(premise.tex) for premise in premises if premise.tex)
+            yield label, "; ".join(premise.sentence for premise in premises), put
 
 
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
@@ -112,8 +123,10 @@ def latex_item(e: Erratum) -> str:
     """One item: where it is, what is printed, what it should read, what was wrong."""
     reach = "" if e.survives else " This changes a result."
     right = r";\quad ".join(line.strip() for line in e.corrected)
-    put = " (" + ", ".join(f"${tidy(formula)}$" for formula in e.put) + ")" if e.put else ""
-    granted = f" If {latex_prose('; '.join(e.premises))}{put}." if e.premises else ""
+    granted = ""
+    for label, premises, put in e.conditions:
+        formulas = " (" + ", ".join(f"${tidy(formula)}$" for formula in put) + ")" if put else ""
+        granted += f" {label} {latex_prose(premises)}{formulas}."
     return (
         rf"\item \textbf{{{latex_prose(e.cited.capitalize())}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"
         rf"Printed: ${tidy(e.printed)}$\\ Should read: ${tidy(right)}$"

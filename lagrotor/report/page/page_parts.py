@@ -63,7 +63,8 @@ def reading_of(entry: Equation, report: Report) -> str:
 def erratum_entry(e: Erratum) -> str:
     """Printed, correct, what was wrong, how far it reaches."""
     correct = "".join(map(typeset, e.corrected))
-    correct += f"<p>If {prose('; '.join(e.premises))}.</p>{''.join(map(typeset, e.put))}" if e.premises else ""
+    for label, premises, put in e.conditions:
+        correct += f"<p>{escape(label)} {prose(premises)}.</p>{''.join(map(typeset, put))}"
     return (
         f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
         f"{_beside('Printed', typeset(e.printed), f'Correct ({escape(e.verdict_of_correction)})', correct)}"
