@@ -235,7 +235,7 @@ unchanged = "(A - B*cos(theta_0))/(2*J*sin(theta_0)**2)"
 line_written = form(
     f"{unchanged} + D_S*(S_2 - S_1)*sin(theta_0)**2*cos(Phi)",
     {
-        "D_S": rf"\frac{{\partial}}{{\partial{cosines}}}\frac{{2 A - B {cosines}}}{{J \left(4 - {cosines}^2\right)}}",
+        "D_S": rf"\left[\frac{{\partial}}{{\partial{cosines}}}\frac{{2 A - B {cosines}}}{{J \left(4 - {cosines}^2\right)}}\right]",
         "S_1": rf"\frac{{\partial{cosines}}}{{\partial\sin\theta_1}}",
         "S_2": rf"\frac{{\partial{cosines}}}{{\partial\sin\theta_2}}",
     },
