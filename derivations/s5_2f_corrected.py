@@ -229,15 +229,15 @@ slopes
 at_paper = float(massless_frequency.subs(r0, PAPER_R0))
 total = sp.Symbol("S", real=True)
 by_total = ((2 * A - B * total) / (J * (4 - total**2))).diff(total).subs(total, 2 * sp.cos(theta_0))
-cosines = r"(\cos\theta_1 + \cos\theta_2)"
+S_tex = r"(\cos\theta_1 + \cos\theta_2)"
 unchanged = "(A - B*cos(theta_0))/(2*J*sin(theta_0)**2)"
 # The printed line with the difference of the derivatives by the two sines in place of their product.
 line_written = form(
     f"{unchanged} + D_S*(S_2 - S_1)*sin(theta_0)**2*cos(Phi)",
     {
-        "D_S": rf"\left[\frac{{\partial}}{{\partial{cosines}}}\frac{{2 A - B {cosines}}}{{J \left(4 - {cosines}^2\right)}}\right]",
-        "S_1": rf"\frac{{\partial{cosines}}}{{\partial\sin\theta_1}}",
-        "S_2": rf"\frac{{\partial{cosines}}}{{\partial\sin\theta_2}}",
+        "D_S": rf"\left[\frac{{\partial}}{{\partial{S_tex}}}\frac{{2 A - B {S_tex}}}{{J \left(4 - {S_tex}^2\right)}}\right]",
+        "S_1": rf"\frac{{\partial{S_tex}}}{{\partial\sin\theta_1}}",
+        "S_2": rf"\frac{{\partial{S_tex}}}{{\partial\sin\theta_2}}",
     },
     D_S=by_total,
     S_1=-sp.tan(theta_0),

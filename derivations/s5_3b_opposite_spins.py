@@ -7,8 +7,8 @@
 # **Assumptions.** No gravity, ideal joints, equal rotors, any bar. Opposite spins: the symmetric periodic orbit.
 #
 # **Notation.** $J = I_1 + M R^2/4$; $a + b = J + m R^2/2$, $a - b = J + 2 K R^2/\ell^2$; $\sigma = (a+b)/(a-b)$,
-# $k = \ell/R$; $\theta$ the average inclination, for equal spins to the angular momentum; $\theta_0$ the inclination when the axes
-# are parallel, $r_0 = \sin\theta_0$.
+# $k = \ell/R$; $\theta$ the average inclination, for equal spins to the angular momentum; $\theta_0$ the inclination when the
+# axes are parallel, $r_0 = \sin\theta_0$.
 
 # %%
 import numpy as np
@@ -185,8 +185,9 @@ slopes
 
 # %% [markdown]
 # The print has the average inclination. To first order in $r_0$ the sines of both inclinations are $r_0 D$ with
-# $D^2 = \cos^2\Phi + \sigma\sin^2\Phi$ (5.20), and the second order has opposite signs in the two. So the average over a turn and
-# both axes is $\theta = r_0\langle D\rangle + O(r_0^3)$, and $\langle D\rangle$ is a complete elliptic integral of the second kind:
+# $D^2 = \cos^2\Phi + \sigma\sin^2\Phi$ (5.20), and the second order has opposite signs in the two. So the average over a turn
+# and both axes is $\theta = r_0\langle D\rangle + O(r_0^3)$. The mean $\langle D\rangle$ is a complete elliptic integral of the
+# second kind:
 
 # %%
 mean_D = 2 / sp.pi * sp.elliptic_e(1 - sigma)

@@ -211,8 +211,8 @@ verdict(
         r"\dot\phi\text{ (equal spins)}": cone_written,
         r"\dot\phi\text{ (opposite spins)}": opposite_written,
     },
-    wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ. θ is the average inclination, "
-    "as printed: ⟨D⟩ r₀, with r₀ = sin θ₀ and θ₀ the inclination when the axes are parallel.",
+    wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ. θ is the average "
+    "inclination, as printed: ⟨D⟩ r₀, with r₀ = sin θ₀ and θ₀ the inclination when the axes are parallel.",
     uses=["5.27", "5.28"],
     evidence=["The line is 5.27's, now said of both kinds of pair; what is said there of each holds here."],
 )

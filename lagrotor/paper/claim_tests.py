@@ -20,6 +20,33 @@ Outcome = Literal["proved", "confirmed", "confirmed-if", "refuted"]
 
 
 @dataclass(frozen=True)
+class PrintedNumber:
+    """A number as it is printed, which stands for every number that rounds to it: half a unit of its last digit either way."""
+
+    digits: str
+
+    @property
+    def value(self) -> float:
+        """The number."""
+        return float(self.digits)
+
+    @property
+    def half_unit(self) -> float:
+        """Half a unit of the last printed digit."""
+        return 0.5 / 10 ** len(self.digits.partition(".")[2])
+
+    def is_matched(self, number: float) -> bool:
+        """Return whether the number rounds to the printed one."""
+        return abs(number - self.value) < self.half_unit
+
+    @property
+    def rule(self) -> str:
+        """The numbers for which it stands, in words."""
+        low, high = (self.value + sign * self.half_unit for sign in (-1, 1))
+        return f"{self.digits} as printed stands for {low:.8g} to {high:.8g}"
+
+
+@dataclass(frozen=True)
 class Part:
     """One part of a claim's sentence, in words, and whether the numbers bear it out.
 

@@ -380,7 +380,9 @@ def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if ratio is not None:
         off = abs(ratio - 1)
         near = bool(off <= within)
-        reason = f"the printed value is {sp.N(ratio, 6)} of the derived one"
+        reason = (
+            f"the printed value is {sp.N(ratio, 6)} of the derived one, and its digits allow {sp.N(100 * within, 2)} %"
+        )
         gap = None if near else printed - derived
         return _Finding("holds" if near else "refuted", reasons=() if near else (reason,), difference=gap)
     gap = under.on(relation.printed) / under.on(relation.derived) - 1
@@ -408,7 +410,9 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     if constant is None:
         return _Finding("undecided", reasons=("the ratio of the sides depends on letters",))
     near = bool(abs(constant - 1) <= within)
-    reason = f"the printed value is {sp.N(constant, 6)} of the derived one"
+    reason = (
+        f"the printed value is {sp.N(constant, 6)} of the derived one, and its digits allow {sp.N(100 * within, 2)} %"
+    )
     return _Finding("holds-to-order" if near else "refuted", order, small, reasons=() if near else (reason,))
 
 

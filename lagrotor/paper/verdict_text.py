@@ -13,7 +13,6 @@ from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import from_latex, readable
 from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict, point_text
 
-
 _LONGEST = 120  # characters of a difference that is shown in a line
 
 
