@@ -156,8 +156,8 @@ verdict(
     premises=[ONE_KILOGRAM_BAR, small_motion],
     uses=["5.23"],
     evidence=[
-        f"It should have been {should_be} = {float(should_be):.5f} rad/s, with any inertia of the bar. That rounds to 11.4, which "
-        "stands for 11.35 to 11.45 rad/s.",
+        f"It should have been {should_be} = {float(should_be):.5f} rad/s, with any inertia of the bar. That rounds to 11.4, "
+        "which stands for 11.35 to 11.45 rad/s.",
         f"From zero crossings of x on the exact pair: {pair_gentle:.5f} rad/s after a shock of 0.4 N along x, "
         f"{pair_rate:.4f} after one of 40 N (sin θ = {pair_amplitude:.4f}).",
         "Why it is no theorem: it was read off the paper's program, whose springs yield. That the exact pair has both rates is "

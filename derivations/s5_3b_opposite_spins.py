@@ -17,7 +17,6 @@ import sympy as sp
 from lagrotor import Link, Scene, natural_rate, paired_frequency, simulate
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order
-from lagrotor.pair.examples import LIGHT
 from lagrotor.pair.notation import (
     G_1,
     G_2,
@@ -196,7 +195,7 @@ Formula(mean_D, r"\langle D\rangle")
 # %%
 in_average = sp.cancel(curvature) / mean_D**2
 by_average = []
-for bar in (heavy, LIGHT, Link(1, 1, 0.1)):
+for bar in list(bars.values())[:3]:
     scene = Scene(spins=(10, -10), link=bar)
     big, coupled = scene.inertias
     put = {sigma: (big + coupled) / (big - coupled), k: 1}

@@ -52,12 +52,10 @@ def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
 def first_passage(t: Array, x: Array, level: float) -> float:
     """Return when x first rises to a level, on the cubic spline through its samples; infinity where it does not.
 
-    Parameters
-    ----------
-    t, x : (n,) arrays
-        Times and samples of a smooth curve.
-    level : float
-        The value to be passed.
+    Args:
+        t: times (n,).
+        x: samples (n,) of a smooth curve.
+        level: the value to be passed.
     """
     from scipy.interpolate import CubicSpline
 

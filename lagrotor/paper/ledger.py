@@ -35,7 +35,7 @@ from lagrotor.paper.verdicts import (
     Statement,
     Verdict,
     difference_text,
-    shortest,
+    shortest_difference,
 )
 from lagrotor.paper.witness import witness
 
@@ -180,7 +180,7 @@ def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...],
         finding.order,
         small,
         finding.domain,
-        None if finding.difference is None else shortest(finding.difference),
+        None if finding.difference is None else shortest_difference(finding.difference),
         finding.place,
         finding.seen.point if finding.seen else None,
         finding.seen.enclosure if finding.seen else None,

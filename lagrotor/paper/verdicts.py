@@ -148,7 +148,7 @@ class LineVerdict:
     dimensions: Dimensions | None = None
 
 
-def shortest(difference: sp.Expr) -> sp.Expr:
+def shortest_difference(difference: sp.Expr) -> sp.Expr:
     """Return the normal form of a difference, exactly equal to it, or the difference where that is shorter or has none."""
     try:
         return min(normal_form(difference), difference, key=lambda e: len(str(e)))
@@ -158,7 +158,7 @@ def shortest(difference: sp.Expr) -> sp.Expr:
 
 def difference_text(difference: sp.Expr) -> str:
     """Return the shortest form of a difference as text; a number that is no short fraction in four digits."""
-    found = shortest(difference)
+    found = shortest_difference(difference)
     is_short = found.is_Rational and found.q < _LARGEST_DENOMINATOR
     return readable(str(sp.N(found, 4) if found.is_number and not is_short else found))
 
