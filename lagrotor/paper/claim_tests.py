@@ -19,31 +19,20 @@ from lagrotor.paper.theorems import Theorem, can_prove, verify
 Outcome = Literal["proved", "confirmed", "confirmed-if", "refuted"]
 
 
-@dataclass(frozen=True)
-class PrintedNumber:
-    """A number as it is printed, which stands for every number that rounds to it: half a unit of its last digit either way."""
+class PrintedNumber(float):
+    """A number by its printed digits. It stands for every number that rounds to it: half a unit of its last digit either way."""
 
-    digits: str
-
-    @property
-    def value(self) -> float:
-        """The number."""
-        return float(self.digits)
-
-    @property
-    def half_unit(self) -> float:
-        """Half a unit of the last printed digit."""
-        return 0.5 / 10 ** len(self.digits.partition(".")[2])
+    def __init__(self, digits: str) -> None:
+        self.digits, self.half_unit = digits, 0.5 / 10 ** len(digits.partition(".")[2])
 
     def is_matched(self, number: float) -> bool:
-        """Return whether the number rounds to the printed one."""
-        return abs(number - self.value) < self.half_unit
+        """Return whether a number rounds to it."""
+        return abs(number - self) < self.half_unit
 
     @property
     def rule(self) -> str:
         """The numbers for which it stands, in words."""
-        low, high = (self.value + sign * self.half_unit for sign in (-1, 1))
-        return f"{self.digits} as printed stands for {low:.8g} to {high:.8g}"
+        return f"{self.digits} as printed stands for {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
 
 
 @dataclass(frozen=True)

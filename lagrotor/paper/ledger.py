@@ -15,7 +15,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.relational import Relational
 
-from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, truncated_series
+from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, normal_form, truncated_series
 from lagrotor.algebra.evidence import points
 from lagrotor.algebra.scalar import sympified
 from lagrotor.errors import InputError, NotExactError
@@ -26,21 +26,12 @@ from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
 from lagrotor.paper.readable import readable
 from lagrotor.paper.units import Dimensions, dimensions
-from lagrotor.paper.verdicts import (
-    AGREES,
-    Answer,
-    LineVerdict,
-    Relation,
-    Series,
-    Statement,
-    Verdict,
-    difference_text,
-    shortest_difference,
-)
+from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict
 from lagrotor.paper.witness import witness
 
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4
+_LARGEST_DENOMINATOR = 100  # of a fraction that is shown as one
 _SINGULAR = (sp.nan, sp.zoo, sp.oo, -sp.oo)
 _RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "undecided", "refuted")
 
@@ -180,7 +171,7 @@ def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...],
         finding.order,
         small,
         finding.domain,
-        None if finding.difference is None else shortest_difference(finding.difference),
+        None if finding.difference is None else _shortest(finding.difference),
         finding.place,
         finding.seen.point if finding.seen else None,
         finding.seen.enclosure if finding.seen else None,
@@ -314,6 +305,20 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     return _Finding("undecided", None, None, domain, (reason,), gap, place, may_branch=True)
 
 
+def _shortest(difference: sp.Expr) -> sp.Expr:
+    """Return the normal form of a difference, which is exactly equal to it; the difference where that is shorter."""
+    try:
+        return min(normal_form(difference), difference, key=lambda e: len(str(e)))
+    except NotExactError:
+        return difference
+
+
+def _text(difference: sp.Expr) -> str:
+    """Return a difference as text, a number other than a short fraction in four digits."""
+    e = _shortest(difference)
+    return readable(str(sp.N(e, 4) if e.is_number and not (e.is_Rational and e.q < _LARGEST_DENOMINATOR) else e))
+
+
 def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> sp.Symbol | None:
     """The small quantity that the comparison is about: the premise's, or the line's own."""
     letters = printed.free_symbols | derived.free_symbols
@@ -404,7 +409,7 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     fixed, changing = terms.as_independent(small, as_Add=True)
     first, constant = leading_term(changing, small, order), _constant(fixed, under)
     if first.order is not None:
-        by = difference_text(first.coefficient)
+        by = _text(first.coefficient)
         reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
         return _Finding("refuted", first.vanishes_through, small, reasons=(reason,), difference=first.coefficient)
     if constant is None:
@@ -454,7 +459,7 @@ def _to_order(
     if first.order is None:
         reason = f"what was derived is known through order {furthest} in {name} only, and order {relation.claimed} is claimed"
         return _Finding("undecided", reached, small, domain, (reason,))
-    reason = f"first differs at order {first.order} in {name}, by {difference_text(first.coefficient)}"
+    reason = f"first differs at order {first.order} in {name}, by {_text(first.coefficient)}"
     if lead > relation.claimed:
         reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None

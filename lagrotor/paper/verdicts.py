@@ -7,8 +7,8 @@ from typing import Any, Literal, TypeAlias
 import sympy as sp
 from sympy.core.relational import Relational
 
-from lagrotor.algebra import check_names, normal_form
-from lagrotor.errors import InputError, NotExactError
+from lagrotor.algebra import check_names
+from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.hypotheses import hypotheses
 from lagrotor.paper.premises import Premise, relation_text
@@ -19,7 +19,6 @@ from lagrotor.paper.units import Dimensions
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "proved", "refuted", "measured", "definition", "undecided"]
 Side: TypeAlias = Any  # a sympy expression or matrix
-_LARGEST_DENOMINATOR = 100  # of a fraction that is shown as one
 AGREES: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order", "proved")
 
 
@@ -146,21 +145,6 @@ class LineVerdict:
     enclosure: tuple[sp.Rational, sp.Rational] | None = None
     reason: str = ""
     dimensions: Dimensions | None = None
-
-
-def shortest_difference(difference: sp.Expr) -> sp.Expr:
-    """Return the normal form of a difference, exactly equal to it, or the difference where that is shorter or has none."""
-    try:
-        return min(normal_form(difference), difference, key=lambda e: len(str(e)))
-    except NotExactError:
-        return difference
-
-
-def difference_text(difference: sp.Expr) -> str:
-    """Return the shortest form of a difference as text; a number that is no short fraction in four digits."""
-    found = shortest_difference(difference)
-    is_short = found.is_Rational and found.q < _LARGEST_DENOMINATOR
-    return readable(str(sp.N(found, 4) if found.is_number and not is_short else found))
 
 
 def point_text(line: LineVerdict) -> str:

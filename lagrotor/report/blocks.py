@@ -24,7 +24,7 @@ from lagrotor.report.content import (
     notation,
     word,
 )
-from lagrotor.report.errata import errata, premise_formulas, sentences
+from lagrotor.report.errata import errata, premise_formulas
 from lagrotor.report.facts import Fact, facts, figure_facts, linked_facts, note
 from lagrotor.report.results import balance, headlines, opening
 
@@ -147,7 +147,7 @@ def errata_blocks(report: Report) -> Iterator[Block]:
         yield [Bold(f"Correct ({e.verdict_of_correction}).")]
         yield from map(Display, e.corrected)
         for label, premises in e.conditions:
-            yield [Bold(f"{label}:"), sentences(premises)]
+            yield [Bold(f"{label}:"), "; ".join(p.sentence for p in premises)]
             yield from map(Display, premise_formulas(premises))
         yield ["Used by:", Links(e.used_by) if e.used_by else "none", f"– {e.reach}."]
 

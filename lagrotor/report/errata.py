@@ -74,11 +74,6 @@ def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
     return tuple(r",\quad ".join(premise.tex) for premise in premises if premise.tex)
 
 
-def sentences(premises: Iterable[Premise]) -> str:
-    """Return premises in words, with how far the paper's scene breaks each."""
-    return "; ".join(premise.sentence for premise in premises)
-
-
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
     """What should be printed, in LaTeX: lines of the correction that hold; of refuted lines without one what was derived."""
     right = (line.relation for line in verdict.correction_lines if line.verdict in AGREES)

@@ -11,7 +11,7 @@ from lagrotor.paper.verdict_text import dimension_texts, line_text
 from lagrotor.paper.verdicts import Verdict, point_tex, point_text
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word
-from lagrotor.report.errata import correction_lines, premise_formulas, sentences
+from lagrotor.report.errata import correction_lines, premise_formulas
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
 
 
 def _condition(label: str, premises: tuple[Premise, ...]) -> Fact:
-    return Fact(label, (sentences(premises),), sources=premise_formulas(premises))
+    return Fact(label, ("; ".join(p.sentence for p in premises),), sources=premise_formulas(premises))
 
 
 _REACHES = {

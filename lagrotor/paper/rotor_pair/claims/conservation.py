@@ -102,14 +102,12 @@ def decide_c08(m: Mapping[str, float]) -> Finding:
             Part(_CONSTANT, kept and m["lost_in_8_s_springs_J"] < unit, drained),
         ),
         f"{PRINTED['before'].rule} J, {PRINTED['after'].rule} J. The energy rises from {m['before_J']:.2f} to "
-        f"{m['after_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J "
-        "exactly, "
-        f"{m['after_closed_form_J']:.4f} J by P²R²/(4(a + b)) and the width of the pulse. The exact pair then keeps it to "
-        f"{scientific(m['swing_in_8_s_exact_J'])} J; the dampers of the springs take {m['lost_in_8_s_springs_J']:.4f} J in 8 "
-        f"s. S = {m['stiffness_N_per_m']:.0f} N/m and D = {m['damping_kg_per_s']:.0f} kg/s (n = {N}, ω_s = {OMEGA_S:.0f} "
-        f"rad/s) are stable up to a step of {m['step_limit_ms']:.2f} ms; with that ω_s, n from "
-        f"{least:.0f} to {most:.0f} of those tried gives the printed number. The "
-        f"light bar of 5.2.1 would give {m['after_closed_form_light_bar_J']:.2f} J and needs a step below "
+        f"{m['after_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J exactly, {m['after_closed_form_J']:.4f} J by "
+        f"P²R²/(4(a + b)) and the width of the pulse. The exact pair then keeps it to {scientific(m['swing_in_8_s_exact_J'])} "
+        f"J; the dampers of the springs take {m['lost_in_8_s_springs_J']:.4f} J in 8 s. S = {m['stiffness_N_per_m']:.0f} N/m "
+        f"and D = {m['damping_kg_per_s']:.0f} kg/s (n = {N}, ω_s = {OMEGA_S:.0f} rad/s) are stable up to a step of "
+        f"{m['step_limit_ms']:.2f} ms; with that ω_s, n from {least:.0f} to {most:.0f} of those tried gives the printed number. "
+        f"The light bar of 5.2.1 would give {m['after_closed_form_light_bar_J']:.2f} J and needs a step below "
         f"{m['step_limit_light_bar_ms']:.2f} ms.",
     )
 
@@ -174,10 +172,9 @@ def decide_c09(m: Mapping[str, float]) -> Finding:
             Part(BY_GROUNDS, caused),
         ),
         f"In the 2.4 s after the shock, per unit of its impulse, the momentum swings by {m['momentum_swing']:.2f}, and the "
-        "angular momentum by "
-        f"{about_ground:.2f} m about ground 1, by {scientific(about_middle)} m about the middle between the grounds, by "
-        f"{scientific(about_line)} m about the line through them, about which the grounds have no moment. The same bodies "
-        f"without grounds keep both, to {scientific(m['momentum_swing_without_grounds'])} and "
+        f"angular momentum by {about_ground:.2f} m about ground 1, by {scientific(about_middle)} m about the middle between the "
+        f"grounds, by {scientific(about_line)} m about the line through them, about which the grounds have no moment. The same "
+        f"bodies without grounds keep both, to {scientific(m['momentum_swing_without_grounds'])} and "
         f"{scientific(m['angular_momentum_swing_without_grounds'])} m. The paper's own run, with parallel axes, thus has a "
         "conserved angular momentum, about the middle, which could have served as a check.",
     )

@@ -78,7 +78,7 @@ def measure_c20(spins: Spins) -> dict[str, float]:
         "rate_after_small_shock_rad_per_s": rate_of_run(spins, None, _SMALL)[0],
         "amplitude": farthest,
         "rate_by_G_over_J_cos_rad_per_s": natural_rate(Scene(spins, link=None)) / (1 - farthest**2) ** 0.5,
-        "cycles_off_16_at_the_end_of_8_s": abs(rate - SINGLE.value) * PAPER_RUN / (2 * pi),
+        "cycles_off_16_at_the_end_of_8_s": abs(rate - SINGLE) * PAPER_RUN / (2 * pi),
     }
 
 
@@ -89,7 +89,7 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
     )
     return Finding(
         (Part(AT_16, all(map(SINGLE.is_matched, (exact, springs, small)))),),
-        f"{SINGLE.rule} rad/s. Fitted: {exact:.3f} rad/s exactly over 8 s, {exact / SINGLE.value - 1:.1%} above it; "
+        f"{SINGLE.rule} rad/s. Fitted: {exact:.3f} rad/s exactly over 8 s, {exact / SINGLE - 1:.1%} above it; "
         f"{springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s (over longer times less, figure 25, since their "
         f"dampers take the amplitude); {small:.4f} after a small shock. The excess comes from the amplitude: G/(J cos θ) = "
         f"{m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. By the "
@@ -115,15 +115,15 @@ def measure_c21(spins: Spins) -> dict[str, float]:
         "constant_light_bar": natural["m_0.01_K_0.1"] / single,
         "constant_bar_K_0.1": natural["m_1_K_0.1"] / single,
         "J_over_J_plus_half_m": J / (J + HEAVY_LINK.mass / 2),
-        "least_mass_that_gives_11.4_kg": 2 * (G / (COUPLED.value + COUPLED.half_unit) - J),
-        "greatest_mass_that_gives_11.4_kg": 2 * (G / (COUPLED.value - COUPLED.half_unit) - J),
+        "least_mass_that_gives_11.4_kg": 2 * (G / (COUPLED + COUPLED.half_unit) - J),
+        "greatest_mass_that_gives_11.4_kg": 2 * (G / (COUPLED - COUPLED.half_unit) - J),
     }
 
 
 def _constant(m: Mapping[str, float]) -> Part:
     """The constant at these spins, at half of them, and with other bars."""
     constants = m["constant"], m["constant_at_half_the_spins"]
-    within = COUPLED.half_unit / SINGLE.value
+    within = COUPLED.half_unit / SINGLE
     same = all(abs(constant - CONSTANT) < within for constant in constants)
     every_bar = all(abs(m[f"constant_{bar}"] - m["constant"]) < within for bar in ("light_bar", "bar_K_0.1"))
     needs = "equal spins and a bar of mass 1 kg, of any inertia: 11.4/16 is a constant of that bar"
@@ -144,7 +144,7 @@ def decide_c21(m: Mapping[str, float]) -> Finding:
         (Part(AT_11_4, all(at_11_4), needs if all(at_11_4[:2]) else ""), _constant(m)),
         f"{COUPLED.rule} rad/s, and 0.7125 for these over 16. Fitted: {springs:.3f} rad/s with springs over the first "
         f"{SPRINGS_SECONDS:.0f} s, {small:.3f} exactly after a small shock, but {exact:.3f} exactly over 8 s after the paper's "
-        f"{_PAPER:.0f} N, {exact / COUPLED.value - 1:.1%} above 11.4: the finite amplitude adds {exact - small:.3f}, and the "
+        f"{_PAPER:.0f} N, {exact / COUPLED - 1:.1%} above 11.4: the finite amplitude adds {exact - small:.3f}, and the "
         f"softness of the springs takes {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f}; the "
         f"constant is {m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them, "
         f"J/(J + m R²/2) = {m['J_over_J_plus_half_m']:.4f}. It is set by the mass of the bar, whatever its inertia "
@@ -192,15 +192,13 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
         (Part(FOLLOWS, all(follows), bar),),
         f"The rates after a small shock are {small[0]:.3f}, {small[1]:.3f}, {small[2]:.3f} rad/s for m, K = 1, 1; 0.01, 0.1; 1, "
         f"0.1. After 40 N they change in time; fitted over the first {FEW} cycles of the wave, "
-        f"{FEW * 2 * pi / OPPOSITE_RATE:.1f} s, they are {large[0]:.2f} ({m['rate_springs_over_3_s_m_1_K_1']:.2f} with "
-        "springs over "
-        f"{SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} rad/s. "
-        f"A sine of {OPPOSITE_RATE:.1f} rad/s keeps within a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, "
-        f"{cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, {more[1]:.1f}, {more[2]:.1f}), while the first few would be "
-        f"{FEW} at least. The third bar, with the mass of the first and the inertia of the second, is in no listing. With m "
-        f"= 1 kg the constant would need K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not "
-        "list; "
-        f"equal spins of 10 rad/s have {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
+        f"{FEW * 2 * pi / OPPOSITE_RATE:.1f} s, they are {large[0]:.2f} ({m['rate_springs_over_3_s_m_1_K_1']:.2f} with springs "
+        f"over {SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} rad/s. A sine of {OPPOSITE_RATE:.1f} rad/s keeps within "
+        f"a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, {cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, "
+        f"{more[1]:.1f}, {more[2]:.1f}), while the first few would be {FEW} at least. The third bar, with the mass of the first "
+        "and the inertia of the second, is in no listing. With m = 1 kg the constant would need K = "
+        f"{m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list; equal spins of 10 rad/s have "
+        f"{m['rate_of_equal_spins_m_1']:.3f} rad/s.",
     )
 
 
@@ -286,12 +284,11 @@ def decide_c23(m: Mapping[str, float]) -> Finding:
     needs = "equal spins with parallel axes" if OVER_COSINE.is_matched(equal) else ""
     return Finding(
         (Part(_COSINE, all(map(OVER_COSINE.is_matched, own)), needs),),
-        f"The rate is the natural one times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5, and c from 0.45 to "
-        "0.55 counts as that. Measured: "
-        f"{own[0]:+.3f} massless, {own[1]:+.3f}, {own[2]:+.3f}, {own[3]:+.3f} for m, K = 1, 1; 0.01, 0.1; 1, 0.1 (the change "
-        f"goes as θ to the power {m['order_massless']:.2f}); for equal spins with parallel axes {equal:+.3f}. After a shock "
-        f"along x from rest, which leaves the centres of precession twisted apart, c over the first {FEW} cycles is "
-        f"{shock[0]:+.2f}, {shock[1]:+.2f}, {shock[2]:+.2f}: its sign depends on the twist.",
+        "The rate is the natural one times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5, and c from 0.45 to "
+        f"0.55 counts as that. Measured: {own[0]:+.3f} massless, {own[1]:+.3f}, {own[2]:+.3f}, {own[3]:+.3f} for m, K = 1, 1; "
+        f"0.01, 0.1; 1, 0.1 (the change goes as θ to the power {m['order_massless']:.2f}); for equal spins with parallel axes "
+        f"{equal:+.3f}. After a shock along x from rest, which leaves the centres of precession twisted apart, c over the first "
+        f"{FEW} cycles is {shock[0]:+.2f}, {shock[1]:+.2f}, {shock[2]:+.2f}: its sign depends on the twist.",
     )
 
 

@@ -83,12 +83,11 @@ def decide_c01(m: Mapping[str, float]) -> Finding:
             Part(REMAINS, all(stays) and all(seen)),
         ),
         f"In 12 s the axes precess at {m['precession_1_rad_per_s']:+.2f} and {m['precession_2_rad_per_s']:+.2f} rad/s; their "
-        "mean "
-        f"positions in the last {CYCLES} cycles of 12 s are displaced by {last[0]:+.4f} and {last[1]:+.4f} across the shock "
-        f"(in the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}); "
-        f"(7) gives {m['displacement_by_equation_7']:.4f}. The axes are parallel at all times (section 5) for this shock "
-        f"along the bar, to {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. The same shock across the bar on one "
-        f"tip parts them by {_PARTED} rad {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.3f} s after its peak, and by "
+        f"mean positions in the last {CYCLES} cycles of 12 s are displaced by {last[0]:+.4f} and {last[1]:+.4f} across the "
+        f"shock (in the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}); "
+        f"(7) gives {m['displacement_by_equation_7']:.4f}. The axes are parallel at all times (section 5) for this shock along "
+        f"the bar, to {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. The same shock across the bar on one tip parts "
+        f"them by {_PARTED} rad {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.3f} s after its peak, and by "
         f"{m['angle_of_axes_shock_across_bar_rad']:.2f} rad at most within 12 s: equal spins do not keep the axes parallel.",
     )
 
@@ -124,12 +123,10 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
             Part(ONE_GYROSCOPE, all(abs(ratio - 1) < _ALIKE for ratio in drifts)),
             Part(AS_WITHOUT_SPIN, all(abs(ratio - 1) < _ALIKE for ratio in responses)),
         ),
-        f"The mean displacement over {CYCLES} cycles after a weak shock, over that of (7), is {drifts[0]:.3f} for spins 10 "
-        "and 10 rad/s, "
-        f"{drifts[1]:.3f} for 10 and 5. But with spins 10 and −10, within 2.4 s of a shock along x, the axes reach x = "
-        f"{m['largest_x']:.3f}, without spins {m['largest_x_without_spins']:.3f}: {responses[0]:.2f} of it. Only the "
-        f"turning about the joint line within 2.4 s of a shock along y is alike (ratio {responses[1]:.2f}; alike is within a "
-        "tenth).",
+        f"The mean displacement over {CYCLES} cycles after a weak shock, over that of (7), is {drifts[0]:.3f} for spins 10 and "
+        f"10 rad/s, {drifts[1]:.3f} for 10 and 5. But with spins 10 and −10, within 2.4 s of a shock along x, the axes reach x "
+        f"= {m['largest_x']:.3f}, without spins {m['largest_x_without_spins']:.3f}: {responses[0]:.2f} of it. Only the turning "
+        f"about the joint line within 2.4 s of a shock along y is alike (ratio {responses[1]:.2f}; alike is within a tenth).",
     )
 
 

@@ -108,7 +108,7 @@ def energies(before: str, after: str, spins: Spins, printed: dict[str, PrintedNu
     spans = [(sp.Eq(sp.Symbol("E"), energy), *span) for span in ((0, "0.05"), ("0.4", "0.5"))]
     found, theorem = _means(scene, spans, "E is the energy in J.")
     for part, mean, number in zip((before, after), found, printed.values(), strict=True):
-        yield from _decided(part, _less(abs(mean - number.value), number.half_unit), theorem)
+        yield from _decided(part, _less(abs(mean - number), number.half_unit), theorem)
 
 
 def topples(part: str, spins: Spins) -> Iterator[Part]:
@@ -166,7 +166,7 @@ def single_rate(part: str, spins: Spins, printed: PrintedNumber) -> Iterator[Par
     found, theorem = _means(
         rotor, [(rate, 1, 3)], "This is the rate about its displaced position, rad/s.", ([0, 0, 1], [0, 0, 0])
     )
-    yield from _decided(part, _less(abs(found[0] - printed.value), printed.half_unit), theorem)
+    yield from _decided(part, _less(abs(found[0] - printed), printed.half_unit), theorem)
 
 
 def coupled_rates(part: str, spins: Spins, bar: Link, printed: PrintedNumber) -> Iterator[Part]:
@@ -183,7 +183,7 @@ def coupled_rates(part: str, spins: Spins, bar: Link, printed: PrintedNumber) ->
             "This is the rate in rad/s.",
         )
         theorems.append(theorem)
-        agree.append(_less(abs(found[0] - printed.value), printed.half_unit))
+        agree.append(_less(abs(found[0] - printed), printed.half_unit))
     yield from _decided(part, _all(agree), *theorems)
 
 

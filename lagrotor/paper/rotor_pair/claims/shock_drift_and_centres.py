@@ -180,13 +180,12 @@ def decide_c19(m: Mapping[str, float]) -> Finding:
             Part(AGREE, printed < min(plain, MOTION), needs if mended else ""),
         ),
         f"Fitted over the 8 s after the shock, the centres lie at {m['skew_deg']:+.1f}° to x, which the paper calls a small "
-        "angle: components of y make "
-        f"{m['share_of_y_in_x']:.0%} of x projected so (an angle is used as a small one up to {SMALL_ANGLE:.0f}°, where sin α is "
-        "α within one part in a hundred). The printed formula leaves "
-        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after projection on that axis, "
-        f"with the missing ± r₀² {corrected:.1%}; with the centres free, hence for the shape, "
-        f"{m['left_unprojected_shape']:.1%} before and {shape:.1%} after, where a plain sine leaves {plain:.1%}: the second "
-        f"harmonic accounts for {1 - (shape / plain) ** 2:.0%} of the square of that. The amplitude along that axis is "
+        f"angle: components of y make {m['share_of_y_in_x']:.0%} of x projected so (an angle is used as a small one up to "
+        f"{SMALL_ANGLE:.0f}°, where sin α is α within one part in a hundred). The printed formula leaves "
+        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after projection on that axis, with the "
+        f"missing ± r₀² {corrected:.1%}; with the centres free, hence for the shape, {m['left_unprojected_shape']:.1%} before "
+        f"and {shape:.1%} after, where a plain sine leaves {plain:.1%}: the second harmonic accounts for "
+        f"{1 - (shape / plain) ** 2:.0%} of the square of that. The amplitude along that axis is "
         f"{m['amplitude_along_the_skew_axis']:.3f}; figure 21 has {PAPER_R0}.",
     )
 

@@ -40,9 +40,8 @@ ALONG, ACROSS, _SMALL = (60.0, 72.0, 86.0), (25.0, 35.0, 70.0), (12.0, 24.0, 48.
 TOPPLES, TURNS = "the pair topples after the shock", "it turns around the line through the two grounds"
 STABLE, TOPPLES_YZ, SLOWLY = "it stays stable in x", "it topples in the Y-Z plane", "it topples slowly"
 THRESHOLDS = (
-    f"Stable in x is |x| below {FALLEN}, 30° from upright. To topple is to turn about the joint line by more than {SEEN} rad "
-    "in 8 s, "
-    f"and slowly is by less than {SLOW:.0f} rad in a period of the natural rate."
+    f"Stable in x is |x| below {FALLEN}, 30° from upright. To topple is to turn about the joint line by more than {SEEN} rad in "
+    f"8 s, and slowly is by less than {SLOW:.0f} rad in a period of the natural rate."
 )
 
 

@@ -130,13 +130,11 @@ def decide_c13(m: Mapping[str, float]) -> Finding:
     return Finding(
         (Part(NO_MEAN, none, needs if along else ""),),
         "Means are over four cycles of the natural rate. After 20 N along x those of x₁ and x₂ are "
-        f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and "
-        f"{m['shock_along_x_20_N_mean_x_2']:+.4f}; their common part goes as F to the power "
-        f"{m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to the power "
+        f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}; their common part goes as F to "
+        f"the power {m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to the power "
         f"{m['power_of_shock_along_x_in_half_difference']:.2f}. After 5 N along y the mean is "
-        f"{m['shock_along_y_5_N_mean_x']:+.5f} (−PR/(2G), with P the impulse, gives "
-        f"{m['shock_along_y_5_N_predicted']:+.5f}), as F to the power "
-        f"{m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N it is "
+        f"{m['shock_along_y_5_N_mean_x']:+.5f} (−PR/(2G), with P the impulse, gives {m['shock_along_y_5_N_predicted']:+.5f}), "
+        f"as F to the power {m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N it is "
         f"{m['shock_along_x_50_N_mean_x']:+.3f} along x and {m['shock_along_y_50_N_mean_x']:+.3f} along y.",
     )
 
