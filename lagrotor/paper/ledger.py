@@ -31,7 +31,8 @@ from lagrotor.paper.witness import witness
 
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4
-_LARGEST_DENOMINATOR = 100  # of a fraction that is shown as one
+# A difference of more letters is shown as it is; a fraction of a larger denominator in digits.
+_MOST_LETTERS, _LARGEST_DENOMINATOR = 7, 100
 _SINGULAR = (sp.nan, sp.zoo, sp.oo, -sp.oo)
 _RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "undecided", "refuted")
 
@@ -307,6 +308,8 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
 
 def _shortest(difference: sp.Expr) -> sp.Expr:
     """Return the normal form of a difference, which is exactly equal to it; the difference where that is shorter."""
+    if len(difference.free_symbols) > _MOST_LETTERS:
+        return difference
     try:
         return min(normal_form(difference), difference, key=lambda e: len(str(e)))
     except NotExactError:
@@ -385,9 +388,7 @@ def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if ratio is not None:
         off = abs(ratio - 1)
         near = bool(off <= within)
-        reason = (
-            f"the printed value is {sp.N(ratio, 6)} of the derived one, and its digits allow {sp.N(100 * within, 2)} %"
-        )
+        reason = f"the printed value is {sp.N(ratio, 6)} of the derived one; its digits allow {sp.N(100 * within, 2)} %"
         gap = None if near else printed - derived
         return _Finding("holds" if near else "refuted", reasons=() if near else (reason,), difference=gap)
     gap = under.on(relation.printed) / under.on(relation.derived) - 1
@@ -415,9 +416,7 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     if constant is None:
         return _Finding("undecided", reasons=("the ratio of the sides depends on letters",))
     near = bool(abs(constant - 1) <= within)
-    reason = (
-        f"the printed value is {sp.N(constant, 6)} of the derived one, and its digits allow {sp.N(100 * within, 2)} %"
-    )
+    reason = f"the printed value is {sp.N(constant, 6)} of the derived one; its digits allow {sp.N(100 * within, 2)} %"
     return _Finding("holds-to-order" if near else "refuted", order, small, reasons=() if near else (reason,))
 
 
