@@ -12,6 +12,7 @@ import pytest
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.paper import claim_tests, papers
 from lagrotor.paper.claim_tests import claim_data
+from lagrotor.paper.letters import read_line
 from lagrotor.paper.rotor_pair.claims.shock_drift_and_centres import Pinched
 from lagrotor.paper.rotor_pair.claims.simulator import inverted_each_time
 from lagrotor.paper.rotor_pair.own_paper import PAPER
@@ -331,3 +332,50 @@ def test_record(results, identifier):
     # A reader sees letters, not the names of a program.
     sentences = " ".join(filter(None, [row["explanation"], row["condition"], *(part["says"] for part in row["parts"])]))
     assert not any(name in sentences for name in ("_0", "_1", "_2", "phi", "theta", "Omega", "omega", "e-"))
+
+
+@pytest.mark.parametrize(
+    ("digits", "inside", "outside"),
+    [("16", (15.51, 16.1837, 16.49), (15.49, 16.51)), ("11.4", (11.3504, 11.4286), (11.4665, 11.34)),
+     ("100.45", (100.4459, 100.4549), (100.4448, 100.4551)), ("-0.5", (-0.45001, -0.54999), (-0.4, 0.5))],
+)  # fmt: skip
+def test_a_printed_number_stands_for_what_rounds_to_it(digits, inside, outside):
+    printed = claim_tests.PrintedNumber(digits)
+    assert all(map(printed.is_matched, inside)) and not any(map(printed.is_matched, outside))
+    places = len(digits.partition(".")[2])
+    assert all(round(number, places) == printed for number in inside)
+    assert digits in printed.rule
+
+
+def test_the_rule_for_printed_numbers_is_that_of_the_equations_and_is_said(results):
+    """The relative error that the catalogue allows a number that is read off is half a unit of its last digit, as in claims."""
+    for digits in ("11.4", "0.57", "16", "100.45"):
+        line = read_line({"quantity": "x", "read_off": digits}, {}, "a line")
+        printed = claim_tests.PrintedNumber(digits)
+        assert float(line.within) == pytest.approx(printed.half_unit / printed, rel=1e-12)
+    said = {i: results[i].finding.explanation for i in ("C06", "C08", "C20", "C21")}
+    assert "100 as printed stands for 99.5 to 100.5 J" in said["C06"] and "100.445 to 100.455 J" in said["C08"]
+    assert "16 as printed stands for 15.5 to 16.5 rad/s" in said["C20"] and "11.35 to 11.45 rad/s" in said["C21"]
+    assert "slowly is by less than 1 rad in a period of the natural rate" in results["C11"].finding.explanation
+
+
+def test_the_same_rule_decides_16_and_11_4(results):
+    """16.18 rounds to 16 and 11.467 does not to 11.4; with their numbers exchanged for nearer or farther ones both turn."""
+    for identifier, key, near, far in (
+        ("C20", "rate_exact_over_8_s_rad_per_s", 16.49, 16.51),
+        ("C21", "rate_exact_over_8_s_rad_per_s", 11.449, 11.451),
+    ):
+        decided = [
+            TESTS[identifier].decide({**results[identifier].measured, key: rate}).parts[0] for rate in (near, far)
+        ]
+        assert [part.holds for part in decided] == [True, False]
+
+
+def test_times_are_crossings(results):
+    """Each time lies between two samples of its curve, where linear interpolation of a run read ten times as often has it."""
+    seen = results["C01"].measured["seconds_until_axes_part_by_0.1_shock_across_bar"]
+    scene = Scene((10, 10), link=Link(mass=1, inertia=1), shock=Shock((0, 50, 0), 0.2, 1 / 50))
+    t = np.linspace(0.35, 0.45, 401)
+    axes = simulate(scene, [0.0, *t], "minimal", 1e-11).after(0.35).axes
+    parted = 2 * np.arcsin(np.linalg.norm(axes[1] - axes[0], axis=-1) / 2)
+    assert seen == pytest.approx(np.interp(0.1, parted, t) - 0.2, abs=1e-5) == pytest.approx(0.1834, abs=5e-5)
