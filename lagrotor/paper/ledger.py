@@ -317,9 +317,12 @@ def _shortest(difference: sp.Expr) -> sp.Expr:
 
 
 def _text(difference: sp.Expr) -> str:
-    """Return a difference as text, a number other than a short fraction in four digits."""
+    """Return a difference as text; its numbers in four digits where one of them is no short fraction."""
     e = _shortest(difference)
-    return readable(str(sp.N(e, 4) if e.is_number and not (e.is_Rational and e.q < _LARGEST_DENOMINATOR) else e))
+    is_long = any(n.is_Rational and n.q > _LARGEST_DENOMINATOR for n in e.atoms(sp.Number)) or any(
+        node.is_number and not node.is_Rational for node in sp.preorder_traversal(e)
+    )
+    return readable(str(sp.N(e, 4) if is_long else e))
 
 
 def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> sp.Symbol | None:
