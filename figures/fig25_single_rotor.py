@@ -44,7 +44,7 @@ _m = measure()
 CAPTION = (
     "Spin 20 rad/s, no bar, shock 40 exp(−(20 (t − 2))²) N on the tip along x. Exact: spheres model, tolerance "
     f"{TOL:g}; paper's method: springs S = {STIFFNESS:g} N/m, D = {DAMPING:g} kg/s (n = 20, omega_s = 10 in the "
-    f"paper's formulas: not printed; they give 100.445 J after the shock of figure 10, read as 100.45), step {STEP:g} s. Sines "
+    f"paper's formulas: not printed; found by trying, as they give its 100.45 J after a shock), step {STEP:g} s. Sines "
     f"scaled to the amplitude {_m['amplitude (m)']:.4f} m. Rate read off the spectrum (Hann window, 2.3 s to 10 s): "
     f"exact {_m['rate, exact model (rad/s)']:.3f}, paper's method {_m['rate, spring model (rad/s)']:.3f} (over the first 3 s "
     f"{_m['rate, spring model, first 3 s (rad/s)']:.3f}: the dampers take the amplitude, and with it the excess), "

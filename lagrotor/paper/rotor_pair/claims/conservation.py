@@ -21,14 +21,13 @@ from lagrotor.shown import scientific
 # J; "constant" is to the digits of the second.
 PRINTED = {"before": PrintedNumber("100"), "after": PrintedNumber("100.45")}
 OMEGA_S, N = 10.0, 20  # rad/s, the spin; what the paper leaves open in S = 2000 (M/n) ω_s², D = 500 (M/n) ω_s
-TRIED = (5, 8, 10, 12, 15, 20, 40, 80, 160)  # values of n
+TRIED = (5, 8, 10, 20, 40, 80, 160)  # values of n
 SECONDS = 8.0  # of the paper's run after the shock
 _FORCE = 50.0
 CONSERVED = 1e-6  # of the impulse, a thousand times the error of the exact runs
 FREED = 1e-3  # of the impulse: the dampers are not central and change the angular momentum, by less than this
 
 FROM_100, TO_100_45, _CONSTANT = "the energy starts at 100 J", "it rises to about 100.45 J", "it then stays constant"
-BY_SPRINGS = "it does so in the paper's program"
 MOMENTUM, ANGULAR = "the total momentum is not conserved", "the total angular momentum is not conserved"
 BY_GROUNDS = "the cause is what the grounds exert: without them both are conserved"
 
@@ -62,15 +61,18 @@ def measure_c08(case: ShockAlongX) -> dict[str, float]:
     scene, light = (shocked_scene(case.spins, (case.force, 0, 0), bar, case.width) for bar in (HEAVY_LINK, LIGHT))
     at = shock_of(scene).at
     first = np.round(at + np.arange(0.14, 0.25, 0.02), 3)  # seven widths after the peak the shock is over
+    rising = np.round(
+        at + np.arange(-0.1, 0.25, 0.002), 3
+    )  # to where it rises is its highest value: the dampers take it back
     springs = _spring_energy(scene, N, np.append(first, at + SECONDS))
     assert springs is not None  # n = 20 is stable at 1 ms, see `step_limit_ms`
     exact = simulate(scene, np.linspace(0, at + SECONDS, 83), "spheres", 1e-10)
     exact_after = exact.energy[exact.t > first[0]]
-    tried = {n: _spring_energy(scene, n, first) for n in TRIED}
-    fitting = [n for n, seen in tried.items() if seen is not None and all(map(PRINTED["after"].is_matched, seen))]
+    tried = {n: seen.max() for n in TRIED if (seen := _spring_energy(scene, n, rising)) is not None}
+    fitting = [n for n, highest in tried.items() if PRINTED["after"].is_matched(highest)]
     return {
         "before_J": exact.energy[0],
-        "after_springs_J": springs[0],
+        "highest_springs_J": tried[N],
         "after_exact_J": exact_after[0],
         "after_closed_form_J": exact.energy[0] + _jump(scene),
         "after_closed_form_light_bar_J": exact.energy[0] + _jump(light),
@@ -87,24 +89,21 @@ def measure_c08(case: ShockAlongX) -> dict[str, float]:
 
 def decide_c08(m: Mapping[str, float]) -> Finding:
     """The energies before and after, both with springs and exactly; what is left of them 8 s later, likewise."""
-    springs, exact = (PRINTED["after"].is_matched(m[f"after_{way}_J"]) for way in ("springs", "exact"))
+    reached = [PRINTED["after"].is_matched(m[key]) for key in ("highest_springs_J", "after_exact_J")]
     least, most, unit = m["smallest_n_that_fits"], m["largest_n_that_fits"], PRINTED["after"].half_unit
-    stiff = (
-        f"n is {least:.0f} to {most:.0f}; the paper does not print it, and n = {N} gives {m['after_springs_J']:.4f} J"
-    )
     kept = m["swing_in_8_s_exact_J"] < unit
     drained = "the joints are rigid: the dampers of the paper's springs slowly drain the energy" if kept else ""
     return Finding(
         (
             Part(FROM_100, PRINTED["before"].is_matched(m["before_J"])),
-            Part(TO_100_45, exact),
-            Part(BY_SPRINGS, springs, stiff if exact and most else ""),
+            Part(TO_100_45, all(reached)),
             Part(_CONSTANT, kept and m["lost_in_8_s_springs_J"] < unit, drained),
         ),
         f"{PRINTED['before'].rule} J, {PRINTED['after'].rule} J. The energy rises from {m['before_J']:.2f} to "
-        f"{m['after_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J exactly, {m['after_closed_form_J']:.4f} J by "
+        f"{m['highest_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J exactly, {m['after_closed_form_J']:.4f} J by "
         f"P²R²/(4(a + b)) and the width of the pulse. The exact pair then keeps it to {scientific(m['swing_in_8_s_exact_J'])} "
-        f"J; the dampers of the springs take {m['lost_in_8_s_springs_J']:.4f} J in 8 s. S = {m['stiffness_N_per_m']:.0f} N/m "
+        f"J; from 0.14 s after the peak the dampers of the springs take {m['lost_in_8_s_springs_J']:.4f} J in 8 s. S = "
+        f"{m['stiffness_N_per_m']:.0f} N/m "
         f"and D = {m['damping_kg_per_s']:.0f} kg/s (n = {N}, ω_s = {OMEGA_S:.0f} rad/s) are stable up to a step of "
         f"{m['step_limit_ms']:.2f} ms; with that ω_s, n from {least:.0f} to {most:.0f} of those tried gives the printed number. "
         f"The light bar of 5.2.1 would give {m['after_closed_form_light_bar_J']:.2f} J and needs a step below "
@@ -184,12 +183,7 @@ def decide_c09(m: Mapping[str, float]) -> Finding:
 C08 = ClaimTest(
     "C08",
     ShockAlongX(),
-    {
-        FROM_100: ShockAlongX((5.0, 5.0)),
-        TO_100_45: ShockAlongX(force=45.0),
-        BY_SPRINGS: ShockAlongX(force=45.0),
-        _CONSTANT: ShockAlongX(width=7 / 50),
-    },
+    {FROM_100: ShockAlongX((5.0, 5.0)), TO_100_45: ShockAlongX(force=45.0), _CONSTANT: ShockAlongX(width=7 / 50)},
     "spring-linked bodies, the exact pair, the closed form",
     measure_c08,
     decide_c08,

@@ -151,7 +151,7 @@ def decide_c21(m: Mapping[str, float]) -> Finding:
         f"({m['constant_bar_K_0.1']:.4f} with K = 0.1 kg m²), and is {m['constant_light_bar']:.4f} for the light bar. 11.4 "
         f"needs a mass from {m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. With "
         f"springs of n = 10, 20, 40, 80 (C08) the rate is {by_n[0]:.2f}, {by_n[1]:.2f}, {by_n[2]:.2f}, {by_n[3]:.2f} rad/s: "
-        f"of these, 11.4 needs n of {m['largest_n_that_gives_11.4']:.0f} at most.",
+        f"of these, 11.4 together with 100.45 J and 16 needs n of {m['largest_n_that_gives_11.4']:.0f} at most.",
     )
 
 
