@@ -37,8 +37,8 @@ C07
 # ## C08: the energy after the shock
 #
 # The paper's program, the exact pair, and the closed form: an impulse $P$ gives $P^2R^2/(4(a + b))$, times
-# $e^{-(\Omega w)^2/2}$ for a pulse of width $w$. "About 100.45", read off a graph, is held to one unit of its last digit,
-# and so is "constant".
+# $e^{-(\Omega w)^2/2}$ for a pulse of width $w$. 100.45 stands for what rounds to it, 100.445 to 100.455 J, and "constant" is to
+# the same digits. With springs the energy to which it rises is the highest, as the dampers then take some back.
 #
 # $S$ and $D$ depend on $n$ and $\omega_s$, which the paper does not give. With $\omega_s = 10$, the spin, one $n$ is taken
 # after another: for each the step must be stable at 1 ms (`step_limit`), and the energy must be right for the first

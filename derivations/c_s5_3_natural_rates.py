@@ -18,8 +18,8 @@ from lagrotor.paper.rotor_pair.claims.natural_rates import C20, C21, C22, C23
 # %% [markdown]
 # ## C20: one rotor at 16
 #
-# Printed without decimals: held to half a unit. The phase of $\sin 16(t - 2)$ at the end of the run shows the effect of the
-# amplitude: a free rotor goes round at $|L|/J = G/(J\cos\theta)$.
+# A printed number stands for what rounds to it: 16 for 15.5 to 16.5 rad/s. The phase of $\sin 16(t - 2)$ at the end of the run
+# shows the effect of the amplitude: a free rotor goes round at $|L|/J = G/(J\cos\theta)$.
 
 # %%
 C20
@@ -27,10 +27,10 @@ C20
 # %% [markdown]
 # ## C21: the equal pair at 11.4
 #
-# Printed with one decimal, so held to 0.05: in the paper's own program, in the natural rate, and in the exact pair under
-# the paper's own 40 N, whose finite amplitude adds to the rate; the constant to half a unit of 11.4 over 16. A constant of
-# the coupling is the same at half the spins and for the other bars. Stiffness and damping go by n as in C08, where 10,
-# 20, 40 and 80 are stable.
+# By the same rule 11.4 stands for 11.35 to 11.45 rad/s: in the paper's own program, in the natural rate, and in the exact pair
+# under the paper's own 40 N, whose finite amplitude adds to the rate; the constant is held to the same digits over 16. A
+# constant of the coupling is the same at half the spins and for the other bars. Stiffness and damping go by n as in C08, where
+# 10, 20, 40 and 80 are stable.
 
 # %%
 C21

@@ -227,15 +227,34 @@ slopes
 
 # %%
 at_paper = float(massless_frequency.subs(r0, PAPER_R0))
-rates_written = {
-    r"\dot\phi": form("(A - B*cos(theta_0))/(2*J*sin(theta_0)**2)"),
+total = sp.Symbol("S", real=True)
+by_total = ((2 * A - B * total) / (J * (4 - total**2))).diff(total).subs(total, 2 * sp.cos(theta_0))
+S_tex = r"(\cos\theta_1 + \cos\theta_2)"
+unchanged = "(A - B*cos(theta_0))/(2*J*sin(theta_0)**2)"
+# The printed line with the difference of the derivatives by the two sines in place of their product.
+line_written = form(
+    f"{unchanged} + D_S*(S_2 - S_1)*sin(theta_0)**2*cos(Phi)",
+    {
+        "D_S": rf"\left[\frac{{\partial}}{{\partial{S_tex}}}\frac{{2 A - B {S_tex}}}{{J \left(4 - {S_tex}^2\right)}}\right]",
+        "S_1": rf"\frac{{\partial{S_tex}}}{{\partial\sin\theta_1}}",
+        "S_2": rf"\frac{{\partial{S_tex}}}{{\partial\sin\theta_2}}",
+    },
+    D_S=by_total,
+    S_1=-sp.tan(theta_0),
+    S_2=-sp.tan(theta_0),
+)
+orbit_written = {
     r"\Omega/\Omega_0": form("1 - sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2)*r_0**2", k=ell / R),
 }
 verdict(
     "5.21",
-    {r"\dot\phi": varied, r"\Omega/\Omega_0": Series(frequency, r0, 3)},
+    {
+        r"\dot\phi": varied,
+        r"\dot\phi\text{ (last member)}": unvaried,
+        r"\Omega/\Omega_0": Series(frequency, r0, 3),
+    },
     premises=[EQUAL_INERTIAS, MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
-    correction=rates_written,
+    correction={r"\dot\phi": line_written, r"\dot\phi\text{ (last member)}": form(unchanged), **orbit_written},
     wrong="The derivatives are multiplied where they should be subtracted.",
     uses=["5.15", "5.20"],
     evidence=[
@@ -245,7 +264,7 @@ verdict(
         f"On exact orbits with a massless bar Ω/Ω₀ − 1 = {-changes[0] / amplitudes[0] ** 2:+.4f} r₀², of measured order "
         f"{rate_slope:.3f}; at r₀ = {PAPER_R0} Ω/Ω₀ is {at_paper:.5f}.",
     ],
-    written=rates_written,
+    written={r"\dot\phi": form(unchanged), **orbit_written},
 )
 
 # %% [markdown]

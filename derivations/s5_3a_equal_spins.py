@@ -156,7 +156,8 @@ verdict(
     premises=[ONE_KILOGRAM_BAR, small_motion],
     uses=["5.23"],
     evidence=[
-        f"It should have been {should_be} = {float(should_be):.5f} rad/s, with any inertia of the bar; to three figures 11.4.",
+        f"It should have been {should_be} = {float(should_be):.5f} rad/s, with any inertia of the bar. That rounds to 11.4, "
+        "which stands for 11.35 to 11.45 rad/s.",
         f"From zero crossings of x on the exact pair: {pair_gentle:.5f} rad/s after a shock of 0.4 N along x, "
         f"{pair_rate:.4f} after one of 40 N (sin θ = {pair_amplitude:.4f}).",
         "Why it is no theorem: it was read off the paper's program, whose springs yield. That the exact pair has both rates is "
@@ -179,8 +180,8 @@ verdict(
     correction={r"c\text{ (equal spins)}": form("J/(J + m*R**2/2)")},
     uses=["5.23", "5.24"],
     evidence=[
-        f"The constant should have been {own_constant} = {float(own_constant):.5f}; 0.7125 itself belongs to a bar of "
-        f"{float(mass_of_c):.4f} kg.",
+        f"The constant should have been {own_constant} = {float(own_constant):.5f}, between 11.35/16 and 11.45/16, for which "
+        f"0.7125 = 11.4/16 stands by the digits of 11.4; 0.7125 itself belongs to a bar of {float(mass_of_c):.4f} kg.",
         "5.28 prints the same constant for both kinds of pair and is refuted: with opposite spins the bar's inertia K counts "
         "as well, and neither of the paper's bars has it.",
         "Why it is no theorem about motion: it is said of every ω. The corrected constant is decided exactly, and at spins of 20 "

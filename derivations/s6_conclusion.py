@@ -16,7 +16,7 @@ import sympy as sp
 from lagrotor import paired_frequency
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair import axes_pair, pair_with_bar
-from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, r0, sigma
+from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, q, r0, sigma
 from lagrotor.paper import Formula, Remark, Series, prove, verdict
 from lagrotor.paper.form import form
 from lagrotor.paper.rotor_pair.shared_premises import HEAVY_BAR, PAPERS_ROTOR, in_parameters
@@ -153,7 +153,7 @@ Remark(
 # ## The rate
 #
 # Equal spins, parallel axes: one rotor with $a + b$ for $J$ (5.27). Opposite spins: the natural frequency, and the series of the
-# paired precession in the amplitude, $r_0 = \sin\theta$.
+# paired precession in the amplitude, $r_0 = \sin\theta_0$. The average inclination is $\theta = q\,r_0$ (5.27).
 
 # %%
 theta = ROTOR.q[0]
@@ -172,10 +172,16 @@ through_third = 1 - sigma * (k**2 * sigma - 3 * k**2 + 3) / (4 * k**2) * r0**2
 prove(ratio, through_third, "the rate of the paired precession over the natural frequency, through the third order")
 
 # %%
-at_theta = ratio.subs(r0, sp.sin(theta)).subs({k: ell / R, sigma: with_mass / with_inertia})
+at_theta = ratio.subs(r0, sp.sin(theta) / q).subs({k: ell / R, sigma: with_mass / with_inertia})
 inertias = {"a": in_parameters(a), "b": in_parameters(b)}
 cone_written = form("I_3*omega/((a + b)*cos(theta))", **inertias)
 square_written = form("(I_3*omega)**2/((a + b)*(a - b))", **inertias)
+opposite_written = form(
+    "I_3*omega/sqrt(a**2 - b**2)*(1 - sigma*sin(theta)**2/(4*k**2*q**2)*(k**2*sigma - 3*k**2 + 3))",
+    sigma=with_mass / with_inertia,
+    k=ell / R,
+    **inertias,
+)
 through_third_written = form("1 - sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2)*r_0**2")
 verdict(
     "6.02",
@@ -188,19 +194,17 @@ verdict(
     premises=[PAPERS_ROTOR, HEAVY_BAR],
     correction={
         r"\dot\phi\text{ (equal spins)}": cone_written,
+        r"\dot\phi\text{ (opposite spins)}": opposite_written,
         r"\Omega_0^2\text{ (opposite spins)}": square_written,
         r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
     },
     written={
         r"\dot\phi\text{ (equal spins)}": cone_written,
-        r"\dot\phi\text{ (opposite spins)}": form(
-            "I_3*omega/sqrt(a**2 - b**2)*(1 - sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2)*sin(theta)**2)",
-            sigma=with_mass / with_inertia,
-            k=ell / R,
-            **inertias,
-        ),
+        r"\dot\phi\text{ (opposite spins)}": opposite_written,
     },
-    wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ.",
+    wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ. θ is the average "
+    "inclination, as printed. It is q r₀, with r₀ the sine of the inclination when the axes are parallel, and q the mean of "
+    "√(cos² Φ + σ sin² Φ) over a turn.",
     uses=["5.27", "5.28"],
     evidence=["The line is 5.27's, now said of both kinds of pair; what is said there of each holds here."],
 )

@@ -19,7 +19,7 @@ import sympy as sp
 from lagrotor import Link, Scene, Shock, simulate, toppling_after_shock
 from lagrotor.errors import DomainError
 from lagrotor.models import run_after, time_to_wander, turning_rate, wander_error, wandering_rate
-from lagrotor.numerics import measured_order
+from lagrotor.numerics import first_passage, measured_order
 from lagrotor.pair.notation import HALF, LEAN, P_X, SWING, G, P, a, att, b, k, p_y
 from lagrotor.paper import Remark, prove
 from lagrotor.theory import (
@@ -138,9 +138,9 @@ def mean_time(force: float) -> tuple[float, float | None]:
 
 def axis_time(force: float, axis: int) -> float:
     """Time (s) from the pulse's peak until |x| of an axis itself passes the bound; inf when it does not within 3 s."""
-    t = np.linspace(0, 3, 3001)
-    beyond = np.abs(simulate(scene(force), t, "minimal", 1e-9).axes[axis, :, 0]) > BOUND
-    return float(t[np.argmax(beyond)] - 0.5) if beyond.any() else np.inf
+    t = np.linspace(0, 3, 601)
+    x = simulate(scene(force), t, "minimal", 1e-9).axes[axis, :, 0]
+    return min(first_passage(t, sign * x, BOUND) for sign in (1, -1)) - 0.5
 
 
 times = {force: mean_time(force) for force in forces}

@@ -42,7 +42,7 @@ CAPTION = (
     "omega_s = 10 rad/s in 4.01, as in figure 10), bar of 1 kg and 1 kg m², spins 10 and −10 rad/s, "
     "shock 50 exp(−(50 (t − 2))²) N in y on the tip of rotor 1. "
     f"Energy 100 to {_energy:.3f} J (exact: {_exact:.3f} J); "
-    f"x keeps within {_x:.2f} m, y moves by {_y:.2f} m, z by {_z:.2f} m. "
+    f"in 10 s x keeps within {_x:.2f} m, y moves by {_y:.2f} m, z by {_z:.2f} m. "
     f"Dashed: the exact model, {1000 * _off:.1f} mm away at 10 s. The paper's z is 0.5 m less."
 )
 

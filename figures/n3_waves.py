@@ -35,6 +35,9 @@ def positive(rates: np.ndarray) -> np.ndarray:
     return np.sort(rates[rates > 1e-9])
 
 
+LOADED_STAIRCASE = zigzag(pi / 2, spins=(LOADED, -LOADED), gravity=9.81)
+
+
 def on_band(ring: Pattern, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Rates of the band at q, and the modes of the closed ring in the same order."""
     bands = ring.dispersion(q).rates[:, 0]
@@ -51,7 +54,7 @@ def data() -> dict[str, np.ndarray]:
     turns = [2 * pi / n for n in RINGS]
     rings = [2 * pi * np.arange(1, (n + 1) // 2) / n for n in RINGS]
     closed = [on_band(polygon_ring(n, spins=SPIN), at) for n, at in zip(RINGS, rings, strict=True)]
-    loaded = zigzag(pi / 2, spins=(LOADED, -LOADED), gravity=9.81).dispersion(2 * q)
+    loaded = LOADED_STAIRCASE.dispersion(2 * q)
     corners = np.array([(0.02, 0.01), (2 * pi / 3, -2 * pi / 3), (pi, 0.0)])
     share = np.linspace(0, 2, 301)
     path = np.stack([np.interp(share, range(3), corners[:, k]) for k in (0, 1)], axis=1)
@@ -83,6 +86,16 @@ def honeycomb_formula(path: np.ndarray) -> np.ndarray:
     return np.abs(SPIN * Rotor().I3 / Rotor().J * np.sqrt(3) * np.sin(d).sum(0) / (3 - np.cos(d).sum(0)))
 
 
+def held_from() -> float:
+    """The wave number (rad) at which the growth of the loaded staircase ends, by halving between two that are on its sides."""
+    falls, stands = 0.005, pi / 2
+    while stands - falls > 1e-6:
+        middle = (falls + stands) / 2
+        grows = LOADED_STAIRCASE.dispersion(np.array([2 * middle])).growth.max() > 0
+        falls, stands = (middle, stands) if grows else (falls, middle)
+    return stands
+
+
 # %%
 def measure() -> dict[str, float]:
     """Distances of finite structures and closed forms from the bands; slopes; the wave number from which weight is held."""
@@ -98,7 +111,7 @@ def measure() -> dict[str, float]:
             d["honeycomb"] - honeycomb_formula(d["path"])
         ).max(),
         "highest rate (rad/s)": d["alternating"].max(),
-        "weight is held from (rad)": d["q"][np.argmin(d["growth"] > 0)],
+        "weight is held from (rad)": held_from(),
     }
 
 

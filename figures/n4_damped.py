@@ -15,6 +15,7 @@ from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
 
 SPIN, TILT = 10.0, 0.1
 FRICTIONS = (0.3, 0.5, 0.8)  # N m s/rad
+SHOWN, AT_REST = 6.0, 20.0  # a/c: what is drawn, and when the motion is e^−20 of its start
 FAST, SMALL, WEAR, LONG = 40.0, 0.02, 0.1, 6.0
 
 TITLE = "What friction does to the paired precession"
@@ -28,10 +29,10 @@ ALT = (
 
 # %%
 def decaying(friction: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times over a/c, and the mean angle about the joint line (rad), of a paired precession that friction stops."""
+    """Times over a/c, the last of them at rest, and the mean angle about the joint line (rad) of a pair stopped by friction."""
     start = paired_scene(Scene(spins=(SPIN, -SPIN), link=Link(1, 0, 0)), TILT)
     s = Structure([(0, 0), (1, 0)], [(0, 1)], [SPIN, -SPIN], friction=friction)
-    t = np.linspace(0, 6 * 1.25 / friction, 400)
+    t = np.append(np.linspace(0, SHOWN, 400), AT_REST) * 1.25 / friction
     run = s.simulate(t, start.axes, start.rates, tol=1e-6)
     return t * friction / 1.25, np.unwrap(np.arctan2(-run.axes[..., 1], run.axes[..., 2]).mean(0))
 
@@ -47,8 +48,8 @@ def radius(on_spins: float) -> tuple[np.ndarray, np.ndarray]:
 
 @cache
 def data() -> dict[str, np.ndarray]:
-    """Times and angles of the runs, (3, n); times and tilts with friction on the spins too, and of spins that are kept,
-    (2, m)."""
+    """Times and angles of the runs, (3, n), the last at rest; times and tilts with friction on the spins too, and of spins that
+    are kept, (2, m)."""
     runs, slowed = [decaying(c) for c in FRICTIONS], [radius(c) for c in (WEAR, 0.0)]
     return {
         "times": np.array([t for t, _ in runs]),
@@ -92,9 +93,9 @@ def figure() -> Figure:
     picture = Figure(figsize=(8.6, 4.6))
     angle, tilt = picture.subplots(1, 2)
     for t, values, c, ink in zip(d["times"], d["angles"], FRICTIONS, CASE_COLOURS[:3], strict=True):
-        angle.plot(t, values, color=ink, lw=1.2, label=f"exact, c = {c:g} N m s/rad")
+        angle.plot(t[:-1], values[:-1], color=ink, lw=1.2, label=f"exact, c = {c:g} N m s/rad")
         law = SPIN * TILT**2 / (2 * c)
-        angle.plot(t[[0, -1]], [law, law], "--", color=ink, lw=1.0)
+        angle.plot(t[[0, -2]], [law, law], "--", color=ink, lw=1.0)
     angle.set(
         xlabel="time in a/c [1]", ylabel="angle about the joint line [rad]", title="The pair comes to rest rotated"
     )

@@ -88,7 +88,7 @@ CAPTION = (
     f"G = {SPIN:g} kg m²/s, ell = R = 1 m; nu = alpha' in the sense of G positive. Unstable where b nu² < G nu/k: with b = 0 "
     f"only the sense counts; thresholds G/(k b): −{-_threshold:.2f} and {_other:.2f} rad/s. Exact: tilt of 1e-9 fitted from 8 "
     f"to 12 growth times, at most {100 * _off:.2f} % away. A shock of +{FORCE:g} N along y turns the pair at −{-_plus:.3f} "
-    f"rad/s, stable, mean x within {_wide:.2f} R; −{FORCE:g} N at {_minus:+.3f} rad/s, unstable, {_wider:.2f} R."
+    f"rad/s, stable, mean x within {_wide:.2f} R up to 20 s; −{FORCE:g} N at {_minus:+.3f} rad/s, unstable, {_wider:.2f} R."
 )
 
 

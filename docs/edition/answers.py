@@ -78,9 +78,9 @@ def judged(equation: str, given: str, positive: str, small: str, order: str) -> 
     verdict = said.verdict
     through = f" through order {verdict.order} in {readable(str(verdict.small))}"
     yield f'<p class="verdict {verdict.verdict}">{verdict.verdict}{through * (verdict.verdict == "holds-to-order")}</p>'
-    if verdict.premises:
-        yield heading("Under these premises, the fewest that suffice")
-        yield from (formula("", tex) for premise in verdict.premises for tex in premise.tex or (premise.says,))
+    if assumed := verdict.premises or verdict.refuted_under:
+        yield heading("Under these premises" + ", the fewest that suffice" * bool(verdict.premises))
+        yield from (formula("", tex) for premise in assumed for tex in premise.tex or (premise.says,))
     if verdict.verdict in AGREES and verdict.domain:
         yield heading("Where both sides are defined and real")
         yield from (formula("", relation) for relation in verdict.domain)

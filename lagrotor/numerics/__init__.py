@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program as Program
     from lagrotor.numerics.codegen import operations as operations
     from lagrotor.numerics.curves import best_harmonics as best_harmonics
+    from lagrotor.numerics.curves import first_passage as first_passage
     from lagrotor.numerics.curves import harmonics_at as harmonics_at
     from lagrotor.numerics.curves import mean_between as mean_between
     from lagrotor.numerics.curves import measured_order as measured_order

@@ -49,6 +49,21 @@ def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
     return np.array([np.interp(times, t, column).mean() for column in columns]).reshape(x.shape[1:])
 
 
+def first_passage(t: Array, x: Array, level: float) -> float:
+    """Return when x first rises to a level, on the cubic spline through its samples; infinity where it does not.
+
+    Args:
+        t: times (n,).
+        x: samples (n,) of a smooth curve.
+        level: the value to be passed.
+    """
+    from scipy.interpolate import CubicSpline
+
+    if x[0] >= level:
+        return float(t[0])
+    return float(min(CubicSpline(t, x).solve(level, extrapolate=False), default=np.inf))
+
+
 def turn_means(t: Array, tips: Array) -> tuple[Array, Array]:
     """Times (n + 1,) at which y_1 − y_2 rises through mid-range, and the tips' means over the turns (2, n, 3)."""
     apart = tips[0, :, 1] - tips[1, :, 1]

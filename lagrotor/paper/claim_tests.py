@@ -19,6 +19,22 @@ from lagrotor.paper.theorems import Theorem, can_prove, verify
 Outcome = Literal["proved", "confirmed", "confirmed-if", "refuted"]
 
 
+class PrintedNumber(float):
+    """A number by its printed digits. It stands for every number that rounds to it: half a unit of its last digit either way."""
+
+    def __init__(self, digits: str) -> None:
+        self.digits, self.half_unit = digits, 0.5 / 10 ** len(digits.partition(".")[2])
+
+    def is_matched(self, number: float) -> bool:
+        """Return whether a number rounds to it."""
+        return abs(number - self) < self.half_unit
+
+    @property
+    def rule(self) -> str:
+        """The numbers for which it stands, in words."""
+        return f"{self.digits} as printed stands for {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
+
+
 @dataclass(frozen=True)
 class Part:
     """One part of a claim's sentence, in words, and whether the numbers bear it out.

@@ -15,7 +15,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.relational import Relational
 
-from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, truncated_series
+from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, normal_form, truncated_series
 from lagrotor.algebra.evidence import points
 from lagrotor.algebra.scalar import sympified
 from lagrotor.errors import InputError, NotExactError
@@ -31,6 +31,8 @@ from lagrotor.paper.witness import witness
 
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4
+# A difference of more letters is shown as it is; a fraction of a larger denominator in digits.
+_MOST_LETTERS, _LARGEST_DENOMINATOR = 7, 100
 _SINGULAR = (sp.nan, sp.zoo, sp.oo, -sp.oo)
 _RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "undecided", "refuted")
 
@@ -153,7 +155,7 @@ def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) 
     if whole.may_branch and (branch := _branch(relation, assumed)):
         used, finding = _needed(relation, (*assumed, *branch), _under(relation, (*assumed, *branch)))
         return _verdict(relation, finding, used, glossary)
-    return _verdict(relation, whole, (), glossary)
+    return _verdict(relation, whole, assumed if whole.answer == "refuted" else (), glossary)
 
 
 def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...], glossary: Glossary) -> LineVerdict:
@@ -170,7 +172,7 @@ def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...],
         finding.order,
         small,
         finding.domain,
-        finding.difference,
+        None if finding.difference is None else _shortest(finding.difference),
         finding.place,
         finding.seen.point if finding.seen else None,
         finding.seen.enclosure if finding.seen else None,
@@ -304,6 +306,25 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     return _Finding("undecided", None, None, domain, (reason,), gap, place, may_branch=True)
 
 
+def _shortest(difference: sp.Expr) -> sp.Expr:
+    """Return the normal form of a difference, which is exactly equal to it; the difference where that is shorter."""
+    if len(difference.free_symbols) > _MOST_LETTERS:
+        return difference
+    try:
+        return min(normal_form(difference), difference, key=lambda e: len(str(e)))
+    except NotExactError:
+        return difference
+
+
+def _text(difference: sp.Expr) -> str:
+    """Return a difference as text; its numbers in four digits where one of them is no short fraction."""
+    e = _shortest(difference)
+    is_long = any(n.is_Rational and n.q > _LARGEST_DENOMINATOR for n in e.atoms(sp.Number)) or any(
+        node.is_number and not node.is_Rational for node in sp.preorder_traversal(e)
+    )
+    return readable(str(sp.N(e, 4) if is_long else e))
+
+
 def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> sp.Symbol | None:
     """The small quantity that the comparison is about: the premise's, or the line's own."""
     letters = printed.free_symbols | derived.free_symbols
@@ -370,7 +391,7 @@ def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if ratio is not None:
         off = abs(ratio - 1)
         near = bool(off <= within)
-        reason = f"the printed value is {sp.N(ratio, 6)} of the derived one"
+        reason = f"the printed value is {sp.N(ratio, 6)} of the derived one; its digits allow {sp.N(100 * within, 2)} %"
         gap = None if near else printed - derived
         return _Finding("holds" if near else "refuted", reasons=() if near else (reason,), difference=gap)
     gap = under.on(relation.printed) / under.on(relation.derived) - 1
@@ -392,13 +413,13 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     fixed, changing = terms.as_independent(small, as_Add=True)
     first, constant = leading_term(changing, small, order), _constant(fixed, under)
     if first.order is not None:
-        by = readable(str(first.coefficient))
+        by = _text(first.coefficient)
         reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
         return _Finding("refuted", first.vanishes_through, small, reasons=(reason,), difference=first.coefficient)
     if constant is None:
         return _Finding("undecided", reasons=("the ratio of the sides depends on letters",))
     near = bool(abs(constant - 1) <= within)
-    reason = f"the printed value is {sp.N(constant, 6)} of the derived one"
+    reason = f"the printed value is {sp.N(constant, 6)} of the derived one; its digits allow {sp.N(100 * within, 2)} %"
     return _Finding("holds-to-order" if near else "refuted", order, small, reasons=() if near else (reason,))
 
 
@@ -440,7 +461,7 @@ def _to_order(
     if first.order is None:
         reason = f"what was derived is known through order {furthest} in {name} only, and order {relation.claimed} is claimed"
         return _Finding("undecided", reached, small, domain, (reason,))
-    reason = f"first differs at order {first.order} in {name}, by {readable(str(first.coefficient))}"
+    reason = f"first differs at order {first.order} in {name}, by {_text(first.coefficient)}"
     if lead > relation.claimed:
         reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None

@@ -86,7 +86,7 @@ def _command(name: str, rest: deque[Token]) -> str:
         over, under = _factor(_argument(rest)), _factor(_argument(rest))
         return f"{' ' * (over[0] == 'd')}{over}/{under} "
     if name == "partial":
-        return f"∂{_argument(rest)}"
+        return "∂" if rest and rest[0].kind == "close" else f"∂{_argument(rest)}"
     if name == "sqrt":
         return f"√{_factor(_argument(rest))}"
     if name in ("dot", "ddot"):

@@ -75,7 +75,8 @@ def printed_digest(entry: Equation) -> str:
 
 def _line(line: LineVerdict) -> str:
     order = f" through order {line.order} in {line.small}" if line.verdict == "holds-to-order" else ""
-    needs = f" if {'; '.join(premise.says for premise in line.premises)}" if line.premises else ""
+    how = "under" if line.verdict == "refuted" else "if"
+    needs = f" {how} {'; '.join(premise.says for premise in line.premises)}" if line.premises else ""
     return f"{line.relation.quantity}: {line.verdict}{order}{needs}"
 
 

@@ -13,6 +13,8 @@ from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import from_latex, readable
 from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict, point_text
 
+_LONGEST = 120  # characters of a difference that is shown in a line
+
 
 def in_words(verdict: Verdict, paper: Paper) -> str:
     """A verdict as a terminal shows it: printed, wrong, right, premises, domain, where it is derived."""
@@ -27,11 +29,13 @@ def in_words(verdict: Verdict, paper: Paper) -> str:
     rows += [("wrong", readable(statement.wrong))] if statement.wrong and verdict.verdict == "refuted" else []
     wrong = [line for line in verdict.lines if line.verdict in ("refuted", "undecided")]
     rows += [("line", ": ".join(filter(None, (line_text(line), point_text(line))))) for line in wrong]
+    rows += [("stated if", readable(premise.with_formula)) for premise in verdict.refuted_under]
     rows += [("right", line) for line in _lines(statement.correction)]
     rows += [("derived", line) for line in _lines(uncorrected(verdict), "derived")]
     rows += [("letters", _unsaid(name)) for name in _not_derived(uncorrected(verdict))]
     rows += [("correction", verdict.correction_verdict)] if verdict.correction_verdict else []
-    rows += [("if", readable(premise.with_formula)) for premise in verdict.premises]
+    needed = "right if" if verdict.verdict == "refuted" else "if"
+    rows += [(needed, readable(premise.with_formula)) for premise in verdict.premises]
     rows += [("domain", relation_text(relation)) for relation in verdict.domain]
     rows += [("dimensions", text) for text in dimension_texts(verdict)]
     rows += [("proved", theorem.text) for theorem in verdict.theorems]
@@ -71,7 +75,9 @@ def _printed(entry: Equation) -> list[str]:
 def line_text(line: LineVerdict) -> str:
     """What was decided of one member of a line, in plain text, and why."""
     text = f"{from_latex(line.relation.quantity)}: {line.verdict}".removeprefix(": ")
-    return f"{text}: {line.reason}" if line.reason else text
+    shown = "" if line.difference is None or line.reason else readable(str(line.difference))
+    reason = f"differs by {shown}" if 0 < len(shown) <= _LONGEST else line.reason
+    return f"{text}: {reason}" if reason else text
 
 
 def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
@@ -123,6 +129,7 @@ def verdict_data(verdict: Verdict, paper: Paper) -> dict[str, Any]:
         "derived_in": paper.derived_in(entry.id),
         "verdict": verdict.verdict,
         "premises": [premise_data(premise) for premise in verdict.premises],
+        "refuted_under": [premise_data(premise) for premise in verdict.refuted_under],
         "lines": [line_data(line) for line in verdict.lines],
         "order": verdict.order,
         "small": latex(verdict.small) if verdict.small else None,

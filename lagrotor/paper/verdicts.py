@@ -122,7 +122,7 @@ class LineVerdict:
     """What was decided of one member of one printed line, or of one line of a correction.
 
     Attributes:
-        premises: those that it needs.
+        premises: those that it needs; of what is refuted all that were assumed, under which its difference is stated.
         order, small: of a series.
         domain: relations that hold wherever both sides are defined and real.
         difference: of what is refuted, printed less derived under the premises; of matrices the entry `place`, of series the
@@ -217,6 +217,12 @@ class Verdict:
         return tuple(theorem for i, theorem in enumerate(found) if theorem not in found[:i])
 
     @property
+    def refuted_under(self) -> tuple[Premise, ...]:
+        """The premises under which refuted lines differ as stated, and under which the remarks on them are true."""
+        assumed = [premise for line in self.lines if line.verdict == "refuted" for premise in line.premises]
+        return tuple(premise for i, premise in enumerate(assumed) if premise not in assumed[:i])
+
+    @property
     def condition(self) -> str | None:
         """The premises as one sentence; None where nothing was assumed."""
         return "; ".join(premise.sentence for premise in self.premises) or None
@@ -238,7 +244,9 @@ def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
     where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
-    decided = (v.verdict, *(readable(p.with_formula) for p in v.premises), order, where, corrected)
+    under = (f"as stated if {readable(p.with_formula)}" for p in v.refuted_under)
+    needed = (f"{'corrected if ' if corrected else ''}{readable(p.with_formula)}" for p in v.premises)
+    decided = (v.verdict, *under, order, where, corrected, *needed)
     named = f"{v.id}: {v.statement.title}" if v.id else readable(str(v.statement.relations[0].printed))
     # What a paper says to be wrong is enough; an equation by itself has the point at which it was seen.
     seen = () if v.statement.wrong or v.verdict != "refuted" else tuple(map(point_text, v.lines))

@@ -24,7 +24,7 @@ from lagrotor.report.content import (
     notation,
     word,
 )
-from lagrotor.report.errata import errata
+from lagrotor.report.errata import errata, premise_formulas
 from lagrotor.report.facts import Fact, facts, figure_facts, linked_facts, note
 from lagrotor.report.results import balance, headlines, opening
 
@@ -146,9 +146,9 @@ def errata_blocks(report: Report) -> Iterator[Block]:
         yield Display(e.printed)
         yield [Bold(f"Correct ({e.verdict_of_correction}).")]
         yield from map(Display, e.corrected)
-        if e.premises:
-            yield [Bold("If:"), "; ".join(e.premises)]
-            yield from map(Display, e.put)
+        for label, premises in e.conditions:
+            yield [Bold(f"{label}:"), "; ".join(p.sentence for p in premises)]
+            yield from map(Display, premise_formulas(premises))
         yield ["Used by:", Links(e.used_by) if e.used_by else "none", f"– {e.reach}."]
 
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.papers import Paper
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdict_text import uncorrected
 from lagrotor.paper.verdicts import AGREES, Relation, Verdict
 from lagrotor.report.latex import END, head, latex_prose, tidy
@@ -15,7 +16,7 @@ from lagrotor.report.latex import END, head, latex_prose, tidy
 class Erratum:
     """One row: `cited` is its place in the paper; printed and corrected in LaTeX; `wrong` in a line; ids that use it.
 
-    premises: those under which the correction holds, in words; put: the same in LaTeX.
+    conditions: what is said if which premises hold.
     """
 
     id: str
@@ -28,8 +29,7 @@ class Erratum:
     used_by: tuple[str, ...]
     survives: bool
     letters: frozenset[str] = frozenset()
-    premises: tuple[str, ...] = ()
-    put: tuple[str, ...] = ()
+    conditions: tuple[tuple[str, tuple[Premise, ...]], ...] = ()
 
     @property
     def reach(self) -> str:
@@ -51,14 +51,27 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
                 title=entry.title,
                 printed=entry.latex,
                 corrected=correction_lines(verdict),
-                premises=tuple(premise.sentence for premise in verdict.premises),
-                put=tuple(r",\quad ".join(premise.tex) for premise in verdict.premises if premise.tex),
+                conditions=tuple(_conditions(verdict)),
                 wrong=statement.wrong,
                 verdict_of_correction=(verdict.correction_verdict or "as derived").replace("-", " "),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
                 survives=not verdict.reaches_result,
                 letters=frozenset(s.name for r in statement.correction for s in r.printed.free_symbols),
             )
+
+
+def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
+    """Yield the premises of the error and of its correction, together where the first include the second."""
+    stated, needed = verdict.refuted_under, verdict.premises
+    rows = [("Error if", stated), ("Correction if", needed)]
+    if needed and all(premise in stated for premise in needed):
+        rows = [("Error and correction if", stated)]
+    yield from (row for row in rows if row[1])
+
+
+def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
+    """Return the equations of premises in LaTeX, a line for each that has any."""
+    return tuple(r",\quad ".join(premise.tex) for premise in premises if premise.tex)
 
 
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
@@ -83,8 +96,13 @@ def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
     errors = list(errata(listed, paper))
     title = rf"\section*{{Errata to \emph{{{latex_prose(paper.title)}}}}}"
     summary = " ".join(latex_prose(text) for text in _summary(listed, errors, paper))
-    items = "\n".join(map(latex_item, errors)) or rf"\item {latex_prose('None.')}"
-    # Two pages: small print, and no more space between the items than a line of it.
+    premises = [premise for e in errors for _, given in e.conditions for premise in given]
+    assumed = [premise for i, premise in enumerate(premises) if premise not in premises[:i]]
+    if assumed:
+        named = [p.sentence if "=" in p.says else p.with_formula for p in assumed]
+        summary += " Premises: " + "; ".join(f"({n}) {latex_prose(text)}" for n, text in enumerate(named, 1)) + "."
+    items = "\n".join(latex_item(e, assumed) for e in errors) or rf"\item {latex_prose('None.')}"
+    # Small print, and no more space between the items than a line of it.
     sheet = [r"{\footnotesize\setlength{\parskip}{0pt}\raggedright", summary, r"\begin{enumerate}\itemsep 2pt", items]
     return "\n".join([head(f"Errata to {paper.title}", paper.about.preamble) + title, *sheet, r"\end{enumerate}}", END])
 
@@ -108,12 +126,13 @@ def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> It
         yield f"{reaching} of them change a result; no result depends on the other {len(errors) - reaching}."
 
 
-def latex_item(e: Erratum) -> str:
-    """One item: where it is, what is printed, what it should read, what was wrong."""
+def latex_item(e: Erratum, listed: list[Premise]) -> str:
+    """One item: where it is, what is printed, what it should read, what was wrong; premises by their place in a list."""
     reach = "" if e.survives else " This changes a result."
     right = r";\quad ".join(line.strip() for line in e.corrected)
-    put = " (" + ", ".join(f"${tidy(formula)}$" for formula in e.put) + ")" if e.put else ""
-    granted = f" If {latex_prose('; '.join(e.premises))}{put}." if e.premises else ""
+    granted = "".join(
+        f" {label} {', '.join(f'({listed.index(p) + 1})' for p in given)}." for label, given in e.conditions
+    )
     return (
         rf"\item \textbf{{{latex_prose(e.cited.capitalize())}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"
         rf"Printed: ${tidy(e.printed)}$\\ Should read: ${tidy(right)}$"

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrotor.paper.claim_tests import Result
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdict_text import dimension_texts, line_text
 from lagrotor.paper.verdicts import Verdict, point_tex, point_text
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word
-from lagrotor.report.errata import correction_lines
+from lagrotor.report.errata import correction_lines, premise_formulas
 
 
 @dataclass(frozen=True)
@@ -27,10 +28,11 @@ class Fact:
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
     """What is said of a verdict besides the two formulas; only what applies."""
     statement = verdict.statement
-    if verdict.condition:
-        yield Fact(
-            "Condition", (verdict.condition,), sources=tuple(r",\quad ".join(p.tex) for p in verdict.premises if p.tex)
-        )
+    is_refuted = verdict.verdict == "refuted"
+    if verdict.refuted_under:
+        yield _condition("Error as stated if", verdict.refuted_under)
+    if verdict.premises:
+        yield _condition("Correction holds if" if is_refuted else "Condition", verdict.premises)
     if verdict.order is not None and verdict.small is not None:
         yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
     if verdict.domain:
@@ -61,6 +63,10 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
     for label, ids in linked.items():
         if ids:
             yield Fact(label, ids=ids)
+
+
+def _condition(label: str, premises: tuple[Premise, ...]) -> Fact:
+    return Fact(label, ("; ".join(p.sentence for p in premises),), sources=premise_formulas(premises))
 
 
 _REACHES = {

@@ -13,6 +13,7 @@ from lagrotor.models import exact_orbit
 from lagrotor.pair import lagrangians
 from lagrotor.pair.notation import J, K, R, ell, k, m, omega, sigma
 from lagrotor.paper import Premise, Stated, Statement, decide, proof, scripts, stating
+from lagrotor.paper.rotor_pair.claims.natural_rates import coefficient
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.shared_premises import (
     EQUAL_SPINS,
@@ -166,3 +167,20 @@ def test_rates_depend_on_the_inertia_of_the_bar_for_opposite_spins_only() -> Non
     assert not in_parameters(names()["equal"]).cancel().has(K)
     assert names()["opposite_rate"].has(K)
     assert names()["single"].has(omega)
+
+
+@pytest.mark.parametrize(
+    ("mass", "inertia", "by_average", "by_parallel"), [(1, 1, -0.0955, -0.0725), (1, 0.1, -0.330, -0.364)]
+)
+def test_the_change_of_the_rate_is_by_the_average_inclination(
+    mass: float, inertia: float, by_average: float, by_parallel: float
+) -> None:
+    """The print has the average inclination; by that of parallel axes the exact orbits' change is another."""
+    bar = Link(1, mass, inertia)
+    big, coupled = Scene(spins=(10, -10), link=bar).inertias
+    put = {sigma: (big + coupled) / (big - coupled), k: 1}
+    measured, _ = coefficient((10, -10), bar)
+    assert measured == pytest.approx(by_average, abs=5e-4)
+    assert measured != pytest.approx(by_parallel, abs=5e-4)
+    assert float(names()["in_average"].subs(put)) == pytest.approx(by_average, abs=5e-4)
+    assert float(names()["curvature"].subs(put)) == pytest.approx(by_parallel, abs=5e-4)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lagrotor.numerics import mean_between, peak, spectrum, turn_means
+from lagrotor.numerics import first_passage, mean_between, peak, spectrum, turn_means
 
 
 def test_the_peak_of_a_known_sine():
@@ -31,3 +31,14 @@ def test_the_mean_over_whole_turns_is_the_centre():
     assert mean_between(t, x, 1.0, 1.0 + 3 * turn) == pytest.approx([0.3, -0.1], abs=1e-4)
     assert mean_between(t, x[:, 0], 1.0, 1.0 + 3 * turn) == pytest.approx(0.3, abs=1e-4)
     assert mean_between(t, x[:, 0], 1.0, 1.0 + 3.3 * turn) != pytest.approx(0.3, abs=1e-3)  # the twin
+
+
+def test_a_passage_is_between_samples():
+    """At 40 samples a second, as the claims read their runs: to 10⁻⁶ s; the sample after it, which is the twin, is not."""
+    t = 0.3 + np.arange(121) / 40
+    x = np.sin(1.7 * (t - 0.3)) ** 2
+    exact = 0.3 + np.arcsin(np.sqrt(0.4)) / 1.7
+    assert first_passage(t, x, 0.4) == pytest.approx(exact, abs=2e-6)
+    assert t[np.argmax(x > 0.4)] != pytest.approx(exact, abs=2e-3)
+    assert first_passage(t, x, 1.5) == np.inf and first_passage(t, x, -1.0) == t[0]
+    assert first_passage(t, np.sin(9 * t), 0.9999) < t[-1]  # a peak between two samples

@@ -12,6 +12,7 @@ import pytest
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.paper import claim_tests, papers
 from lagrotor.paper.claim_tests import claim_data
+from lagrotor.paper.letters import read_line
 from lagrotor.paper.rotor_pair.claims.shock_drift_and_centres import Pinched
 from lagrotor.paper.rotor_pair.claims.simulator import inverted_each_time
 from lagrotor.paper.rotor_pair.own_paper import PAPER
@@ -82,14 +83,14 @@ ORACLES = [
     ("C16", "exact_orbit_longest", 1, 1e-9),
     # Omega/Omega_0 = 1 − r_0²/4 and cos = 1 − r_0²/2.
     ("C17", "change_over_r0_squared", -0.75, 0.01),
-    ("C20", "rate_exact_rad_per_s", sqrt(20**2 + (P_40 * attenuated(16)) ** 2) / J, 2e-3),
+    ("C20", "rate_exact_over_8_s_rad_per_s", sqrt(20**2 + (P_40 * attenuated(16)) ** 2) / J, 2e-3),
     ("C20", "rate_after_small_shock_rad_per_s", 16, 1e-4),
     ("C21", "rate_after_small_shock_rad_per_s", 80 / 7, 1e-4),
     ("C21", "constant", J / 1.75, 1e-4),
     ("C21", "constant_light_bar", J / 1.255, 1e-4),
-    ("C22", "rate_after_small_shock_m_1_K_1", anti(1, 1), 1e-3),
-    ("C22", "rate_after_small_shock_m_0.01_K_0.1", anti(0.01, 0.1), 1e-3),
-    ("C22", "rate_after_small_shock_m_1_K_0.1", anti(1, 0.1), 1e-3),
+    ("C22", "rate_over_3.3_s_after_small_shock_m_1_K_1", anti(1, 1), 1e-3),
+    ("C22", "rate_over_3.3_s_after_small_shock_m_0.01_K_0.1", anti(0.01, 0.1), 1e-3),
+    ("C22", "rate_over_3.3_s_after_small_shock_m_1_K_0.1", anti(1, 0.1), 1e-3),
     ("C23", "coefficient_massless", -0.25, 0.01),
     ("C23", "coefficient_equal_spins_m_1_K_1", 0.5, 0.01),
     ("C24", "rate_rad_per_s", anti(1, 1), 1e-9),
@@ -209,12 +210,13 @@ def test_one_choice_of_stiffness_and_damping_gives_the_papers_other_numbers(resu
     n = 20
     energy, rates, single = (results[i].measured for i in ("C08", "C21", "C20"))
     assert energy["smallest_n_that_fits"] <= n <= energy["largest_n_that_fits"]
+    assert round(energy["highest_springs_J"], 2) == 100.45
     assert energy["stiffness_N_per_m"] == 2000 / n * 10**2
     assert energy["damping_kg_per_s"] == 500 / n * 10
     assert energy["step_limit_ms"] > 1 > energy["step_limit_light_bar_ms"]
     assert n <= rates["largest_n_that_gives_11.4"] < energy["largest_n_that_fits"]
-    assert round(rates[f"rate_springs_n_{n}_rad_per_s"], 1) == 11.4
-    assert round(single["rate_springs_rad_per_s"]) == 16
+    assert round(rates[f"rate_springs_n_{n}_over_3_s_rad_per_s"], 1) == 11.4
+    assert round(single["rate_springs_over_3_s_rad_per_s"]) == 16
 
 
 def test_stability_in_x_is_for_a_while(results):
@@ -224,11 +226,13 @@ def test_stability_in_x_is_for_a_while(results):
     assert m["turned_about_joint_line_rad_+x"] == pytest.approx(m["turned_about_joint_line_rad_-x"], rel=1e-2)
     assert m["fallen_in_x_after_s_-y"] < m["fallen_in_x_after_s_+x"] < m["not_fallen_within_s_+y"]
     assert "fallen_in_x_after_s_+y" not in m
-    # Another model, in other coordinates: read at the same times, 1/40 s apart.
+    # The theorem of the claim encloses the crossing, from t = 0: [9.0265 ± 6.6e-5] s.
+    assert m["fallen_in_x_after_s_-y"] == pytest.approx(9.0265 - 0.2, abs=1.4e-4)
+    # Another model, in other coordinates, read 20 times as often as the claim reads it.
     scene = Scene((10, -10), link=Link(mass=1, inertia=1), shock=Shock((0, -50, 0), 0.2, 1 / 50))
-    t = np.linspace(0.3, 10, 971)
-    x = abs(simulate(scene, [0.0, *t], "minimal", 1e-10).after(0.3).axes[..., 0]).max(0)
-    assert m["fallen_in_x_after_s_-y"] == pytest.approx(t[np.argmax(x > 0.5)] - 0.2, abs=0.04)
+    t = np.linspace(8.9, 9.1, 161)
+    x = abs(simulate(scene, [0.0, *t], "minimal", 1e-10).after(8.9).axes[..., 0]).max(0)
+    assert m["fallen_in_x_after_s_-y"] == pytest.approx(t[np.argmax(x > 0.5)] - 0.2, abs=1.3e-3)
     assert m["fallen_in_x_after_s_-y_springs"] == pytest.approx(m["fallen_in_x_after_s_-y"], rel=0.03)
     assert m["power_of_shock_in_toppling_rate_x"] == pytest.approx(2, abs=0.1)
     assert m["power_of_shock_in_time_x"] == pytest.approx(-3, abs=0.3)
@@ -327,3 +331,50 @@ def test_record(results, identifier):
     # A reader sees letters, not the names of a program.
     sentences = " ".join(filter(None, [row["explanation"], row["condition"], *(part["says"] for part in row["parts"])]))
     assert not any(name in sentences for name in ("_0", "_1", "_2", "phi", "theta", "Omega", "omega", "e-"))
+
+
+@pytest.mark.parametrize(
+    ("digits", "inside", "outside"),
+    [("16", (15.51, 16.1837, 16.49), (15.49, 16.51)), ("11.4", (11.3504, 11.4286), (11.4665, 11.34)),
+     ("100.45", (100.4459, 100.4549), (100.4448, 100.4551)), ("-0.5", (-0.45001, -0.54999), (-0.4, 0.5))],
+)  # fmt: skip
+def test_a_printed_number_stands_for_what_rounds_to_it(digits, inside, outside):
+    printed = claim_tests.PrintedNumber(digits)
+    assert all(map(printed.is_matched, inside)) and not any(map(printed.is_matched, outside))
+    places = len(digits.partition(".")[2])
+    assert all(round(number, places) == printed for number in inside)
+    assert digits in printed.rule
+
+
+def test_the_rule_for_printed_numbers_is_that_of_the_equations_and_is_said(results):
+    """The relative error that the catalogue allows a number that is read off is half a unit of its last digit, as in claims."""
+    for digits in ("11.4", "0.57", "16", "100.45"):
+        line = read_line({"quantity": "x", "read_off": digits}, {}, "a line")
+        printed = claim_tests.PrintedNumber(digits)
+        assert float(line.within) == pytest.approx(printed.half_unit / printed, rel=1e-12)
+    said = {i: results[i].finding.explanation for i in ("C06", "C08", "C20", "C21")}
+    assert "100 as printed stands for 99.5 to 100.5 J" in said["C06"] and "100.445 to 100.455 J" in said["C08"]
+    assert "16 as printed stands for 15.5 to 16.5 rad/s" in said["C20"] and "11.35 to 11.45 rad/s" in said["C21"]
+    assert "slowly is by less than 1 rad in a period of the natural rate" in results["C11"].finding.explanation
+
+
+def test_the_same_rule_decides_16_and_11_4(results):
+    """16.18 rounds to 16 and 11.467 does not to 11.4; with their numbers exchanged for nearer or farther ones both turn."""
+    for identifier, key, near, far in (
+        ("C20", "rate_exact_over_8_s_rad_per_s", 16.49, 16.51),
+        ("C21", "rate_exact_over_8_s_rad_per_s", 11.449, 11.451),
+    ):
+        decided = [
+            TESTS[identifier].decide({**results[identifier].measured, key: rate}).parts[0] for rate in (near, far)
+        ]
+        assert [part.holds for part in decided] == [True, False]
+
+
+def test_times_are_crossings(results):
+    """Each time lies between two samples of its curve, where linear interpolation of a run read ten times as often has it."""
+    seen = results["C01"].measured["seconds_until_axes_part_by_0.1_shock_across_bar"]
+    scene = Scene((10, 10), link=Link(mass=1, inertia=1), shock=Shock((0, 50, 0), 0.2, 1 / 50))
+    t = np.linspace(0.35, 0.45, 401)
+    axes = simulate(scene, [0.0, *t], "minimal", 1e-11).after(0.35).axes
+    parted = 2 * np.arcsin(np.linalg.norm(axes[1] - axes[0], axis=-1) / 2)
+    assert seen == pytest.approx(np.interp(0.1, parted, t) - 0.2, abs=1e-5) == pytest.approx(0.1834, abs=5e-5)

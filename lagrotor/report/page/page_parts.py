@@ -8,7 +8,7 @@ from lagrotor.paper.latex.readings import typeset_lines
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, as_read, derived_heading, derived_lines
-from lagrotor.report.errata import Erratum
+from lagrotor.report.errata import Erratum, premise_formulas
 from lagrotor.report.facts import facts, figure_facts, linked_facts
 from lagrotor.report.page.derivation_pages import link_to_derivation
 from lagrotor.report.page.embed import size
@@ -63,7 +63,9 @@ def reading_of(entry: Equation, report: Report) -> str:
 def erratum_entry(e: Erratum) -> str:
     """Printed, correct, what was wrong, how far it reaches."""
     correct = "".join(map(typeset, e.corrected))
-    correct += f"<p>If {prose('; '.join(e.premises))}.</p>{''.join(map(typeset, e.put))}" if e.premises else ""
+    for label, premises in e.conditions:
+        put = "".join(map(typeset, premise_formulas(premises)))
+        correct += f"<p>{label} {prose('; '.join(p.sentence for p in premises))}.</p>{put}"
     return (
         f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
         f"{_beside('Printed', typeset(e.printed), f'Correct ({escape(e.verdict_of_correction)})', correct)}"

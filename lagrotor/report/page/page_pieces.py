@@ -14,7 +14,7 @@ from lagrotor.report.facts import Fact
 from lagrotor.report.formulas.mathml_latex import converter, mathml
 
 # Left by `readable`: an index that is not a number, a power that is not whole, a name of the program.
-_INDEX = re.compile(r"(?<![\w&])([A-Za-zͰ-Ͽ][\u0307\u0308]?)_([A-Za-z0-9]+)")
+_INDEX = re.compile(r"(?<![\w&])([A-Za-zͰ-Ͽ][\u0307\u0308]?)_([A-Za-z0-9]+(?:_[A-Za-z0-9]+)*)")
 _POWER = re.compile(r"\^(−?[\w.]+\w|−?\w|\([^()]*\))")
 _CODE = re.compile(r"(?<![\w&.])([A-Za-z][A-Za-z0-9]+(?:_\w+)+)")
 
@@ -32,7 +32,8 @@ def prose(text: str) -> str:
 def _plain(text: str) -> str:
     html = escape(readable(text))
     html = _CODE.sub(r"<code>\1</code>", html)
-    return _POWER.sub(r"<sup>\1</sup>", _INDEX.sub(r"\1<sub>\2</sub>", html))
+    indexed = _INDEX.sub(lambda match: f"{match[1]}<sub>{match[2].replace('_', ',')}</sub>", html)
+    return _POWER.sub(r"<sup>\1</sup>", indexed)
 
 
 def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:

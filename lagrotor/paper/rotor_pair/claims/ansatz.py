@@ -252,10 +252,10 @@ def decide_c17(m: Mapping[str, float]) -> Finding:
     """The change of the rate over r₀²."""
     return Finding(
         (Part(SAME_RATE, abs(m["change_over_r0_squared"]) < UNCHANGED),),
-        f"The exact rate is that of constant inclination times 1 {m['change_over_r0_squared']:+.3f} r₀² (the change goes as "
-        f"r₀ to the power {m['order_of_change']:.2f}); at r₀ = {PAPER_R0} it is "
-        f"{m[f'rate_over_constant_inclination_r0_{PAPER_R0}']:.4f} of it, and {m[f'rate_over_natural_r0_{PAPER_R0}']:.4f} of "
-        "the natural rate.",
+        f"Unchanged is within {UNCHANGED} r₀². The exact rate is that of constant inclination times 1 "
+        f"{m['change_over_r0_squared']:+.3f} r₀² (the change goes as r₀ to the power {m['order_of_change']:.2f}); at r₀ = "
+        f"{PAPER_R0} it is {m[f'rate_over_constant_inclination_r0_{PAPER_R0}']:.4f} of it, and "
+        f"{m[f'rate_over_natural_r0_{PAPER_R0}']:.4f} of the natural rate.",
     )
 
 

@@ -138,7 +138,7 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
         f"{m['oscillations']:.0f} oscillation at {m['rate_rad_per_s']:.3f} rad/s, with x₂ : x₁ = "
         f"{m['wave_ratio_x_2_to_x_1']:+.3f} and y₂ : y₁ = {m['wave_ratio_y_2_to_y_1']:+.3f}, and {m['zero_roots']:.0f} zero "
         f"roots: {m['displacements_at_rest']:.0f} displacements at rest and {m['steady_turnings']:.0f} steady turning, along "
-        f"y₂ : y₁ = {m['slope_ratio_y_2_to_y_1']:+.4f}. A run is made of these to "
+        f"y₂ : y₁ = {m['slope_ratio_y_2_to_y_1']:+.4f}. A run of 8 s is made of these to "
         f"{scientific(m['left_by_one_line_and_a_slope_relative'])} of its motion. To first order the pair has three "
         "degrees of freedom: paired precession, which oscillates; steady turning about the joint line; and the displacement "
         "of the precession centre (in x and in the twist), which has no rate and stays where a shock leaves it, here at x = "

@@ -13,7 +13,7 @@ from lagrotor.numerics.curves import best_harmonics, measured_order
 from lagrotor.pair.examples import HEAVY_LINK, LIGHT, STEP
 from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
-from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
+from lagrotor.paper.claim_tests import ClaimTest, Finding, Part, PrintedNumber
 from lagrotor.paper.rotor_pair.claims.proved_parts import coupled_rates, not_followed, over_cosine, single_rate
 from lagrotor.paper.rotor_pair.shocked_runs import (
     AMPLITUDES,
@@ -33,12 +33,12 @@ from lagrotor.theory.natural_rate import natural_rate
 # and the inertia of the other.
 BARS = {"m_1_K_1": HEAVY_LINK, "m_0.01_K_0.1": LIGHT, "m_1_K_0.1": Link(1, 1, 0.1)}
 _PAPER, _SMALL, WIDTH = 40.0, 0.4, 1 / 20  # N, the shock of the listings and one a hundred times smaller; s
-SINGLE, _HALF_UNIT = 16.0, 0.5  # rad/s, printed without decimals
-COUPLED, HALF_TENTH = 11.4, 0.05  # rad/s, printed with one decimal
-CONSTANT, OF_CONSTANT = 0.7125, 0.05 / 16  # 11.4/16; half a unit of 11.4, over 16
+SINGLE, COUPLED = PrintedNumber("16"), PrintedNumber("11.4")  # rad/s
+CONSTANT = 0.7125  # 11.4/16, with the digits of 11.4
 OPPOSITE_RATE = 10 * 4 / 5 * CONSTANT  # rad/s, 5.7, printed 0.57
 FEW = 3  # cycles: "the first few" are three at least
-OVER_COSINE, _HALF_DECIMAL = 0.5, 0.05  # c of 1/cos θ = 1 + θ²/2, to half a unit of its decimal
+OVER_COSINE = PrintedNumber("0.5")  # c of 1/cos θ = 1 + θ²/2
+SPRINGS_SECONDS = 3.0  # s of the paper's program over which its rate is fitted
 WEAK = 5.0  # N
 OF_SPRINGS = (10, 20, 40, 80)  # n of S = 2·10⁵/n N/m, D = 5·10³/n kg/s (ω_s = 10 rad/s), stable at 1 ms, see C08
 
@@ -62,9 +62,9 @@ def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = P
 
 
 def _rate_of_springs(spins: Spins, bar: Link | None, n: int = 20) -> float:
-    """The same rate over 3 s of the paper's program."""
+    """The same rate over the first seconds of the paper's program."""
     scene = _scene(spins, bar, _PAPER)
-    t = np.round(shock_of(scene).at + np.arange(17, 151) * 0.02, 3)
+    t = np.round(shock_of(scene).at + np.arange(17, round(50 * SPRINGS_SECONDS) + 1) * 0.02, 3)
     run = run_steps(paper_system(scene, 2e5 / n, 5e3 / n), scene.shock, np.append(0, t), STEP)
     return best_harmonics(t, run.axes[0, 1:, 0], natural_rate(scene)).rate
 
@@ -73,8 +73,8 @@ def measure_c20(spins: Spins) -> dict[str, float]:
     """The rate of one rotor after the paper's shock, exactly and with springs, and after a small one."""
     rate, farthest = rate_of_run(spins, None, _PAPER)
     return {
-        "rate_exact_rad_per_s": rate,
-        "rate_springs_rad_per_s": _rate_of_springs(spins, None),
+        "rate_exact_over_8_s_rad_per_s": rate,
+        "rate_springs_over_3_s_rad_per_s": _rate_of_springs(spins, None),
         "rate_after_small_shock_rad_per_s": rate_of_run(spins, None, _SMALL)[0],
         "amplitude": farthest,
         "rate_by_G_over_J_cos_rad_per_s": natural_rate(Scene(spins, link=None)) / (1 - farthest**2) ** 0.5,
@@ -84,12 +84,15 @@ def measure_c20(spins: Spins) -> dict[str, float]:
 
 def decide_c20(m: Mapping[str, float]) -> Finding:
     """The three rates against 16."""
-    exact, springs, small = (m[f"rate_{way}_rad_per_s"] for way in ("exact", "springs", "after_small_shock"))
+    exact, springs, small = (
+        m[f"rate_{way}_rad_per_s"] for way in ("exact_over_8_s", "springs_over_3_s", "after_small_shock")
+    )
     return Finding(
-        (Part(AT_16, all(abs(rate - SINGLE) < _HALF_UNIT for rate in (exact, springs, small))),),
-        f"{exact:.3f} rad/s exactly, {springs:.3f} with springs over the first 3 s (over longer times less, figure 25, since "
-        f"their dampers take the amplitude), {small:.4f} after a small shock; the excess comes from the "
-        f"amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. By the "
+        (Part(AT_16, all(map(SINGLE.is_matched, (exact, springs, small)))),),
+        f"{SINGLE.rule} rad/s. Fitted: {exact:.3f} rad/s exactly over 8 s, {exact / SINGLE - 1:.1%} above it; "
+        f"{springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s (over longer times less, figure 25, since their "
+        f"dampers take the amplitude); {small:.4f} after a small shock. The excess comes from the amplitude: G/(J cos θ) = "
+        f"{m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. By the "
         f"end of 8 s sin 16(t − 2) is {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle behind.",
     )
 
@@ -102,12 +105,9 @@ def measure_c21(spins: Spins) -> dict[str, float]:
     by_n = {n: _rate_of_springs(spins, HEAVY_LINK, n) for n in OF_SPRINGS}
     J, G = Scene(spins).rotor.J, abs(spins[0])
     return {
-        **{f"rate_springs_n_{n}_rad_per_s": seen for n, seen in by_n.items()},
-        "rate_springs_rad_per_s": by_n[20],
-        "largest_n_that_gives_11.4": max(
-            (n for n, seen in by_n.items() if abs(seen - COUPLED) < HALF_TENTH), default=0
-        ),
-        "rate_exact_rad_per_s": rate,
+        **{f"rate_springs_n_{n}_over_3_s_rad_per_s": seen for n, seen in by_n.items()},
+        "largest_n_that_gives_11.4": max((n for n, seen in by_n.items() if COUPLED.is_matched(seen)), default=0),
+        "rate_exact_over_8_s_rad_per_s": rate,
         "rate_after_small_shock_rad_per_s": natural["m_1_K_1"],
         "rate_of_one_rotor_rad_per_s": single,
         "constant": natural["m_1_K_1"] / single,
@@ -115,33 +115,36 @@ def measure_c21(spins: Spins) -> dict[str, float]:
         "constant_light_bar": natural["m_0.01_K_0.1"] / single,
         "constant_bar_K_0.1": natural["m_1_K_0.1"] / single,
         "J_over_J_plus_half_m": J / (J + HEAVY_LINK.mass / 2),
-        "least_mass_that_gives_11.4_kg": 2 * (G / (COUPLED + HALF_TENTH) - J),
-        "greatest_mass_that_gives_11.4_kg": 2 * (G / (COUPLED - HALF_TENTH) - J),
+        "least_mass_that_gives_11.4_kg": 2 * (G / (COUPLED + COUPLED.half_unit) - J),
+        "greatest_mass_that_gives_11.4_kg": 2 * (G / (COUPLED - COUPLED.half_unit) - J),
     }
 
 
 def _constant(m: Mapping[str, float]) -> Part:
     """The constant at these spins, at half of them, and with other bars."""
     constants = m["constant"], m["constant_at_half_the_spins"]
-    same = all(abs(constant - CONSTANT) < OF_CONSTANT for constant in constants)
-    every_bar = all(abs(m[f"constant_{bar}"] - m["constant"]) < OF_CONSTANT for bar in ("light_bar", "bar_K_0.1"))
+    within = COUPLED.half_unit / SINGLE
+    same = all(abs(constant - CONSTANT) < within for constant in constants)
+    every_bar = all(abs(m[f"constant_{bar}"] - m["constant"]) < within for bar in ("light_bar", "bar_K_0.1"))
     needs = "equal spins and a bar of mass 1 kg, of any inertia: 11.4/16 is a constant of that bar"
     return Part(OF_COUPLING, same and every_bar, needs if same else "")
 
 
 def decide_c21(m: Mapping[str, float]) -> Finding:
     """Rates with springs, exactly and after a small shock, against 11.4; the constant, which is that of one rotor's 16."""
-    springs, small, exact = (m[f"rate_{way}_rad_per_s"] for way in ("springs", "after_small_shock", "exact"))
-    at_11_4 = [abs(rate - COUPLED) < HALF_TENTH for rate in (springs, small, exact)]
+    ways = ("springs_n_20_over_3_s", "after_small_shock", "exact_over_8_s")
+    springs, small, exact = (m[f"rate_{way}_rad_per_s"] for way in ways)
+    at_11_4 = [COUPLED.is_matched(rate) for rate in (springs, small, exact)]
     needs = (
         f"a small amplitude, or the paper's springs: with rigid joints it is {exact:.3f} rad/s under the paper's "
         f"{_PAPER:.0f} N"
     )
-    by_n = [m[f"rate_springs_n_{n}_rad_per_s"] for n in OF_SPRINGS]
+    by_n = [m[f"rate_springs_n_{n}_over_3_s_rad_per_s"] for n in OF_SPRINGS]
     return Finding(
         (Part(AT_11_4, all(at_11_4), needs if all(at_11_4[:2]) else ""), _constant(m)),
-        f"{springs:.3f} rad/s with springs, {small:.3f} exactly after a small shock, but {exact:.3f} exactly after the "
-        f"paper's {_PAPER:.0f} N, {exact - COUPLED:+.3f} off 11.4: the finite amplitude adds {exact - small:.3f}, and the "
+        f"{COUPLED.rule} rad/s, and 0.7125 for these over 16. Fitted: {springs:.3f} rad/s with springs over the first "
+        f"{SPRINGS_SECONDS:.0f} s, {small:.3f} exactly after a small shock, but {exact:.3f} exactly over 8 s after the paper's "
+        f"{_PAPER:.0f} N, {exact / COUPLED - 1:.1%} above 11.4: the finite amplitude adds {exact - small:.3f}, and the "
         f"softness of the springs takes {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f}; the "
         f"constant is {m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them, "
         f"J/(J + m R²/2) = {m['J_over_J_plus_half_m']:.4f}. It is set by the mass of the bar, whatever its inertia "
@@ -158,12 +161,12 @@ def measure_c22(spins: Spins) -> dict[str, float]:
     for name, bar in BARS.items():
         for shock, force in (("40_N", _PAPER), ("small_shock", _SMALL)):
             rate, _ = rate_of_run(spins, bar, force, FEW * 2 * pi / OPPOSITE_RATE)
-            measured[f"rate_after_{shock}_{name}"] = rate
+            measured[f"rate_over_3.3_s_after_{shock}_{name}"] = rate
             off = max(abs(rate - OPPOSITE_RATE), 1e-12)
             measured[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * off)
     J, G = Scene(spins).rotor.J, spins[0]
     return measured | {
-        "rate_springs_m_1_K_1": _rate_of_springs(spins, HEAVY_LINK),
+        "rate_springs_over_3_s_m_1_K_1": _rate_of_springs(spins, HEAVY_LINK),
         "inertia_that_mass_1_needs_kg_m2": ((G / OPPOSITE_RATE) ** 2 / (J + 0.5) - J) / 2,
         "rate_of_equal_spins_m_1": abs(G) / (J + 0.5),
     }
@@ -177,8 +180,8 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
     small, large, cycles, more = (
         [m[f"{key}_{name}"] for name in BARS]
         for key in (
-            "rate_after_small_shock",
-            "rate_after_40_N",
+            "rate_over_3.3_s_after_small_shock",
+            "rate_over_3.3_s_after_40_N",
             "cycles_within_a_quarter_after_40_N",
             "cycles_within_a_quarter_after_small_shock",
         )
@@ -188,13 +191,14 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
     return Finding(
         (Part(FOLLOWS, all(follows), bar),),
         f"The rates after a small shock are {small[0]:.3f}, {small[1]:.3f}, {small[2]:.3f} rad/s for m, K = 1, 1; 0.01, 0.1; 1, "
-        f"0.1; after 40 N {large[0]:.3f} ({m['rate_springs_m_1_K_1']:.3f} with springs), {large[1]:.3f}, {large[2]:.3f}. "
-        f"A sine of {OPPOSITE_RATE:.1f} rad/s keeps within a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, "
-        f"{cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, {more[1]:.1f}, {more[2]:.1f}), while the first few would be "
-        f"{FEW} at least. The third bar, with the mass of the first and the inertia of the second, is in no listing. With m "
-        f"= 1 kg the constant would need K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not "
-        "list; "
-        f"equal spins of 10 rad/s have {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
+        f"0.1. After 40 N they change in time; fitted over the first {FEW} cycles of the wave, "
+        f"{FEW * 2 * pi / OPPOSITE_RATE:.1f} s, they are {large[0]:.2f} ({m['rate_springs_over_3_s_m_1_K_1']:.2f} with springs "
+        f"over {SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} rad/s. A sine of {OPPOSITE_RATE:.1f} rad/s keeps within "
+        f"a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, {cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, "
+        f"{more[1]:.1f}, {more[2]:.1f}), while the first few would be {FEW} at least. The third bar, with the mass of the first "
+        "and the inertia of the second, is in no listing. With m = 1 kg the constant would need K = "
+        f"{m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list; equal spins of 10 rad/s have "
+        f"{m['rate_of_equal_spins_m_1']:.3f} rad/s.",
     )
 
 
@@ -206,7 +210,7 @@ C20 = ClaimTest(
     "one rotor, exact (spheres) and with springs",
     measure_c20,
     decide_c20,
-    lambda spins: single_rate(AT_16, spins, SINGLE, _HALF_UNIT),
+    lambda spins: single_rate(AT_16, spins, SINGLE),
 )
 C21 = ClaimTest(
     "C21",
@@ -215,7 +219,7 @@ C21 = ClaimTest(
     _EXACT,
     measure_c21,
     decide_c21,
-    lambda spins: coupled_rates(AT_11_4, spins, HEAVY_LINK, COUPLED, HALF_TENTH),
+    lambda spins: coupled_rates(AT_11_4, spins, HEAVY_LINK, COUPLED),
     "that the ratio is a constant is said of every spin and bar",
 )
 C22 = ClaimTest(
@@ -255,7 +259,7 @@ def _after_shock(spins: Spins, bar: Link) -> float:
     """c after a weak shock along x from rest, over three cycles; θ̄ of half the swing of x."""
     scene = shocked_scene(spins, (WEAK, 0, 0), bar, 1 / 20)
     natural, after = natural_rate(scene), shock_of(scene).at + 0.33
-    times = after + np.linspace(0, 3 * 2 * np.pi / natural, 201)
+    times = after + np.linspace(0, FEW * 2 * np.pi / natural, 201)
     run = simulate(scene, [0.0, *times], "spheres", 1e-11).after(after)
     x = run.axes[0, :, 0]
     return float((best_harmonics(run.t, x, natural).rate / natural - 1) / (np.ptp(x) / 2) ** 2)
@@ -263,7 +267,7 @@ def _after_shock(spins: Spins, bar: Link) -> float:
 
 def measure_c23(spins: Spins) -> dict[str, float]:
     """c for four bars on orbits, for three after a shock, and for equal spins."""
-    measured = {f"coefficient_after_shock_{name}": _after_shock(spins, bar) for name, bar in BARS.items()}
+    measured = {f"coefficient_over_3_cycles_after_shock_{name}": _after_shock(spins, bar) for name, bar in BARS.items()}
     for name, bar in ({"massless": MASSLESS} | BARS).items():
         measured[f"coefficient_{name}"], measured[f"order_{name}"] = coefficient(spins, bar)
     measured["coefficient_equal_spins_m_1_K_1"], measured["order_equal_spins_m_1_K_1"] = coefficient(
@@ -275,16 +279,16 @@ def measure_c23(spins: Spins) -> dict[str, float]:
 def decide_c23(m: Mapping[str, float]) -> Finding:
     """c against that of 1/cos θ, for every bar; and for equal spins."""
     own = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
-    shock = [m[f"coefficient_after_shock_{name}"] for name in BARS]
+    shock = [m[f"coefficient_over_3_cycles_after_shock_{name}"] for name in BARS]
     equal = m["coefficient_equal_spins_m_1_K_1"]
-    needs = "equal spins with parallel axes" if abs(equal - OVER_COSINE) < _HALF_DECIMAL else ""
+    needs = "equal spins with parallel axes" if OVER_COSINE.is_matched(equal) else ""
     return Finding(
-        (Part(_COSINE, all(abs(c - OVER_COSINE) < _HALF_DECIMAL for c in own), needs),),
-        f"The rate is the natural one times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5. Measured: "
-        f"{own[0]:+.3f} massless, {own[1]:+.3f}, {own[2]:+.3f}, {own[3]:+.3f} for m, K = 1, 1; 0.01, 0.1; 1, 0.1 (the change "
-        f"goes as θ to the power {m['order_massless']:.2f}); for equal spins with parallel axes {equal:+.3f}. After a shock "
-        "along x from rest, which leaves the centres of precession twisted apart, c is "
-        f"{shock[0]:+.2f}, {shock[1]:+.2f}, {shock[2]:+.2f}: its sign depends on the twist.",
+        (Part(_COSINE, all(map(OVER_COSINE.is_matched, own)), needs),),
+        "The rate is the natural one times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5, and c from 0.45 to "
+        f"0.55 counts as that. Measured: {own[0]:+.3f} massless, {own[1]:+.3f}, {own[2]:+.3f}, {own[3]:+.3f} for m, K = 1, 1; "
+        f"0.01, 0.1; 1, 0.1 (the change goes as θ to the power {m['order_massless']:.2f}); for equal spins with parallel axes "
+        f"{equal:+.3f}. After a shock along x from rest, which leaves the centres of precession twisted apart, c over the first "
+        f"{FEW} cycles is {shock[0]:+.2f}, {shock[1]:+.2f}, {shock[2]:+.2f}: its sign depends on the twist.",
     )
 
 

@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.curves import mean_between
+from lagrotor.numerics.curves import first_passage, mean_between
 from lagrotor.pair.examples import HEAVY_LINK
 from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link
@@ -59,7 +59,7 @@ def measure_c01(spins: Spins) -> dict[str, float]:
         "displacement_by_equation_7": shock_of(run.scene).impulse[0] / (abs(spins[0]) + abs(spins[1])),
         "angle_of_axes_shock_along_bar_rad": angle_between(run.axes).max(),
         "angle_of_axes_shock_across_bar_rad": parted.max(),
-        "seconds_until_axes_part_by_0.1_shock_across_bar": across.t[np.argmax(parted > _PARTED)]
+        "seconds_until_axes_part_by_0.1_shock_across_bar": first_passage(across.t, parted, _PARTED)
         - shock_of(across.scene).at,
     }
     for i in (0, 1):
@@ -82,13 +82,13 @@ def decide_c01(m: Mapping[str, float]) -> Finding:
             Part(SAME_SENSE, m["precession_1_rad_per_s"] * m["precession_2_rad_per_s"] > 0),
             Part(REMAINS, all(stays) and all(seen)),
         ),
-        f"The axes precess at {m['precession_1_rad_per_s']:+.2f} and {m['precession_2_rad_per_s']:+.2f} rad/s; their mean "
-        f"positions in the last {CYCLES} cycles of 12 s are displaced by {last[0]:+.4f} and {last[1]:+.4f} across the shock "
-        f"(in the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}); "
-        f"(7) gives {m['displacement_by_equation_7']:.4f}. The axes are parallel at all times (section 5) for this shock "
-        f"along the bar, to {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. The same shock across the bar on one "
-        f"tip parts them by {_PARTED} rad within {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.2f} s and by "
-        f"{m['angle_of_axes_shock_across_bar_rad']:.2f} rad within 12 s: equal spins do not keep the axes parallel.",
+        f"In 12 s the axes precess at {m['precession_1_rad_per_s']:+.2f} and {m['precession_2_rad_per_s']:+.2f} rad/s; their "
+        f"mean positions in the last {CYCLES} cycles of 12 s are displaced by {last[0]:+.4f} and {last[1]:+.4f} across the "
+        f"shock (in the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}); "
+        f"(7) gives {m['displacement_by_equation_7']:.4f}. The axes are parallel at all times (section 5) for this shock along "
+        f"the bar, to {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. The same shock across the bar on one tip parts "
+        f"them by {_PARTED} rad {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.3f} s after its peak, and by "
+        f"{m['angle_of_axes_shock_across_bar_rad']:.2f} rad at most within 12 s: equal spins do not keep the axes parallel.",
     )
 
 
@@ -123,10 +123,10 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
             Part(ONE_GYROSCOPE, all(abs(ratio - 1) < _ALIKE for ratio in drifts)),
             Part(AS_WITHOUT_SPIN, all(abs(ratio - 1) < _ALIKE for ratio in responses)),
         ),
-        f"The displacement after a weak shock over that of (7) is {drifts[0]:.3f} for spins 10 and 10 rad/s, "
-        f"{drifts[1]:.3f} for 10 and 5. But with spins 10 and −10, within 2.4 s of a shock along x, the axes reach x = "
-        f"{m['largest_x']:.3f}, without spins {m['largest_x_without_spins']:.3f}: {responses[0]:.2f} of it. Only the "
-        f"turning about the joint line, after a shock along y, is alike (ratio {responses[1]:.2f}).",
+        f"The mean displacement over {CYCLES} cycles after a weak shock, over that of (7), is {drifts[0]:.3f} for spins 10 and "
+        f"10 rad/s, {drifts[1]:.3f} for 10 and 5. But with spins 10 and −10, within 2.4 s of a shock along x, the axes reach x "
+        f"= {m['largest_x']:.3f}, without spins {m['largest_x_without_spins']:.3f}: {responses[0]:.2f} of it. Only the turning "
+        f"about the joint line within 2.4 s of a shock along y is alike (ratio {responses[1]:.2f}; alike is within a tenth).",
     )
 
 

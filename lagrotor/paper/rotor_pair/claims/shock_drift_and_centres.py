@@ -100,7 +100,7 @@ def decide_c18(m: Mapping[str, float]) -> Finding:
     shared = [near and by > VISIBLE for near, by in zip(alike, narrower, strict=True)]
     return Finding(
         (Part(VALLEYS, shared[0]), Part(PEAKS, shared[1])),
-        f"Second over first harmonic, in phase: {m['second_over_first_x_1']:+.4f} in x₁, "
+        f"Second over first harmonic, in phase, fitted over the 8 s: {m['second_over_first_x_1']:+.4f} in x₁, "
         f"{m['second_over_first_x_2']:+.4f} in x₂; the formula has ∓{formula:.4f} at r₀ = {m['amplitude_r0']:.3f}: the signs "
         f"{'agree' if min(ratios) > 0 else 'do not agree'}, the sizes are {ratios[0]:.2f} and {ratios[1]:.2f} of the "
         f"formula's, {'' if all(alike) else 'not both '}nearer to it than to a plain sine, which has none. Valleys of x₁ are "
@@ -179,13 +179,13 @@ def decide_c19(m: Mapping[str, float]) -> Finding:
             Part(_SMALL, abs(m["skew_deg"]) < SMALL_ANGLE),
             Part(AGREE, printed < min(plain, MOTION), needs if mended else ""),
         ),
-        f"The centres lie at {m['skew_deg']:+.1f}° to x, which the paper calls a small angle: components of y make "
-        f"{m['share_of_y_in_x']:.0%} of x projected so (an angle is used as a small one up to {SMALL_ANGLE:.0f}°, where sin α is "
-        "α within one part in a hundred). The printed formula leaves "
-        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after projection on that axis, "
-        f"with the missing ± r₀² {corrected:.1%}; with the centres free, hence for the shape, "
-        f"{m['left_unprojected_shape']:.1%} before and {shape:.1%} after, where a plain sine leaves {plain:.1%}: the second "
-        f"harmonic accounts for {1 - (shape / plain) ** 2:.0%} of the square of that. The amplitude along that axis is "
+        f"Fitted over the 8 s after the shock, the centres lie at {m['skew_deg']:+.1f}° to x, which the paper calls a small "
+        f"angle: components of y make {m['share_of_y_in_x']:.0%} of x projected so (an angle is used as a small one up to "
+        f"{SMALL_ANGLE:.0f}°, where sin α is α within one part in a hundred). The printed formula leaves "
+        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after projection on that axis, with the "
+        f"missing ± r₀² {corrected:.1%}; with the centres free, hence for the shape, {m['left_unprojected_shape']:.1%} before "
+        f"and {shape:.1%} after, where a plain sine leaves {plain:.1%}: the second harmonic accounts for "
+        f"{1 - (shape / plain) ** 2:.0%} of the square of that. The amplitude along that axis is "
         f"{m['amplitude_along_the_skew_axis']:.3f}; figure 21 has {PAPER_R0}.",
     )
 

@@ -181,7 +181,8 @@ def decide_c05(m: Mapping[str, float]) -> Finding:
             Part(LINKED, kept and m["largest_gap_m"] == 0, needs if kept else ""),
             Part(GROUNDED, m["ground_moved_m"] == 0),
         ),
-        f"At S = {m['stiffness_N_per_m']:.0f} N/m the gaps reach {1e3 * m['largest_gap_m']:.1f} mm, "
+        f"Enforced is to a tenth of the motion. At S = {m['stiffness_N_per_m']:.0f} N/m, in the second after the shock, the "
+        f"gaps reach {1e3 * m['largest_gap_m']:.1f} mm, "
         f"{m['gap_over_motion_of_tips']:.1%} of the motion of the tips, and the axes are off by {m['error_over_motion']:.1%} "
         f"of theirs. The gap goes as S to the power {m['power_of_stiffness_in_gap']:.2f}, the error to the power "
         f"{m['power_of_stiffness_in_error']:.2f}. The ground moved by {m['ground_moved_m']:g} m.",

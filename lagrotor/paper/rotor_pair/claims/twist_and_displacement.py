@@ -76,7 +76,8 @@ def decide_c12(m: Mapping[str, float]) -> Finding:
             Part(PARTS, m["largest_angle_of_axes_rad_own"] > PARTED),
             Part(CAUSE, untwisted and abs(ratios[-1] - 1) < ALIKE),
         ),
-        f"With this bar the link twists by {m['largest_twist_of_bar_rad_own']:.2f} rad within 2.4 s, the axes part by "
+        f"Parted is by more than {PARTED} rad, and alike within a tenth. With this bar the link twists by "
+        f"{m['largest_twist_of_bar_rad_own']:.2f} rad within 2.4 s, the axes part by "
         f"{m['largest_angle_of_axes_rad_own']:.2f} rad ({m['largest_angle_of_axes_rad_8_s']:.2f} within 8 s), and x reaches "
         f"{x:.2f} of what it would without spins, which is what (7) gives; with K = {bars[0]:g}, {bars[1]:g}, "
         f"{bars[2]:g} kg m² against the twist it is {ratios[0]:.2f}, {ratios[1]:.2f}, {ratios[2]:.2f} of it, and the angle "
@@ -128,13 +129,12 @@ def decide_c13(m: Mapping[str, float]) -> Finding:
     needs = "to first order in the shock" if across else "the shock is along x, and to first order in it"
     return Finding(
         (Part(NO_MEAN, none, needs if along else ""),),
-        f"After 20 N along x the means of x₁ and x₂ are {m['shock_along_x_20_N_mean_x_1']:+.4f} and "
-        f"{m['shock_along_x_20_N_mean_x_2']:+.4f}; their common part goes as F to the power "
-        f"{m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to the power "
+        "Means are over four cycles of the natural rate. After 20 N along x those of x₁ and x₂ are "
+        f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}; their common part goes as F to "
+        f"the power {m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to the power "
         f"{m['power_of_shock_along_x_in_half_difference']:.2f}. After 5 N along y the mean is "
-        f"{m['shock_along_y_5_N_mean_x']:+.5f} (−PR/(2G), with P the impulse, gives "
-        f"{m['shock_along_y_5_N_predicted']:+.5f}), as F to the power "
-        f"{m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N it is "
+        f"{m['shock_along_y_5_N_mean_x']:+.5f} (−PR/(2G), with P the impulse, gives {m['shock_along_y_5_N_predicted']:+.5f}), "
+        f"as F to the power {m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N it is "
         f"{m['shock_along_x_50_N_mean_x']:+.3f} along x and {m['shock_along_y_50_N_mean_x']:+.3f} along y.",
     )
 
