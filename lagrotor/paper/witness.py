@@ -10,7 +10,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from lagrotor.algebra.enclosed_roots import enclosed_root
-from lagrotor.algebra.enclosures import Bounds, enclosure
+from lagrotor.algebra.enclosures import Bounds, enclosure, enclosures
 from lagrotor.algebra.evidence import points
 from lagrotor.algebra.proving import evaluated
 from lagrotor.paper.hypotheses import Hypotheses, replaced
@@ -21,29 +21,35 @@ _POINTS = 40
 
 @dataclass(frozen=True)
 class Witness:
-    """A point, and two rationals of one sign between which the difference of the two sides lies there."""
+    """A point, two rationals of one sign between which the difference of the sides lies, and those of each side there.
+
+    sides: of the printed and of the derived side; None where principal values are meant and that of a side is not real.
+    """
 
     point: Values
     enclosure: Bounds
+    sides: tuple[Bounds | None, Bounds | None]
 
 
 def witness(
-    difference: sp.Expr, under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
+    sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
 ) -> Witness | None:
-    """A point where the hypotheses hold and |difference| > beyond ≥ 0, both certified; None where none was found.
+    """A point where the hypotheses hold and |left − right| > beyond ≥ 0, both certified; None where none was found.
 
-    principal: whether values that are not real count, too; their absolute value is then enclosed.
+    principal: whether values that are not real count, too; the absolute value of the difference is then enclosed.
     """
     signed = under.signed
+    both = tuple(evaluated(signed.on(side)) for side in sides)
+    difference = sides[0] - sides[1]
     e = evaluated(signed.on(difference))
     if signed.contradiction or _says_more(e, signed):
         return None
     for values in _points(e, signed):
-        between = enclosure(e, values)
+        between, left, right = enclosures([e, *both], values)
         if between is None and principal:
             between = enclosure(sp.Abs(e, evaluate=False), values)
         if between is not None and (between[0] > beyond or between[1] < -beyond):
-            return Witness(_of_letters(difference, under, signed, values), between)
+            return Witness(_of_letters(difference, under, signed, values), between, (left, right))
     return None
 
 
