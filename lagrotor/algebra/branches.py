@@ -104,10 +104,10 @@ def _sided(e: sp.Expr, strict: bool) -> sp.Basic:
 
 def _simplest(e: sp.Expr, where: Region) -> list[sp.Expr]:
     """The factors of an e >= 0 that are not known to be positive, each taken to be so."""
-    factors = [f for f in sp.Mul.make_args(sp.factor(e)) if not is_positive(f, where)]
-    factors = [_exponent(f) for f in factors]
+    content, factors = sp.factor(e).as_coeff_mul()
+    factors = [_exponent(f) for f in factors if not is_positive(f, where)]
     odd = [f for f in factors if not (f.is_Pow and f.exp.is_Integer and f.exp % 2 == 0)]
-    return odd or factors
+    return [sp.expand(sp.sign(content) * sp.Mul(*(odd or factors)))]
 
 
 def _exponent(f: sp.Expr) -> sp.Expr:

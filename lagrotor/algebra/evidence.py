@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import sympy as sp
 
@@ -19,10 +19,10 @@ def points(
     """Random rational points, the same at each call, of the sign and the kind that each symbol was declared with.
 
     A symbol of which nothing is declared takes real values of both signs. scale: what values that need not be whole are
-    multiplied by.
+    multiplied by. Values are drawn in the order of the symbols where that is known, else in that of their names.
     """
     generator = random.Random(seed)
-    ordered = sorted(symbols, key=sp.default_sort_key)
+    ordered = list(symbols) if isinstance(symbols, Sequence) else sorted(symbols, key=sp.default_sort_key)
     for _ in range(number if ordered else 1):
         yield {symbol: _drawn(symbol, generator, scale) for symbol in ordered}
 

@@ -44,11 +44,12 @@ from lagrotor.algebra.evidence import largest_value, points
 from lagrotor.algebra.feasibility import is_infeasible
 from lagrotor.algebra.generators import survey
 from lagrotor.algebra.names import check_names
+from lagrotor.algebra.numbering import Numbering, is_turned
 from lagrotor.algebra.proving import Proof, evaluated, proof_of_zero
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
 from lagrotor.algebra.refutation import sample
-from lagrotor.algebra.scalar import parts, scalar, sympified
+from lagrotor.algebra.scalar import parts, scalar, sympified, without_number
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
 from lagrotor.algebra.work import kept
 from lagrotor.errors import InputError, NotExactError, TooLargeError
@@ -114,6 +115,25 @@ def decide_zero(expression: sp.Expr, within: Iterable[Any] = ()) -> Decision:
 
 @kept(1024)
 def _decide(expression: sp.Expr, where: Region) -> Decision:
+    """Decide an equation, not how it is written: up to a number before it, with its letters numbered."""
+    number, form = without_number(expression)
+    number, form = (-number, -form) if is_turned(form) else (number, form)
+    letters = Numbering(form, *(e for e, _ in where.above))
+    there = Region(tuple((letters.there(e), strict) for e, strict in where.above))
+    decision = _decide_numbered(letters.there(form), there)
+    seen, at = decision.seen, decision.at
+    return replace(
+        decision,
+        domain=tuple(_monic(letters.back(factor)) for factor in decision.domain),
+        reason=letters.text(decision.reason),
+        seen=None if seen is None else number * letters.back(seen),
+        at=None if at is None else tuple({letters.back(s): value for s, value in point.items()} for point in at),
+        branch=tuple(map(letters.back, decision.branch)),
+    )
+
+
+@kept(1024)
+def _decide_numbered(expression: sp.Expr, where: Region) -> Decision:
     try:
         exact = _decided(expression)
         if exact.answer == "zero" or not exact.partly:
@@ -149,7 +169,7 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
     """By a point whose enclosure excludes zero; by proof; on the branch where what a proof wants holds."""
     plain, proof, reason = evaluated(expression, where), Proof(None), exact.reason
     witness, enclosed = sample(plain, where)
-    if witness is None or plain.has(*BRANCHED) or conditions(plain):
+    if witness is None or plain.has(*BRANCHED) or any(not power.exp.is_integer for power in plain.atoms(sp.Pow)):
         try:
             proof = proof_of_zero(plain, where)
         except NotExactError as refusal:
@@ -295,6 +315,14 @@ def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
         if factor.free_symbols
     ]
     return tuple(dict.fromkeys(factors))
+
+
+def _monic(factor: sp.Expr) -> sp.Expr:
+    """Return a polynomial over its leading coefficient, the letters in the order of their names: for reading only."""
+    if not factor.is_Add or not (polynomial := factor.as_poly()):
+        return factor
+    leading = polynomial.reorder(*sorted(polynomial.gens, key=sp.default_sort_key)).LC()
+    return sp.expand(factor / leading) if leading.is_Rational else factor
 
 
 def _irreducible(ring: Ring, polynomial: PolyElement) -> list[sp.Expr]:
