@@ -52,11 +52,11 @@ def _candidates(natural: tuple[sp.Basic, ...], wanted: tuple[sp.Basic, ...]) -> 
             if sp.false in chosen:
                 continue
             yield chosen
-            yield tuple(_sided(one.gts - one.lts, True) for one in chosen)
+            yield tuple(sided(one.gts - one.lts, True) for one in chosen)
 
 
 def _opposite(relation: sp.Basic) -> sp.Basic:
-    return _sided(relation.lts - relation.gts, isinstance(relation, sp.Gt | sp.Lt))
+    return sided(relation.lts - relation.gts, isinstance(relation, sp.Gt | sp.Lt))
 
 
 def _fewest(
@@ -91,11 +91,11 @@ def simplest(relations: tuple[sp.Basic, ...], where: Region) -> tuple[sp.Basic, 
         if not e.free_symbols or (is_positive(e, where) if strict else is_nonnegative(e, where)):
             continue
         for part in _simplest(e, where):
-            found[_sided(part, strict)] = None
+            found[sided(part, strict)] = None
     return tuple(relation for relation in found if relation not in (sp.true, sp.false))
 
 
-def _sided(e: sp.Expr, strict: bool) -> sp.Basic:
+def sided(e: sp.Expr, strict: bool) -> sp.Basic:
     """e > 0 or e ≥ 0, with the sign outside: x ≤ 0 for −x ≥ 0."""
     if e.could_extract_minus_sign():
         return sp.Lt(-e, 0) if strict else sp.Le(-e, 0)

@@ -46,24 +46,23 @@ def _drawn(symbol: sp.Symbol, generator: random.Random, scale: sp.Rational) -> s
 def largest_value(expression: sp.Expr, at: Iterable[Point] | None = None) -> tuple[Point | None, float | None]:
     """Return the point, of those given or of some random ones, where |expression| is largest, and that value.
 
-    Both are None without a value.
+    Points where the expression is real come first. Both are None without a value.
     """
-    best: tuple[Point | None, float | None] = (None, None)
-    for point in points(expression.free_symbols) if at is None else at:
-        size = size_at(expression, point)
-        if size is not None and (best[1] is None or size > best[1]):
-            best = point, size
-    return best
+    values = [(size_at(expression, point), point) for point in (points(expression.free_symbols) if at is None else at)]
+    *_, size, point = max(
+        ((*value, point) for value, point in values if value), key=lambda v: v[:2], default=(None,) * 3
+    )
+    return point, size
 
 
-def size_at(expression: sp.Expr, point: Point) -> float | None:
-    """|expression| at the point, None where it is not enclosed."""
+def size_at(expression: sp.Expr, point: Point) -> tuple[bool, float] | None:
+    """Return whether the expression is real at the point, and its absolute value; None where it is not enclosed."""
     try:
         value = enclosed_at(expression, point)
         size = float((abs(value.real.mid) ** 2 + abs(value.imag.mid) ** 2).b) ** 0.5
     except (NotExactError, RecursionError, OverflowError):
         return None
-    return size if size < 1e300 else None
+    return (bool(value.imag.a == value.imag.b == 0), size) if size < 1e300 else None
 
 
 def sign_at(expression: sp.Expr, point: Point) -> int | None:

@@ -22,7 +22,9 @@ degree below two in every squared generator, is the zero polynomial.
 
 Square roots are principal ones.  One that follows from the others has a sign, which may differ between regions of the
 symbols' values, and the expression is decided for each choice of these signs.  "nonzero" means: not zero throughout.
-A symbol of which nothing is declared is taken to be real where a point is needed.  The work is bounded; an expression
+A symbol of which nothing is declared is taken to be real where a point is needed.  Letters are real: a point where some part
+is not real is no counterexample, unless the expression has i or a complex symbol, or is real at no inner point; then
+principal values are meant.  The work is bounded; an expression
 that would exceed the bound is undecided.
 """
 
@@ -38,18 +40,18 @@ from typing import Any, Literal
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
-from lagrotor.algebra.branches import branch_of_zero, simplest
+from lagrotor.algebra.branches import branch_of_zero, sided, simplest
 from lagrotor.algebra.enclosures import Point
 from lagrotor.algebra.evidence import largest_value, points
-from lagrotor.algebra.feasibility import is_infeasible
+from lagrotor.algebra.feasibility import has_principal_values
 from lagrotor.algebra.generators import survey
 from lagrotor.algebra.names import check_names
-from lagrotor.algebra.numbering import Numbering, is_turned
+from lagrotor.algebra.numbering import Numbering, without_number
 from lagrotor.algebra.proving import Proof, evaluated, proof_of_zero
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
 from lagrotor.algebra.refutation import sample
-from lagrotor.algebra.scalar import parts, scalar, sympified, without_number
+from lagrotor.algebra.scalar import parts, scalar, sympified
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
 from lagrotor.algebra.work import kept
 from lagrotor.errors import InputError, NotExactError, TooLargeError
@@ -117,16 +119,17 @@ def decide_zero(expression: sp.Expr, within: Iterable[Any] = ()) -> Decision:
 def _decide(expression: sp.Expr, where: Region) -> Decision:
     """Decide an equation, not how it is written: up to a number before it, with its letters numbered."""
     number, form = without_number(expression)
-    number, form = (-number, -form) if is_turned(form) else (number, form)
     letters = Numbering(form, *(e for e, _ in where.above))
     there = Region(tuple((letters.there(e), strict) for e, strict in where.above))
     decision = _decide_numbered(letters.there(form), there)
-    seen, at = decision.seen, decision.at
+    seen, at = decision.seen and letters.back(decision.seen), decision.at
+    if seen is not None and number != 1:
+        seen = sp.Mul(number, seen, evaluate=False)
     return replace(
         decision,
         domain=tuple(_monic(letters.back(factor)) for factor in decision.domain),
         reason=letters.text(decision.reason),
-        seen=None if seen is None else number * letters.back(seen),
+        seen=seen,
         at=None if at is None else tuple({letters.back(s): value for s, value in point.items()} for point in at),
         branch=tuple(map(letters.back, decision.branch)),
     )
@@ -180,23 +183,22 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
         return replace(exact, reason="No point was seen at which it is defined.")
     branch, within = branch_of_zero(plain, where, proof.wanted)
     if exact.answer == "nonzero":
-        return replace(exact, branch=branch)
+        return replace(exact, branch=_inside(branch, exact.domain))
     if witness is None:
         if branch and set(branch) <= set(simplest(conditions(plain), where)):
             return Decision("zero", within.divisors, within.how or "", branch=branch)
-        return replace(exact, reason=reason, branch=branch)
-    if not (branch or witness.real or _is_complex(plain, where)):
+        return replace(exact, reason=reason, branch=_inside(branch, within.divisors))
+    if not (branch or witness.real or has_principal_values(plain, (), where)):
         return replace(exact, reason="It differs from zero where it is not real, and was not proved where it is.")
-    return Decision("nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), branch)
+    return Decision(
+        "nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), _inside(branch, within.divisors)
+    )
 
 
-def _is_complex(e: sp.Expr, where: Region) -> bool:
-    """Whether its principal values are meant: it holds i, a complex letter, or is real nowhere; odd roots may be real."""
-    if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
-        return True
-    odd = any(n.exp.is_Rational and n.exp.q > 2 for n in e.atoms(sp.Pow))
-    wanted = conditions(e)
-    return not odd and (sp.false in wanted or is_infeasible([], where.with_(*wanted)))
+def _inside(branch: tuple[sp.Basic, ...], domain: tuple[sp.Expr, ...]) -> tuple[sp.Basic, ...]:
+    """Return x > 0 for x >= 0 where x must not vanish."""
+    apart = {sp.expand(sign * factor) for factor in domain for sign in (1, -1)}
+    return tuple(r.func(r.lhs, r.rhs) if (e := r.gts - r.lts) not in apart else sided(e, True) for r in branch)
 
 
 # Of the differences that a paper's audit decides, three in five come again under other premises.

@@ -17,6 +17,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.relational import Relational
 
+from lagrotor.algebra.scalar import divided
 from lagrotor.algebra.subexpressions import subexpressions
 
 _NAME = re.compile(r"letter_(\d{4})_")
@@ -67,7 +68,7 @@ def renamed(e: sp.Basic, letters: Mapping[sp.Basic, sp.Basic]) -> Any:
 
 
 def letters_in_order(expressions: Sequence[sp.Basic]) -> list[sp.Symbol]:
-    """Return all letters of the expressions, bound ones as well, in an order that their names do not change."""
+    """Return all letters, bound ones as well, in an order that no name changes, and no order of expressions but the first."""
     nodes = subexpressions(*expressions)
     letters = sorted((e for e in nodes if isinstance(e, sp.Symbol)), key=sp.default_sort_key)
     colors = {letter: _digest(sorted(letter.assumptions0.items())) for letter in letters}
@@ -81,10 +82,13 @@ def letters_in_order(expressions: Sequence[sp.Basic]) -> list[sp.Symbol]:
         colors[first] = _digest("first", colors[first])
 
 
-def is_turned(e: sp.Expr) -> bool:
-    """Whether −e comes before e in an order that the names of letters do not change."""
-    here, there = (_shapes(subexpressions(side), {})[side] for side in (e, -e))
-    return there < here
+def without_number(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Return a number that is not zero and the expression divided by it: the same expression for all multiples of one."""
+    number, form = divided(e)
+    if form.is_Add:
+        here, there = (_shapes(subexpressions(side), {})[side] for side in (form, -form))
+        return (-number, -form) if there < here else (number, form)
+    return number, form
 
 
 def _refined(
@@ -95,7 +99,7 @@ def _refined(
         inside = _shapes(nodes, colors)
         places: dict[sp.Basic, list[int]] = {e: [] for e in nodes}
         for i, e in enumerate(expressions):
-            places[e].append(i)
+            places[e].append(min(i, 1))
         for e in reversed(nodes):
             above = _digest(sorted(places[e]), inside[e]) if e.args else 0
             for i, a in enumerate(e.args):

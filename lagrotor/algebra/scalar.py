@@ -77,7 +77,7 @@ def degree(expression: sp.Expr) -> int:
     return largest
 
 
-def without_number(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+def divided(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Return a number that is certainly not zero and the expression divided by it, such that no number is in all terms."""
     common: dict[sp.Expr, sp.Rational] | None = None
     terms = sp.Add.make_args(e)

@@ -288,7 +288,7 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if on_equations == "nowhere":
         return _Finding("undecided", reasons=("the premises contradict each other or the domain",))
     if exact.answer == "zero" or on_equations == "zero":
-        trivial = _is_zero(derived) and _is_zero(printed) and not _is_zero(relation.printed)
+        trivial = _is_trivial(relation, under.signed)
         if relation.known is not None:
             return _Finding("holds-to-order", relation.known[1], relation.known[0], domain, trivial=trivial)
         return _Finding("holds", domain=domain, trivial=trivial)
@@ -325,6 +325,15 @@ def _is_singular(side: Any) -> bool:
 
 def _is_zero(side: Any) -> bool:
     return all(sp.expand(e) == 0 for e in (side if isinstance(side, sp.MatrixBase) else [side]))
+
+
+def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
+    """Whether the premises make each term of both sides zero, on whatever side it stands."""
+    sides = [relation.printed, relation.derived]
+    terms = [
+        t for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]) for t in sp.Add.make_args(e)
+    ]
+    return not all(map(_is_zero, sides)) and all(_is_zero(signed.on(term)) for term in terms)
 
 
 def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:

@@ -1,7 +1,7 @@
 """What refutes under hypotheses: a point that satisfies them, at which an enclosure keeps the two sides apart."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain, islice
 from typing import Any, TypeAlias
 
@@ -12,7 +12,10 @@ from sympy.core.relational import Relational
 from lagrotor.algebra.enclosed_roots import enclosed_root
 from lagrotor.algebra.enclosures import Bounds, enclosure, enclosures
 from lagrotor.algebra.evidence import points
+from lagrotor.algebra.feasibility import has_principal_values
+from lagrotor.algebra.numbering import letters_in_order, without_number
 from lagrotor.algebra.proving import evaluated
+from lagrotor.algebra.signs import conditions, region
 from lagrotor.paper.hypotheses import Hypotheses, replaced
 
 Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
@@ -34,10 +37,21 @@ class Witness:
 def witness(
     sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
 ) -> Witness | None:
-    """A point where the hypotheses hold and |left − right| > beyond ≥ 0, both certified; None where none was found.
+    """Return a point where the hypotheses hold, both sides are real and |left − right| > beyond ≥ 0; None without one.
 
-    principal: whether values that are not real count, too; the absolute value of the difference is then enclosed.
+    principal: of sides with i or complex letters, and of sides that are real nowhere, principal values count; the absolute
+    value of the difference is then enclosed.
     """
+    there = sp.Tuple(*map(under.on, sides))
+    real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(there)))))
+    found = _apart(sides, real, beyond, False) if sp.false not in real.region else None
+    if found is None and principal and has_principal_values(there, under.left, region(under.inside)):
+        return _apart(sides, under, beyond, True)
+    return found
+
+
+def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool) -> Witness | None:
+    """Return a point of the hypotheses that keeps the sides apart."""
     signed = under.signed
     both = tuple(evaluated(signed.on(side)) for side in sides)
     difference = sides[0] - sides[1]
@@ -46,8 +60,10 @@ def witness(
         return None
     for values in _points(e, signed):
         between, left, right = enclosures([e, *both], values)
-        if between is None and principal:
+        if principal and between is None:
             between = enclosure(sp.Abs(e, evaluate=False), values)
+        elif not principal and (left is None or right is None):
+            continue
         if between is not None and (between[0] > beyond or between[1] < -beyond):
             return Witness(_of_letters(difference, under, signed, values), between, (left, right))
     return None
@@ -63,12 +79,13 @@ def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
 
 def _points(e: sp.Expr, signed: Hypotheses) -> Iterator[Values]:
     """Points of the letters that are left which satisfy all that the hypotheses say."""
-    letters = e.free_symbols.union(*(x.free_symbols for x in (*signed.left, *signed.region)))
+    order = letters_in_order((without_number(e)[1], *signed.left, *signed.region))
+    letters = [s for s in order if any(s in x.free_symbols for x in (e, *signed.left, *signed.region))]
     scales = (1, 2) if signed.region else (1,)
     for at in chain(*(islice(points(letters, _POINTS, sp.Integer(scale)), _POINTS) for scale in scales)):
         values: Values = dict(at)
         if signed.left:
-            box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed)) else None
+            box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed, order)) else None
             if box is None:
                 continue
             values |= box
@@ -76,11 +93,11 @@ def _points(e: sp.Expr, signed: Hypotheses) -> Iterator[Values]:
             yield values
 
 
-def _unknowns(signed: Hypotheses) -> list[sp.Symbol]:
+def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
     """A letter for each equation that is left, each once, of those that are in the fewest; empty where there are too few."""
     found: list[sp.Symbol] = []
     for e in sorted(signed.left, key=lambda e: len(e.free_symbols)):
-        free = sorted(e.free_symbols - set(found) - set(signed.small), key=sp.default_sort_key)
+        free = sorted(e.free_symbols - set(found) - set(signed.small), key=order.index)
         if not free:
             return []
         found.append(free[0])
