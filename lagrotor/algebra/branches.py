@@ -40,14 +40,15 @@ def branch_of_zero(
 
 
 def _candidates(natural: tuple[sp.Basic, ...], wanted: tuple[sp.Basic, ...]) -> Iterator[tuple[sp.Basic, ...]]:
-    """The conditions of a real value, then with more and more that is wanted, of either sign; the open region last."""
+    """The conditions of a real value; with each that is wanted, then with more and more, of either sign; open regions last."""
     if sp.false in natural:  # it has no real value
         return
     wanted = tuple(one for one in wanted if one not in (sp.true, sp.false))
     yield natural
-    for number in range(1, min(len(wanted), _MOST_SIGNS) + 1):
-        for signs in product((True, False), repeat=number):
-            turned = (one if same else _opposite(one) for one, same in zip(wanted, signs, strict=False))
+    several = (wanted[:number] for number in range(2, min(len(wanted), _MOST_SIGNS) + 1))
+    for some in (*((one,) for one in wanted), *several):
+        for signs in product((True, False), repeat=len(some)):
+            turned = (one if same else _opposite(one) for one, same in zip(some, signs, strict=True))
             chosen = tuple(one for one in (*natural, *turned) if one != sp.true)
             if sp.false in chosen:
                 continue

@@ -48,21 +48,28 @@ def largest_value(expression: sp.Expr, at: Iterable[Point] | None = None) -> tup
 
     Points where the expression is real come first. Both are None without a value.
     """
-    values = [(size_at(expression, point), point) for point in (points(expression.free_symbols) if at is None else at)]
-    *_, size, point = max(
-        ((*value, point) for value, point in values if value), key=lambda v: v[:2], default=(None,) * 3
-    )
-    return point, size
+    places = list(points(expression.free_symbols) if at is None else at)
+    sizes = [(_is_real_at(expression, p), size, i) for i, p in enumerate(places) if (size := size_at(expression, p))]
+    _, size, place = max(sizes, default=(False, None, None))
+    return None if place is None else places[place], size
 
 
-def size_at(expression: sp.Expr, point: Point) -> tuple[bool, float] | None:
-    """Return whether the expression is real at the point, and its absolute value; None where it is not enclosed."""
+def _is_real_at(expression: sp.Expr, point: Point) -> bool:
+    try:
+        imaginary = enclosed_at(expression, point).imag
+    except (NotExactError, RecursionError):
+        return False
+    return bool(imaginary.a == imaginary.b == 0)
+
+
+def size_at(expression: sp.Expr, point: Point) -> float | None:
+    """|expression| at the point, None where it is not enclosed."""
     try:
         value = enclosed_at(expression, point)
         size = float((abs(value.real.mid) ** 2 + abs(value.imag.mid) ** 2).b) ** 0.5
     except (NotExactError, RecursionError, OverflowError):
         return None
-    return (bool(value.imag.a == value.imag.b == 0), size) if size < 1e300 else None
+    return size if size < 1e300 else None
 
 
 def sign_at(expression: sp.Expr, point: Point) -> int | None:

@@ -30,9 +30,9 @@ that would exceed the bound is undecided.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
 from itertools import product
 from math import inf
 from typing import Any, Literal
@@ -70,10 +70,9 @@ _EXCLUDED = "An enclosure at the witness excludes zero."
 class Decision:
     """Whether an expression vanishes identically, where that holds, and what shows it.
 
-    `domain` holds the factors that must not vanish; `branch` inequalities: where it is not empty, the expression is proved
-    to vanish wherever they hold. `partly`: a nonzero expression that vanishes for some signs of its roots, as sqrt(x**2) - x
-    does on the branch x >= 0. `seen`: an expression that is not zero throughout, to be evaluated at the points `at`, or at
-    random ones, when a witness or evidence is read.
+    `domain` holds the factors that must not vanish. `partly`: a nonzero expression that vanishes for some signs of its
+    roots, as sqrt(x**2) - x does on the branch x >= 0. `seen`: an expression that is not zero throughout, to be evaluated at
+    the points `at`, or at random ones, when a witness or evidence is read.
     """
 
     answer: Literal["zero", "nonzero", "undecided"]
@@ -82,7 +81,12 @@ class Decision:
     partly: bool = False
     seen: sp.Expr | None = None
     at: tuple[Point, ...] | None = None
-    branch: tuple[sp.Basic, ...] = ()
+    conditions: Callable[[], Iterable[sp.Basic]] = field(default=tuple, compare=False, repr=False)
+
+    @cached_property
+    def branch(self) -> tuple[sp.Basic, ...]:
+        """Inequalities under which the expression is proved to vanish, searched for when they are read."""
+        return tuple(self.conditions())
 
     @property
     def witness(self) -> Mapping[sp.Expr, sp.Rational] | None:
@@ -131,7 +135,7 @@ def _decide(expression: sp.Expr, where: Region) -> Decision:
         reason=letters.text(decision.reason),
         seen=seen,
         at=None if at is None else tuple({letters.back(s): value for s, value in point.items()} for point in at),
-        branch=tuple(map(letters.back, decision.branch)),
+        conditions=lambda: map(letters.back, decision.branch),
     )
 
 
@@ -181,17 +185,18 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
         if enclosed or not plain.free_symbols:
             return Decision("zero", proof.divisors, proof.how)
         return replace(exact, reason="No point was seen at which it is defined.")
-    branch, within = branch_of_zero(plain, where, proof.wanted)
     if exact.answer == "nonzero":
-        return replace(exact, branch=_inside(branch, exact.domain))
+        return replace(exact, conditions=lambda: _inside(branch_of_zero(plain, where, proof.wanted)[0], exact.domain))
+    branch, within = branch_of_zero(plain, where, proof.wanted)
+    inside = _inside(branch, within.divisors)
     if witness is None:
         if branch and set(branch) <= set(simplest(conditions(plain), where)):
-            return Decision("zero", within.divisors, within.how or "", branch=branch)
-        return replace(exact, reason=reason, branch=_inside(branch, within.divisors))
+            return Decision("zero", within.divisors, within.how or "", conditions=lambda: branch)
+        return replace(exact, reason=reason, conditions=lambda: inside)
     if not (branch or witness.real or has_principal_values(plain, (), where)):
         return replace(exact, reason="It differs from zero where it is not real, and was not proved where it is.")
     return Decision(
-        "nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), _inside(branch, within.divisors)
+        "nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), conditions=lambda: inside
     )
 
 

@@ -383,7 +383,7 @@ def conditions(e: sp.Expr) -> tuple[sp.Basic, ...]:
     found: dict[sp.Basic, None] = {}
     for node in sp.preorder_traversal(e):
         for side, strict in _sides(node):
-            if not side.has(sp.I) and side.is_real is not False:
+            if not side.has(sp.I) and side.is_real is not False and side.free_symbols <= e.free_symbols:
                 found[sp.Gt(side, 0) if strict else sp.Ge(side, 0)] = None
     return tuple(relation for relation in found if relation is not sp.true)
 

@@ -1,6 +1,6 @@
 """What refutes under hypotheses: a point that satisfies them, at which an enclosure keeps the two sides apart."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, islice
 from typing import Any, TypeAlias
@@ -58,7 +58,7 @@ def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, p
     e = evaluated(signed.on(difference))
     if signed.contradiction or _says_more(e, signed):
         return None
-    for values in _points(e, signed):
+    for values in _points((e, *both), signed):
         between, left, right = enclosures([e, *both], values)
         if principal and between is None:
             between = enclosure(sp.Abs(e, evaluate=False), values)
@@ -77,10 +77,11 @@ def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
     return any(x.has(AppliedUndef) for x in signed.left) or any(d.has(*functions) for d in new if functions)
 
 
-def _points(e: sp.Expr, signed: Hypotheses) -> Iterator[Values]:
+def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]:
     """Points of the letters that are left which satisfy all that the hypotheses say."""
-    order = letters_in_order((without_number(e)[1], *signed.left, *signed.region))
-    letters = [s for s in order if any(s in x.free_symbols for x in (e, *signed.left, *signed.region))]
+    conditions = *signed.left, *signed.region
+    order = letters_in_order((without_number(compared[0])[1], *compared[1:], *conditions))
+    letters = [s for s in order if any(s in x.free_symbols for x in (*compared, *conditions))]
     scales = (1, 2) if signed.region else (1,)
     for at in chain(*(islice(points(letters, _POINTS, sp.Integer(scale)), _POINTS) for scale in scales)):
         values: Values = dict(at)
