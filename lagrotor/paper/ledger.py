@@ -328,12 +328,12 @@ def _is_zero(side: Any) -> bool:
 
 
 def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
-    """Whether the premises make each term of both sides zero, on whatever side it stands."""
+    """Whether the premises make each term of both sides zero; an equation Q = 0 states just that, and is not trivial."""
     sides = [relation.printed, relation.derived]
-    terms = [
-        t for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]) for t in sp.Add.make_args(e)
-    ]
-    return not all(map(_is_zero, sides)) and all(_is_zero(signed.on(term)) for term in terms)
+    entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
+    return not any(map(_is_zero, sides)) and all(
+        _is_zero(signed.on(term)) for e in entries for term in sp.Add.make_args(e)
+    )
 
 
 def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:
