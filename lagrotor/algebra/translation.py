@@ -319,7 +319,7 @@ class Translation:
             return base**r
         if base.is_Rational:
             return self._number_power(base, r)
-        key = base
+        key = self.back(base)  # the letters of two passes differ
         self.degrees[key] = lcm(self.degrees.get(key, 1), int(r.q))
         q = self.degrees[key]
         letter = self.letter(f"root{q}", (base,), sp.Pow(meaning, sp.Rational(1, q)))
@@ -351,7 +351,7 @@ class Translation:
                 p, size = self.logarithms[rest]
                 result *= self._size_power(p, rate) if size else self._principal(p, rate, self.back(p))
             else:
-                key = "exp", rest
+                key = "exp", self.back(rest)
                 self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
                 step = self.steps[key]
                 w = self.letter(key, (), sp.exp(self.back(rest) / step))
@@ -399,7 +399,7 @@ class Translation:
             return sp.S.One, sp.S.Zero
         if rest in self.arcs and rate.is_Integer:
             return _multiple(self.arcs[rest], int(rate))
-        key = "angle", rest
+        key = "angle", self.back(rest)
         self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
         step = self.steps[key]
         tau = self.letter(key, (), sp.tan(self.back(rest) / (2 * step)))

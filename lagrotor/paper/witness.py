@@ -53,19 +53,19 @@ def witness(
 def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool) -> Witness | None:
     """Return a point of the hypotheses that keeps the sides apart."""
     signed = under.signed
-    both = tuple(evaluated(signed.on(side)) for side in sides)
+    both = tuple(signed.on(side) for side in sides)
     difference = sides[0] - sides[1]
     e = evaluated(signed.on(difference))
     if signed.contradiction or _says_more(e, signed):
         return None
     for values in _points((e, *both), signed):
-        between, left, right = enclosures([e, *both], values)
+        between = enclosure(e, values)
         if principal and between is None:
             between = enclosure(sp.Abs(e, evaluate=False), values)
-        elif not principal and (left is None or right is None):
-            continue
         if between is not None and (between[0] > beyond or between[1] < -beyond):
-            return Witness(_of_letters(difference, under, signed, values), between, (left, right))
+            left, right = enclosures(map(evaluated, both), values)
+            if principal or (left and right):
+                return Witness(_of_letters(difference, under, signed, values), between, (left, right))
     return None
 
 
