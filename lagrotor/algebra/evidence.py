@@ -49,8 +49,9 @@ def largest_value(expression: sp.Expr, at: Iterable[Point] | None = None) -> tup
     Points where the expression is real come first. Both are None without a value.
     """
     places = list(points(expression.free_symbols) if at is None else at)
-    sizes = [(_is_real_at(expression, p), size, i) for i, p in enumerate(places) if (size := size_at(expression, p))]
-    _, size, place = max(sizes, default=(False, None, None))
+    sizes = [(i, size) for i, point in enumerate(places) if (size := size_at(expression, point)) is not None]
+    ranked = [(_is_real_at(expression, places[i]), size, i) for i, size in sizes]
+    _, size, place = max(ranked, default=(False, None, None))
     return None if place is None else places[place], size
 
 
