@@ -40,23 +40,24 @@ def branch_of_zero(
 
 
 def _candidates(natural: tuple[sp.Basic, ...], wanted: tuple[sp.Basic, ...]) -> Iterator[tuple[sp.Basic, ...]]:
-    """The conditions of a real value, then with more and more that is wanted, of either sign; the open region last."""
+    """The conditions of a real value; with each that is wanted, then with more and more, of either sign; open regions last."""
     if sp.false in natural:  # it has no real value
         return
     wanted = tuple(one for one in wanted if one not in (sp.true, sp.false))
     yield natural
-    for number in range(1, min(len(wanted), _MOST_SIGNS) + 1):
-        for signs in product((True, False), repeat=number):
-            turned = (one if same else _opposite(one) for one, same in zip(wanted, signs, strict=False))
+    several = (wanted[:number] for number in range(2, min(len(wanted), _MOST_SIGNS) + 1))
+    for some in (*((one,) for one in wanted), *several):
+        for signs in product((True, False), repeat=len(some)):
+            turned = (one if same else _opposite(one) for one, same in zip(some, signs, strict=True))
             chosen = tuple(one for one in (*natural, *turned) if one != sp.true)
             if sp.false in chosen:
                 continue
             yield chosen
-            yield tuple(_sided(one.gts - one.lts, True) for one in chosen)
+            yield tuple(sided(one.gts - one.lts, True) for one in chosen)
 
 
 def _opposite(relation: sp.Basic) -> sp.Basic:
-    return _sided(relation.lts - relation.gts, isinstance(relation, sp.Gt | sp.Lt))
+    return sided(relation.lts - relation.gts, isinstance(relation, sp.Gt | sp.Lt))
 
 
 def _fewest(
@@ -91,11 +92,11 @@ def simplest(relations: tuple[sp.Basic, ...], where: Region) -> tuple[sp.Basic, 
         if not e.free_symbols or (is_positive(e, where) if strict else is_nonnegative(e, where)):
             continue
         for part in _simplest(e, where):
-            found[_sided(part, strict)] = None
+            found[sided(part, strict)] = None
     return tuple(relation for relation in found if relation not in (sp.true, sp.false))
 
 
-def _sided(e: sp.Expr, strict: bool) -> sp.Basic:
+def sided(e: sp.Expr, strict: bool) -> sp.Basic:
     """e > 0 or e ≥ 0, with the sign outside: x ≤ 0 for −x ≥ 0."""
     if e.could_extract_minus_sign():
         return sp.Lt(-e, 0) if strict else sp.Le(-e, 0)
@@ -104,10 +105,10 @@ def _sided(e: sp.Expr, strict: bool) -> sp.Basic:
 
 def _simplest(e: sp.Expr, where: Region) -> list[sp.Expr]:
     """The factors of an e >= 0 that are not known to be positive, each taken to be so."""
-    factors = [f for f in sp.Mul.make_args(sp.factor(e)) if not is_positive(f, where)]
-    factors = [_exponent(f) for f in factors]
+    content, factors = sp.factor(e).as_coeff_mul()
+    factors = [_exponent(f) for f in factors if not is_positive(f, where)]
     odd = [f for f in factors if not (f.is_Pow and f.exp.is_Integer and f.exp % 2 == 0)]
-    return odd or factors
+    return [sp.expand(sp.sign(content) * sp.Mul(*(odd or factors)))]
 
 
 def _exponent(f: sp.Expr) -> sp.Expr:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import sympy as sp
 
@@ -19,10 +19,10 @@ def points(
     """Random rational points, the same at each call, of the sign and the kind that each symbol was declared with.
 
     A symbol of which nothing is declared takes real values of both signs. scale: what values that need not be whole are
-    multiplied by.
+    multiplied by. Values are drawn in the order of the symbols where that is known, else in that of their names.
     """
     generator = random.Random(seed)
-    ordered = sorted(symbols, key=sp.default_sort_key)
+    ordered = list(symbols) if isinstance(symbols, Sequence) else sorted(symbols, key=sp.default_sort_key)
     for _ in range(number if ordered else 1):
         yield {symbol: _drawn(symbol, generator, scale) for symbol in ordered}
 
@@ -46,14 +46,21 @@ def _drawn(symbol: sp.Symbol, generator: random.Random, scale: sp.Rational) -> s
 def largest_value(expression: sp.Expr, at: Iterable[Point] | None = None) -> tuple[Point | None, float | None]:
     """Return the point, of those given or of some random ones, where |expression| is largest, and that value.
 
-    Both are None without a value.
+    Points where the expression is real come first. Both are None without a value.
     """
-    best: tuple[Point | None, float | None] = (None, None)
-    for point in points(expression.free_symbols) if at is None else at:
-        size = size_at(expression, point)
-        if size is not None and (best[1] is None or size > best[1]):
-            best = point, size
-    return best
+    places = list(points(expression.free_symbols) if at is None else at)
+    sizes = [(i, size) for i, point in enumerate(places) if (size := size_at(expression, point)) is not None]
+    ranked = [(_is_real_at(expression, places[i]), size, i) for i, size in sizes]
+    _, size, place = max(ranked, default=(False, None, None))
+    return None if place is None else places[place], size
+
+
+def _is_real_at(expression: sp.Expr, point: Point) -> bool:
+    try:
+        imaginary = enclosed_at(expression, point).imag
+    except (NotExactError, RecursionError):
+        return False
+    return bool(imaginary.a == imaginary.b == 0)
 
 
 def size_at(expression: sp.Expr, point: Point) -> float | None:

@@ -16,7 +16,7 @@ import sympy as sp
 
 from lagrotor.algebra.enclosures import enclosure
 from lagrotor.algebra.scalar import parts
-from lagrotor.algebra.signs import Region, is_real, signs
+from lagrotor.algebra.signs import Region, conditions, is_real, signs
 
 End: TypeAlias = Any  # a Fraction, or ±∞
 
@@ -198,6 +198,16 @@ def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[s
     except _EmptyError:
         return True
     return False
+
+
+def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Region) -> bool:
+    """Whether principal values are meant: e has i or a complex letter, or is real at no inner point; odd roots may be real."""
+    if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
+        return True
+    natural = conditions(e)
+    odd = any(n.exp.is_Rational and n.exp.q > 2 for n in e.atoms(sp.Pow))
+    inside = [sp.Gt(r.gts, r.lts) for r in natural if r is not sp.false]
+    return not odd and (sp.false in natural or sp.false in inside or is_infeasible(equations, where.with_(*inside)))
 
 
 def _excludes_itself(where: Region) -> bool:

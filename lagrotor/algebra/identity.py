@@ -22,15 +22,17 @@ degree below two in every squared generator, is the zero polynomial.
 
 Square roots are principal ones.  One that follows from the others has a sign, which may differ between regions of the
 symbols' values, and the expression is decided for each choice of these signs.  "nonzero" means: not zero throughout.
-A symbol of which nothing is declared is taken to be real where a point is needed.  The work is bounded; an expression
+A symbol of which nothing is declared is taken to be real where a point is needed.  Letters are real: a point where some part
+is not real is no counterexample, unless the expression has i or a complex symbol, or is real at no inner point; then
+principal values are meant.  The work is bounded; an expression
 that would exceed the bound is undecided.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
 from itertools import product
 from math import inf
 from typing import Any, Literal
@@ -38,12 +40,13 @@ from typing import Any, Literal
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
-from lagrotor.algebra.branches import branch_of_zero, simplest
+from lagrotor.algebra.branches import branch_of_zero, sided, simplest
 from lagrotor.algebra.enclosures import Point
 from lagrotor.algebra.evidence import largest_value, points
-from lagrotor.algebra.feasibility import is_infeasible
+from lagrotor.algebra.feasibility import has_principal_values
 from lagrotor.algebra.generators import survey
 from lagrotor.algebra.names import check_names
+from lagrotor.algebra.numbering import Numbering, without_number
 from lagrotor.algebra.proving import Proof, evaluated, proof_of_zero
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
@@ -67,10 +70,9 @@ _EXCLUDED = "An enclosure at the witness excludes zero."
 class Decision:
     """Whether an expression vanishes identically, where that holds, and what shows it.
 
-    `domain` holds the factors that must not vanish; `branch` inequalities: where it is not empty, the expression is proved
-    to vanish wherever they hold. `partly`: a nonzero expression that vanishes for some signs of its roots, as sqrt(x**2) - x
-    does on the branch x >= 0. `seen`: an expression that is not zero throughout, to be evaluated at the points `at`, or at
-    random ones, when a witness or evidence is read.
+    `domain` holds the factors that must not vanish. `partly`: a nonzero expression that vanishes for some signs of its
+    roots, as sqrt(x**2) - x does on the branch x >= 0. `seen`: an expression that is not zero throughout, to be evaluated at
+    the points `at`, or at random ones, when a witness or evidence is read.
     """
 
     answer: Literal["zero", "nonzero", "undecided"]
@@ -79,7 +81,12 @@ class Decision:
     partly: bool = False
     seen: sp.Expr | None = None
     at: tuple[Point, ...] | None = None
-    branch: tuple[sp.Basic, ...] = ()
+    conditions: Callable[[], Iterable[sp.Basic]] = field(default=tuple, compare=False, repr=False)
+
+    @cached_property
+    def branch(self) -> tuple[sp.Basic, ...]:
+        """Inequalities under which the expression is proved to vanish, searched for when they are read."""
+        return tuple(self.conditions())
 
     @property
     def witness(self) -> Mapping[sp.Expr, sp.Rational] | None:
@@ -114,6 +121,26 @@ def decide_zero(expression: sp.Expr, within: Iterable[Any] = ()) -> Decision:
 
 @kept(1024)
 def _decide(expression: sp.Expr, where: Region) -> Decision:
+    """Decide an equation, not how it is written: up to a number before it, with its letters numbered."""
+    number, form = without_number(expression)
+    letters = Numbering(form, *(e for e, _ in where.above))
+    there = Region(tuple((letters.there(e), strict) for e, strict in where.above))
+    decision = _decide_numbered(letters.there(form), there)
+    seen, at = decision.seen and letters.back(decision.seen), decision.at
+    if seen is not None and number != 1:
+        seen = sp.Mul(number, seen, evaluate=False)
+    return replace(
+        decision,
+        domain=tuple(_monic(letters.back(factor)) for factor in decision.domain),
+        reason=letters.text(decision.reason),
+        seen=seen,
+        at=None if at is None else tuple({letters.back(s): value for s, value in point.items()} for point in at),
+        conditions=lambda: map(letters.back, decision.branch),
+    )
+
+
+@kept(1024)
+def _decide_numbered(expression: sp.Expr, where: Region) -> Decision:
     try:
         exact = _decided(expression)
         if exact.answer == "zero" or not exact.partly:
@@ -149,7 +176,7 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
     """By a point whose enclosure excludes zero; by proof; on the branch where what a proof wants holds."""
     plain, proof, reason = evaluated(expression, where), Proof(None), exact.reason
     witness, enclosed = sample(plain, where)
-    if witness is None or plain.has(*BRANCHED) or conditions(plain):
+    if witness is None or plain.has(*BRANCHED) or any(not power.exp.is_integer for power in plain.atoms(sp.Pow)):
         try:
             proof = proof_of_zero(plain, where)
         except NotExactError as refusal:
@@ -158,25 +185,25 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
         if enclosed or not plain.free_symbols:
             return Decision("zero", proof.divisors, proof.how)
         return replace(exact, reason="No point was seen at which it is defined.")
-    branch, within = branch_of_zero(plain, where, proof.wanted)
     if exact.answer == "nonzero":
-        return replace(exact, branch=branch)
+        return replace(exact, conditions=lambda: _inside(branch_of_zero(plain, where, proof.wanted)[0], exact.domain))
+    branch, within = branch_of_zero(plain, where, proof.wanted)
+    inside = _inside(branch, within.divisors)
     if witness is None:
         if branch and set(branch) <= set(simplest(conditions(plain), where)):
-            return Decision("zero", within.divisors, within.how or "", branch=branch)
-        return replace(exact, reason=reason, branch=branch)
-    if not (branch or witness.real or _is_complex(plain, where)):
+            return Decision("zero", within.divisors, within.how or "", conditions=lambda: branch)
+        return replace(exact, reason=reason, conditions=lambda: inside)
+    if not (branch or witness.real or has_principal_values(plain, (), where)):
         return replace(exact, reason="It differs from zero where it is not real, and was not proved where it is.")
-    return Decision("nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), branch)
+    return Decision(
+        "nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), conditions=lambda: inside
+    )
 
 
-def _is_complex(e: sp.Expr, where: Region) -> bool:
-    """Whether its principal values are meant: it holds i, a complex letter, or is real nowhere; odd roots may be real."""
-    if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
-        return True
-    odd = any(n.exp.is_Rational and n.exp.q > 2 for n in e.atoms(sp.Pow))
-    wanted = conditions(e)
-    return not odd and (sp.false in wanted or is_infeasible([], where.with_(*wanted)))
+def _inside(branch: tuple[sp.Basic, ...], domain: tuple[sp.Expr, ...]) -> tuple[sp.Basic, ...]:
+    """Return x > 0 for x >= 0 where x must not vanish."""
+    apart = {sp.expand(sign * factor) for factor in domain for sign in (1, -1)}
+    return tuple(r.func(r.lhs, r.rhs) if (e := r.gts - r.lts) not in apart else sided(e, True) for r in branch)
 
 
 # Of the differences that a paper's audit decides, three in five come again under other premises.
@@ -295,6 +322,14 @@ def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
         if factor.free_symbols
     ]
     return tuple(dict.fromkeys(factors))
+
+
+def _monic(factor: sp.Expr) -> sp.Expr:
+    """Return a polynomial over its leading coefficient, the letters in the order of their names: for reading only."""
+    if not factor.is_Add or not (polynomial := factor.as_poly()):
+        return factor
+    leading = polynomial.reorder(*sorted(polynomial.gens, key=sp.default_sort_key)).LC()
+    return sp.expand(factor / leading) if leading.is_Rational else factor
 
 
 def _irreducible(ring: Ring, polynomial: PolyElement) -> list[sp.Expr]:

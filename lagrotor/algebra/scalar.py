@@ -4,6 +4,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrotor.algebra.enclosures import enclosure
 from lagrotor.algebra.names import check_names
 from lagrotor.errors import InputError, NotExactError
 
@@ -74,3 +75,30 @@ def degree(expression: sp.Expr) -> int:
             degrees[node] = int(not getattr(node, "is_number", True))
         largest = max(largest, degrees[node])
     return largest
+
+
+def divided(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Return a number that is certainly not zero and the expression divided by it, such that no number is in all terms."""
+    common: dict[sp.Expr, sp.Rational] | None = None
+    terms = sp.Add.make_args(e)
+    for term in terms:
+        numbers = (f for f in sp.Mul.make_args(term) if f.is_number and not f.is_Rational and not f.has(sp.Float))
+        powers = dict((f, sp.S.One) if f.is_Pow and f.base.is_Rational else f.as_base_exp() for f in numbers)
+        common = {
+            base: min(power, (common or powers)[base])
+            for base, power in powers.items()
+            if power.is_Rational and power > 0 and base in (powers if common is None else common)
+        }
+        if not common:
+            break
+    number = sp.Mul(*(base**power for base, power in (common or {}).items() if _is_apart(base)))
+    rest = e if number == 1 else sp.Add(*(term / number for term in terms))
+    content, rest = rest.primitive() if rest.is_Add else rest.as_coeff_Mul(rational=True)
+    return (number * content, rest) if content else (sp.S.One, e)
+
+
+def _is_apart(number: sp.Expr) -> bool:
+    """Whether a number is certainly real and not zero."""
+    huge = number.is_Pow and number.exp.is_Integer  # written, not evaluated
+    between = None if huge else enclosure(number, {})
+    return between is not None and (between[0] > 0 or between[1] < 0)

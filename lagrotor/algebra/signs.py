@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import reduce
+from functools import cached_property, reduce
 from itertools import permutations, product
 from typing import Any, TypeAlias
 
@@ -168,9 +168,28 @@ class _Signs:
             return bound
         if len(e.args) <= _FACTORED:
             factors = sp.factor(e)
-            if not factors.is_Add:
-                return self.of(factors)
+            found = ANY if factors.is_Add else self.of(factors)
+            return found if found is None or len(found) == 1 else found & self._by_factors(factors)
         return ANY
+
+    def _by_factors(self, e: sp.Expr) -> Signs:
+        """Return the signs of a product from the facts that are products of some of its factors."""
+        content, odd, even = _factored(e)
+        found = frozenset({content})
+        for side, factors, squares, strict in self.products:
+            if factors and factors <= odd and (strict or not squares):
+                odd = odd - factors
+                found = _times(found, frozenset({side} if strict else {0, side}))
+        if not self.products or len(odd) == len(_factored(e)[1]):
+            return ANY
+        for part in odd:
+            found = _times(found, self.of(part) or ANY)
+        return found if all(0 not in (self.of(part) or ANY) for part in even) else found | {0}
+
+    @cached_property
+    def products(self) -> list[tuple[int, frozenset[sp.Expr], frozenset[sp.Expr], bool]]:
+        """The facts as signs, factors of odd powers, and squares in numerators; whether a fact is strict."""
+        return [(*_factored(sp.factor(e)), strict) for e, strict in self.where.above if len(e.args) <= _FACTORED]
 
     def _function(self, e: sp.Expr) -> Signs | None:
         u = e.args[0]
@@ -318,6 +337,19 @@ def _between(u: sp.Expr, low: Any, high: Any) -> list[sp.Expr]:
     return [*(() if low is None else (u - low,)), *(() if high is None else (high - u,))]
 
 
+def _factored(e: sp.Expr) -> tuple[int, frozenset[sp.Expr], frozenset[sp.Expr]]:
+    """Return the sign of the number before a product, its factors of odd powers, and those of even positive powers."""
+    number, factors = e.as_coeff_mul()
+    side, odd, even = int(sp.sign(number)), set[sp.Expr](), set[sp.Expr]()
+    for factor in factors:
+        base, power = factor.as_base_exp() if factor.is_Pow and factor.exp.is_Integer else (factor, sp.S.One)
+        turned = base.could_extract_minus_sign()
+        side = -side if turned and power % 2 else side
+        if power % 2 or power > 0:
+            (odd if power % 2 else even).add(-base if turned else base)
+    return side, frozenset(odd), frozenset(even)
+
+
 def _primitive(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """A number and the rest of which e is the product, sums multiplied out."""
     content, rest = (sp.expand_mul(e) if e.is_Mul else e).as_content_primitive()
@@ -351,7 +383,7 @@ def conditions(e: sp.Expr) -> tuple[sp.Basic, ...]:
     found: dict[sp.Basic, None] = {}
     for node in sp.preorder_traversal(e):
         for side, strict in _sides(node):
-            if not side.has(sp.I) and side.is_real is not False:
+            if not side.has(sp.I) and side.is_real is not False and side.free_symbols <= e.free_symbols:
                 found[sp.Gt(side, 0) if strict else sp.Ge(side, 0)] = None
     return tuple(relation for relation in found if relation is not sp.true)
 

@@ -263,13 +263,14 @@ class Translation:
         return result
 
     def root(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr | None = None) -> sp.Expr:
-        """base**r of a translated base: of each factor where all are real and the product is not negative."""
+        """Return base**r of a translated base, without the factors that are not negative: of |q|**k and of known signs."""
         original = self.back(base) if meaning is None else meaning
         found = signs(original, self.where)
         if found is None or not found <= NONNEGATIVE:
             if found is not None:
                 self.want(False, original)
-            return self._principal(base, r, original)
+            whole = r.is_Integer or parts(base) > _MOST_PARTS
+            return self._principal(base, r, original) if whole else self._without_squares(base, r, original)
         content, factors = self.factors(base)
         if not self._are_real(factors):
             return self._principal(base, r, original)
@@ -277,6 +278,23 @@ class Translation:
         for p, k in factors:
             result *= self._size_power(p, k * r)
         return result
+
+    def _without_squares(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
+        """Return base**r of a base of any sign: (a b)**r = a**r b**r for a > 0, and b keeps the first powers only."""
+        content, factors = self.factors(base)
+        result, rest = self._number_power(abs(content), r), sp.sign(content)
+        for p, k in factors:
+            found = signs(self.back(p), self.where)
+            if found is None:
+                rest *= p**k
+                continue
+            odd = 0 if found <= NONNEGATIVE else k % 2
+            if k != odd:
+                result *= self._size_power(p, (k - odd) * r)
+            rest *= p**odd
+        if result == 1:
+            return self._principal(base, r, meaning)
+        return result * self._principal(sp.expand(rest), r, self.back(rest))
 
     def _size_power(self, p: sp.Expr, r: sp.Rational) -> sp.Expr:
         """|p|**r of a real p."""
@@ -301,7 +319,7 @@ class Translation:
             return base**r
         if base.is_Rational:
             return self._number_power(base, r)
-        key = base
+        key = self.back(base)  # the letters of two passes differ
         self.degrees[key] = lcm(self.degrees.get(key, 1), int(r.q))
         q = self.degrees[key]
         letter = self.letter(f"root{q}", (base,), sp.Pow(meaning, sp.Rational(1, q)))
@@ -333,7 +351,7 @@ class Translation:
                 p, size = self.logarithms[rest]
                 result *= self._size_power(p, rate) if size else self._principal(p, rate, self.back(p))
             else:
-                key = "exp", rest
+                key = "exp", self.back(rest)
                 self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
                 step = self.steps[key]
                 w = self.letter(key, (), sp.exp(self.back(rest) / step))
@@ -381,7 +399,7 @@ class Translation:
             return sp.S.One, sp.S.Zero
         if rest in self.arcs and rate.is_Integer:
             return _multiple(self.arcs[rest], int(rate))
-        key = "angle", rest
+        key = "angle", self.back(rest)
         self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
         step = self.steps[key]
         tau = self.letter(key, (), sp.tan(self.back(rest) / (2 * step)))

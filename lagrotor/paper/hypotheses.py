@@ -18,6 +18,7 @@ from sympy.core.relational import Relational
 from lagrotor.algebra import decide_zero
 from lagrotor.algebra.feasibility import is_infeasible
 from lagrotor.algebra.inverses import INVERSES, argument, solved_for
+from lagrotor.algebra.numbering import Numbering, letters_in_order
 from lagrotor.algebra.signs import Region, region, signs
 from lagrotor.errors import InputError
 from lagrotor.paper.premises import Premise, relation_text
@@ -47,8 +48,9 @@ class Hypotheses:
     def signed(self) -> "Hypotheses":
         """The same set with its inequalities as assumptions of letters, as far as they are linear in one that is free."""
         put, left = dict(self.put), self.left
+        order = letters_in_order((sp.S.Zero, *self.region, *left))
         for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
-            step = _as_assumption(relation.xreplace(put), self.small)
+            step = _as_assumption(relation.xreplace(put), self.small, order)
             if step is not None:
                 letter, value = step
                 put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
@@ -131,11 +133,13 @@ class _Wishes(NamedTuple):
 
     first: frozenset[sp.Symbol] = frozenset()
     last: sp.Symbol | None = None
+    order: tuple[sp.Symbol, ...] = ()
 
     def rank(self, step: "_Step") -> tuple[Any, ...]:
         """The lowest is taken."""
-        number, lossy, *rest = step.rank
-        return step.letter == self.last, number, lossy, step.letter not in self.first, *rest
+        number, lossy, operations = step.rank
+        place = self.order.index(step.letter)
+        return step.letter == self.last, number, lossy, step.letter not in self.first, operations, place
 
 
 # A set is looked at again for each premise that may be left out of it, and for each line.
@@ -153,12 +157,18 @@ def _solved_or_not(
     equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
 ) -> Hypotheses:
     put: dict[sp.Symbol, sp.Expr] = {}
-    conditions = sorted(region, key=sp.default_sort_key)
+    letters = Numbering(sp.S.Zero, *equations, *region)
+    wishes = wishes._replace(order=tuple(letters.letters))
+
+    def numbered(e: sp.Basic) -> Any:
+        return sp.default_sort_key(letters.there(e))
+
+    conditions = sorted(region, key=numbered)
     strict = sp.Ne | sp.StrictGreaterThan | sp.StrictLessThan
     units = {*small, *(r.lhs - r.rhs for r in conditions if isinstance(r, strict))}
     for e in equations:
         units.update(factor for factor, _ in _factor_list(_denominator(e)))
-    waiting = sorted(equations, key=sp.default_sort_key)
+    waiting = sorted(equations, key=numbered)
     while True:
         steps = [step for e in waiting for step in _plain_steps(e, small)]
         if not steps:
@@ -282,7 +292,7 @@ def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
 def _step(letter: sp.Symbol, value: sp.Expr, conditions: tuple[Relational, ...] = ()) -> _Step:
     """Numbers first, then values that have the signs that the letter was declared with, then short ones."""
     lossy = len(_own_conditions(letter, value)) + len(conditions)
-    return _Step((not value.is_number, lossy, sp.count_ops(value), letter.name, str(value)), letter, value, conditions)
+    return _Step((not value.is_number, lossy, sp.count_ops(value)), letter, value, conditions)
 
 
 def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
@@ -331,13 +341,16 @@ def _checked(
     yield from found
 
 
-def _as_assumption(relation: Any, small: tuple[sp.Symbol, ...]) -> tuple[sp.Symbol, sp.Expr] | None:
+def _as_assumption(
+    relation: Any, small: tuple[sp.Symbol, ...], order: list[sp.Symbol]
+) -> tuple[sp.Symbol, sp.Expr] | None:
     """A letter and its value by a new letter whose assumption is the condition: x ≥ 1 is x = 1 + u, u nonnegative."""
     if not isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt):
         return None
     e = sp.expand(relation.gts - relation.lts)
     strict = isinstance(relation, sp.StrictGreaterThan | sp.StrictLessThan)
-    for letter in sorted(e.free_symbols, key=lambda s: (len(_KINDS) - _declared(s), s.name), reverse=True):
+    places = {letter: place for place, letter in enumerate(order)}
+    for letter in sorted(e.free_symbols, key=lambda s: (_declared(s), places.get(s, len(order)))):
         slope = sp.expand(e.diff(letter))
         if not slope.is_Rational or slope == 0 or letter.is_integer:
             continue

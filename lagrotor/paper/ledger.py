@@ -176,6 +176,7 @@ def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...],
         finding.place,
         finding.seen.point if finding.seen else None,
         finding.seen.enclosure if finding.seen else None,
+        finding.seen.sides if finding.seen else None,
         "; ".join(finding.reasons),
     )
 
@@ -255,7 +256,7 @@ def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
     """Whether a point of the premises is certainly inside a branch: at its edge alone, where a root is 0, nothing is said."""
     inside = sp.StrictGreaterThan(condition.gts, condition.lts)
     return not isinstance(inside, Relational) or bool(
-        witness(sp.S.One, hypotheses((*assumed, Premise("inside", where=(inside,)))))
+        witness((sp.S.One, sp.S.Zero), hypotheses((*assumed, Premise("inside", where=(inside,)))))
     )
 
 
@@ -289,7 +290,7 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if on_equations == "nowhere":
         return _Finding("undecided", reasons=("the premises contradict each other or the domain",))
     if exact.answer == "zero" or on_equations == "zero":
-        trivial = _is_zero(derived) and _is_zero(printed) and not _is_zero(relation.printed)
+        trivial = _is_trivial(relation, under.signed)
         if relation.known is not None:
             return _Finding("holds-to-order", relation.known[1], relation.known[0], domain, trivial=trivial)
         return _Finding("holds", domain=domain, trivial=trivial)
@@ -297,8 +298,9 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
         return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
     if small is not None:
         return _to_order(relation, printed, derived, small, domain, under)
-    place, gap = _where_apart(relation, under)
-    seen = witness(gap, under, principal=exact.answer == "nonzero") if gap is not None else None
+    place, sides = _where_apart(relation, under)
+    gap = sides[0] - sides[1] if sides else None
+    seen = witness(sides, under, principal=exact.answer == "nonzero") if sides else None
     if seen is not None:
         return _Finding("refuted", None, None, domain, (), gap, place, seen, may_branch=exact.partly)
     value = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
@@ -346,6 +348,15 @@ def _is_zero(side: Any) -> bool:
     return all(sp.expand(e) == 0 for e in (side if isinstance(side, sp.MatrixBase) else [side]))
 
 
+def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
+    """Whether the premises make each term of both sides zero; an equation Q = 0 states just that, and is not trivial."""
+    sides = [relation.printed, relation.derived]
+    entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
+    return not any(map(_is_zero, sides)) and all(
+        _is_zero(signed.on(term)) for e in entries for term in sp.Add.make_args(e)
+    )
+
+
 def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:
     """Whether the difference vanishes wherever the equations that were not solved hold."""
     signed = under.signed
@@ -357,15 +368,18 @@ def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:
     return next((answer for answer in ("nowhere", "nonzero", "undecided") if answer in answers), "zero")
 
 
-def _where_apart(relation: Relation, under: Hypotheses) -> tuple[tuple[int, int] | None, sp.Expr | None]:
-    """The first entry that is not decided to be equal, and the difference there, in the letters of the statement."""
-    gap = under.on(relation.printed) - under.on(relation.derived)
-    if not isinstance(gap, sp.MatrixBase):
-        return None, gap
+def _where_apart(
+    relation: Relation, under: Hypotheses
+) -> tuple[tuple[int, int] | None, tuple[sp.Expr, sp.Expr] | None]:
+    """The first entry that is not decided to be equal, and both sides there, in the letters of the statement."""
+    printed, derived = under.on(relation.printed), under.on(relation.derived)
+    if not isinstance(printed, sp.MatrixBase):
+        return None, (printed, derived)
+    pairs = list(zip(printed, derived, strict=True))
     for answer in ("nonzero", "undecided"):
-        for i, entry in enumerate(gap):
-            if decide_equal(entry, sp.S.Zero).answer == answer:
-                return divmod(i, gap.cols), entry
+        for i, pair in enumerate(pairs):
+            if decide_equal(*pair).answer == answer:
+                return divmod(i, printed.cols), pair
     return None, None
 
 
@@ -395,7 +409,7 @@ def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
         gap = None if near else printed - derived
         return _Finding("holds" if near else "refuted", reasons=() if near else (reason,), difference=gap)
     gap = under.on(relation.printed) / under.on(relation.derived) - 1
-    seen = witness(gap, under, within)
+    seen = witness((gap, sp.S.Zero), under, within)
     if seen is None:
         return _Finding(
             "undecided", reasons=("the ratio of the sides depends on letters, and no certified point was found",)
@@ -465,7 +479,7 @@ def _to_order(
     if lead > relation.claimed:
         reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None
-    if (under.signed.left or under.signed.region) and witness(first.coefficient, under) is None:
+    if (under.signed.left or under.signed.region) and witness((first.coefficient, sp.S.Zero), under) is None:
         reason = f"no certified point keeps the sides apart at order {first.order} in {name}"
         return _Finding("undecided", None, small, domain, (reason,), first.coefficient, at)
     return _Finding("refuted", reached, small, domain, (reason,), first.coefficient, at)

@@ -129,6 +129,7 @@ class LineVerdict:
             first coefficient.
         witness: letter → value, a point that satisfies the premises.
         enclosure: two rationals of one sign between which the difference lies there.
+        sides: the same of the printed and of the derived side; None for a side whose principal value there is not real.
         reason: why it does not hold, in words.
         dimensions: what the units of the letters say of it; no verdict rests on them.
     """
@@ -143,6 +144,7 @@ class LineVerdict:
     place: tuple[int, int] | None = None
     witness: Mapping[sp.Symbol, Any] | None = None
     enclosure: tuple[sp.Rational, sp.Rational] | None = None
+    sides: tuple[tuple[sp.Rational, sp.Rational] | None, tuple[sp.Rational, sp.Rational] | None] | None = None
     reason: str = ""
     dimensions: Dimensions | None = None
 

@@ -1,7 +1,7 @@
 """What refutes under hypotheses: a point that satisfies them, at which an enclosure keeps the two sides apart."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import chain, islice
 from typing import Any, TypeAlias
 
@@ -10,9 +10,12 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from lagrotor.algebra.enclosed_roots import enclosed_root
-from lagrotor.algebra.enclosures import Bounds, enclosure
+from lagrotor.algebra.enclosures import Bounds, enclosure, enclosures
 from lagrotor.algebra.evidence import points
+from lagrotor.algebra.feasibility import has_principal_values
+from lagrotor.algebra.numbering import letters_in_order, without_number
 from lagrotor.algebra.proving import evaluated
+from lagrotor.algebra.signs import conditions, region
 from lagrotor.paper.hypotheses import Hypotheses, replaced
 
 Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
@@ -21,29 +24,48 @@ _POINTS = 40
 
 @dataclass(frozen=True)
 class Witness:
-    """A point, and two rationals of one sign between which the difference of the two sides lies there."""
+    """A point, two rationals of one sign between which the difference of the sides lies, and those of each side there.
+
+    sides: of the printed and of the derived side; None where principal values are meant and that of a side is not real.
+    """
 
     point: Values
     enclosure: Bounds
+    sides: tuple[Bounds | None, Bounds | None]
 
 
 def witness(
-    difference: sp.Expr, under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
+    sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
 ) -> Witness | None:
-    """A point where the hypotheses hold and |difference| > beyond ≥ 0, both certified; None where none was found.
+    """Return a point where the hypotheses hold, both sides are real and |left − right| > beyond ≥ 0; None without one.
 
-    principal: whether values that are not real count, too; their absolute value is then enclosed.
+    principal: of sides with i or complex letters, and of sides that are real nowhere, principal values count; the absolute
+    value of the difference is then enclosed.
     """
+    there = sp.Tuple(*map(under.on, sides))
+    real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(there)))))
+    found = _apart(sides, real, beyond, False) if sp.false not in real.region else None
+    if found is None and principal and has_principal_values(there, under.left, region(under.inside)):
+        return _apart(sides, under, beyond, True)
+    return found
+
+
+def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool) -> Witness | None:
+    """Return a point of the hypotheses that keeps the sides apart."""
     signed = under.signed
+    both = tuple(signed.on(side) for side in sides)
+    difference = sides[0] - sides[1]
     e = evaluated(signed.on(difference))
     if signed.contradiction or _says_more(e, signed):
         return None
-    for values in _points(e, signed):
+    for values in _points((e, *both), signed):
         between = enclosure(e, values)
-        if between is None and principal:
+        if principal and between is None:
             between = enclosure(sp.Abs(e, evaluate=False), values)
         if between is not None and (between[0] > beyond or between[1] < -beyond):
-            return Witness(_of_letters(difference, under, signed, values), between)
+            left, right = enclosures(map(evaluated, both), values)
+            if principal or (left and right):
+                return Witness(_of_letters(difference, under, signed, values), between, (left, right))
     return None
 
 
@@ -55,14 +77,16 @@ def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
     return any(x.has(AppliedUndef) for x in signed.left) or any(d.has(*functions) for d in new if functions)
 
 
-def _points(e: sp.Expr, signed: Hypotheses) -> Iterator[Values]:
+def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]:
     """Points of the letters that are left which satisfy all that the hypotheses say."""
-    letters = e.free_symbols.union(*(x.free_symbols for x in (*signed.left, *signed.region)))
+    conditions = *signed.left, *signed.region
+    order = letters_in_order((without_number(compared[0])[1], *compared[1:], *conditions))
+    letters = [s for s in order if any(s in x.free_symbols for x in (*compared, *conditions))]
     scales = (1, 2) if signed.region else (1,)
     for at in chain(*(islice(points(letters, _POINTS, sp.Integer(scale)), _POINTS) for scale in scales)):
         values: Values = dict(at)
         if signed.left:
-            box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed)) else None
+            box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed, order)) else None
             if box is None:
                 continue
             values |= box
@@ -70,11 +94,11 @@ def _points(e: sp.Expr, signed: Hypotheses) -> Iterator[Values]:
             yield values
 
 
-def _unknowns(signed: Hypotheses) -> list[sp.Symbol]:
+def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
     """A letter for each equation that is left, each once, of those that are in the fewest; empty where there are too few."""
     found: list[sp.Symbol] = []
     for e in sorted(signed.left, key=lambda e: len(e.free_symbols)):
-        free = sorted(e.free_symbols - set(found) - set(signed.small), key=sp.default_sort_key)
+        free = sorted(e.free_symbols - set(found) - set(signed.small), key=order.index)
         if not free:
             return []
         found.append(free[0])
