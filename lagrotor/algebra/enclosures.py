@@ -8,7 +8,7 @@ Interval Analysis, chs. 2, 7.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import reduce
 from operator import add, mul
 from typing import Any, TypeAlias
@@ -16,6 +16,8 @@ from typing import Any, TypeAlias
 import sympy as sp
 from mpmath import iv, libmp
 from mpmath.ctx_iv import ivmpc
+from sympy.core.cache import clear_cache
+from sympy.core.evalf import evalf_table, fastlog
 from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra.special_enclosures import SPECIAL
@@ -23,7 +25,7 @@ from lagrotor.errors import NotExactError
 
 Point: TypeAlias = dict[sp.Expr, sp.Expr]
 
-_DIGITS = 50
+DIGITS = 120
 _MOST_TERMS = 3000  # of a sum
 _LARGEST = 1e6  # arguments of functions: beyond, their values have too many digits
 _CONSTANTS = {sp.pi: lambda: iv.pi, sp.E: lambda: iv.e, sp.EulerGamma: lambda: iv.euler, sp.I: lambda: iv.mpc(0, 1)}
@@ -38,7 +40,7 @@ def digits(number: int) -> Any:
         iv.dps = before
 
 
-def enclosed_at(expression: sp.Expr, point: Point, precision: int = _DIGITS) -> Any:
+def enclosed_at(expression: sp.Expr, point: Point, precision: int = DIGITS) -> Any:
     """An interval, or a rectangle of the complex plane, that holds the value at the point.
 
     Raises NotExactError where none is known.
@@ -57,7 +59,7 @@ def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
 
     Raises NotExactError where something has no enclosure, or A is not shown to be regular.
     """
-    with digits(_DIGITS):
+    with digits(DIGITS):
         try:
             enclosure = PointEnclosure(point)
             rows = [[_real(enclosure.of(e)) for e in row] for row in A.row_join(b).tolist()]
@@ -292,10 +294,12 @@ def _atan(x: Any) -> Any:
 
 
 def _asin(x: Any) -> Any:
-    """In the real domain, and off the real axis: on its cuts conventions differ."""
+    """On the cuts x > 1 and x < −1 with sympy's branch."""
     if not _is_complex(x):
+        if x.a > 1 or x.b < -1:
+            return iv.pi / 2 - _acos(x)
         if not (x.a >= -1 and x.b <= 1):
-            raise NotExactError("asin is not enclosed outside [-1, 1].")
+            raise NotExactError("asin is not enclosed at the ends of [-1, 1].")
         side = 1 - x * x
         root = iv.sqrt(iv.mpf([max(side.a, iv.mpf(0).a), side.b]))
         return iv.make_mpf(libmp.mpi_atan2(x._mpi_, root._mpi_, iv.prec))
@@ -303,6 +307,13 @@ def _asin(x: Any) -> Any:
         raise NotExactError("asin is not enclosed near its cut.")
     i = iv.mpc(0, 1)
     return -i * _log(i * x + _sqrt(1 - x * x))
+
+
+def _acos(x: Any) -> Any:
+    """Real in [-1, 1]; i acosh(x) for x > 1, and π − i acosh(−x) for x < −1."""
+    if _is_complex(x) or (x.a >= -1 and x.b <= 1):
+        return iv.pi / 2 - _asin(x)
+    return iv.mpc(0, _acosh(x)) if x.a > 1 else iv.pi - iv.mpc(0, _acosh(-x)) if x.b < -1 else _unknown("acos")
 
 
 def _acosh(x: Any) -> Any:
@@ -345,7 +356,7 @@ _FUNCTIONS: dict[Any, Any] = {
     sp.sech: lambda x: 2 / (_exp(x) + _exp(-x)),
     sp.csch: lambda x: 2 / (_exp(x) - _exp(-x)),
     sp.asin: _asin,
-    sp.acos: lambda x: iv.pi / 2 - _asin(x),
+    sp.acos: _acos,
     sp.atan: _atan,
     sp.acot: lambda x: _atan(1 / x),
     sp.asec: lambda x: iv.pi / 2 - _asin(1 / x),
@@ -395,7 +406,7 @@ def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
 
 def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -> list[Bounds | None]:
     """The enclosure of each; what they have in common is enclosed once."""
-    with digits(_DIGITS):
+    with digits(DIGITS):
         boxes = {s: value for s, value in point.items() if isinstance(value, tuple)}
         known = PointEnclosure({s: value for s, value in point.items() if s not in boxes})
         known.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in boxes.items()}
@@ -410,6 +421,36 @@ def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -
         return [bounds(e) for e in expressions]
 
 
+def _evalf(e: sp.Expr, precision: int, _: Mapping[str, Any]) -> tuple[Any, ...]:
+    """Return (re, im, bits of re, bits of im) of a function of numbers, as an entry of sympy's `evalf_table` does.
+
+    Raises KeyError where no enclosure is known: sympy then evaluates without one.
+    """
+    before, parts = iv.prec, None
+    for iv.prec in (precision + 20, 4 * precision + 200, 8 * precision + 2000):
+        with suppress(NotExactError, AttributeError, RecursionError):
+            value = PointEnclosure({}).value(e)
+            parts = [_significant(part, precision) for part in (value.real, value.imag)]
+            if all(number is None or bits >= precision for number, bits in parts):
+                break
+    iv.prec = before
+    if parts is None:
+        raise KeyError(e)
+    (re, re_bits), (im, im_bits) = parts
+    return re, im, re_bits, im_bits
+
+
+def _significant(part: Any, precision: int) -> tuple[Any, Any]:
+    """Return a real interval as a number with its certain bits; without a number where it is 0."""
+    if part.a == part.b == 0:
+        return None, None
+    middle, width = part.mid._mpi_[0], part.delta._mpi_[1]
+    if 0 in part:
+        return width, 0
+    bits = precision if width == libmp.fzero else min(fastlog(middle) - fastlog(width), precision)
+    return libmp.mpf_pos(middle, precision, "n"), bits
+
+
 def _quotient(value: sp.Rational) -> Any:
     return iv.mpf(value.p) / value.q
 
@@ -418,3 +459,10 @@ def _rational(end: Any) -> sp.Rational:
     """An end of an interval, which is a rational with a power of two below."""
     sign, mantissa, exponent, _ = end._mpi_[0]
     return (-1) ** sign * sp.Integer(int(mantissa)) * sp.Integer(2) ** int(exponent)
+
+
+# sympy finds the sign of a number, and so whether sin of it is 0, by evalf. Its evalf rounds the argument of a function to a few
+# bits first: acosh(1 + 1e-8) is then 0. With these entries such a sign is certain; what was evaluated before is left behind.
+for function in (_FUNCTIONS.keys() | SPECIAL.keys()) - evalf_table.keys():
+    evalf_table[function] = _evalf
+clear_cache()
