@@ -54,6 +54,17 @@ def excludes_zero(value: Any) -> bool:
     return any(0 not in part and part.delta < iv.inf for part in (value.real, value.imag))
 
 
+def are_apart(left: sp.Expr, right: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
+    """Return whether the enclosures of two real sides have no number in common at a point, in which nothing is put in."""
+    with digits(DIGITS):
+        inside = _in_boxes(point)
+        try:
+            gap = inside.value(left) - inside.value(right)
+        except (NotExactError, RecursionError):
+            return False
+        return inside.real and excludes_zero(gap)
+
+
 def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
     """Intervals that hold x of A x = b at the point, by elimination.
 
@@ -407,9 +418,7 @@ def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
 def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -> list[Bounds | None]:
     """The enclosure of each; what they have in common is enclosed once."""
     with digits(DIGITS):
-        boxes = {s: value for s, value in point.items() if isinstance(value, tuple)}
-        known = PointEnclosure({s: value for s, value in point.items() if s not in boxes})
-        known.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in boxes.items()}
+        known = _in_boxes(point)
 
         def bounds(e: sp.Expr) -> Bounds | None:
             try:
@@ -421,10 +430,10 @@ def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -
         return [bounds(e) for e in expressions]
 
 
-def _evalf(e: sp.Expr, precision: int, _: Mapping[str, Any]) -> tuple[Any, ...]:
+def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
     """Return (re, im, bits of re, bits of im) of a function of numbers, as an entry of sympy's `evalf_table` does.
 
-    Raises KeyError where no enclosure is known: sympy then evaluates without one.
+    Where no enclosure is known sympy evaluates without one.
     """
     before, parts = iv.prec, None
     for iv.prec in (precision + 20, 4 * precision + 200, 8 * precision + 2000):
@@ -435,7 +444,7 @@ def _evalf(e: sp.Expr, precision: int, _: Mapping[str, Any]) -> tuple[Any, ...]:
                 break
     iv.prec = before
     if parts is None:
-        raise KeyError(e)
+        return _WITHOUT[type(e)](e, precision, options)  # KeyError has evalf look elsewhere
     (re, re_bits), (im, im_bits) = parts
     return re, im, re_bits, im_bits
 
@@ -451,6 +460,14 @@ def _significant(part: Any, precision: int) -> tuple[Any, Any]:
     return libmp.mpf_pos(middle, precision, "n"), bits
 
 
+def _in_boxes(point: Mapping[sp.Symbol, Any]) -> PointEnclosure:
+    """Return the enclosures at a point of which some values are pairs of rationals."""
+    boxes = {s: value for s, value in point.items() if isinstance(value, tuple)}
+    inside = PointEnclosure({s: value for s, value in point.items() if s not in boxes})
+    inside.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in boxes.items()}
+    return inside
+
+
 def _quotient(value: sp.Rational) -> Any:
     return iv.mpf(value.p) / value.q
 
@@ -461,8 +478,8 @@ def _rational(end: Any) -> sp.Rational:
     return (-1) ** sign * sp.Integer(int(mantissa)) * sp.Integer(2) ** int(exponent)
 
 
-# sympy finds the sign of a number, and so whether sin of it is 0, by evalf. Its evalf rounds the argument of a function to a few
-# bits first: acosh(1 + 1e-8) is then 0. With these entries such a sign is certain; what was evaluated before is left behind.
-for function in (_FUNCTIONS.keys() | SPECIAL.keys()) - evalf_table.keys():
-    evalf_table[function] = _evalf
+# sympy finds the sign of a number, and so whether its sine is 0, by evalf. Its evalf rounds the argument of a function to a few
+# bits first: acosh(1 + 1e-8) is then 0. With these entries such a sign is certain; signs from before are not kept.
+_WITHOUT = dict(evalf_table)
+evalf_table.update(dict.fromkeys((_FUNCTIONS.keys() | SPECIAL.keys()) - evalf_table.keys() | {sp.log, sp.tan}, _evalf))
 clear_cache()

@@ -13,9 +13,8 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.paper.grammar import parsed
 from lagrotor.paper.ledger import decide
-from lagrotor.paper.letters import FUNCTIONS, read
+from lagrotor.paper.letters import FUNCTIONS, read, read_print
 from lagrotor.paper.premises import Premise, premises_of
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.tree import text_of
@@ -98,11 +97,11 @@ def judge_text(
     relations: list[Relation] = []
     poles, cancelled = set[sp.Expr](), set[sp.Expr]()
     for text in texts:
-        first, *rest = (read(side, letters, "judge") for side in text.sides)
+        sides = [read_print(side, letters, "judge") for side in text.sides]
+        first, *rest = (value for value, _ in sides)
         relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
-        for side in text.sides:
-            written = _poles(parsed(side, {**FUNCTIONS, **letters}, "judge", as_written=True))
-            poles, cancelled = poles | written, cancelled | (written - _poles(read(side, letters, "judge")))
+        for value, written in sides:
+            poles, cancelled = poles | _poles(written), cancelled | (_poles(written) - _poles(value))
     verdict = decide(Statement("", tuple(relations), premises_of(premises)))
     # x of x/x and of exp(log(x)) is gone from what is decided; where nothing else is known of the domain, all is named.
     kept_apart = {sp.expand(sign * (a - b)) for a, b in _strict(verdict.premises) for sign in (1, -1)}

@@ -18,7 +18,7 @@ from sympy.core.relational import Relational
 from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, truncated_series
 from lagrotor.algebra.evidence import points
 from lagrotor.algebra.scalar import sympified
-from lagrotor.errors import InputError, NotExactError
+from lagrotor.errors import InputError, LagrotorError, NotExactError
 from lagrotor.mechanics.glossary import Glossary
 from lagrotor.paper.hypotheses import Hypotheses, hypotheses
 from lagrotor.paper.ideal import vanishes_on
@@ -27,7 +27,7 @@ from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
 from lagrotor.paper.readable import readable
 from lagrotor.paper.units import Dimensions, dimensions
 from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict
-from lagrotor.paper.witness import witness
+from lagrotor.paper.witness import contradicted, witness
 
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4
@@ -288,6 +288,9 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if on_equations == "nowhere":
         return _Finding("undecided", reasons=("the premises contradict each other or the domain",))
     if exact.answer == "zero" or on_equations == "zero":
+        if (at := contradicted(relation.printed, relation.derived, under)) is not None:
+            both = f"{relation.printed} and {relation.derived}"
+            raise LagrotorError(f"{both} were decided to be equal and differ at {at}: report this error of lagrotor")
         trivial = _is_trivial(relation, under.signed)
         if relation.known is not None:
             return _Finding("holds-to-order", relation.known[1], relation.known[0], domain, trivial=trivial)
