@@ -178,6 +178,8 @@ class Translation:
         if isinstance(e, sp.asinh) and is_real(e.args[0], self.where):
             u = self.of(e.args[0])
             return self.log_size(u + self.root(u**2 + 1, sp.S.Half))
+        if isinstance(e, sp.atan2) and is_positive(e.args[1], self.where):
+            return self.of(sp.atan(e.args[0] / e.args[1], evaluate=False))
         if e.func in _BY_OTHERS:
             return self.of(_BY_OTHERS[e.func](e.args[0]))
         if isinstance(e, sp.Abs | sp.sign | sp.re | sp.im | sp.conjugate):
