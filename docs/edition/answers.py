@@ -97,8 +97,8 @@ def shortfall(line: LineVerdict) -> Iterator[str]:
         yield note(line.reason)
     if line.difference is not None:
         yield heading("Left less right") + formula("", line.difference)
-    if seen := point_text(line):
-        yield heading("Witness") + note(seen.replace("printed − derived", "left − right"))
+    if seen := point_text(line, ("left", "right")):
+        yield heading("Witness") + note(seen)
         exact = ", ".join(f"{readable(str(s))} = {value}" for s, value in (line.witness or {}).items())
         yield note(f"exactly: {exact}; the value is enclosed in rational numbers of one sign.")
 

@@ -42,7 +42,7 @@ class Judgement:
     readings: tuple[str, ...]
 
     def __repr__(self) -> str:
-        return "\n".join((*(f"read: {line}" for line in self.readings), repr(self.verdict)))
+        return repr(self.verdict)
 
 
 @dataclass(frozen=True)
@@ -65,10 +65,8 @@ def judge_text(
 
     Examples:
         >>> judge_text("sqrt(x**2) = x", given=["x >= 0"])
-        read: sqrt(x**2) = x
-        read: x >= 0
-        Abs(x): holds-if
-          x ≥ 0
+        sqrt(x**2) = x: holds-if
+          under the given premise x ≥ 0
 
     Args:
         equation: left = right, or a chain of several; also LaTeX.
@@ -102,7 +100,8 @@ def judge_text(
         relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
         for value, written in sides:
             poles, cancelled = poles | _poles(written), cancelled | (_poles(written) - _poles(value))
-    verdict = decide(Statement("", tuple(relations), premises_of(premises)))
+    title = "; ".join(map(str, texts))
+    verdict = decide(Statement("", tuple(relations), premises_of(premises), title=title))
     # x of x/x and of exp(log(x)) is gone from what is decided; where nothing else is known of the domain, all is named.
     kept_apart = {sp.expand(sign * (a - b)) for a, b in _strict(verdict.premises) for sign in (1, -1)}
     unseen = sorted((cancelled if verdict.domain else poles) - kept_apart, key=sp.default_sort_key)

@@ -16,7 +16,6 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, truncated_series
-from lagrotor.algebra.evidence import points
 from lagrotor.algebra.scalar import sympified
 from lagrotor.errors import InputError, LagrotorError, NotExactError
 from lagrotor.mechanics.glossary import Glossary
@@ -231,13 +230,11 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
 
 
 def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
-    """Whether a is a rational number times b, neither being zero."""
+    """Return whether a is a rational number times b, neither being zero, up to what they are divided by."""
     if a.free_symbols != b.free_symbols:
         return False
-    at = next(points(a.free_symbols), {})
-    here, there = a.subs(at), b.subs(at)
-    ratio = here / there if there != 0 else sp.S.Zero
-    return bool(ratio.is_Rational and ratio != 0) and decide_equal(a, ratio * b).answer == "zero"
+    one, other = (sp.expand(sp.together(e).as_numer_denom()[0]).as_content_primitive()[1] for e in (a, b))
+    return any(decide_equal(one, sign * other).answer == "zero" for sign in (1, -1))
 
 
 def _branch(relation: Relation, assumed: tuple[Premise, ...]) -> tuple[Premise, ...]:
