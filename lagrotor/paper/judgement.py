@@ -19,7 +19,7 @@ from lagrotor.paper.premises import Premise, premises_of
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.tree import text_of
 from lagrotor.paper.source.usage import notation_of
-from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain
+from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain, check_premises
 
 _RELATIONS = {"=": sp.Eq, "!=": sp.Ne, ">=": sp.Ge, ">": sp.Gt, "<=": sp.Le, "<": sp.Lt}
 _SIGN = re.compile(r"(==|>=|<=|!=|[=<>≥≤≠])")
@@ -93,15 +93,18 @@ def judge_text(
     premises = [_relation(text, letters) for text in assumed]
     about = read(small, letters, "small") if small else None
     relations: list[Relation] = []
+    prints: list[Any] = [about]
     poles, cancelled = set[sp.Expr](), set[sp.Expr]()
     for text in texts:
         sides = [read_print(side, letters, "judge") for side in text.sides]
         first, *rest = (value for value, _ in sides)
         relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
         for value, written in sides:
+            prints.append(written)
             poles, cancelled = poles | _poles(written), cancelled | (_poles(written) - _poles(value))
-    title = "; ".join(map(str, texts))
-    verdict = decide(Statement("", tuple(relations), premises_of(premises), title=title))
+    statement = Statement("", tuple(relations), premises_of(premises), title="; ".join(map(str, texts)))
+    check_premises(prints, statement.premises)
+    verdict = decide(statement)
     # x of x/x and of exp(log(x)) is gone from what is decided; where nothing else is known of the domain, all is named.
     kept_apart = {sp.expand(sign * (a - b)) for a, b in _strict(verdict.premises) for sign in (1, -1)}
     unseen = sorted((cancelled if verdict.domain else poles) - kept_apart, key=sp.default_sort_key)

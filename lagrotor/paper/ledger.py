@@ -25,7 +25,7 @@ from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
 from lagrotor.paper.readable import readable
 from lagrotor.paper.units import Dimensions, dimensions
-from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict
+from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict, check_premises
 from lagrotor.paper.witness import contradicted, witness
 
 # How far a series is looked at beyond the order that is claimed.
@@ -65,7 +65,9 @@ def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None
         letters = {s.name: s for e in (side, *sides, *filter(None, [small])) for s in e.free_symbols}
         printed = read(printed, letters, "judge")
     known = (right.small, right.order) if isinstance(right, Series) else None
-    return decide(Statement("", (Relation(sympified(printed, "judge"), side, small, order, known=known),), premises))
+    made = Statement("", (Relation(sympified(printed, "judge"), side, small, order, known=known),), premises)
+    check_premises([printed, side, small], premises)
+    return decide(made)
 
 
 def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
@@ -234,7 +236,7 @@ def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
     if a.free_symbols != b.free_symbols:
         return False
     one, other = (sp.expand(sp.together(e).as_numer_denom()[0]).as_content_primitive()[1] for e in (a, b))
-    return any(decide_equal(one, sign * other).answer == "zero" for sign in (1, -1))
+    return 0 in (sp.expand(one - other), sp.expand(one + other))
 
 
 def _branch(relation: Relation, assumed: tuple[Premise, ...]) -> tuple[Premise, ...]:

@@ -116,19 +116,18 @@ class Statement:
         where = f"verdict: {self.id}" if self.id else "judge"
         sides = [(r.printed, r.derived, r.small, r.scene) for r in (*self.relations, *self.correction)]
         check_names(where, sides, [(premise.put, premise.where, premise.small) for premise in self.premises])
-        if not self.id and (apart := _untouched(sides, self.premises)):
-            raise InputError(
-                f"judge: the premise {apart.with_formula} has no letter of the equation: name its letters alike"
-            )
 
 
-def _untouched(sides: Any, premises: tuple[Premise, ...]) -> Premise | None:
-    """Return a premise with letters, none of which is in the sides, nor in a premise that is connected with them."""
+def check_premises(sides: Any, premises: tuple[Premise, ...]) -> None:
+    """Raise InputError for a premise with letters, none of which is in the sides, nor in a premise connected with them."""
     known, left = set(symbols_in(sides)), [(p, set(symbols_in((p.put, p.where, p.small)))) for p in premises]
     while near := [letters for _, letters in left if letters & known or not letters]:
         known.update(*near)
         left = [each for each in left if each[1] and not each[1] <= known]
-    return left[0][0] if left else None
+    for premise, _ in left:
+        raise InputError(
+            f"judge: no letter of the premise {premise.with_formula} is in the equation: name letters alike"
+        )
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,11 @@
 """An equation given as text: how it is read, what is decided of it, and what is refused in words."""
 
 import pytest
+import sympy as sp
 
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
-from lagrotor.paper import judge_text
+from lagrotor.paper import judge, judge_text
 from lagrotor.paper.premises import relation_text
 
 
@@ -110,3 +111,33 @@ def test_a_power_may_be_typed_with_a_caret() -> None:
     assert judge_text("x^2 y = y x^2").verdict.verdict == "holds"
     with pytest.raises(InputError, match="reads it as the letters s q r t"):
         judge_text(r"\alpha^2 sqrt(x) = \alpha")
+
+
+@pytest.mark.parametrize(
+    "premise",
+    [
+        "b = a*sin(x) + c", "a*sin(x) + c = b", "b - c = a*sin(x)", "0 = b - c - a*sin(x)", "3*b = 3*c + 3*a*sin(x)",
+        "c = b - a*sin(x)", "a = (b - c)/sin(x)",
+    ],
+)  # fmt: skip
+def test_a_premise_that_is_the_conclusion_is_named_in_every_form(premise: str) -> None:
+    verdict = judge_text("a*sin(x) + c = b", [premise]).verdict
+    assert verdict.verdict == "undecided" and verdict.evidence[0].startswith("circular: the premise is the conclusion")
+    left, right = (part for pair in verdict.statement.premises[0].equations for part in pair)
+    sides = verdict.lines[0].relation
+    for given in ({left: right}, {right: left}, sp.Eq(left, right), [sp.Eq(right, left)]):
+        assert (
+            judge(sides.printed, sides.derived, given=given).evidence
+            == judge(sides.derived, sides.printed, given).evidence
+        )
+        assert "circular" in judge(sides.printed, sides.derived, given=given).evidence[0]
+    assert judge_text("a*sin(x) + c = b", ["c = b", "a = 0"]).verdict.verdict == "holds-if"
+
+
+def test_a_premise_that_touches_no_letter_of_the_equation_is_refused() -> None:
+    a, b, x = sp.symbols("a b x", real=True)
+    with pytest.raises(InputError, match="two different symbols are called 'a'"):
+        judge(a * x, b * x, given=[sp.Eq(sp.Symbol("a"), sp.Symbol("b"))])
+    with pytest.raises(InputError, match="no letter of the premise y > 0 is in the equation"):
+        judge_text("a*x = b*x", ["y > 0"])
+    assert judge_text("a*x = b*x", ["a = y", "c = y", "b = c"]).verdict.verdict == "holds-if"
