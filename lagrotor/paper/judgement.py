@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.paper.ledger import decide
-from lagrotor.paper.letters import FUNCTIONS, read, read_print
+from lagrotor.paper.letters import FUNCTIONS, read, read_side
 from lagrotor.paper.premises import Premise, premises_of
 from lagrotor.paper.source.formula import read_formula
 from lagrotor.paper.source.tree import text_of
@@ -96,7 +96,7 @@ def judge_text(
     prints: list[Any] = [about]
     poles, cancelled = set[sp.Expr](), set[sp.Expr]()
     for text in texts:
-        sides = [read_print(side, letters, "judge") for side in text.sides]
+        sides = [read_side(side, letters, "judge") for side in text.sides]
         first, *rest = (value for value, _ in sides)
         relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
         for value, written in sides:

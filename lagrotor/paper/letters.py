@@ -125,7 +125,7 @@ def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
     return parsed(text, {**FUNCTIONS, **letters}, where)
 
 
-def read_print(text: str, letters: Mapping[str, Any], where: str) -> tuple[Any, Any]:
+def read_side(text: str, letters: Mapping[str, Any], where: str) -> tuple[Any, Any]:
     """Return a printed side as it is decided, and as it is written.
 
     Raises InputError where it cannot be read, and LagrotorError where an enclosure at a random point keeps the two apart.
@@ -168,7 +168,7 @@ def read_line(given: Mapping[str, Any], names: Mapping[str, Any], where: str) ->
     scene = [(read(name, names, where), read(value, names, where)) for name, value in given.get("scene", {}).items()]
     return Line(
         quantity=given["quantity"],
-        members=tuple(read_print(member, names, where)[0] for member in given.get("members", ())),
+        members=tuple(read_side(member, names, where)[0] for member in given.get("members", ())),
         order=given.get("order", 0),
         small=read(given["small"], names, where) if "small" in given else None,
         within=read_off(given["read_off"]) if "read_off" in given else None,
