@@ -26,7 +26,7 @@ from lagrotor.errors import NotExactError
 Point: TypeAlias = dict[sp.Expr, sp.Expr]
 
 DIGITS = 120
-_MOST_TERMS = 3000  # of a sum
+_MOST_TERMS, _PIECES = 3000, 32  # of a sum, of an integral
 _LARGEST = 1e6  # arguments of functions: beyond, their values have too many digits
 _CONSTANTS = {sp.pi: lambda: iv.pi, sp.E: lambda: iv.e, sp.EulerGamma: lambda: iv.euler, sp.I: lambda: iv.mpc(0, 1)}
 
@@ -178,14 +178,26 @@ class PointEnclosure:
         return e.xreplace(dict(self.point)) if plain else e
 
     def _integral(self, e: sp.Expr) -> Any:
-        """Of an unknown f(u) du alone: its antiderivative is as free as f is."""
+        """Return the enclosure of a definite integral; of an unknown f(u) du alone the antiderivative is as free as f is."""
         body, (u, *ends), *others = e.args
+        if not others and len(ends) == 2 and not body.has(AppliedUndef, sp.Integral):
+            return self._quadrature(body, u, *map(self.of, ends))
         if others or not isinstance(body, AppliedUndef) or body.args != (u,):
             raise NotExactError(f"{e} is not enclosed.")
         values = [self._jet((body.func, (-1,)), (end,)) for end in (ends or [u])]
         if len(values) == 2:
             self.jets[e] = values[1] - values[0]
         return _leaf(values[-1]) - (_leaf(values[0]) if len(values) == 2 else 0)
+
+    def _quadrature(self, body: sp.Expr, u: sp.Symbol, low: Any, high: Any) -> Any:
+        """Return the sum of the ranges of the body over equal pieces, each times the length of a piece."""
+        step, total = _real(high - low) / _PIECES, iv.mpf(0)
+        for k in range(_PIECES):
+            piece = PointEnclosure(self.point)
+            ends = low + k * step, low + (k + 1) * step
+            piece.known[u] = iv.mpf([min(end.a for end in ends), max(end.b for end in ends)])
+            total += _real(piece.of(body)) * step
+        return total
 
     def _repeated(self, e: sp.Expr) -> Any:
         """A sum or a product between whole numbers."""

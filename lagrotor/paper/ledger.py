@@ -267,6 +267,10 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
         kinds = ("a vector", "a number") if isinstance(relation.derived, sp.MatrixBase) else ("a number", "a vector")
         return _Finding("refuted", reasons=("the left side is {}, the printed right side {}".format(*kinds),))
     printed, derived = (under.signed.on(side) for side in (relation.printed, relation.derived))
+    if printed.has(sp.Limit) or derived.has(sp.Limit):
+        return _Finding("undecided", reasons=("limits are not decided",))
+    if _is_singular(relation.printed) or _is_singular(relation.derived):
+        return _Finding("undecided", reasons=("a side is not finite",))
     if _is_singular(printed) or _is_singular(derived):
         return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
     if relation.within is not None and relation.known is not None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from math import floor, log10
 from typing import Any, Literal, TypeAlias
 
 import sympy as sp
@@ -197,9 +198,11 @@ def _point(line: LineVerdict) -> dict[Any, str]:
 
 
 def _number(value: Any) -> str:
-    """A number, or two between which it lies, in five digits."""
-    middle = (value[0] + value[1]) / 2 if isinstance(value, tuple) else value
-    mantissa, _, power = f"{float(middle):.5g}".partition("e")
+    """Return a number, or two between which it lies, in five digits or as many as are certain."""
+    low, high = value if isinstance(value, tuple) else (value, value)
+    middle, width = (low + high) / 2, high - low
+    certain = 5 if width == 0 or middle == 0 else min(5, max(1, floor(log10(abs(middle / width)))))
+    mantissa, _, power = f"{float(middle):.{certain}g}".partition("e")
     return rf"{mantissa}\times 10^{{{int(power)}}}" if power else mantissa
 
 

@@ -27,6 +27,25 @@ from lagrotor.paper.premises import relation_text
         ("x**2*(1 - e**2) = x**2 - e**2*x**2", (), "holds"),
         ("integrate(1/(1 + cos(x)), (x, 0, 2*pi)) = 0", (), "undecided"),
         ("integrate(1/(2 + cos(x)), (x, 0, 2*pi)) = 2*pi/sqrt(3)", (), "holds"),
+        # Half of an arc, by the sign of its cosine; numbers made of arcs, by their sine and an enclosure.
+        ("cos(acos(x)/2) = sqrt((1+x)/2)", (), "holds"),
+        ("cos(acos(x)/2) = -sqrt((1+x)/2)", (), "refuted"),
+        ("cos(acos(x)/2) = sqrt((1-x)/2)", (), "refuted"),
+        ("tan(atan(x)/2) = x/(1+sqrt(1+x**2))", (), "holds"),
+        ("tan(atan(x)/2) = x/(1-sqrt(1+x**2))", (), "refuted"),
+        ("cos(acos(x)/4)**2 = (1+sqrt((1+x)/2))/2", (), "holds"),
+        ("acos(2*sqrt(5)/5) = atan(1/2)", (), "holds"),
+        ("acos(2*sqrt(5)/5) = atan(1/2) + 10**(-60)", (), "refuted"),
+        ("acos(1/3)/2 = atan(1/sqrt(2))", (), "holds"),
+        ("2*acos(1/3) = acos(-7/9)", (), "holds"),
+        ("2*acos(1/3) = -acos(-7/9)", (), "refuted"),
+        ("atan(1) + atan(2) + atan(3) = pi", (), "holds"),
+        ("atan(1) + atan(2) + atan(3) = 0", (), "refuted"),
+        # Definite integrals are refuted by enclosures, not proved by them.
+        ("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 2/3", (), "refuted"),
+        ("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 4", (), "undecided"),
+        ("integrate(Abs(x), (x, -1, 2)) = -1", (), "refuted"),
+        ("integrate(1/x, (x, -1, 1)) = 7", (), "undecided"),
     ],
 )
 def test_verdicts_of_text(equation: str, given: list[str], verdict: str) -> None:
@@ -141,3 +160,14 @@ def test_a_premise_that_touches_no_letter_of_the_equation_is_refused() -> None:
     with pytest.raises(InputError, match="no letter of the premise y > 0 is in the equation"):
         judge_text("a*x = b*x", ["y > 0"])
     assert judge_text("a*x = b*x", ["a = y", "c = y", "b = c"]).verdict.verdict == "holds-if"
+
+
+def test_a_limit_is_undecided_for_its_own_reason() -> None:
+    x = sp.Symbol("x", real=True)
+    assert judge(sp.Limit((1 + 1 / x) ** x, x, sp.oo), sp.E).evidence == ("limits are not decided",)
+    assert judge(1 / x, sp.oo).evidence == ("a side is not finite",)
+
+
+def test_no_more_digits_are_shown_than_are_certain() -> None:
+    said = repr(judge_text("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 2/3"))
+    assert said.endswith("left − right is 3: left 4, right 0.66667")
