@@ -57,7 +57,7 @@ def excludes_zero(value: Any) -> bool:
 def are_apart(left: sp.Expr, right: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
     """Return whether the enclosures of two real sides have no number in common at a point, in which nothing is put in."""
     with digits(DIGITS):
-        inside = _in_boxes(point)
+        inside = PointEnclosure(point)
         try:
             gap = inside.value(left) - inside.value(right)
         except (NotExactError, RecursionError):
@@ -85,11 +85,15 @@ def apart(left: Sequence[Any], right: Sequence[Any]) -> int | None:
 
 
 class PointEnclosure:
-    """Enclosures of the parts of an expression at one point, `jets`: the free values that unknown functions took there."""
+    """Enclosures of the parts of an expression at one point, `jets`: the free values that unknown functions took there.
 
-    def __init__(self, point: Mapping[sp.Expr, sp.Expr]) -> None:
-        self.point = point
-        self.known: dict[sp.Expr, Any] = {}
+    A value of the point may also be two rationals between which it lies.
+    """
+
+    def __init__(self, point: Mapping[sp.Expr, Any]) -> None:
+        self.point = {s: value for s, value in point.items() if not isinstance(value, tuple)}
+        boxes = ((s, *value) for s, value in point.items() if s not in self.point)
+        self.known: dict[sp.Expr, Any] = {s: iv.mpf([_leaf(low).a, _leaf(high).b]) for s, low, high in boxes}
         self.jets: dict[sp.Expr, sp.Expr] = {}
         self.free: list[tuple[Any, tuple[Any, ...], Any]] = []  # (jet, arguments, value)
 
@@ -102,7 +106,7 @@ class PointEnclosure:
         """The enclosure; raise NotExactError where none is known."""
         try:
             return self.of(e)
-        except (ArithmeticError, ValueError, libmp.ComplexResult, TypeError) as error:
+        except (ArithmeticError, ValueError, libmp.ComplexResult, TypeError, AttributeError) as error:
             raise NotExactError(f"Not enclosed at {self.point}: {error}.") from None
 
     def of(self, e: sp.Expr) -> Any:
@@ -430,13 +434,13 @@ def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
 def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -> list[Bounds | None]:
     """The enclosure of each; what they have in common is enclosed once."""
     with digits(DIGITS):
-        known = _in_boxes(point)
+        known = PointEnclosure(point)
 
         def bounds(e: sp.Expr) -> Bounds | None:
             try:
                 value = known.value(e)
                 return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))
-            except (NotExactError, AttributeError):
+            except NotExactError:
                 return None
 
         return [bounds(e) for e in expressions]
@@ -447,14 +451,13 @@ def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
 
     Where no enclosure is known sympy evaluates without one.
     """
-    before, parts = iv.prec, None
-    for iv.prec in (precision + 20, 4 * precision + 200, 8 * precision + 2000):
-        with suppress(NotExactError, AttributeError, RecursionError):
+    parts = None
+    for number in (precision, 2 * precision + 60, 4 * precision + 600):
+        with digits(number), suppress(NotExactError, RecursionError):
             value = PointEnclosure({}).value(e)
             parts = [_significant(part, precision) for part in (value.real, value.imag)]
-            if all(number is None or bits >= precision for number, bits in parts):
+            if all(middle is None or bits >= precision for middle, bits in parts):
                 break
-    iv.prec = before
     if parts is None:
         return _WITHOUT[type(e)](e, precision, options)  # KeyError has evalf look elsewhere
     (re, re_bits), (im, im_bits) = parts
@@ -470,18 +473,6 @@ def _significant(part: Any, precision: int) -> tuple[Any, Any]:
         return width, 0
     bits = precision if width == libmp.fzero else min(fastlog(middle) - fastlog(width), precision)
     return libmp.mpf_pos(middle, precision, "n"), bits
-
-
-def _in_boxes(point: Mapping[sp.Symbol, Any]) -> PointEnclosure:
-    """Return the enclosures at a point of which some values are pairs of rationals."""
-    boxes = {s: value for s, value in point.items() if isinstance(value, tuple)}
-    inside = PointEnclosure({s: value for s, value in point.items() if s not in boxes})
-    inside.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in boxes.items()}
-    return inside
-
-
-def _quotient(value: sp.Rational) -> Any:
-    return iv.mpf(value.p) / value.q
 
 
 def _rational(end: Any) -> sp.Rational:

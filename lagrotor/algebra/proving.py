@@ -115,14 +115,14 @@ def _is_small_angle(expression: sp.Expr) -> bool:
     """Return whether a number made of arcs is zero: a whole multiple of it is small and has the sine 0."""
     if expression.free_symbols or not expression.has(sp.asin, sp.acos, sp.atan):
         return False
-    terms = sp.Add.make_args(sp.expand(expression))
-    angle = lcm(*(int(term.as_coeff_Mul()[0].q) for term in terms if term.as_coeff_Mul()[0].is_Rational)) * expression
+    rates = [term.as_coeff_Mul()[0] for term in sp.Add.make_args(sp.expand(expression))]
+    angle = sp.expand(lcm(*(int(rate.q) for rate in rates if rate.is_Rational)) * expression)
     ends = enclosure(angle, {})
     return (
         ends is not None
-        and ends[0] > -3
-        and ends[1] < 3
-        and _vanishes(sp.sin(sp.expand(angle), evaluate=False), Region())
+        and abs(ends[0]) < 3
+        and abs(ends[1]) < 3
+        and _vanishes(sp.sin(angle, evaluate=False), Region())
     )
 
 

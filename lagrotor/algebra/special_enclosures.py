@@ -54,12 +54,6 @@ def _erf(_: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
             return (total + _ball(2 * abs(power))) * 2 / iv.sqrt(iv.pi)
 
 
-def _atan2(_: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
-    for value in values:
-        _real(value)
-    return iv.make_mpf(libmp.mpi_atan2(*(value._mpi_ for value in values), iv.prec))
-
-
 def _real(x: Any) -> None:
     if isinstance(x, ivmpc):
         raise NotExactError("A special function is enclosed at real arguments only.")
@@ -210,7 +204,7 @@ def _elliptic(orders: Sequence[sp.Expr], values: Sequence[Any], second: bool = F
 
 
 SPECIAL: dict[Any, Any] = {
-    sp.atan2: _atan2,
+    sp.atan2: lambda orders, values: iv.make_mpf(libmp.mpi_atan2(*(x._mpi_ for x in values), iv.prec)),
     sp.gamma: _gamma,
     sp.factorial: lambda orders, values: _gamma([orders[0] + 1], [values[0] + 1]),
     sp.binomial: _binomial,

@@ -134,9 +134,7 @@ def read_side(text: str, letters: Mapping[str, Any], where: str) -> tuple[Any, A
     for left, right in zip(*(components([side]) for side in (value, written)), strict=True):
         for point in points(left.free_symbols | right.free_symbols, 2):
             if are_apart(left, right, point):
-                raise LagrotorError(
-                    f"{where}: {text!r} was read as {value}, which differs: report this error of lagrotor"
-                )
+                raise LagrotorError(f"{where}: {text!r} is not {value}, as it was read: report this error of lagrotor")
     return value, written
 
 

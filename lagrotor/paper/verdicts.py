@@ -126,9 +126,7 @@ def check_premises(sides: Any, premises: tuple[Premise, ...]) -> None:
         known.update(*near)
         left = [each for each in left if each[1] and not each[1] <= known]
     for premise, _ in left:
-        raise InputError(
-            f"judge: no letter of the premise {premise.with_formula} is in the equation: name letters alike"
-        )
+        raise InputError(f"judge: no letter of the premise {premise.with_formula} is in the equation: name it alike")
 
 
 @dataclass(frozen=True)
@@ -170,9 +168,7 @@ def point_text(line: LineVerdict, sides: tuple[str, str] = ("printed", "derived"
     shown = ", ".join(f"{readable(str(s))} = {_signed(value)}" for s, value in _point(line).items())
     place = f", entry {line.place[0] + 1}, {line.place[1] + 1}," if line.place else ""
     text = f"{' − '.join(sides)}{place} is {_signed(_number(line.enclosure))}" + (f" at {shown}" if shown else "")
-    values = [
-        f"{name} {_signed(_number(v))}" for name, v in zip(sides, line.sides or (), strict=False) if v is not None
-    ]
+    values = [f"{name} {_signed(_number(v))}" for name, v in zip(sides, line.sides or (), strict=False) if v]
     return text + (f": {', '.join(values)}" if len(values) == 2 else "")
 
 
@@ -261,20 +257,19 @@ def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
     where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
-    title = v.statement.title or readable(" = ".join(str(s) for s in _members(v.statement)))
     # An equation by itself says which premises were given; in a paper all are.
     given = () if v.id else v.statement.premises
     premises = v.premises if v.verdict in AGREES or v.id else given
     ifs = (("under the given premise " if p in given else "") + readable(p.with_formula) for p in premises)
     decided = (v.verdict, *ifs, order, where, corrected)
-    named = f"{v.id}: {title}" if v.id else title
+    named = f"{v.id}: {v.statement.title}" if v.id else v.statement.title or _equation(v.statement)
     # What a paper says to be wrong is enough; an equation by itself has the point at which it was seen.
     names = ("printed", "derived") if v.id else ("left", "right")
     seen = () if v.statement.wrong or v.verdict != "refuted" else tuple(point_text(line, names) for line in v.lines)
     return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence, *seen)))
 
 
-def _members(statement: Statement) -> list[Side]:
-    """Return the members of the first chain of an equation in a row, the last one once."""
+def _equation(statement: Statement) -> str:
+    """Return the members of the first chain of an equation in plain text."""
     last = statement.relations[0].derived
-    return [*(r.printed for r in statement.relations if r.derived == last), last]
+    return readable(" = ".join(map(str, (*(r.printed for r in statement.relations if r.derived == last), last))))
