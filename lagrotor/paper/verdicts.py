@@ -119,13 +119,18 @@ class Statement:
         check_names(where, sides, [(premise.put, premise.where, premise.small) for premise in self.premises])
 
 
-def check_premises(sides: Any, premises: tuple[Premise, ...]) -> None:
-    """Raise InputError for a premise with letters, none of which is in the sides, nor in a premise connected with them."""
+def unconnected(sides: Any, premises: Iterable[Premise]) -> list[Premise]:
+    """Return the premises with letters, none of which is in the sides, nor in a premise that is connected with them."""
     known, left = set(symbols_in(sides)), [(p, set(symbols_in((p.put, p.where, p.small)))) for p in premises]
     while near := [letters for _, letters in left if letters & known or not letters]:
         known.update(*near)
         left = [each for each in left if each[1] and not each[1] <= known]
-    for premise, _ in left:
+    return [premise for premise, _ in left]
+
+
+def check_premises(sides: Any, premises: Iterable[Premise]) -> None:
+    """Raise InputError for a premise that is not connected with the sides."""
+    for premise in unconnected(sides, premises):
         raise InputError(f"judge: no letter of the premise {premise.with_formula} is in the equation: name it alike")
 
 
