@@ -174,7 +174,8 @@ def point_text(line: LineVerdict, sides: tuple[str, str] = ("printed", "derived"
     place = f", entry {line.place[0] + 1}, {line.place[1] + 1}," if line.place else ""
     text = f"{' − '.join(sides)}{place} is {_signed(_number(line.enclosure))}" + (f" at {shown}" if shown else "")
     values = [f"{name} {_signed(_number(v))}" for name, v in zip(sides, line.sides or (), strict=False) if v]
-    return text + (f": {', '.join(values)}" if len(values) == 2 else "")
+    letters = line.relation.printed.free_symbols | line.relation.derived.free_symbols
+    return text + (f": {', '.join(values)}" if len(values) == 2 and letters <= (line.witness or {}).keys() else "")
 
 
 def _signed(number: str) -> str:
