@@ -76,6 +76,7 @@ def judged(equation: str, given: str, positive: str, small: str, order: str) -> 
         raise InputError(f"order: {order!r} is no whole number: through which order in {small} is it claimed?")
     said = judge_text(equation, lines(given), names_of(positive), small.strip(), int(order) if small else 0)
     verdict = said.verdict
+    yield heading("As it was read") + "".join(f"<p><code>{escape(text)}</code></p>" for text in said.readings)
     through = f" through order {verdict.order} in {readable(str(verdict.small))}"
     yield f'<p class="verdict {verdict.verdict}">{verdict.verdict}{through * (verdict.verdict == "holds-to-order")}</p>'
     if assumed := verdict.premises or verdict.refuted_under:
@@ -87,7 +88,6 @@ def judged(equation: str, given: str, positive: str, small: str, order: str) -> 
     for line in verdict.lines:
         if line.verdict not in AGREES:
             yield from shortfall(line)
-    yield heading("As it was read") + "".join(f"<p><code>{escape(text)}</code></p>" for text in said.readings)
     yield "".join(formula(latex(line.relation.printed), line.relation.derived) for line in verdict.lines)
 
 
@@ -97,8 +97,8 @@ def shortfall(line: LineVerdict) -> Iterator[str]:
         yield note(line.reason)
     if line.difference is not None:
         yield heading("Left less right") + formula("", line.difference)
-    if seen := point_text(line):
-        yield heading("Witness") + note(seen.replace("printed − derived", "left − right"))
+    if seen := point_text(line, ("left", "right")):
+        yield heading("Witness") + note(seen)
         exact = ", ".join(f"{readable(str(s))} = {value}" for s, value in (line.witness or {}).items())
         yield note(f"exactly: {exact}; the value is enclosed in rational numbers of one sign.")
 

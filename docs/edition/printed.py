@@ -9,6 +9,7 @@ import sympy as sp
 
 from lagrotor.errors import LagrotorError
 from lagrotor.paper import Audit, LineVerdict, Paper, Premise, judge_text
+from lagrotor.paper.verdicts import unconnected
 
 LONGEST = 900  # characters of an equation that is still read in a form
 
@@ -27,7 +28,9 @@ def examples_of(paper: Paper, audit: Audit) -> Iterator[dict[str, str]]:
 
 def line_premises(line: LineVerdict, offered: tuple[Premise, ...]) -> list[sp.Basic]:
     """What may be assumed of a line, as relations."""
-    assumed = (*offered, *line.relation.scene_premises)
+    whole = (*offered, *line.relation.scene_premises)
+    idle = unconnected((line.relation.printed, line.relation.derived), whole)
+    assumed = [premise for premise in whole if premise not in idle]
     equations = [sp.Eq(a, b, evaluate=False) for premise in assumed if not premise.small for a, b in premise.equations]
     return [*equations, *(relation for premise in assumed for relation in premise.conditions)]
 

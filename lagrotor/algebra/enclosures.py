@@ -8,7 +8,7 @@ Interval Analysis, chs. 2, 7.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import reduce
 from operator import add, mul
 from typing import Any, TypeAlias
@@ -16,6 +16,8 @@ from typing import Any, TypeAlias
 import sympy as sp
 from mpmath import iv, libmp
 from mpmath.ctx_iv import ivmpc
+from sympy.core.cache import clear_cache
+from sympy.core.evalf import evalf_table, fastlog
 from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra.special_enclosures import SPECIAL
@@ -23,8 +25,8 @@ from lagrotor.errors import NotExactError
 
 Point: TypeAlias = dict[sp.Expr, sp.Expr]
 
-_DIGITS = 50
-_MOST_TERMS = 3000  # of a sum
+DIGITS = 120
+_MOST_TERMS, _PIECES = 3000, 32  # of a sum, of an integral
 _LARGEST = 1e6  # arguments of functions: beyond, their values have too many digits
 _CONSTANTS = {sp.pi: lambda: iv.pi, sp.E: lambda: iv.e, sp.EulerGamma: lambda: iv.euler, sp.I: lambda: iv.mpc(0, 1)}
 
@@ -38,7 +40,7 @@ def digits(number: int) -> Any:
         iv.dps = before
 
 
-def enclosed_at(expression: sp.Expr, point: Point, precision: int = _DIGITS) -> Any:
+def enclosed_at(expression: sp.Expr, point: Point, precision: int = DIGITS) -> Any:
     """An interval, or a rectangle of the complex plane, that holds the value at the point.
 
     Raises NotExactError where none is known.
@@ -52,12 +54,23 @@ def excludes_zero(value: Any) -> bool:
     return any(0 not in part and part.delta < iv.inf for part in (value.real, value.imag))
 
 
+def are_apart(left: sp.Expr, right: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
+    """Return whether the enclosures of two real sides have no number in common at a point, in which nothing is put in."""
+    with digits(DIGITS):
+        inside = PointEnclosure(point)
+        try:
+            gap = inside.value(left) - inside.value(right)
+        except (NotExactError, RecursionError):
+            return False
+        return inside.real and excludes_zero(gap)
+
+
 def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
     """Intervals that hold x of A x = b at the point, by elimination.
 
     Raises NotExactError where something has no enclosure, or A is not shown to be regular.
     """
-    with digits(_DIGITS):
+    with digits(DIGITS):
         try:
             enclosure = PointEnclosure(point)
             rows = [[_real(enclosure.of(e)) for e in row] for row in A.row_join(b).tolist()]
@@ -72,11 +85,15 @@ def apart(left: Sequence[Any], right: Sequence[Any]) -> int | None:
 
 
 class PointEnclosure:
-    """Enclosures of the parts of an expression at one point, `jets`: the free values that unknown functions took there."""
+    """Enclosures of the parts of an expression at one point, `jets`: the free values that unknown functions took there.
 
-    def __init__(self, point: Mapping[sp.Expr, sp.Expr]) -> None:
-        self.point = point
-        self.known: dict[sp.Expr, Any] = {}
+    A value of the point may also be two rationals between which it lies.
+    """
+
+    def __init__(self, point: Mapping[sp.Expr, Any]) -> None:
+        self.point = {s: value for s, value in point.items() if not isinstance(value, tuple)}
+        boxes = ((s, *value) for s, value in point.items() if s not in self.point)
+        self.known: dict[sp.Expr, Any] = {s: iv.mpf([_leaf(low).a, _leaf(high).b]) for s, low, high in boxes}
         self.jets: dict[sp.Expr, sp.Expr] = {}
         self.free: list[tuple[Any, tuple[Any, ...], Any]] = []  # (jet, arguments, value)
 
@@ -89,7 +106,7 @@ class PointEnclosure:
         """The enclosure; raise NotExactError where none is known."""
         try:
             return self.of(e)
-        except (ArithmeticError, ValueError, libmp.ComplexResult, TypeError) as error:
+        except (ArithmeticError, ValueError, libmp.ComplexResult, TypeError, AttributeError) as error:
             raise NotExactError(f"Not enclosed at {self.point}: {error}.") from None
 
     def of(self, e: sp.Expr) -> Any:
@@ -165,14 +182,26 @@ class PointEnclosure:
         return e.xreplace(dict(self.point)) if plain else e
 
     def _integral(self, e: sp.Expr) -> Any:
-        """Of an unknown f(u) du alone: its antiderivative is as free as f is."""
+        """Return the enclosure of a definite integral; of an unknown f(u) du alone the antiderivative is as free as f is."""
         body, (u, *ends), *others = e.args
+        if not others and len(ends) == 2 and not body.has(AppliedUndef, sp.Integral):
+            return self._quadrature(body, u, *map(self.of, ends))
         if others or not isinstance(body, AppliedUndef) or body.args != (u,):
             raise NotExactError(f"{e} is not enclosed.")
         values = [self._jet((body.func, (-1,)), (end,)) for end in (ends or [u])]
         if len(values) == 2:
             self.jets[e] = values[1] - values[0]
         return _leaf(values[-1]) - (_leaf(values[0]) if len(values) == 2 else 0)
+
+    def _quadrature(self, body: sp.Expr, u: sp.Symbol, low: Any, high: Any) -> Any:
+        """Return the sum of the ranges of the body over equal pieces, each times the length of a piece."""
+        step, total = _real(high - low) / _PIECES, iv.mpf(0)
+        for k in range(_PIECES):
+            piece = PointEnclosure(self.point)
+            ends = low + k * step, low + (k + 1) * step
+            piece.known[u] = iv.mpf([min(end.a for end in ends), max(end.b for end in ends)])
+            total += _real(piece.of(body)) * step
+        return total
 
     def _repeated(self, e: sp.Expr) -> Any:
         """A sum or a product between whole numbers."""
@@ -292,10 +321,12 @@ def _atan(x: Any) -> Any:
 
 
 def _asin(x: Any) -> Any:
-    """In the real domain, and off the real axis: on its cuts conventions differ."""
+    """On the cuts x > 1 and x < −1 with sympy's branch."""
     if not _is_complex(x):
+        if x.a > 1 or x.b < -1:
+            return iv.pi / 2 - _acos(x)
         if not (x.a >= -1 and x.b <= 1):
-            raise NotExactError("asin is not enclosed outside [-1, 1].")
+            raise NotExactError("asin is not enclosed at the ends of [-1, 1].")
         side = 1 - x * x
         root = iv.sqrt(iv.mpf([max(side.a, iv.mpf(0).a), side.b]))
         return iv.make_mpf(libmp.mpi_atan2(x._mpi_, root._mpi_, iv.prec))
@@ -303,6 +334,13 @@ def _asin(x: Any) -> Any:
         raise NotExactError("asin is not enclosed near its cut.")
     i = iv.mpc(0, 1)
     return -i * _log(i * x + _sqrt(1 - x * x))
+
+
+def _acos(x: Any) -> Any:
+    """Real in [-1, 1]; i acosh(x) for x > 1, and π − i acosh(−x) for x < −1."""
+    if _is_complex(x) or (x.a >= -1 and x.b <= 1):
+        return iv.pi / 2 - _asin(x)
+    return iv.mpc(0, _acosh(x)) if x.a > 1 else iv.pi - iv.mpc(0, _acosh(-x)) if x.b < -1 else _unknown("acos")
 
 
 def _acosh(x: Any) -> Any:
@@ -345,7 +383,7 @@ _FUNCTIONS: dict[Any, Any] = {
     sp.sech: lambda x: 2 / (_exp(x) + _exp(-x)),
     sp.csch: lambda x: 2 / (_exp(x) - _exp(-x)),
     sp.asin: _asin,
-    sp.acos: lambda x: iv.pi / 2 - _asin(x),
+    sp.acos: _acos,
     sp.atan: _atan,
     sp.acot: lambda x: _atan(1 / x),
     sp.asec: lambda x: iv.pi / 2 - _asin(1 / x),
@@ -395,26 +433,56 @@ def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
 
 def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -> list[Bounds | None]:
     """The enclosure of each; what they have in common is enclosed once."""
-    with digits(_DIGITS):
-        boxes = {s: value for s, value in point.items() if isinstance(value, tuple)}
-        known = PointEnclosure({s: value for s, value in point.items() if s not in boxes})
-        known.known = {s: iv.mpf([_quotient(low).a, _quotient(high).b]) for s, (low, high) in boxes.items()}
+    with digits(DIGITS):
+        known = PointEnclosure(point)
 
         def bounds(e: sp.Expr) -> Bounds | None:
             try:
                 value = known.value(e)
                 return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))
-            except (NotExactError, AttributeError):
+            except NotExactError:
                 return None
 
         return [bounds(e) for e in expressions]
 
 
-def _quotient(value: sp.Rational) -> Any:
-    return iv.mpf(value.p) / value.q
+def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
+    """Return (re, im, bits of re, bits of im) of a function of numbers, as an entry of sympy's `evalf_table` does.
+
+    Where no enclosure is known sympy evaluates without one.
+    """
+    parts = None
+    for number in (precision, 2 * precision + 60, 4 * precision + 600):
+        with digits(number), suppress(NotExactError, RecursionError):
+            value = PointEnclosure({}).value(e)
+            parts = [_significant(part, precision) for part in (value.real, value.imag)]
+            if all(middle is None or bits >= precision for middle, bits in parts):
+                break
+    if parts is None:
+        return _WITHOUT[type(e)](e, precision, options)  # KeyError has evalf look elsewhere
+    (re, re_bits), (im, im_bits) = parts
+    return re, im, re_bits, im_bits
+
+
+def _significant(part: Any, precision: int) -> tuple[Any, Any]:
+    """Return a real interval as a number with its certain bits; without a number where it is 0."""
+    if part.a == part.b == 0:
+        return None, None
+    middle, width = part.mid._mpi_[0], part.delta._mpi_[1]
+    if 0 in part:
+        return width, 0
+    bits = precision if width == libmp.fzero else min(fastlog(middle) - fastlog(width), precision)
+    return libmp.mpf_pos(middle, precision, "n"), bits
 
 
 def _rational(end: Any) -> sp.Rational:
     """An end of an interval, which is a rational with a power of two below."""
     sign, mantissa, exponent, _ = end._mpi_[0]
     return (-1) ** sign * sp.Integer(int(mantissa)) * sp.Integer(2) ** int(exponent)
+
+
+# sympy finds the sign of a number, and so whether its sine is 0, by evalf. Its evalf rounds the argument of a function to a few
+# bits first: acosh(1 + 1e-8) is then 0. With these entries such a sign is certain; signs from before are not kept.
+_WITHOUT = dict(evalf_table)
+evalf_table.update(dict.fromkeys((_FUNCTIONS.keys() | SPECIAL.keys()) - evalf_table.keys() | {sp.log, sp.tan}, _evalf))
+clear_cache()

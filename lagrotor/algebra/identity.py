@@ -176,7 +176,8 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
     """By a point whose enclosure excludes zero; by proof; on the branch where what a proof wants holds."""
     plain, proof, reason = evaluated(expression, where), Proof(None), exact.reason
     witness, enclosed = sample(plain, where)
-    if witness is None or plain.has(*BRANCHED) or any(not power.exp.is_integer for power in plain.atoms(sp.Pow)):
+    branched = (n for n in plain.atoms(*BRANCHED, sp.Pow) if not (n.is_Pow and n.exp.is_integer))
+    if witness is None or any(n.free_symbols for n in branched):
         try:
             proof = proof_of_zero(plain, where)
         except NotExactError as refusal:

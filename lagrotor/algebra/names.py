@@ -19,7 +19,7 @@ def check_names(where: str, *given: Any) -> None:
         InputError: if there are two.
     """
     seen: dict[str, sp.Symbol] = {}
-    for symbol in _symbols(given):
+    for symbol in symbols_in(given):
         if type(symbol) is sp.Symbol and (other := seen.setdefault(symbol.name, symbol)) != symbol:
             kinds = " and ".join(sorted({_kind(symbol), _kind(other)}))
             raise InputError(
@@ -28,15 +28,16 @@ def check_names(where: str, *given: Any) -> None:
             )
 
 
-def _symbols(given: Any) -> Iterable[sp.Symbol]:
+def symbols_in(given: Any) -> Iterable[sp.Symbol]:
+    """Yield the symbols of expressions, relations, rows and mappings of them, each as often as it occurs."""
     if isinstance(given, sp.Basic | sp.MatrixBase):
         yield from sorted(given.free_symbols, key=lambda s: (str(s), s.sort_key()))
     elif isinstance(given, Mapping):
         for pair in given.items():
-            yield from _symbols(pair)
+            yield from symbols_in(pair)
     elif isinstance(given, list | tuple | set | frozenset):
         for each in given:
-            yield from _symbols(each)
+            yield from symbols_in(each)
 
 
 def _kind(symbol: sp.Symbol) -> str:

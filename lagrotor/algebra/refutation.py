@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from lagrotor.algebra.enclosures import Point, PointEnclosure, digits, enclosed_at, excludes_zero
+from lagrotor.algebra.enclosures import DIGITS, Point, PointEnclosure, digits, enclosed_at, excludes_zero
 from lagrotor.algebra.evidence import points
 from lagrotor.algebra.scalar import parts
 from lagrotor.algebra.signs import Region
@@ -63,7 +63,7 @@ def _certainly_above(e: sp.Expr, point: Point) -> bool:
 
 
 def _at(expression: sp.Expr, point: Point) -> tuple[_Witness | None, bool]:
-    with digits(60):
+    with digits(DIGITS):
         enclosure = PointEnclosure(point)
         try:
             value = enclosure.value(expression)

@@ -281,6 +281,9 @@ class _Signs:
             low, high = ((sp.S.Zero, False) if power.is_even else (sp.S.NegativeOne, open_)), (sp.S.One, open_)
         elif isinstance(base, sp.cosh) and power.is_positive and self.of(base.args[0]) is not None:
             low = sp.S.One, False
+        elif isinstance(rest, sp.asin | sp.acos | sp.atan) and self.of(rest) is not None:
+            start, open_ = sp.S.Zero if isinstance(rest, sp.acos) else -sp.pi / 2, isinstance(rest, sp.atan)
+            low, high = (start, open_), (start + sp.pi, open_)
         elif rest.is_Symbol:
             low, high = self._bounds(rest)
         elif (found := self.of(rest)) is not None:

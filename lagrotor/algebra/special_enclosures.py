@@ -8,7 +8,7 @@ from math import ceil, factorial
 from typing import Any
 
 import sympy as sp
-from mpmath import iv
+from mpmath import iv, libmp
 from mpmath.ctx_iv import ivmpc
 
 from lagrotor.errors import NotExactError
@@ -204,6 +204,7 @@ def _elliptic(orders: Sequence[sp.Expr], values: Sequence[Any], second: bool = F
 
 
 SPECIAL: dict[Any, Any] = {
+    sp.atan2: lambda orders, values: iv.make_mpf(libmp.mpi_atan2(*(x._mpi_ for x in values), iv.prec)),
     sp.gamma: _gamma,
     sp.factorial: lambda orders, values: _gamma([orders[0] + 1], [values[0] + 1]),
     sp.binomial: _binomial,

@@ -178,6 +178,8 @@ class Translation:
         if isinstance(e, sp.asinh) and is_real(e.args[0], self.where):
             u = self.of(e.args[0])
             return self.log_size(u + self.root(u**2 + 1, sp.S.Half))
+        if isinstance(e, sp.atan2) and is_positive(e.args[1], self.where):
+            return self.of(sp.atan(e.args[0] / e.args[1], evaluate=False))
         if e.func in _BY_OTHERS:
             return self.of(_BY_OTHERS[e.func](e.args[0]))
         if isinstance(e, sp.Abs | sp.sign | sp.re | sp.im | sp.conjugate):
@@ -382,8 +384,10 @@ class Translation:
 
     def circle(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         """Cosine and sine of a translated u, term by term."""
-        total = sp.S.One, sp.S.Zero
-        for rate, rest in self.terms(u):
+        total, terms = (sp.S.One, sp.S.Zero), self.terms(u)
+        if any(rest in self.arcs and rate.q % 2 == 0 for rate, rest in terms) and (half := self._half(u)) is not None:
+            return half
+        for rate, rest in terms:
             if rest.has(sp.I):
                 w = self.exponential(sp.expand(rate * rest / sp.I))
                 pair = (w + 1 / w) / 2, sp.I * (w - 1 / w) / 2
@@ -391,6 +395,14 @@ class Translation:
                 pair = self._pair(rate, rest)
             total = _sum(total, pair)
         return total
+
+    def _half(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+        """Return √((1 + cos 2u)/2) and sin 2u/(2 cos u) where cos u is known not to be negative; None elsewhere."""
+        if not is_nonnegative(sp.cos(self.back(u)), self.where):
+            return None
+        cosine, sine = self.circle(sp.expand(2 * u))
+        half = self.root(sp.expand((1 + cosine) / 2), sp.S.Half, sp.cos(self.back(u)) ** 2)
+        return half, sine / (2 * half)
 
     def _pair(self, rate: sp.Rational, rest: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         if rest is sp.pi:
@@ -550,11 +562,13 @@ class Translation:
         u = e.args[0]
         letter = self.letter(e.func, (t,), e)
         if letter not in self.arcs:
-            if isinstance(e, sp.atan):
-                cosine = 1 / self.root(1 + t**2, sp.S.Half, 1 + u**2)
-                self.arcs[letter] = cosine, t * cosine
+            side = 1 if isinstance(e, sp.atan) else -1
+            square = 1 + side * u**2
+            if u.is_number and u.is_algebraic:  # its square root may be simpler
+                root = self.of(sp.sqrt(sp.expand(square)))
             else:
-                self.arcs[letter] = self.root(1 - t**2, sp.S.Half, 1 - u**2), t
+                root = self.root(1 + side * t**2, sp.S.Half, square)
+            self.arcs[letter] = (1 / root, t / root) if isinstance(e, sp.atan) else (root, t)
         return letter
 
     def _part(self, e: sp.Expr) -> sp.Expr:

@@ -13,14 +13,13 @@ from itertools import accumulate
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import FunctionClass
 
 from lagrotor.errors import InputError
 
 # Numbers that would take longer to write down than anybody reads: of digits, and powers of numbers.
 _MOST_CHARACTERS, _MOST_DIGITS, _MOST_POWER, _MOST_ROWS, _MOST_BRACKETS = 20_000, 400, 1000, 50, 100
 _SIGNS: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
-# Called with evaluate=False where a text is kept as it is written.
-_KEPT = {sp.sin, sp.cos, sp.tan, sp.exp, sp.log, sp.sqrt, sp.Abs, sp.sinh, sp.cosh, sp.tanh, sp.asin, sp.acos, sp.atan}
 _SIZED = {sp.eye, sp.zeros}
 
 
@@ -128,8 +127,8 @@ class _Reader:
             raise _RefusalError(f"{node.func.id} is a letter, not a function: write {node.func.id}*(…)")
         if function in _SIZED and not all(n.is_Integer and 0 <= n <= _MOST_ROWS for n in arguments):
             raise _RefusalError(f"{node.func.id} takes numbers of rows and columns up to {_MOST_ROWS}")
-        if self.as_written and function in _KEPT:
-            return function(*arguments, evaluate=False)
+        if isinstance(function, FunctionClass) or function is sp.sqrt:
+            return function(*arguments, evaluate=not (self.as_written or _holds_function(*arguments)))
         return function(*arguments)
 
     def _combined(self, node: ast.BinOp) -> Any:
@@ -141,6 +140,8 @@ class _Reader:
         left, right = self._operand(node.left), self._operand(node.right)
         if sign == "**":
             _check_power(left, right)
+            if _holds_function(left) and isinstance(right, sp.Expr) and not right.is_Integer:
+                return sp.Pow(left, right, evaluate=False)
         return _OPERATIONS[sign](left, right)
 
     def _kept(self, node: ast.BinOp, sign: str) -> Any:
@@ -148,6 +149,9 @@ class _Reader:
         left, right = self._operand(node.left), self._operand(node.right)
         if sign == "**":
             _check_power(left, right)
+        if any(isinstance(side, sp.MatrixBase) for side in (left, right)):
+            return _OPERATIONS[sign](left, right)
+        if sign == "**":
             return sp.Pow(left, right, evaluate=False)
         kind = sp.Add if sign in "+-" else sp.Mul
         if sign == "-":
@@ -165,6 +169,11 @@ _SAME: dict[Any, Any] = {sp.Add: ast.Add | ast.Sub, sp.Mul: ast.Mult | ast.Div}
 _OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
     "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "**": operator.pow,
 }  # fmt: skip
+
+
+def _holds_function(*parts: Any) -> bool:
+    """Return whether a part has a function in it: sympy does not evaluate what is taken of that."""
+    return any(isinstance(part, sp.Expr) and part.has(sp.Function) for part in parts)
 
 
 def _check_power(base: Any, exponent: Any) -> None:

@@ -13,14 +13,13 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.paper.grammar import parsed
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.tree import text_of
 from lagrotor.paper.latex.usage import notation_of
 from lagrotor.paper.ledger import decide
-from lagrotor.paper.letters import FUNCTIONS, read
+from lagrotor.paper.letters import FUNCTIONS, read, read_side
 from lagrotor.paper.premises import Premise, premises_of
-from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain
+from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain, check_premises
 
 _RELATIONS = {"=": sp.Eq, "!=": sp.Ne, ">=": sp.Ge, ">": sp.Gt, "<=": sp.Le, "<": sp.Lt}
 _SIGN = re.compile(r"(==|>=|<=|!=|[=<>≥≤≠])")
@@ -43,7 +42,7 @@ class Judgement:
     readings: tuple[str, ...]
 
     def __repr__(self) -> str:
-        return "\n".join((*(f"read: {line}" for line in self.readings), repr(self.verdict)))
+        return repr(self.verdict)
 
 
 @dataclass(frozen=True)
@@ -66,10 +65,8 @@ def judge_text(
 
     Examples:
         >>> judge_text("sqrt(x**2) = x", given=["x >= 0"])
-        read: sqrt(x**2) = x
-        read: x >= 0
-        Abs(x): holds-if
-          x ≥ 0
+        sqrt(x**2) = x: holds-if
+          under the given premise x ≥ 0
 
     Args:
         equation: left = right, or a chain of several; also LaTeX.
@@ -96,14 +93,18 @@ def judge_text(
     premises = [_relation(text, letters) for text in assumed]
     about = read(small, letters, "small") if small else None
     relations: list[Relation] = []
+    prints: list[Any] = [about]
     poles, cancelled = set[sp.Expr](), set[sp.Expr]()
     for text in texts:
-        first, *rest = (read(side, letters, "judge") for side in text.sides)
+        sides = [read_side(side, letters, "judge") for side in text.sides]
+        first, *rest = (value for value, _ in sides)
         relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
-        for side in text.sides:
-            written = _poles(parsed(side, {**FUNCTIONS, **letters}, "judge", as_written=True))
-            poles, cancelled = poles | written, cancelled | (written - _poles(read(side, letters, "judge")))
-    verdict = decide(Statement("", tuple(relations), premises_of(premises)))
+        for value, written in sides:
+            prints.append(written)
+            poles, cancelled = poles | _poles(written), cancelled | (_poles(written) - _poles(value))
+    statement = Statement("", tuple(relations), premises_of(premises), title="; ".join(map(str, texts)))
+    check_premises(prints, statement.premises)
+    verdict = decide(statement)
     # x of x/x and of exp(log(x)) is gone from what is decided; where nothing else is known of the domain, all is named.
     kept_apart = {sp.expand(sign * (a - b)) for a, b in _strict(verdict.premises) for sign in (1, -1)}
     unseen = sorted((cancelled if verdict.domain else poles) - kept_apart, key=sp.default_sort_key)

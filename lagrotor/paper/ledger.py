@@ -16,9 +16,8 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, normal_form, truncated_series
-from lagrotor.algebra.evidence import points
 from lagrotor.algebra.scalar import sympified
-from lagrotor.errors import InputError, NotExactError
+from lagrotor.errors import InputError, LagrotorError, NotExactError
 from lagrotor.mechanics.glossary import Glossary
 from lagrotor.paper.hypotheses import Hypotheses, hypotheses
 from lagrotor.paper.ideal import vanishes_on
@@ -26,8 +25,8 @@ from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
 from lagrotor.paper.readable import readable
 from lagrotor.paper.units import Dimensions, dimensions
-from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict
-from lagrotor.paper.witness import witness
+from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict, check_premises
+from lagrotor.paper.witness import contradicted, witness
 
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4
@@ -68,7 +67,9 @@ def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None
         letters = {s.name: s for e in (side, *sides, *filter(None, [small])) for s in e.free_symbols}
         printed = read(printed, letters, "judge")
     known = (right.small, right.order) if isinstance(right, Series) else None
-    return decide(Statement("", (Relation(sympified(printed, "judge"), side, small, order, known=known),), premises))
+    made = Statement("", (Relation(sympified(printed, "judge"), side, small, order, known=known),), premises)
+    check_premises([printed, side, small], premises)
+    return decide(made)
 
 
 def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
@@ -233,13 +234,11 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
 
 
 def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
-    """Whether a is a rational number times b, neither being zero."""
+    """Return whether a is a rational number times b, neither being zero, up to what they are divided by."""
     if a.free_symbols != b.free_symbols:
         return False
-    at = next(points(a.free_symbols), {})
-    here, there = a.subs(at), b.subs(at)
-    ratio = here / there if there != 0 else sp.S.Zero
-    return bool(ratio.is_Rational and ratio != 0) and decide_equal(a, ratio * b).answer == "zero"
+    one, other = (sp.expand(sp.together(e).as_numer_denom()[0]).as_content_primitive()[1] for e in (a, b))
+    return 0 in (sp.expand(one - other), sp.expand(one + other))
 
 
 def _branch(relation: Relation, assumed: tuple[Premise, ...]) -> tuple[Premise, ...]:
@@ -270,6 +269,10 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
         kinds = ("a vector", "a number") if isinstance(relation.derived, sp.MatrixBase) else ("a number", "a vector")
         return _Finding("refuted", reasons=("the left side is {}, the printed right side {}".format(*kinds),))
     printed, derived = (under.signed.on(side) for side in (relation.printed, relation.derived))
+    if printed.has(sp.Limit) or derived.has(sp.Limit):
+        return _Finding("undecided", reasons=("limits are not decided",))
+    if _is_singular(relation.printed) or _is_singular(relation.derived):
+        return _Finding("undecided", reasons=("a side is not finite",))
     if _is_singular(printed) or _is_singular(derived):
         return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
     if relation.within is not None and relation.known is not None:
@@ -290,6 +293,9 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     if on_equations == "nowhere":
         return _Finding("undecided", reasons=("the premises contradict each other or the domain",))
     if exact.answer == "zero" or on_equations == "zero":
+        if (at := contradicted(relation.printed, relation.derived, under)) is not None:
+            both = f"{relation.printed} and {relation.derived}"
+            raise LagrotorError(f"{both} were decided to be equal and differ at {at}: report this error of lagrotor")
         trivial = _is_trivial(relation, under.signed)
         if relation.known is not None:
             return _Finding("holds-to-order", relation.known[1], relation.known[0], domain, trivial=trivial)

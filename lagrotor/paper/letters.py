@@ -7,7 +7,9 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import along
-from lagrotor.errors import InputError
+from lagrotor.algebra.enclosures import are_apart
+from lagrotor.algebra.evidence import points
+from lagrotor.errors import InputError, LagrotorError
 from lagrotor.paper.grammar import parsed
 
 
@@ -123,6 +125,19 @@ def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
     return parsed(text, {**FUNCTIONS, **letters}, where)
 
 
+def read_side(text: str, letters: Mapping[str, Any], where: str) -> tuple[Any, Any]:
+    """Return a printed side as it is decided, and as it is written.
+
+    Raises InputError where it cannot be read, and LagrotorError where an enclosure at a random point keeps the two apart.
+    """
+    value, written = (parsed(text, {**FUNCTIONS, **letters}, where, as_written) for as_written in (False, True))
+    for left, right in zip(*(components([side]) for side in (value, written)), strict=True):
+        for point in points(left.free_symbols | right.free_symbols, 2):
+            if are_apart(left, right, point):
+                raise LagrotorError(f"{where}: {text!r} is not {value}, as it was read: report this error of lagrotor")
+    return value, written
+
+
 @dataclass(frozen=True)
 class Line:
     """One printed line `quantity = member = member …`, each member an expression in the paper's letters.
@@ -151,7 +166,7 @@ def read_line(given: Mapping[str, Any], names: Mapping[str, Any], where: str) ->
     scene = [(read(name, names, where), read(value, names, where)) for name, value in given.get("scene", {}).items()]
     return Line(
         quantity=given["quantity"],
-        members=tuple(read(member, names, where) for member in given.get("members", ())),
+        members=tuple(read_side(member, names, where)[0] for member in given.get("members", ())),
         order=given.get("order", 0),
         small=read(given["small"], names, where) if "small" in given else None,
         within=read_off(given["read_off"]) if "read_off" in given else None,

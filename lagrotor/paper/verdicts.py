@@ -2,12 +2,14 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from math import floor, log10
 from typing import Any, Literal, TypeAlias
 
 import sympy as sp
 from sympy.core.relational import Relational
 
 from lagrotor.algebra import check_names
+from lagrotor.algebra.names import symbols_in
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.hypotheses import hypotheses
@@ -114,7 +116,22 @@ class Statement:
             raise InputError(f"verdict: {self.id}: nothing is compared: give what was derived")
         where = f"verdict: {self.id}" if self.id else "judge"
         sides = [(r.printed, r.derived, r.small, r.scene) for r in (*self.relations, *self.correction)]
-        check_names(where, sides, [(premise.put, premise.small) for premise in self.premises])
+        check_names(where, sides, [(premise.put, premise.where, premise.small) for premise in self.premises])
+
+
+def unconnected(sides: Any, premises: Iterable[Premise]) -> list[Premise]:
+    """Return the premises with letters, none of which is in the sides, nor in a premise that is connected with them."""
+    known, left = set(symbols_in(sides)), [(p, set(symbols_in((p.put, p.where, p.small)))) for p in premises]
+    while near := [letters for _, letters in left if letters & known or not letters]:
+        known.update(*near)
+        left = [each for each in left if each[1] and not each[1] <= known]
+    return [premise for premise, _ in left]
+
+
+def check_premises(sides: Any, premises: Iterable[Premise]) -> None:
+    """Raise InputError for a premise that is not connected with the sides."""
+    for premise in unconnected(sides, premises):
+        raise InputError(f"judge: no letter of the premise {premise.with_formula} is in the equation: name it alike")
 
 
 @dataclass(frozen=True)
@@ -149,12 +166,16 @@ class LineVerdict:
     dimensions: Dimensions | None = None
 
 
-def point_text(line: LineVerdict) -> str:
-    """Where a line was seen to be wrong, in plain text; empty where it is refuted by its order, or not at all."""
-    at = _point(line)
-    shown = [f"{readable(str(s))} = {_signed(value)}" for s, value in at.items()]
+def point_text(line: LineVerdict, sides: tuple[str, str] = ("printed", "derived")) -> str:
+    """Return where a line was seen to be wrong, with the values there; empty where it is refuted by its order, or not at all."""
+    if line.difference is None or line.enclosure is None or line.relation.within is not None:
+        return ""
+    shown = ", ".join(f"{readable(str(s))} = {_signed(value)}" for s, value in _point(line).items())
     place = f", entry {line.place[0] + 1}, {line.place[1] + 1}," if line.place else ""
-    return f"printed − derived{place} is {_signed(_number(line.enclosure))} at {', '.join(shown)}" if at else ""
+    text = f"{' − '.join(sides)}{place} is {_signed(_number(line.enclosure))}" + (f" at {shown}" if shown else "")
+    values = [f"{name} {_signed(_number(v))}" for name, v in zip(sides, line.sides or (), strict=False) if v]
+    letters = line.relation.printed.free_symbols | line.relation.derived.free_symbols
+    return text + (f": {', '.join(values)}" if len(values) == 2 and letters <= (line.witness or {}).keys() else "")
 
 
 def _signed(number: str) -> str:
@@ -179,9 +200,11 @@ def _point(line: LineVerdict) -> dict[Any, str]:
 
 
 def _number(value: Any) -> str:
-    """A number, or two between which it lies, in five digits."""
-    middle = (value[0] + value[1]) / 2 if isinstance(value, tuple) else value
-    mantissa, _, power = f"{float(middle):.5g}".partition("e")
+    """Return a number, or two between which it lies, in five digits or as many as are certain."""
+    low, high = value if isinstance(value, tuple) else (value, value)
+    middle, width = (low + high) / 2, high - low
+    certain = 5 if width == 0 or middle == 0 else min(5, max(1, floor(log10(abs(middle / width)))))
+    mantissa, _, power = f"{float(middle):.{certain}g}".partition("e")
     return rf"{mantissa}\times 10^{{{int(power)}}}" if power else mantissa
 
 
@@ -246,10 +269,21 @@ def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
     where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
-    under = (f"as stated if {readable(p.with_formula)}" for p in v.refuted_under)
-    needed = (f"{'corrected if ' if corrected else ''}{readable(p.with_formula)}" for p in v.premises)
-    decided = (v.verdict, *under, order, where, corrected, *needed)
-    named = f"{v.id}: {v.statement.title}" if v.id else readable(str(v.statement.relations[0].printed))
+    # An equation by itself says which premises were given; in a paper all are.
+    given = () if v.id else v.statement.premises
+    premises = v.premises if v.verdict in AGREES or v.id else given
+    under = (f"as stated if {readable(p.with_formula)}" for p in v.refuted_under if v.id)
+    said = "corrected if " if corrected else ""
+    ifs = (("under the given premise " if p in given else said) + readable(p.with_formula) for p in premises)
+    decided = (v.verdict, *under, *(() if corrected else ifs), order, where, corrected, *(ifs if corrected else ()))
+    named = f"{v.id}: {v.statement.title}" if v.id else v.statement.title or _equation(v.statement)
     # What a paper says to be wrong is enough; an equation by itself has the point at which it was seen.
-    seen = () if v.statement.wrong or v.verdict != "refuted" else tuple(map(point_text, v.lines))
+    names = ("printed", "derived") if v.id else ("left", "right")
+    seen = () if v.statement.wrong or v.verdict != "refuted" else tuple(point_text(line, names) for line in v.lines)
     return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence, *seen)))
+
+
+def _equation(statement: Statement) -> str:
+    """Return the members of the first chain of an equation in plain text."""
+    last = statement.relations[0].derived
+    return readable(" = ".join(map(str, (*(r.printed for r in statement.relations if r.derived == last), last))))

@@ -10,7 +10,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from lagrotor.algebra.enclosed_roots import enclosed_root
-from lagrotor.algebra.enclosures import Bounds, enclosure, enclosures
+from lagrotor.algebra.enclosures import Bounds, are_apart, enclosure, enclosures
 from lagrotor.algebra.evidence import points
 from lagrotor.algebra.feasibility import has_principal_values
 from lagrotor.algebra.numbering import letters_in_order, without_number
@@ -19,7 +19,7 @@ from lagrotor.algebra.signs import conditions, region
 from lagrotor.paper.hypotheses import Hypotheses, replaced
 
 Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
-_POINTS = 40
+_POINTS, _CHECKED = 40, 2
 
 
 @dataclass(frozen=True)
@@ -66,6 +66,19 @@ def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, p
             left, right = enclosures(map(evaluated, both), values)
             if principal or (left and right):
                 return Witness(_of_letters(difference, under, signed, values), between, (left, right))
+    return None
+
+
+def contradicted(left: Any, right: Any, under: Hypotheses) -> Values | None:
+    """Return a point of the hypotheses that keeps two real sides apart that were decided to be equal; None as it should be.
+
+    The sides are enclosed as they came: nothing is put into them.
+    """
+    signed = under.signed
+    for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (left, right)), strict=True):
+        for values in islice(_points([signed.on(a), signed.on(b)], signed), _CHECKED):
+            if are_apart(a, b, {**signed.put, **values}):
+                return values
     return None
 
 

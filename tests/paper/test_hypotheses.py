@@ -91,6 +91,9 @@ LINES = [
     (sp.sqrt(p**2) * x, (r + s) * x),
     (p * x, 3 * s * x),
 ]
+LINES = [
+    (left + sum(letters), right + sum(letters)) for left, right in LINES
+]  # each premise touches a letter of each line
 
 
 @settings(max_examples=60)
@@ -139,10 +142,11 @@ def test_of_the_premises_that_are_named_none_can_be_left_out(chosen: list, line:
     ],
 )
 def test_contradictory_premises_are_named_and_decide_nothing(premises: object) -> None:
-    for line in ((x, y), (a * x, a * y), (x, x + 1)):
-        decided = judge(*line, given=premises)
+    touched = a + b + x + y + z + theta + w + m1 + m2
+    for left, right in ((x, y), (a * x, a * y), (x, x + 1)):
+        decided = judge(left + touched, right + touched, given=premises)
         assert decided.verdict == "undecided" and "contradict" in decided.evidence[0]
-    assert judge(x, x, given=premises).verdict == "holds"
+    assert judge(touched, touched, given=premises).verdict == "holds"
 
 
 @pytest.mark.parametrize(
@@ -156,7 +160,8 @@ def test_contradictory_premises_are_named_and_decide_nothing(premises: object) -
     ],
 )
 def test_premises_that_can_hold_are_not_called_contradictory(premises: object) -> None:
-    assert "contradict" not in str(judge(a * z, a * z + 1, given=premises).evidence)
+    touched = a * z + x + y + theta
+    assert "contradict" not in str(judge(touched, touched + 1, given=premises).evidence)
 
 
 REGIONS = [
@@ -218,8 +223,9 @@ def test_many_premises_take_no_longer_for_being_many() -> None:
     chain = sp.symbols("s0:17", positive=True)
     links = [sp.Eq(*pair) for pair in pairwise(chain)]
     assert len(judge(chain[0] * x, chain[16] * x, given=links).premises) == 16
-    idle = [sp.Eq(s_, 1) for s_ in sp.symbols("u0:12")]
-    assert len(judge(I1 * w, I3 * w, given=[*idle, sp.Eq(I1, J), sp.Eq(J, I3)]).premises) == 2
+    idle = sp.symbols("u0:12")
+    sides = I1 * w + sum(idle), I3 * w + sum(idle)
+    assert len(judge(*sides, given=[*(sp.Eq(u, 1) for u in idle), sp.Eq(I1, J), sp.Eq(J, I3)]).premises) == 2
 
 
 def test_holds_to_order_is_never_vacuous() -> None:
@@ -309,7 +315,7 @@ def test_a_function_s_equation_may_fix_its_derivative() -> None:
     rate = f(t).diff(t)
     assert judge(rate + a, a, given=sp.Eq(f(t), b)).verdict == "undecided"
     assert judge(rate, sp.cos(t), given=sp.Eq(f(t), sp.sin(t))).verdict != "refuted"
-    assert judge(rate + a, a, given=sp.Eq(c, b)).verdict == "refuted"
+    assert judge(rate + c, c, given=sp.Eq(c, b)).verdict == "refuted"
     assert judge(rate**2, b, given=sp.Eq(rate, b)).verdict == "refuted"
 
 

@@ -53,9 +53,9 @@ def test_matrices_are_compared_entry_by_entry() -> None:
 
 def test_a_verdict_by_itself_is_shown_in_text_and_in_a_notebook() -> None:
     decided = judge("n*x", x, given={n: 1})
-    assert repr(decided).splitlines() == ["n·x: holds-if", "  n = 1"]
+    assert repr(decided).splitlines() == ["n·x = x: holds-if", "  under the given premise n = 1"]
     html = decided._repr_html_()
-    assert "holds-if<br>n = 1" in html and "<table" in html
+    assert "holds-if<br>under the given premise n = 1" in html and "<table" in html
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,11 @@
 """An equation given as text: how it is read, what is decided of it, and what is refused in words."""
 
 import pytest
+import sympy as sp
 
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
-from lagrotor.paper import judge_text
+from lagrotor.paper import judge, judge_text
 from lagrotor.paper.premises import relation_text
 
 
@@ -26,6 +27,25 @@ from lagrotor.paper.premises import relation_text
         ("x**2*(1 - e**2) = x**2 - e**2*x**2", (), "holds"),
         ("integrate(1/(1 + cos(x)), (x, 0, 2*pi)) = 0", (), "undecided"),
         ("integrate(1/(2 + cos(x)), (x, 0, 2*pi)) = 2*pi/sqrt(3)", (), "holds"),
+        # Half of an arc, by the sign of its cosine; numbers made of arcs, by their sine and an enclosure.
+        ("cos(acos(x)/2) = sqrt((1+x)/2)", (), "holds"),
+        ("cos(acos(x)/2) = -sqrt((1+x)/2)", (), "refuted"),
+        ("cos(acos(x)/2) = sqrt((1-x)/2)", (), "refuted"),
+        ("tan(atan(x)/2) = x/(1+sqrt(1+x**2))", (), "holds"),
+        ("tan(atan(x)/2) = x/(1-sqrt(1+x**2))", (), "refuted"),
+        ("cos(acos(x)/4)**2 = (1+sqrt((1+x)/2))/2", (), "holds"),
+        ("acos(2*sqrt(5)/5) = atan(1/2)", (), "holds"),
+        ("acos(2*sqrt(5)/5) = atan(1/2) + 10**(-60)", (), "refuted"),
+        ("acos(1/3)/2 = atan(1/sqrt(2))", (), "holds"),
+        ("2*acos(1/3) = acos(-7/9)", (), "holds"),
+        ("2*acos(1/3) = -acos(-7/9)", (), "refuted"),
+        ("atan(1) + atan(2) + atan(3) = pi", (), "holds"),
+        ("atan(1) + atan(2) + atan(3) = 0", (), "refuted"),
+        # Definite integrals are refuted by enclosures, not proved by them.
+        ("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 2/3", (), "refuted"),
+        ("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 4", (), "undecided"),
+        ("integrate(Abs(x), (x, -1, 2)) = -1", (), "refuted"),
+        ("integrate(1/x, (x, -1, 1)) = 7", (), "undecided"),
     ],
 )
 def test_verdicts_of_text(equation: str, given: list[str], verdict: str) -> None:
@@ -90,10 +110,14 @@ def test_what_cannot_be_read_is_refused_in_words(equation: str, given: list[str]
 
 def test_the_shell_judges_one_equation(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["judge", "sqrt(x**2) = x", "--given", "x >= 0"]) == 0
-    assert "holds-if\n" in capsys.readouterr().out
+    assert capsys.readouterr().out == "sqrt(x**2) = x: holds-if\n  under the given premise x ≥ 0\n"
+    assert main(["judge", "sqrt(x**2) = x"]) == 0
+    assert capsys.readouterr().out == "sqrt(x**2) = x: holds-if\n  x ≥ 0\n"
+    assert main(["judge", "x = x+1"]) == 1
+    assert capsys.readouterr().out == "x = x+1: refuted\n  left − right is −1\n"
     assert main(["judge", r"\cos x = 1"]) == 1
     said = capsys.readouterr().out
-    assert "read: cos(x) = 1" in said and "printed − derived is" in said
+    assert said.startswith("cos(x) = 1: refuted\n  left − right is −0.16089 at x = −0.57515: left 0.83911, right 1\n")
     assert main(["judge", "cos(x) = 1", "--json"]) == 1
     assert '"witness"' in capsys.readouterr().out
     assert main(["judge", "cos(x)"]) == 2
@@ -106,3 +130,44 @@ def test_a_power_may_be_typed_with_a_caret() -> None:
     assert judge_text("x^2 y = y x^2").verdict.verdict == "holds"
     with pytest.raises(InputError, match="reads it as the letters s q r t"):
         judge_text(r"\alpha^2 sqrt(x) = \alpha")
+
+
+@pytest.mark.parametrize(
+    "premise",
+    [
+        "b = a*sin(x) + c", "a*sin(x) + c = b", "b - c = a*sin(x)", "0 = b - c - a*sin(x)", "3*b = 3*c + 3*a*sin(x)",
+        "c = b - a*sin(x)", "a = (b - c)/sin(x)",
+    ],
+)  # fmt: skip
+def test_a_premise_that_is_the_conclusion_is_named_in_every_form(premise: str) -> None:
+    verdict = judge_text("a*sin(x) + c = b", [premise]).verdict
+    assert verdict.verdict == "undecided" and verdict.evidence[0].startswith("circular: the premise is the conclusion")
+    left, right = (part for pair in verdict.statement.premises[0].equations for part in pair)
+    sides = verdict.lines[0].relation
+    for given in ({left: right}, {right: left}, sp.Eq(left, right), [sp.Eq(right, left)]):
+        assert (
+            judge(sides.printed, sides.derived, given=given).evidence
+            == judge(sides.derived, sides.printed, given).evidence
+        )
+        assert "circular" in judge(sides.printed, sides.derived, given=given).evidence[0]
+    assert judge_text("a*sin(x) + c = b", ["c = b", "a = 0"]).verdict.verdict == "holds-if"
+
+
+def test_a_premise_that_touches_no_letter_of_the_equation_is_refused() -> None:
+    a, b, x = sp.symbols("a b x", real=True)
+    with pytest.raises(InputError, match="two different symbols are called 'a'"):
+        judge(a * x, b * x, given=[sp.Eq(sp.Symbol("a"), sp.Symbol("b"))])
+    with pytest.raises(InputError, match="no letter of the premise y > 0 is in the equation"):
+        judge_text("a*x = b*x", ["y > 0"])
+    assert judge_text("a*x = b*x", ["a = y", "c = y", "b = c"]).verdict.verdict == "holds-if"
+
+
+def test_a_limit_is_undecided_for_its_own_reason() -> None:
+    x = sp.Symbol("x", real=True)
+    assert judge(sp.Limit((1 + 1 / x) ** x, x, sp.oo), sp.E).evidence == ("limits are not decided",)
+    assert judge(1 / x, sp.oo).evidence == ("a side is not finite",)
+
+
+def test_no_more_digits_are_shown_than_are_certain() -> None:
+    said = repr(judge_text("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 2/3"))
+    assert said.endswith("left − right is 3: left 4, right 0.66667")

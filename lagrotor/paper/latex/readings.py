@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
-from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -82,14 +81,14 @@ def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
 
 
 def as_printed(text: str, printed: str) -> str:
-    """A reading in which decimals stand as in the print, and units without their prefix: 981/100*unit_m is 9.81*m."""
+    """Return a reading with decimals as in the print, and units without their prefix: 981/100*unit_m is 9.81*m.
 
-    def decimal(match: re.Match[str]) -> str:
-        number = Fraction(match[0])
-        digits = str(Decimal(number.numerator) / number.denominator)
-        return digits if digits in printed.replace("{,}", "").replace(",", ".") else match[0]
-
-    return re.sub(r"(?<![\w.])\d+/\d+(?![\w.])", decimal, text).replace("unit_", "")
+    A fraction is a whole quotient of two numbers: of x**2/2 and x/3/4 no part is.
+    """
+    plain = printed.replace("{,}", "").replace(",", ".")
+    decimals = {Fraction(digits): digits for digits in re.findall(r"\d+\.\d+", plain)}
+    fraction = r"(?<![\w./])(?<!\*\*)\d+/\d+(?![\w./]|\*\*)"
+    return re.sub(fraction, lambda match: decimals.get(Fraction(match[0]), match[0]), text).replace("unit_", "")
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:
