@@ -48,6 +48,9 @@ from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import Array, Projection, StopError, Stretch
 from lagrotor.shown import scientific
 
+MOST_EVALUATIONS = 1e8  # of a run: a right-hand side in Python takes minutes for them
+_LEAST_A_TURN = 100  # evaluations that two integrations take for a turn at least
+_ONE_PLACE = 1e-3  # of the time at which a run stopped
 UNKNOWN = 2.0  # the most by which two states differ, relative to their size: an error of which nothing is known
 # Two runs are compared at so many parts of the time to the first of all others: there one difference is all that is known of the
 # error, and between the ends of a step DOP853 is off by up to forty times what it is off at them, with changing sign.
@@ -140,8 +143,8 @@ class EstimatedRun:
         parts: dict[str, Any] = {"t": begin + unit * self.t, "horizon": at(self.horizon), "loosened": at(self.loosened)}
         return replace(self, ending=ending, **parts)
 
-    def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2) -> None:
-        """A LagrotorWarning where `tol` is not kept, or the run ended early."""
+    def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2, hint: str = "") -> None:
+        """A LagrotorWarning where `tol` is not kept, or the run ended early; hint: what may be the cause, with the way out."""
         said, error = [], float(self.errors[-1])
         if error > tol:
             apart = error / self.local
@@ -158,6 +161,7 @@ class EstimatedRun:
         if self.ending.early:
             said.append(f"{name} ended early: {self.ending}; it holds what was reached")
         if said:
+            said += [hint] if hint else []
             warnings.warn("simulate: " + "; ".join(said), LagrotorWarning, stacklevel=stacklevel + 1)
 
 
@@ -363,6 +367,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         raise IntegrationError(
             f"the run has {turns:.1e} turns, after which rounding leaves nothing known: take a shorter run"
         )
+    _check_cost(turns, _LEAST_A_TURN * turns, "at least")
     course = _Course(evolution, times)
     best = comparison = yield from _loosest(course, tol)
     while unavoidable <= tol < comparison.error and not comparison.refusal and not _hopeless(course, comparison):
@@ -380,6 +385,15 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
     return (yield from _whole(course, best, tol))
 
 
+def _check_cost(turns: float, evaluations: float, how: str) -> None:
+    """Raise IntegrationError for a run of more than MOST_EVALUATIONS."""
+    if evaluations > MOST_EVALUATIONS:
+        raise IntegrationError(
+            f"the run has {turns:.1e} turns and takes {how} {scientific(evaluations, 1)} evaluations of the right-hand side, more "
+            f"than {scientific(MOST_EVALUATIONS)}: take a shorter run or a larger tol"
+        )
+
+
 def _loosest(course: _Course, tol: float) -> Generator[Leg, Stretch, _Comparison]:
     """The first pair of integrations of which none is refused, to looser local errors up to GIVEN_UP; else the one that lasts
     longest. The companion begins at the larger an error, the shorter the run, in which it gathers to less."""
@@ -392,11 +406,23 @@ def _loosest(course: _Course, tol: float) -> Generator[Leg, Stretch, _Comparison
         tight = tight or course.integration(max(local / APART.value, TIGHTEST), not loose.companion)
         comparison = yield from _compare(course, loose, tight)
         best = comparison if best is None else min(comparison, best, key=lambda one: one.merit)
-        if not comparison.refusal or course.evolution.elsewhere or local > GIVEN_UP.value:
+        if (
+            not comparison.refusal
+            or course.evolution.elsewhere
+            or local > GIVEN_UP.value
+            or _at_one_place(loose, tight)
+        ):
             return best
         # One that was not refused is compared with a looser one.
         stopped = isinstance(comparison.refusal, StopError) and len(loose.stages) <= len(tight.stages)
         tight, local = (None, local * APART.value**2) if stopped else (loose, local * APART.value)
+
+
+def _at_one_place(loose: _Integration, tight: _Integration) -> bool:
+    """Whether two integrations stopped at the same singular position, which no looser one passes."""
+    stops = [stop for run in (loose, tight) for stop in run.stops]
+    causes, at = {stop.cause for stop in stops}, [stop.at for stop in stops]
+    return len(stops) == 2 and causes == {"singular"} and abs(at[0] - at[1]) <= _ONE_PLACE * abs(at[1])
 
 
 def _following(course: _Course, comparison: _Comparison, tol: float) -> Generator[Leg, Stretch, _Comparison | None]:
@@ -447,6 +473,9 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
         lost = first_time(t[:m], (errors > LOST.value) & together)
         if lost < inf or stop:
             break
+        if n + 1 < len(course.stages):  # what is left costs as much, for its time, as what is done
+            share = (course.times[-1] - course.times[0]) / (t[-1] - course.times[0])
+            _check_cost(float(course.turns(course.times[-1])), sum(spent) * float(share), "about")
     apart = np.concatenate([np.empty(0), *parts])
     if not len(apart):
         return _Comparison(loose, tight, len(pairs), apart, lost, stop)

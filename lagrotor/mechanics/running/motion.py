@@ -165,5 +165,7 @@ def integration_of(
     system: Equations, values: Values, engine: Engine, scales: Scales | None, h: Switched, start: Array
 ) -> Integrate:
     if h.smooth and scales:
-        return smooth_motion(system, values, engine, scales.sizes, scales.turn, start, scales.stiff, scales.windows)
+        return smooth_motion(
+            system, values, engine, scales.sizes, scales.turn, start, scales.stiff, scales.windows, h.narrow
+        )
     return lambda start, times, local, companion, budget: march(h, start, times, local, budget, companion=companion)

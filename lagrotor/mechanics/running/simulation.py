@@ -19,6 +19,7 @@ from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projec
 from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
 from lagrotor.mechanics.running.monodromy import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
+from lagrotor.mechanics.running.narrow import narrow_parts
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
 from lagrotor.mechanics.running.scales import Scales, clock_windows, motion_scales
@@ -33,7 +34,10 @@ from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
 from lagrotor.numerics.segment import StopError
 
 _BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
-_PATIENCE = Patience(20_000, 1_600)
+_PATIENCE, _PATIENCE_STIFF = (
+    Patience(20_000, 1_600),
+    Patience(200_000, 16_000),
+)  # a turn of a stiff motion takes many steps
 _A_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
 _BETWEEN = 8  # intervals of the interpolation between two samples, in which dependent constraints are sought
 
@@ -92,7 +96,8 @@ class SystemRun(SampledMotion):
         h = with_events(system, values, given)
         windows = clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
         scales = replace(scales, windows=windows)
-        h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows)
+        narrow = narrow_parts(h.system, h.numbers(h.slipping), states)
+        h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows, narrow=narrow)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
@@ -135,12 +140,21 @@ def simulate_system(
     h = replace(h, windows=clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), times))
     if h.smooth:
         start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
-        scales = motion_scales(system, values, start, times, windows=h.windows)
     elif engine == "fast":
         raise InputError("simulate: engine='fast' takes no events, and no force that jumps: use engine='core'")
     else:
         start = begin(h, q, v, times[0])
-        scales = motion_scales(system, values, start, times, integration_of(system, values, engine, None, h, start))
+
+    def survey() -> Scales:
+        motion = None if h.smooth else integration_of(system, values, engine, None, h, start)
+        return motion_scales(system, values, start, times, motion, h.windows if h.smooth else (), h.narrow)
+
+    scales = survey()
+    if narrow := narrow_parts(h.system, h.numbers(h.slipping), scales.survey):
+        h, first = replace(h, narrow=narrow), scales
+        scales = survey()
+        scales = replace(scales, evaluations=scales.evaluations + first.evaluations)
+    if not h.smooth:
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes)
         _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
     evolution = Evolution(
@@ -148,7 +162,7 @@ def simulate_system(
         integrate=integration_of(system, values, engine, scales, h, start),
         distance=scales.distance,
         turn=scales.turn,
-        patience=_PATIENCE,
+        patience=_PATIENCE_STIFF if scales.stiff else _PATIENCE,
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
         slack=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
         sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),

@@ -7,15 +7,28 @@ import numpy as np
 
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.function_values import Array
-from lagrotor.mechanics.running.programs import Generated, energy_program, mass_program, rows_program
+from lagrotor.mechanics.running.programs import (
+    Generated,
+    energy_program,
+    mass_program,
+    motion_program,
+    parameter_values,
+    rows_program,
+)
 from lagrotor.shown import scientific
 
 _SINGULAR = 1e-6  # least eigenvalue of the mass matrix over that at the start; least cosine of the constraints' normals
+_UNBOUNDED = 1e8
 _TAKES_PART = 0.2  # component of a direction from which on a coordinate is named
 
 
-def singular_position(system: Equations, values: Mapping[Any, Any], start: Array) -> Callable[[Array], str]:
-    """state → the words of the singular position that is measured there, none where it is regular; `start`: a regular state."""
+def singular_position(
+    system: Equations, values: Mapping[Any, Any], start: Array, sizes: Array
+) -> Callable[[Array], str]:
+    """state → the words of the singular position that is measured there, none where it is regular; `start`: a regular state.
+
+    sizes (N + m,): of the components of the motion.
+    """
     known = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
     scale = np.where(known > 0, known, 1.0)
 
@@ -34,9 +47,25 @@ def singular_position(system: Equations, values: Mapping[Any, Any], start: Array
             )
         if system.left and (cosine := float(independence(system, values, state[None])[0])) < _SINGULAR:
             return f"the constraints are dependent there: the least singular value of their normals is {scientific(cosine, 1)}"
-        return ""
+        return unbounded_force(system, values, state, sizes)
 
     return words
+
+
+def unbounded_force(system: Equations, values: Mapping[Any, Any], state: Array, sizes: Array) -> str:
+    """The words of a force that grows without bound, as at a collision: the acceleration at the state would change a velocity by
+    its size in 10⁻⁸ of the time in which the motion covers its sizes; none elsewhere."""
+    program, n, m = motion_program(system), len(system.c.q), len(system.speeds)
+    y = np.append(state[: n + m], [_time(state, system)] * (len(program.states) - n - m))
+    with np.errstate(all="ignore"):
+        change = np.array(program.rhs(*parameter_values(program, values))(0.0, y), float)[n : n + m] / sizes[n:]
+        i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:])) / float(np.max(sizes[:n]))
+    if not abs(change[i]) > _UNBOUNDED * typical:  # also where it is no number
+        return ""
+    return (
+        f"the force grows without bound there: the acceleration that changes {system.speeds[i]} is "
+        f"{scientific(float(change[i] * sizes[n + i]), 1)}"
+    )
 
 
 def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
