@@ -30,7 +30,7 @@ from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, first_time, start_beside
-from lagrotor.numerics.integrate import check_engine, check_tolerance
+from lagrotor.numerics.integrate import check_engine, check_progress, check_tolerance
 from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
@@ -149,6 +149,7 @@ def simulate(
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")
     times, tolerance = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
+    check_progress(progress)
     at_zero = scene.since(float(times[0]))  # all that follows counts time from the start
     if model in DIRECT:
         motion = DIRECT[model](at_zero, float(times[-1] - times[0]), tolerance, True)

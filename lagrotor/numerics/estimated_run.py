@@ -82,6 +82,7 @@ class Evolution:
     defect needs the run. singular: of a state at which a solver stopped, the words of the singular position that it is at, or
     none. elsewhere: whether the motion can be run by other coordinates, so that one that stops is not tried again. independent:
     whether no two runs are by the same order and the same steps, however short, so that where they agree they are right.
+    sudden: whether neighbouring motions part within a small part of a turn, at a narrow force.
     """
 
     start: Array
@@ -99,6 +100,7 @@ class Evolution:
     singular: Callable[[Array], str] | None = None
     elsewhere: bool = False
     independent: bool = False
+    sudden: bool = False
 
 
 class Leg(NamedTuple):
@@ -286,17 +288,17 @@ def _estimated_errors(
     return np.maximum(safety * apart, least) + ROUNDING.value * (START.value + turns)
 
 
-def errors_up_to(t: Array, errors: Array, turn: float) -> Array:
+def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
     """The largest errors (n,) up to each of the times t (n,), of a motion that turns in the time `turn`.
 
     Two runs that part swing through each other: as much is known as to the end of a swing. Errors are taken to grow by a power of
     the time or by e^(λt), so that their logarithm is concave, where the difference of two runs that were near by chance grows
     faster. The least curve above it whose logarithm is concave is the estimate. Where a motion is regular for long and then parts
-    at once, as at a late near collision, that is more than the error.
+    at once, as at a late near collision, that is more than the error. sudden: where they do, the largest error is taken alone.
     """
     grown = np.maximum.accumulate(errors)
     grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * turn, side="right") - 1]
-    if not (grown[0] > 0 and np.isfinite(grown).all()):
+    if sudden or not (grown[0] > 0 and np.isfinite(grown).all()):
         return grown
     corners = list[tuple[float, float]]()
     for x, y in zip(t.tolist(), np.log(grown).tolist(), strict=True):
@@ -389,8 +391,8 @@ def _check_cost(turns: float, evaluations: float, how: str) -> None:
     """Raise IntegrationError for a run of more than MOST_EVALUATIONS."""
     if evaluations > MOST_EVALUATIONS:
         raise IntegrationError(
-            f"the run has {turns:.1e} turns and takes {how} {scientific(evaluations, 1)} evaluations of the right-hand side, more "
-            f"than {scientific(MOST_EVALUATIONS)}: take a shorter run or a larger tol"
+            f"the run has {turns:.1e} turns and takes {how} {scientific(evaluations, 1)} evaluations, more than "
+            f"{scientific(MOST_EVALUATIONS)}: take a shorter run or a larger tol"
         )
 
 
@@ -492,7 +494,7 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     errors = _estimated_errors(
         counts * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
-    grown = errors_up_to(t, np.where(between, 0.0, errors), evolution.turn)
+    grown = errors_up_to(t, np.where(between, 0.0, errors), evolution.turn, evolution.sudden)
     known = max(float(grown[-1]) / counts, tight.local, farther)
     errors = np.where(between, np.maximum(errors, grown), grown)
     # Once one of the two has stopped, the pair is refused even if it conserves what it must.

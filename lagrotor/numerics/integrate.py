@@ -65,6 +65,12 @@ def check_engine(engine: str, caller: str = "simulate") -> None:
         raise InputError(f"{caller}: engine = {engine!r} is neither core nor fast")
 
 
+def check_progress(progress: object) -> None:
+    """Raises InputError where it is neither a function nor None."""
+    if progress is not None and not callable(progress):
+        raise InputError(f"simulate: progress = {progress!r} must be a function of the time (s), or None")
+
+
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
     """Integrate from `begin` through increasing `times` with a local error `tol`; states (n, d) there.
 

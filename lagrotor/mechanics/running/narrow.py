@@ -2,12 +2,13 @@
 
 A solver whose step is longer than such a part sees nothing of it. Its argument g, of exp(g), tanh(g) or another function, is
 followed with the motion, as ψ = asinh(g): ψ' grows like 1/distance on the way to g = 0, so that steps shrink before it. Of a
-power Dᵖ or log(D), a Lorentzian, it is ψ = log|D|. A part is narrow if ψ changes by more than MOST where one component moves through
-its swing at the rate there; it is sought by Newton's method, from states of the motion, at zeros and turning points of g.
+power Dᵖ or log(D), a Lorentzian, it is ψ = log|D|. A part is narrow if ψ changes by more than MOST where one component
+moves through its swing at the rate there. Newton's method seeks it, from states of the motion, at zeros and turning points of g.
 """
 
 from collections.abc import Mapping
 from functools import lru_cache
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +19,9 @@ from lagrotor.algebra import derivative
 from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import function_program
+from lagrotor.numerics.estimated_run import EstimatedRun
 from lagrotor.numerics.segment import Array
+from lagrotor.shown import scientific
 
 MOST = 8.0  # of ψ over the swing of one component, beyond which solvers need to be led
 _PLACES, _SWEEPS = 16, 6  # states from which zeros and turning points are sought, and how often each component is moved
@@ -27,11 +30,15 @@ _WIDE = (sp.sin, sp.cos, sp.tan, sp.cot, sp.Abs, sp.sign, sp.Heaviside, sp.asin,
 
 
 class NarrowPart(NamedTuple):
-    """The argument g of a part f(g) of a system's expressions, the factor with which ψ' = factor · g', and the part."""
+    """The argument g of a part f(g) of a system's expressions, the factor with which ψ' = factor · g', and the part.
+
+    width: the least part of the swing of a component over which ψ changes by one.
+    """
 
     argument: sp.Expr
     factor: sp.Expr
     part: sp.Expr
+    width: float = inf
 
 
 @lru_cache(maxsize=64)
@@ -59,7 +66,26 @@ def _parts(system: Equations) -> tuple[NarrowPart, ...]:
 
 def narrow_parts(system: Equations, values: Mapping[Any, Any], states: Array) -> tuple[NarrowPart, ...]:
     """The parts that are narrow for a motion with the states (n, d): q, u and, where more is known, the time."""
-    return tuple(part for part in _parts(system) if _narrowness(system, values, part, states) > MOST)
+    sought = ((part, _narrowness(system, values, part, states)) for part in _parts(system))
+    return tuple(part._replace(width=1 / most) for part, most in sought if most > MOST)
+
+
+def narrowest_words(
+    system: Equations, values: Mapping[Any, Any], narrow: tuple[NarrowPart, ...], run: EstimatedRun
+) -> str:
+    """Name the narrowest part, when a run first passes its place, and the way out, where the error is kept up to there."""
+    if not narrow or len(run.t) < 2:
+        return ""
+    part, t = min(narrow, key=lambda one: one.width), run.t
+    g = function_program(system, part.argument).along(values)(run.states, t)[0]
+    passed = np.flatnonzero(g[:-1] * g[1:] <= 0)
+    i = int(passed[0] if len(passed) else np.argmin(np.abs(g[:-1])))
+    if run.horizon < t[i]:
+        return ""
+    return (
+        f"{part.part} changes within {scientific(part.width, 1)} of the swing, first between t = {t[i]:.6g} and "
+        f"{t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
+    )
 
 
 def _narrowness(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> float:

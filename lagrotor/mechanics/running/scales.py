@@ -31,6 +31,7 @@ _PER_TURN = 50  # evaluations that the survey takes for a turn
 _STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
 _LOST = 1e-12  # of the largest velocity, below which another has no digit in the energy
 _ROUNDING = 1e-14  # of the largest place: under constraints a smaller one is rounding of the others
+_OVERFLOWS = 1e75  # of a number whose fourth power is in the energy
 _QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordinate: what moves less is at rest
 
 
@@ -211,6 +212,10 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
 
     largest = np.abs(states[:, : n + m]).max(0)
     at_rest, moving = energy(0 * u), energy(u)
+    if not np.isfinite(moving[0]) and np.abs(states[0, : n + m]).max() > _OVERFLOWS:
+        raise InputError(
+            "simulate: the energy at the start overflows, beyond 1.8×10³⁰⁸: take other units, or a smaller q0 or v0"
+        )
     if not np.isfinite(moving[0]):
         raise InputError("simulate: the energy has no real value at the start: give a Lagrangian that has one there")
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))

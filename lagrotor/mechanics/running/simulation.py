@@ -19,7 +19,7 @@ from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projec
 from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
 from lagrotor.mechanics.running.monodromy import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
-from lagrotor.mechanics.running.narrow import narrow_parts
+from lagrotor.mechanics.running.narrow import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
 from lagrotor.mechanics.running.scales import Scales, clock_windows, motion_scales
@@ -30,7 +30,7 @@ from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import DEPENDENT
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
-from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
+from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
 from lagrotor.numerics.segment import StopError
 
 _BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
@@ -113,10 +113,12 @@ def simulate_system(
     tol: float = 1e-9,
     engine: Engine = "core",
     events: Event | Impact | Sequence[Event | Impact] = (),
+    progress: Callable[[float], None] | None = None,
 ) -> SystemRun:
     """`System.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
+    check_progress(progress)
     given = check_events(system, events)
     system, values = put_functions("simulate", system, values, [e for event in given for e in event.expressions])
     given = tuple(event_with(event, lambda e: with_values(e, values)) for event in given)
@@ -147,7 +149,7 @@ def simulate_system(
 
     def survey() -> Scales:
         motion = None if h.smooth else integration_of(system, values, engine, None, h, start)
-        return motion_scales(system, values, start, times, motion, h.windows if h.smooth else (), h.narrow)
+        return motion_scales(system, values, start, times, motion, h.windows if h.smooth else (), h.followed)
 
     scales = survey()
     if narrow := narrow_parts(h.system, h.numbers(h.slipping), scales.survey):
@@ -159,7 +161,7 @@ def simulate_system(
         _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
     evolution = Evolution(
         start=start,
-        integrate=integration_of(system, values, engine, scales, h, start),
+        integrate=integration_of(system, values, engine, scales, h, start, progress),
         distance=scales.distance,
         turn=scales.turn,
         patience=_PATIENCE_STIFF if scales.stiff else _PATIENCE,
@@ -168,13 +170,15 @@ def simulate_system(
         sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),
         defect=defect_of(system, values, scales.sizes) if h.smooth else None,
         independent=engine == "fast",
+        sudden=bool(h.narrow),
     )
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
         **estimate.known | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
         engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
     )  # fmt: skip
-    estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, stacklevel=3)
+    hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)
+    estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, 3, hint)
     if system.multipliers:
         run = replace(run, evaluations=run.evaluations + _warn_of_dependence(run))
     return run if h.smooth else _up_to_its_end(run)
