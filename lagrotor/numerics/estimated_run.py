@@ -50,7 +50,6 @@ from lagrotor.shown import scientific
 
 MOST_EVALUATIONS = 1e8  # of a run: a right-hand side in Python takes minutes for them
 _LEAST_A_TURN = 100  # evaluations that two integrations take for a turn at least
-_ONE_PLACE = 1e-3  # of the time at which a run stopped
 UNKNOWN = 2.0  # the most by which two states differ, relative to their size: an error of which nothing is known
 # Two runs are compared at so many parts of the time to the first of all others: there one difference is all that is known of the
 # error, and between the ends of a step DOP853 is off by up to forty times what it is off at them, with changing sign.
@@ -408,23 +407,12 @@ def _loosest(course: _Course, tol: float) -> Generator[Leg, Stretch, _Comparison
         tight = tight or course.integration(max(local / APART.value, TIGHTEST), not loose.companion)
         comparison = yield from _compare(course, loose, tight)
         best = comparison if best is None else min(comparison, best, key=lambda one: one.merit)
-        if (
-            not comparison.refusal
-            or course.evolution.elsewhere
-            or local > GIVEN_UP.value
-            or _at_one_place(loose, tight)
-        ):
+        singular = isinstance(comparison.refusal, StopError) and comparison.refusal.cause == "singular"
+        if not comparison.refusal or course.evolution.elsewhere or local > GIVEN_UP.value or singular:
             return best
         # One that was not refused is compared with a looser one.
         stopped = isinstance(comparison.refusal, StopError) and len(loose.stages) <= len(tight.stages)
         tight, local = (None, local * APART.value**2) if stopped else (loose, local * APART.value)
-
-
-def _at_one_place(loose: _Integration, tight: _Integration) -> bool:
-    """Whether two integrations stopped at the same singular position, which no looser one passes."""
-    stops = [stop for run in (loose, tight) for stop in run.stops]
-    causes, at = {stop.cause for stop in stops}, [stop.at for stop in stops]
-    return len(stops) == 2 and causes == {"singular"} and abs(at[0] - at[1]) <= _ONE_PLACE * abs(at[1])
 
 
 def _following(course: _Course, comparison: _Comparison, tol: float) -> Generator[Leg, Stretch, _Comparison | None]:

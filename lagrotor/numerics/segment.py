@@ -71,8 +71,10 @@ _WAYS_OUT = {
 }
 
 
-def reporting(rate: RightHandSide, progress: Callable[[float], None], at: float) -> RightHandSide:
-    """The right-hand side that calls `progress` with each time `at` + s at which it is evaluated."""
+def reporting(rate: RightHandSide, progress: Callable[[float], None] | None, at: float) -> RightHandSide:
+    """The right-hand side that calls `progress`, if it is one, with each time `at` + s at which it is evaluated."""
+    if progress is None:
+        return rate
 
     def reported(s: float, y: Array) -> list[float]:
         progress(s + at)

@@ -30,8 +30,8 @@ Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
 _AHEAD = 0.05  # of a turn, in which it is seen what spent the evaluations of a run
 _STEPS_AHEAD, _ERROR_AHEAD = 100, 1e-6
-# Error of ψ, which is followed loosely, over local^(1/4): DOP853 weighs its error of order 5 by that of order 3 of all components,
-# which grows like local^(−1/2). Of 120 tanh steps and bumps of 10⁻⁵ to 0.03, 1 is missed by a run where it is one, none by 0.1.
+# Error of ψ over local^(1/4): DOP853 weighs its error of order 5 by that of order 3 of all components, which grows like
+# local^(−1/2). Of 120 steps and bumps of widths 10⁻⁵ to 0.03, one is missed where it is 1, and none where it is 0.1.
 _LOOSELY = 0.01
 _LIKE = 8.0  # ratio of a component to one below which none is scaled
 
@@ -119,18 +119,10 @@ def smooth_motion(
     units, begun = np.append(powers_of_two(sizes), np.ones(d - known)), np.zeros(len(followed))
     words = singular_position(system, values, start, sizes)
 
-    def bare(begin: float) -> Rhs:
-        whole = motion_program(system)
-        return whole.rate(parameter_values(whole, values), begin)
-
-    def fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
-        return by_fastest(segment, pulsed or bool(followed) and tol >= CROSSOVER.value, tol)
-
     def problem_of(start: Array, budget: float, companion: bool) -> Problem:
         begin = float(start[d - 1])
-        rate = program.rate(parameters, begin)
         return Problem(
-            rate if progress is None else reporting(rate, progress, begin),
+            reporting(program.rate(parameters, begin), progress, begin),
             start,
             budget,
             windows=windows_since(begin, windows, companion),
@@ -160,7 +152,12 @@ def smooth_motion(
                     raise
                 spent = stop.evaluations
         try:
-            stretch = integrate(replace(problem, budget=budget - spent), times, local, by_units(fastest, scale))
+            stretch = integrate(
+                replace(problem, budget=budget - spent),
+                times,
+                local,
+                by_units(_as_in_pulse if followed else by_fastest, scale),
+            )
             return replace(stretch, evaluations=spent + stretch.evaluations)
         except StopError as stop:
             stop.evaluations += spent
@@ -177,24 +174,22 @@ def smooth_motion(
                 else by_core(start, since, local, companion, budget)
             ).cut(d)
         except StopError as stop:
-            stop.reached = Stretch(np.empty((0, d)), start[:d], 0) if stop.reached is None else stop.reached.cut(d)
-            rest = min(float(since[-1]) - stop.at, _AHEAD * turn)
-            raise _with_cause(stop, words, bare(float(times[0])), float(times[0]), rest) from None
+            begin, at, spent = float(times[0]), stop.at, stop.evaluations
+            end = stop.reached.end if stop.reached else start
+            reached = stop.reached and stop.reached.cut(d)
+            if not (singular := words(end)) and stop.cause == "budget":  # spent on the way to one?
+                rest = min(float(times[-1]) - begin - at, _AHEAD * turn)
+                at, end, more = _some_steps_on(program.rate(parameters, begin), at, end, rest)
+                singular, spent = words(end), spent + more
+            if singular:
+                raise StopError(begin + at, singular, reached, spent, "singular") from None
+            raise StopError(begin + stop.at, stop.reason, reached, spent, stop.cause) from None
 
     return motion
 
 
-def _with_cause(stop: StopError, words: Callable[[Array], str], rate: Rhs, begin: float, rest: float) -> StopError:
-    """The stop by a clock that shows `begin` at the start, at the singular position that words (state → text) name, or on the
-    way to which its evaluations were spent: it is sought for the time `rest`."""
-    assert stop.reached is not None
-    at, spent, singular = stop.at, stop.evaluations, words(stop.reached.end)
-    if not singular and stop.cause == "budget":
-        at, end, more = _some_steps_on(rate, at, stop.reached.end, rest)
-        singular, spent = words(end), spent + more
-    if singular:
-        return StopError(begin + at, singular, stop.reached, spent, "singular")
-    return StopError(begin + stop.at, stop.reason, stop.reached, spent, stop.cause)
+def _as_in_pulse(segment: Segment, pulsed: bool, tol: float) -> Stretch:
+    return by_fastest(segment, pulsed or tol >= CROSSOVER.value, tol)
 
 
 def _some_steps_on(rate: Rhs, since: float, y: Array, rest: float) -> tuple[float, Array, int]:

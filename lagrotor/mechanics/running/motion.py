@@ -173,7 +173,7 @@ def integration_of(
 ) -> Integrate:
     if h.smooth and scales:
         return smooth_motion(
-            system, values, engine, scales.sizes, scales.turn, start, scales.stiff, scales.windows, h.followed, progress
+            system, values, engine, scales.sizes, scales.turn, start, scales.stiff, scales.windows, h.narrow, progress
         )
     observe: Observer | None = progress and (lambda now, left, until, curve: progress(now + until))
     return lambda start, times, local, companion, budget: march(h, start, times, local, budget, observe, companion)

@@ -6,9 +6,9 @@ power Dᵖ or log(D), a Lorentzian, it is ψ = log|D|. A part is narrow if ψ ch
 moves through its swing at the rate there. Newton's method seeks it, from states of the motion, at zeros and turning points of g.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from math import inf
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,15 +30,11 @@ _WIDE = (sp.sin, sp.cos, sp.tan, sp.cot, sp.Abs, sp.sign, sp.Heaviside, sp.asin,
 
 
 class NarrowPart(NamedTuple):
-    """The argument g of a part f(g) of a system's expressions, the factor with which ψ' = factor · g', and the part.
-
-    width: the least part of the swing of a component over which ψ changes by one.
-    """
+    """The argument g of a part f(g) of a system's expressions, the factor with which ψ' = factor · g', and the part."""
 
     argument: sp.Expr
     factor: sp.Expr
     part: sp.Expr
-    width: float = inf
 
 
 @lru_cache(maxsize=64)
@@ -66,26 +62,25 @@ def _parts(system: Equations) -> tuple[NarrowPart, ...]:
 
 def narrow_parts(system: Equations, values: Mapping[Any, Any], states: Array) -> tuple[NarrowPart, ...]:
     """The parts that are narrow for a motion with the states (n, d): q, u and, where more is known, the time."""
-    sought = ((part, _narrowness(system, values, part, states)) for part in _parts(system))
-    return tuple(part._replace(width=1 / most) for part, most in sought if most > MOST)
+    return tuple(part for part in _parts(system) if _narrowness(system, values, part, states) > MOST)
 
 
 def narrowest_words(
-    system: Equations, values: Mapping[Any, Any], narrow: tuple[NarrowPart, ...], run: EstimatedRun
+    system: Equations, values: Mapping[Any, Any], narrow: Sequence[NarrowPart], run: EstimatedRun
 ) -> str:
-    """Name the narrowest part, when a run first passes its place, and the way out, where the error is kept up to there."""
+    """Name the narrowest part, when a run first passes its place, and the way out; nothing where the error was not kept before."""
     if not narrow or len(run.t) < 2:
         return ""
-    part, t = min(narrow, key=lambda one: one.width), run.t
-    g = function_program(system, part.argument).along(values)(run.states, t)[0]
+    widths = [1 / _narrowness(system, values, part, run.states) for part in narrow]
+    part, width = min(zip(narrow, widths, strict=True), key=itemgetter(1))
+    g = function_program(system, part.argument).along(values)(run.states, run.t)[0]
     passed = np.flatnonzero(g[:-1] * g[1:] <= 0)
     i = int(passed[0] if len(passed) else np.argmin(np.abs(g[:-1])))
-    if run.horizon < t[i]:
-        return ""
-    return (
-        f"{part.part} changes within {scientific(part.width, 1)} of the swing, first between t = {t[i]:.6g} and "
-        f"{t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
+    words = (
+        f"{part.part} changes within {scientific(width, 1)} of the swing, first between t = {run.t[i]:.6g} and "
+        f"{run.t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
     )
+    return words if run.horizon >= run.t[i] else ""
 
 
 def _narrowness(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> float:
@@ -103,7 +98,7 @@ def _narrowness(system: Equations, values: Mapping[Any, Any], part: NarrowPart, 
     with np.errstate(all="ignore"):
         for turning in (False, True):
             places = start[:, : len(every)].copy()
-            for sweep in range(_SWEEPS * k + 1):
+            for sweep in range(_SWEEPS * k):
                 value, factor, first, second = np.split(along(places, times), [1, 2, 2 + k])
                 size = size or float(np.nanmedian(np.abs(value)))
                 if part.factor == 1 / g and np.nanmin(np.abs(value)) <= _ZERO * size:

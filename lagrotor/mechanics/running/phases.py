@@ -20,7 +20,6 @@ from lagrotor.mechanics.running.flow import Array, projection_of, with_followed
 from lagrotor.mechanics.running.function_values import Piece, in_pieces
 from lagrotor.mechanics.running.narrow import NarrowPart
 from lagrotor.mechanics.running.programs import (
-    Followed,
     Generated,
     depends_on_time,
     function_program,
@@ -131,11 +130,6 @@ class Switched:
     @cached_property
     def sign_names(self) -> tuple[str, ...]:
         return tuple(str(s.sign) for s in self.surfaces)
-
-    @property
-    def followed(self) -> Followed:
-        """What is integrated with the motion, so that no step passes over a narrow part."""
-        return tuple((part.argument, part.factor) for part in self.narrow)
 
     @property
     def n(self) -> int:
@@ -377,8 +371,8 @@ def _smooth(
     system, scale = phase.system, h.scale
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
-    motion = motion_program(system, h.followed)
-    y, scale = np.append(y, np.zeros(len(h.narrow))), with_followed(scale, h.followed, local / SAFETY, first < 1)
+    motion = motion_program(system, h.narrow)
+    y, scale = np.append(y, np.zeros(len(h.narrow))), with_followed(scale, h.narrow, local / SAFETY, first < 1)
     project = projection_of(system, numbers) if system.multipliers else None
     y = y if project is None else project(y)
     watch = phase.condition_program.along(numbers)

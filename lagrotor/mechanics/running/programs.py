@@ -55,7 +55,7 @@ _STATES = 3  # random ones, at which the rank of a matrix is read off
 _NEWTON = 20  # steps that bring them onto the constraints
 _ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
 FOLLOWED = 1000  # of ψ: heyoka carries it, as what no rate depends on, at a millionth
-Followed = tuple[tuple[sp.Expr, sp.Expr], ...]
+Followed = tuple[tuple[sp.Expr, sp.Expr, sp.Expr], ...]
 MANY = 100  # stages from which on common parts of their sums and products are not worth the search
 
 
@@ -121,7 +121,7 @@ class Generated:
 def motion_program(system: Equations, followed: Followed = ()) -> Generated:
     """The program of a system's right-hand side, (q, u[, t], ψ) → (v, u'[, 1], ψ').
 
-    followed: g and the factor of each ψ, ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
+    followed: g, the factor and the part of each ψ, ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
 
     Raises:
         SingularError: when the mass matrix or the Schur complement is singular in its structure.
@@ -131,7 +131,7 @@ def motion_program(system: Equations, followed: Followed = ()) -> Generated:
     moving = dict(zip((*system.c.q, t, *system.speeds), (*system.c.v, sp.S.One, *rates), strict=True))
     if (given := system.kinematics) is not None:
         moving |= dict(zip(system.c.v, given.B * sp.Matrix(rates) + given.alpha, strict=True))
-    more = [FOLLOWED * factor * along(g, moving.keys(), moving.values()) for g, factor in followed]
+    more = [FOLLOWED * factor * along(g, moving.keys(), moving.values()) for g, factor, _ in followed]
     states = (*state_symbols(system), *(sp.Symbol(f"_followed{i}", real=True) for i in range(len(followed))))
     return _program(states, stages, [*system.c.v, *rates, *clock, *more], moving=True)
 

@@ -149,13 +149,12 @@ def simulate_system(
 
     def survey() -> Scales:
         motion = None if h.smooth else integration_of(system, values, engine, None, h, start)
-        return motion_scales(system, values, start, times, motion, h.windows if h.smooth else (), h.followed)
+        return motion_scales(system, values, start, times, motion, h.windows if h.smooth else (), h.narrow)
 
     scales = survey()
     if narrow := narrow_parts(h.system, h.numbers(h.slipping), scales.survey):
         h, first = replace(h, narrow=narrow), scales
-        scales = survey()
-        scales = replace(scales, evaluations=scales.evaluations + first.evaluations)
+        scales = replace(again := survey(), evaluations=again.evaluations + first.evaluations)
     if not h.smooth:
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes)
         _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
