@@ -27,6 +27,7 @@ from lagrotor.numerics.calibrated import (
     APART,
     BEYOND,
     CHEAPER,
+    CLEAR,
     FIRST,
     GIVEN_UP,
     KEPT,
@@ -280,11 +281,13 @@ def _estimated_errors(
     """Errors (n,) of the better of two runs that are `apart` (n,), its local error, after so many turns (n,).
 
     refused: whether tighter ones were, so that rounding may be nearly all that both resolve, as it is below RESOLVED, or
-    `slack` (n,) times it. independent and slack: of the two, as `Evolution` has them.
+    `slack` (n,) times it, unless they are apart by more than CLEAR times the rounding that no tolerance avoids.
+    independent and slack: of the two, as `Evolution` has them.
     """
-    safety = SAFETY.value ** np.where(refused | (local < RESOLVED.value * np.asarray(slack)), 2, 1)
+    rounding = ROUNDING.value * (START.value + turns)
+    unresolved = (refused | (local < RESOLVED.value * np.asarray(slack))) & (apart < CLEAR.value * slack * rounding)
     least = 0.0 if independent else LEAST.value * local
-    return np.maximum(safety * apart, least) + ROUNDING.value * (START.value + turns)
+    return np.maximum(SAFETY.value ** np.where(unresolved, 2, 1) * apart, least) + rounding
 
 
 def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
