@@ -68,7 +68,7 @@ def narrow_parts(system: Equations, values: Mapping[Any, Any], states: Array) ->
 def narrowest_words(
     system: Equations, values: Mapping[Any, Any], narrow: Sequence[NarrowPart], run: EstimatedRun
 ) -> str:
-    """Name the narrowest part, when a run first passes its place, and the way out; nothing where the error was not kept before."""
+    """Name the narrowest part, when a run first passes its place, and the way out; none where tol was not kept before."""
     if not narrow or len(run.t) < 2:
         return ""
     widths = [1 / _narrowness(system, values, part, run.states) for part in narrow]

@@ -10,9 +10,8 @@ import sympy as sp
 from scipy.integrate import quad
 
 from lagrotor.errors import InputError, IntegrationError, LagrotorWarning
-from lagrotor.mechanics import Event, System, coordinates
+from lagrotor.mechanics import Event, System, SystemRun, coordinates
 from lagrotor.mechanics.running import simulation
-from lagrotor.mechanics.running.simulation import SystemRun
 
 A, W, C = 0.1, sp.Symbol("w", positive=True), 0.3
 LINE = coordinates("x")
@@ -31,7 +30,7 @@ T = np.linspace(0, 2.5, 4)
 
 def numbers(shape: str, width: float) -> Callable[[float], float]:
     u, bound = sp.Symbol("u", real=True), np.inf if shape == "a Lorentzian" else 25.0
-    f = sp.lambdify(u, SHAPES[shape](u).rewrite(sp.cosh), "scipy")
+    f = sp.lambdify(u, SHAPES[shape](u), [{"sech": lambda u: 1 / np.cosh(u)}, "scipy"])
     return lambda x: float(f(np.clip((x - C) / width, -bound, bound)))
 
 
