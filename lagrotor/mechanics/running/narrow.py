@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
 
 from lagrotor.algebra import derivative
 from lagrotor.algebra.subexpressions import subexpressions
@@ -24,8 +25,9 @@ from lagrotor.numerics.segment import Array
 from lagrotor.shown import scientific
 
 MOST = 8.0  # of ψ over the swing of one component, beyond which solvers need to be led
+EDGE = 1e-6  # of the swing, within which two jumps of a Piecewise are seen as one
 _PLACES, _SWEEPS = 16, 6  # states from which zeros and turning points are sought, and how often each component is moved
-_ZERO = 1e-20  # of its median: a power of zero is as narrow everywhere as the motion comes near, and solvers follow it
+_ZERO = 1e-20  # of its size: a power of zero is as narrow everywhere as the motion comes near, and solvers follow it
 _WIDE = (sp.sin, sp.cos, sp.tan, sp.cot, sp.Abs, sp.sign, sp.Heaviside, sp.asin, sp.acos)
 
 
@@ -51,6 +53,8 @@ def _parts(system: Equations) -> tuple[NarrowPart, ...]:
             g, log = part.exp * sp.log(part.base), False
         elif isinstance(part, sp.Function) and len(part.args) == 1 and not isinstance(part, (AppliedUndef, *_WIDE)):
             g, log = part.args[0], isinstance(part, sp.log)
+        elif isinstance(part, Relational):  # of a Piecewise
+            g, log = part.lhs - part.rhs, False
         else:
             continue
         unknown = g.free_symbols & {*system.reactions, *system.multipliers, *system.c.a}
@@ -62,7 +66,17 @@ def _parts(system: Equations) -> tuple[NarrowPart, ...]:
 
 def narrow_parts(system: Equations, values: Mapping[Any, Any], states: Array) -> tuple[NarrowPart, ...]:
     """The parts that are narrow for a motion with the states (n, d): q, u and, where more is known, the time."""
-    return tuple(part for part in _parts(system) if _narrowness(system, values, part, states) > MOST)
+    parts = (_with_edge(system, values, part, states) for part in _parts(system))
+    return tuple(part for part in parts if _narrowness(system, values, part, states) > MOST)
+
+
+def _with_edge(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> NarrowPart:
+    """The part, of a condition with the width of its edge, EDGE of the swing of g: ψ = asinh(g/width)."""
+    if not isinstance(part.part, Relational):
+        return part
+    swing = np.ptp(function_program(system, part.argument).along(values)(states, np.zeros(len(states))))
+    width = sp.Float(EDGE * 10.0 ** np.ceil(np.log10(swing or 1.0)))
+    return part._replace(factor=(width**2 + part.argument**2) ** sp.Rational(-1, 2))
 
 
 def narrowest_words(
@@ -71,13 +85,13 @@ def narrowest_words(
     """Name the narrowest part, when a run first passes its place, and the way out; none where tol was not kept before."""
     if not narrow or len(run.t) < 2:
         return ""
-    widths = [1 / _narrowness(system, values, part, run.states) for part in narrow]
-    part, width = min(zip(narrow, widths, strict=True), key=itemgetter(1))
+    known = [_narrowness(system, values, part, run.states) for part in narrow]
+    part, most = max(zip(narrow, known, strict=True), key=itemgetter(1))
     g = function_program(system, part.argument).along(values)(run.states, run.t)[0]
     passed = np.flatnonzero(g[:-1] * g[1:] <= 0)
     i = int(passed[0] if len(passed) else np.argmin(np.abs(g[:-1])))
     words = (
-        f"{part.part} changes within {scientific(width, 1)} of the swing, first between t = {run.t[i]:.6g} and "
+        f"{part.part} changes within {scientific(1 / max(most, MOST), 1)} of the swing, first between t = {run.t[i]:.6g} and "
         f"{run.t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
     )
     return words if run.horizon >= run.t[i] else ""
@@ -92,16 +106,18 @@ def _narrowness(system: Equations, values: Mapping[Any, Any], part: NarrowPart, 
     slopes = [derivative(g, every[i]) for i in moving]
     bends = [derivative(e, every[i]) for e, i in zip(slopes, moving, strict=True)]
     along = function_program(system, g, part.factor, *slopes, *bends).along(values)
+    logarithmic = part.factor == 1 / g
     start = states[:: max(1, len(states) // _PLACES)]
     times = start[:, len(every)] if states.shape[1] > len(every) else np.zeros(len(start))
     swing, k, most, size = np.ptp(states[:, moving], axis=0)[:, None], len(moving), 0.0, 0.0
     with np.errstate(all="ignore"):
-        for turning in (False, True):
+        for turning in (True, False):
             places = start[:, : len(every)].copy()
             for sweep in range(_SWEEPS * k):
                 value, factor, first, second = np.split(along(places, times), [1, 2, 2 + k])
-                size = size or float(np.nanmedian(np.abs(value)))
-                if part.factor == 1 / g and np.nanmin(np.abs(value)) <= _ZERO * size:
+                sizes = np.abs(value[np.isfinite(value)])
+                size = size or float(sizes.max(initial=0.0))
+                if logarithmic and sizes.min(initial=size) <= _ZERO * size:
                     return 0.0
                 rate, bend = np.abs(factor * first), np.abs(factor * second - value * factor**3 * first**2)
                 most = max(most, float(np.nanmax(swing * np.maximum(rate, bend**0.5), initial=0.0)))

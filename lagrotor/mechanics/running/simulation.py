@@ -34,10 +34,8 @@ from lagrotor.numerics.integrate import Engine, check_engine, check_progress, ch
 from lagrotor.numerics.segment import StopError
 
 _BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
-_PATIENCE, _PATIENCE_STIFF = (
-    Patience(20_000, 1_600),
-    Patience(200_000, 16_000),
-)  # a turn of a stiff motion takes many steps
+_PATIENCE = Patience(20_000, 1_600)
+_STIFF = Patience(200_000, 16_000)  # of a stiff motion, whose turns take many steps
 _A_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
 _BETWEEN = 8  # intervals of the interpolation between two samples, in which dependent constraints are sought
 
@@ -163,7 +161,7 @@ def simulate_system(
         integrate=integration_of(system, values, engine, scales, h, start, progress),
         distance=scales.distance,
         turn=scales.turn,
-        patience=_PATIENCE_STIFF if scales.stiff else _PATIENCE,
+        patience=_STIFF if scales.stiff else _PATIENCE,
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
         slack=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
         sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),
