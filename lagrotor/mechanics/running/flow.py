@@ -8,21 +8,15 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.programs import (
-    FOLLOWED,
-    Followed,
-    depends_on_time,
-    motion_program,
-    parameter_values,
-    projection_program,
-)
+from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
+from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
 from lagrotor.mechanics.running.singular import singular_position
 from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
-from lagrotor.numerics.pulse import COMPANION_STEP, Window, windows_since
+from lagrotor.numerics.pulse import Window, windows_since
 from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units, reporting
 from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
@@ -30,9 +24,6 @@ Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
 _AHEAD = 0.05  # of a turn, in which it is seen what spent the evaluations of a run
 _STEPS_AHEAD, _ERROR_AHEAD = 100, 1e-6
-# Error of ψ over local^(1/4): DOP853 weighs its error of order 5 by that of order 3 of all components, which grows like
-# local^(−1/2). Of 120 steps and bumps of widths 10⁻⁵ to 0.03, one is missed where it is 1, and none where it is 0.1.
-_LOOSELY = 0.01
 _LIKE = 8.0  # ratio of a component to one below which none is scaled
 
 
@@ -66,10 +57,8 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
 
 
 def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]:
-    """A state (d,), or states (d, n), brought back onto the constraints: two steps of Newton's method along M⁻¹ Gᵀ.
-
-    Components that are followed with the motion stay.
-    """
+    """A state (d,), or states (d, n), brought back onto the constraints: two steps of Newton's method along M⁻¹ Gᵀ. Components
+    that are followed with the motion stay."""
     program = projection_program(system)
     function, parameters, d = program.function, parameter_values(program, values), len(program.states)
 
@@ -89,12 +78,6 @@ def powers_of_two(sizes: Array) -> Array:
     return scale if scale.max() > _LIKE or scale.min() < 1 / _LIKE else np.ones(len(sizes))
 
 
-def with_followed(scale: Array, followed: Followed, local: float, companion: bool = False) -> Array:
-    """The units of a solver, with those of what is followed, of which a larger error is allowed."""
-    unit = FOLLOWED * (COMPANION_STEP if companion else 1.0) * _LOOSELY * local**0.25 / local
-    return np.append(scale, np.full(len(followed), unit))
-
-
 def smooth_motion(
     system: Equations,
     values: Values,
@@ -104,7 +87,7 @@ def smooth_motion(
     start: Array,
     stiff: bool,
     windows: tuple[Window, ...],
-    followed: Followed = (),
+    followed: tuple[NarrowPart, ...] = (),
     progress: Callable[[float], None] | None = None,
 ) -> Integrate:
     """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
@@ -152,12 +135,8 @@ def smooth_motion(
                     raise
                 spent = stop.evaluations
         try:
-            stretch = integrate(
-                replace(problem, budget=budget - spent),
-                times,
-                local,
-                by_units(_as_in_pulse if followed else by_fastest, scale),
-            )
+            solver = by_units(_as_in_pulse if followed else by_fastest, scale)
+            stretch = integrate(replace(problem, budget=budget - spent), times, local, solver)
             return replace(stretch, evaluations=spent + stretch.evaluations)
         except StopError as stop:
             stop.evaluations += spent

@@ -16,9 +16,9 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
-from lagrotor.mechanics.running.flow import Array, projection_of, with_followed
+from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.function_values import Piece, in_pieces
-from lagrotor.mechanics.running.narrow import NarrowPart
+from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import (
     Generated,
     depends_on_time,
@@ -85,10 +85,6 @@ class Phase:
 
     system: Equations
     conditions: tuple[tuple[str, int, sp.Expr], ...]
-
-    @cached_property
-    def motion(self) -> Generated:
-        return motion_program(self.system)
 
     @cached_property
     def condition_program(self) -> Generated:

@@ -54,8 +54,7 @@ _LONG = 300  # operations of a Lagrangian from which on its equations are made b
 _STATES = 3  # random ones, at which the rank of a matrix is read off
 _NEWTON = 20  # steps that bring them onto the constraints
 _ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
-FOLLOWED = 1000  # of ψ: heyoka carries it, as what no rate depends on, at a millionth
-Followed = tuple[tuple[sp.Expr, sp.Expr, sp.Expr], ...]
+FOLLOWED = 1000  # times ψ: heyoka carries it, as what no rate depends on, at a millionth
 MANY = 100  # stages from which on common parts of their sums and products are not worth the search
 
 
@@ -118,7 +117,7 @@ class Generated:
 
 
 @lru_cache(maxsize=64)
-def motion_program(system: Equations, followed: Followed = ()) -> Generated:
+def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generated:
     """The program of a system's right-hand side, (q, u[, t], ψ) → (v, u'[, 1], ψ').
 
     followed: g, the factor and the part of each ψ, ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.flow import Array, Rhs, Values, projection_of, with_followed
+from lagrotor.mechanics.running.flow import Array, Rhs, Values, projection_of
+from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import (
-    Followed,
     clock_program,
     energy_program,
     motion_program,
@@ -89,7 +89,7 @@ def motion_scales(
     times: Array,
     motion: Integrate | None = None,
     windows: tuple[Window, ...] = (),
-    followed: Followed = (),
+    followed: tuple[NarrowPart, ...] = (),
 ) -> Scales:
     """The scales of a motion from a coarse integration over the times, or over what a small budget reaches of them.
 
@@ -121,9 +121,8 @@ def motion_scales(
         evaluations += len(some) * (size + 1)
     if stiff and reached < span:  # DOP853's steps are set by what dies out, not by the motion
         try:
-            stretch = _coarsely(system, values, start, span, windows, followed, lsoda)(
-                start, grid, _COARSE, False, _EVALUATIONS
-            )
+            motion = _coarsely(system, values, start, span, windows, followed, lsoda)
+            stretch = motion(start, grid, _COARSE, False, _EVALUATIONS)
             states, evaluations, reached = _finite(states, stretch), evaluations + guess + stretch.evaluations, span
         except StopError as stop:
             evaluations += guess + stop.evaluations
@@ -155,7 +154,7 @@ def _coarsely(
     start: Array,
     span: float,
     windows: tuple[Window, ...],
-    followed: Followed,
+    followed: tuple[NarrowPart, ...],
     solver: Callable[[Segment, float], Stretch] = dop853,
 ) -> Integrate:
     n, m, d, program = len(system.c.q), len(system.speeds), len(start), motion_program(system, followed)
@@ -213,9 +212,7 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
     largest = np.abs(states[:, : n + m]).max(0)
     at_rest, moving = energy(0 * u), energy(u)
     if not np.isfinite(moving[0]) and np.abs(states[0, : n + m]).max() > _OVERFLOWS:
-        raise InputError(
-            "simulate: the energy at the start overflows, beyond 1.8×10³⁰⁸: take other units, or a smaller q0 or v0"
-        )
+        raise InputError("simulate: the energy overflows at the start: take other units, or a smaller q0 or v0")
     if not np.isfinite(moving[0]):
         raise InputError("simulate: the energy has no real value at the start: give a Lagrangian that has one there")
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))

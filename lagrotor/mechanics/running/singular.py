@@ -7,14 +7,7 @@ import numpy as np
 
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.function_values import Array
-from lagrotor.mechanics.running.programs import (
-    Generated,
-    energy_program,
-    mass_program,
-    motion_program,
-    parameter_values,
-    rows_program,
-)
+from lagrotor.mechanics.running.programs import Generated, energy_program, function_program, mass_program, rows_program
 from lagrotor.shown import scientific
 
 _SINGULAR = 1e-6  # least eigenvalue of the mass matrix over that at the start; least cosine of the constraints' normals
@@ -55,16 +48,13 @@ def singular_position(
 def unbounded_force(system: Equations, values: Mapping[Any, Any], state: Array, sizes: Array) -> str:
     """The words of a force that grows without bound, as at a collision: the acceleration at the state would change a velocity by
     its size in 10⁻⁸ of the time in which the motion covers its sizes; none elsewhere."""
-    program, n, m = motion_program(system), len(system.c.q), len(system.speeds)
-    y = np.append(state[: n + m], [_time(state, system)] * (len(program.states) - n - m))
-    with np.errstate(all="ignore"):
-        change = np.array(program.rhs(*parameter_values(program, values))(0.0, y), float)[n : n + m] / sizes[n:]
-        i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:])) / float(np.max(sizes[:n]))
-    if not abs(change[i]) > _UNBOUNDED * typical:  # also where it is no number
+    n = len(system.c.q)
+    change = _at(function_program(system, *system.c.a), system, values, state)[:, 0]
+    i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
+    if not abs(change[i]) > _UNBOUNDED * typical * np.max(sizes[n:]):  # also where it is no number
         return ""
     return (
-        f"the force grows without bound there: the acceleration that changes {system.speeds[i]} is "
-        f"{scientific(float(change[i] * sizes[n + i]), 1)}"
+        f"the force grows without bound there: the acceleration of {system.c.q[i]} is {scientific(float(change[i]), 1)}"
     )
 
 
