@@ -87,6 +87,10 @@ class Phase:
     conditions: tuple[tuple[str, int, sp.Expr], ...]
 
     @cached_property
+    def motion(self) -> Generated:
+        return motion_program(self.system)
+
+    @cached_property
     def condition_program(self) -> Generated:
         return function_program(self.system, *(e for _, _, e in self.conditions))
 

@@ -21,13 +21,7 @@ from lagrotor.mechanics.running.monodromy import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
 from lagrotor.mechanics.running.narrow import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
-from lagrotor.mechanics.running.programs import (
-    depends_on_time,
-    function_program,
-    motion_program,
-    parameter_values,
-    rows_program,
-)
+from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
 from lagrotor.mechanics.running.scales import Scales, clock_windows, motion_scales
 from lagrotor.mechanics.running.singular import independence
 from lagrotor.mechanics.running.starts import consistent, rounding_of_start, state_vector
@@ -130,7 +124,7 @@ def simulate_system(
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
     h, n = with_events(system, values, given), len(system.c.q)
     q, v = state_vector("simulate", "q0", q0, n), state_vector("simulate", "v0", v0, len(system.speeds), system)
-    parameter_values(motion_program(h.phase(h.slipping).system), h.numbers(h.slipping))
+    parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
     for event in h.events:
         program = function_program(h.system, *event.expressions)
