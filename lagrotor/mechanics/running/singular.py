@@ -51,7 +51,7 @@ def unbounded_force(system: Equations, values: Mapping[Any, Any], state: Array, 
     n = len(system.c.q)
     change = _at(function_program(system, *system.c.a), system, values, state)[:, 0]
     i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
-    if not abs(change[i]) > _UNBOUNDED * typical * np.max(sizes[n:]):  # also where it is no number
+    if not _UNBOUNDED * typical * np.max(sizes[n:]) < abs(change[i]) < np.inf:  # also where it is no number
         return ""
     return (
         f"the force grows without bound there: the acceleration of {system.c.q[i]} is {scientific(float(change[i]), 1)}"
