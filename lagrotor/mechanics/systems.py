@@ -15,6 +15,8 @@ from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.from_sympy import parts_from_sympy
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import ArrayLike
 
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
@@ -229,6 +231,7 @@ class System(Equations):
         tol: float = 1e-9,
         engine: "Engine" = "core",
         events: "Event | Impact | Sequence[Event | Impact]" = (),
+        progress: "Callable[[float], None] | None" = None,
     ) -> "SystemRun":
         """Integrate the equations of motion. Forces that jump with sign(w) or |w| stick and slip.
 
@@ -236,8 +239,10 @@ class System(Equations):
         One also names the time where it passed a position at which its constraints are dependent.
 
         Steps are as long as the motion allows, but short where a function of t alone changes faster than it mostly does: in
-        pulses and at steps that are longer than a ten-thousandth of the run. A briefer pulse may be passed over, as may one of
-        t and q together; given as a table or a spline it is not.
+        pulses and at steps that are longer than a ten-thousandth of the run. A briefer pulse may be passed over; given as a
+        table or a spline it is not. Steps are short, too, where an expression of coordinates or velocities changes within less
+        than an eighth of their swing, however narrow it is: exp(−((q − c)/w)²), tanh((q − c)/w), 1/(1 + ((q − c)/w)²). Of a
+        callable the narrow parts are not known: give it as an expression, a table or a spline.
 
         Args:
             values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,
@@ -251,13 +256,14 @@ class System(Equations):
                 `run.errors` and `run.horizon`.
             engine: "core", or "fast" with heyoka.
             events: what changes the velocities or ends the run.
+            progress: called with the time (s) of each evaluation by the core, and of each step of a run with events.
 
         Raises:
             InputError: for a value that is missing or makes no sense.
             ConstraintError: for a start off the constraints.
             SingularError: for a singular mass matrix.
-            IntegrationError: where nothing can be reached.
+            IntegrationError: where nothing can be reached, or a run would take more than 10⁸ evaluations.
         """
         from lagrotor.mechanics.running import simulation
 
-        return simulation.simulate_system(self, values, q0, v0, t, tol, engine, events)
+        return simulation.simulate_system(self, values, q0, v0, t, tol, engine, events, progress)

@@ -20,7 +20,7 @@ from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import pulse_windows
-from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch
+from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch, reporting
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory, momentum_about_joints, tilting_energy
 
@@ -172,19 +172,7 @@ class Model:
             def rate(s: float, y: Array) -> list[float]:
                 return [nan] * self.size if outside(y) else bare(s, y)
 
-        return (
-            rate if self.progress is None else _reporting(rate, self.progress, scene.shock.at if scene.shock else 0.0)
-        )
-
-
-def _reporting(rate: RightHandSide, progress: Callable[[float], None], at: float) -> RightHandSide:
-    def reporting(s: float, y: Array) -> list[float]:
-        progress(s + at)
-        return rate(s, y)
-
-    if bare := getattr(rate, "bare", None):
-        reporting.bare = _reporting(bare, progress, at)  # type: ignore[attr-defined]
-    return reporting
+        return rate if self.progress is None else reporting(rate, self.progress, scene.shock.at if scene.shock else 0.0)
 
 
 def scenes_of(scene: Scene, seen: Observed | Trajectory) -> list[Scene]:

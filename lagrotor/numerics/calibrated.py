@@ -94,6 +94,12 @@ RESOLVED = Calibrated(
     "518 pairs of runs of 175 wide scenes: those that exceed twice their difference by much are all below it",
     "test_estimated_run.py::test_below_what_is_resolved_safety_counts_twice",
 )
+CLEAR = Calibrated(
+    30.0,
+    "rounding of a run over which two runs are apart by more than rounding",
+    "150 random systems, seeds 0 to 149: without it seven warn of a tol that is kept, with it two",
+    "test_estimated_run.py::test_below_what_is_resolved_safety_counts_twice",
+)
 LEAST = Calibrated(
     1e-3,
     "least error over the local error: two runs of a short stretch may take the same few steps and agree",

@@ -27,6 +27,7 @@ from lagrotor.numerics.calibrated import (
     APART,
     BEYOND,
     CHEAPER,
+    CLEAR,
     FIRST,
     GIVEN_UP,
     KEPT,
@@ -48,6 +49,8 @@ from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import Array, Projection, StopError, Stretch
 from lagrotor.shown import scientific
 
+MOST_EVALUATIONS = 1e8  # of a run: a right-hand side in Python takes minutes for them
+_LEAST_A_TURN = 100  # evaluations that two integrations take for a turn at least
 UNKNOWN = 2.0  # the most by which two states differ, relative to their size: an error of which nothing is known
 # Two runs are compared at so many parts of the time to the first of all others: there one difference is all that is known of the
 # error, and between the ends of a step DOP853 is off by up to forty times what it is off at them, with changing sign.
@@ -79,6 +82,7 @@ class Evolution:
     defect needs the run. singular: of a state at which a solver stopped, the words of the singular position that it is at, or
     none. elsewhere: whether the motion can be run by other coordinates, so that one that stops is not tried again. independent:
     whether no two runs are by the same order and the same steps, however short, so that where they agree they are right.
+    sudden: whether neighbouring motions part within a small part of a turn, at a narrow force.
     """
 
     start: Array
@@ -96,6 +100,7 @@ class Evolution:
     singular: Callable[[Array], str] | None = None
     elsewhere: bool = False
     independent: bool = False
+    sudden: bool = False
 
 
 class Leg(NamedTuple):
@@ -140,8 +145,8 @@ class EstimatedRun:
         parts: dict[str, Any] = {"t": begin + unit * self.t, "horizon": at(self.horizon), "loosened": at(self.loosened)}
         return replace(self, ending=ending, **parts)
 
-    def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2) -> None:
-        """A LagrotorWarning where `tol` is not kept, or the run ended early."""
+    def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2, hint: str = "") -> None:
+        """A LagrotorWarning where `tol` is not kept, or the run ended early; hint: what may be the cause, with the way out."""
         said, error = [], float(self.errors[-1])
         if error > tol:
             apart = error / self.local
@@ -158,6 +163,7 @@ class EstimatedRun:
         if self.ending.early:
             said.append(f"{name} ended early: {self.ending}; it holds what was reached")
         if said:
+            said += [hint] if hint else []
             warnings.warn("simulate: " + "; ".join(said), LagrotorWarning, stacklevel=stacklevel + 1)
 
 
@@ -275,24 +281,26 @@ def _estimated_errors(
     """Errors (n,) of the better of two runs that are `apart` (n,), its local error, after so many turns (n,).
 
     refused: whether tighter ones were, so that rounding may be nearly all that both resolve, as it is below RESOLVED, or
-    `slack` (n,) times it. independent and slack: of the two, as `Evolution` has them.
+    `slack` (n,) times it, unless they are apart by more than CLEAR times the rounding that no tolerance avoids.
+    independent and slack: of the two, as `Evolution` has them.
     """
-    safety = SAFETY.value ** np.where(refused | (local < RESOLVED.value * np.asarray(slack)), 2, 1)
+    rounding = ROUNDING.value * (START.value + turns)
+    unresolved = (refused | (local < RESOLVED.value * np.asarray(slack))) & (apart < CLEAR.value * slack * rounding)
     least = 0.0 if independent else LEAST.value * local
-    return np.maximum(safety * apart, least) + ROUNDING.value * (START.value + turns)
+    return np.maximum(SAFETY.value ** np.where(unresolved, 2, 1) * apart, least) + rounding
 
 
-def errors_up_to(t: Array, errors: Array, turn: float) -> Array:
+def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
     """The largest errors (n,) up to each of the times t (n,), of a motion that turns in the time `turn`.
 
     Two runs that part swing through each other: as much is known as to the end of a swing. Errors are taken to grow by a power of
     the time or by e^(λt), so that their logarithm is concave, where the difference of two runs that were near by chance grows
     faster. The least curve above it whose logarithm is concave is the estimate. Where a motion is regular for long and then parts
-    at once, as at a late near collision, that is more than the error.
+    at once, as at a late near collision, that is more than the error. sudden: where they do, the largest error is taken alone.
     """
     grown = np.maximum.accumulate(errors)
     grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * turn, side="right") - 1]
-    if not (grown[0] > 0 and np.isfinite(grown).all()):
+    if sudden or not (grown[0] > 0 and np.isfinite(grown).all()):
         return grown
     corners = list[tuple[float, float]]()
     for x, y in zip(t.tolist(), np.log(grown).tolist(), strict=True):
@@ -363,6 +371,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         raise IntegrationError(
             f"the run has {turns:.1e} turns, after which rounding leaves nothing known: take a shorter run"
         )
+    _check_cost(turns, _LEAST_A_TURN * turns, "at least")
     course = _Course(evolution, times)
     best = comparison = yield from _loosest(course, tol)
     while unavoidable <= tol < comparison.error and not comparison.refusal and not _hopeless(course, comparison):
@@ -380,6 +389,15 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
     return (yield from _whole(course, best, tol))
 
 
+def _check_cost(turns: float, evaluations: float, how: str) -> None:
+    """Raise IntegrationError for a run of more than MOST_EVALUATIONS."""
+    if evaluations > MOST_EVALUATIONS:
+        raise IntegrationError(
+            f"the run has {turns:.1e} turns and takes {how} {scientific(evaluations, 1)} evaluations, more than "
+            f"{scientific(MOST_EVALUATIONS)}: take a shorter run or a larger tol"
+        )
+
+
 def _loosest(course: _Course, tol: float) -> Generator[Leg, Stretch, _Comparison]:
     """The first pair of integrations of which none is refused, to looser local errors up to GIVEN_UP; else the one that lasts
     longest. The companion begins at the larger an error, the shorter the run, in which it gathers to less."""
@@ -392,7 +410,8 @@ def _loosest(course: _Course, tol: float) -> Generator[Leg, Stretch, _Comparison
         tight = tight or course.integration(max(local / APART.value, TIGHTEST), not loose.companion)
         comparison = yield from _compare(course, loose, tight)
         best = comparison if best is None else min(comparison, best, key=lambda one: one.merit)
-        if not comparison.refusal or course.evolution.elsewhere or local > GIVEN_UP.value:
+        singular = isinstance(comparison.refusal, StopError) and comparison.refusal.cause == "singular"
+        if not comparison.refusal or course.evolution.elsewhere or local > GIVEN_UP.value or singular:
             return best
         # One that was not refused is compared with a looser one.
         stopped = isinstance(comparison.refusal, StopError) and len(loose.stages) <= len(tight.stages)
@@ -447,6 +466,9 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
         lost = first_time(t[:m], (errors > LOST.value) & together)
         if lost < inf or stop:
             break
+        if n + 1 < len(course.stages):  # what is left costs as much, for its time, as what is done
+            share = (course.times[-1] - course.times[0]) / (t[-1] - course.times[0])
+            _check_cost(float(course.turns(course.times[-1])), sum(spent) * float(share), "about")
     apart = np.concatenate([np.empty(0), *parts])
     if not len(apart):
         return _Comparison(loose, tight, len(pairs), apart, lost, stop)
@@ -463,7 +485,7 @@ def _compare(course: _Course, loose: _Integration, tight: _Integration) -> Gener
     errors = _estimated_errors(
         counts * apart, tight.local, course.turns(t), bool(course.refused), evolution.independent, slack
     )
-    grown = errors_up_to(t, np.where(between, 0.0, errors), evolution.turn)
+    grown = errors_up_to(t, np.where(between, 0.0, errors), evolution.turn, evolution.sudden)
     known = max(float(grown[-1]) / counts, tight.local, farther)
     errors = np.where(between, np.maximum(errors, grown), grown)
     # Once one of the two has stopped, the pair is refused even if it conserves what it must.

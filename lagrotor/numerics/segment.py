@@ -55,6 +55,10 @@ class Stretch:
     evaluations: int
     jumps: tuple[float, ...] = ()
 
+    def cut(self, d: int) -> "Stretch":
+        """The stretch in the first d components."""
+        return replace(self, states=self.states[:, :d], end=self.end[:d])
+
 
 SegmentSolver = Callable[[Segment, bool, float], Stretch]  # a segment, whether within a pulse, a local error
 Integrate = Callable[[Array, Array, float, bool, float], Stretch]  # start, times, local error, companion, budget
@@ -65,6 +69,20 @@ _WAYS_OUT = {
     "event": "",
     "stopped": "no step can be taken from there with this tolerance; end the run before, or take another tol",
 }
+
+
+def reporting(rate: RightHandSide, progress: Callable[[float], None] | None, at: float) -> RightHandSide:
+    """The right-hand side that calls `progress`, if it is one, with each time `at` + s at which it is evaluated."""
+    if progress is None:
+        return rate
+
+    def reported(s: float, y: Array) -> list[float]:
+        progress(s + at)
+        return rate(s, y)
+
+    if bare := getattr(rate, "bare", None):
+        reported.bare = reporting(bare, progress, at)  # type: ignore[attr-defined]
+    return reported
 
 
 def in_units(segment: Segment, scale: Array) -> Segment:

@@ -23,7 +23,7 @@ _RANK = 1e-11  # of the largest eigenvalue, what is left of a direction that not
 
 
 def check_values(where: str, system: Equations, values: Values, others: Iterable[sp.Expr] = ()) -> None:
-    """Raise InputError for a name that is no letter of the system, or of `others`; for a value whose sign is not the
+    """Raise InputError for names that are no letters of the system, or of `others`; for a value whose sign is not the
     letter's; for a body or a friction that there is none of. A symbol of another system, of a table that several share, is
     passed over."""
     if not isinstance(values, Mapping):
@@ -37,19 +37,17 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
         for name, value in values.items()
         if not isinstance(value, FunctionValue | sp.Lambda)
     }
+    if strangers := sorted({name for name in values if isinstance(name, str)} - letters.keys()):
+        known = f"its letters are {', '.join(sorted(letters))}" if letters else "it has no letter but its coordinates"
+        meant = near(strangers[0], letters) if len(strangers) == 1 else ""
+        it = "it" if len(strangers) == 1 else "them"
+        raise InputError(
+            f"{where}: values name {', '.join(strangers)}, which the system does not have{meant or '; ' + known}: leave {it} out"
+        )
     for name, value in values.items():
         letter = letters.get(str(name))
-        if letter is None and not isinstance(name, str):
-            continue
         if letter is None:
-            known = (
-                f"; its letters are {', '.join(sorted(letters))}"
-                if letters
-                else "; it has no letter but its coordinates"
-            )
-            raise InputError(
-                f"{where}: values name {name}, which the system does not have{near(name, letters) or known}: leave it out"
-            )
+            continue
         wrong = (letter.is_extended_nonnegative and value < 0) or (letter.is_extended_nonpositive and value > 0)
         if wrong or (letter.is_integer and value != round(value)):
             kind = "a whole number" if letter.is_integer and not wrong else "positive" if value < 0 else "negative"

@@ -8,6 +8,7 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
 from lagrotor.mechanics.running.singular import singular_position
 from lagrotor.numerics.arrays import Array as Array
@@ -16,7 +17,7 @@ from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
 from lagrotor.numerics.pulse import Window, windows_since
-from lagrotor.numerics.segment import Integrate, StopError, Stretch, by_units
+from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units, reporting
 from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Values = Mapping[Any, Any]
@@ -56,14 +57,16 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
 
 
 def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]:
-    """A state (d,), or states (d, n), brought back onto the constraints: two steps of Newton's method along M⁻¹ Gᵀ."""
+    """A state (d,), or states (d, n), brought back onto the constraints: two steps of Newton's method along M⁻¹ Gᵀ. Components
+    that are followed with the motion stay."""
     program = projection_program(system)
-    function, parameters = program.function, parameter_values(program, values)
+    function, parameters, d = program.function, parameter_values(program, values), len(program.states)
 
     def project(y: Array) -> Array:
         with np.errstate(all="ignore"):
             for _ in range(2):
-                y = np.array([np.broadcast_to(e, y.shape[1:]) for e in function(*y, *parameters)], dtype=float)
+                rows = *function(*y[:d], *parameters), *y[d:]
+                y = np.array([np.broadcast_to(e, y.shape[1:]) for e in rows], dtype=float)
         return y
 
     return project
@@ -75,14 +78,6 @@ def powers_of_two(sizes: Array) -> Array:
     return scale if scale.max() > _LIKE or scale.min() < 1 / _LIKE else np.ones(len(sizes))
 
 
-def _logged(rate: Rhs, log: list[float]) -> Rhs:
-    def logged(s: float, y: Array) -> Any:
-        log.append(s)
-        return rate(s, y)
-
-    return logged
-
-
 def smooth_motion(
     system: Equations,
     values: Values,
@@ -92,25 +87,25 @@ def smooth_motion(
     start: Array,
     stiff: bool,
     windows: tuple[Window, ...],
-    log: list[float] | None = None,
+    followed: tuple[NarrowPart, ...] = (),
+    progress: Callable[[float], None] | None = None,
 ) -> Integrate:
     """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
 
     The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
-    which it is regular. windows: where something acts briefly by the clock. log: the times since the start at which the
-    right-hand side is evaluated are appended to it.
+    which it is regular. windows: where something acts briefly by the clock. followed: what is integrated with the motion.
+    progress: called with the time of each evaluation by the core.
     """
-    program, known = motion_program(system), len(sizes)
-    parameters, d = parameter_values(program, values), len(program.states)
+    program, known = motion_program(system, followed), len(sizes)
+    parameters, d = parameter_values(program, values), len(program.states) - len(followed)
     project = projection_of(system, values) if system.multipliers else None
-    scale = np.append(powers_of_two(sizes), np.ones(d - known))
-    words = singular_position(system, values, start)
+    units, begun = np.append(powers_of_two(sizes), np.ones(d - known)), np.zeros(len(followed))
+    words = singular_position(system, values, start, sizes)
 
     def problem_of(start: Array, budget: float, companion: bool) -> Problem:
-        begin = float(start[-1])
-        rate = program.rate(parameters, begin)
+        begin = float(start[d - 1])
         return Problem(
-            rate if log is None else _logged(rate, log),
+            reporting(program.rate(parameters, begin), progress, begin),
             start,
             budget,
             windows=windows_since(begin, windows, companion),
@@ -122,7 +117,7 @@ def smooth_motion(
         order = taylor_order(local, companion)
         between = turn / 2 if project else np.inf
         # The time is a state, which may grow without end.
-        clock = tuple(range(known, d))
+        clock = tuple(range(known, d + len(followed)))
         solver = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
         return integrate(problem_of(start, np.inf, companion), times, local, solver)
 
@@ -130,6 +125,7 @@ def smooth_motion(
         """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
         for stiff ones may be off by the same."""
         spent, problem = 0, problem_of(start, budget, companion)
+        scale = with_followed(units, followed, local, companion)
         if companion and stiff and local >= CROSSOVER.value:
             by_dop853 = by_units(lambda segment, _, tol: dop853(segment, tol / 20), scale)
             try:
@@ -139,7 +135,8 @@ def smooth_motion(
                     raise
                 spent = stop.evaluations
         try:
-            stretch = integrate(replace(problem, budget=budget - spent), times, local, by_units(by_fastest, scale))
+            solver = by_units(_as_in_pulse if followed else by_fastest, scale)
+            stretch = integrate(replace(problem, budget=budget - spent), times, local, solver)
             return replace(stretch, evaluations=spent + stretch.evaluations)
         except StopError as stop:
             stop.evaluations += spent
@@ -148,25 +145,30 @@ def smooth_motion(
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         if len(times) == 1:
             return Stretch(start[None], start, 0)
-        since, start = times - times[0], np.append(start[:known], [times[0]] * (d - known))
+        since, start = times - times[0], np.concatenate([start[:known], [times[0]] * (d - known), begun])
         try:
             return (
                 by_taylor(start, since, local, companion)
                 if engine == "fast"
                 else by_core(start, since, local, companion, budget)
-            )
+            ).cut(d)
         except StopError as stop:
             begin, at, spent = float(times[0]), stop.at, stop.evaluations
             end = stop.reached.end if stop.reached else start
+            reached = stop.reached and stop.reached.cut(d)
             if not (singular := words(end)) and stop.cause == "budget":  # spent on the way to one?
                 rest = min(float(times[-1]) - begin - at, _AHEAD * turn)
                 at, end, more = _some_steps_on(program.rate(parameters, begin), at, end, rest)
                 singular, spent = words(end), spent + more
             if singular:
-                raise StopError(begin + at, singular, stop.reached, spent, "singular") from None
-            raise StopError(begin + stop.at, stop.reason, stop.reached, spent, stop.cause) from None
+                raise StopError(begin + at, singular, reached, spent, "singular") from None
+            raise StopError(begin + stop.at, stop.reason, reached, spent, stop.cause) from None
 
     return motion
+
+
+def _as_in_pulse(segment: Segment, pulsed: bool, tol: float) -> Stretch:
+    return by_fastest(segment, pulsed or tol >= CROSSOVER.value, tol)
 
 
 def _some_steps_on(rate: Rhs, since: float, y: Array, rest: float) -> tuple[float, Array, int]:

@@ -1,5 +1,6 @@
 """A motion of a system that was run: its states at some times, and whatever else is a function of them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
@@ -16,7 +17,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
 from lagrotor.mechanics.running.flow import Array, Values, smooth_motion
 from lagrotor.mechanics.running.function_values import FunctionValue, with_values
-from lagrotor.mechanics.running.phases import Switched, march
+from lagrotor.mechanics.running.phases import Observer, Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
 from lagrotor.mechanics.running.programs import energy_program, function_program, velocities_along
 from lagrotor.mechanics.running.scales import Scales
@@ -168,10 +169,12 @@ def integration_of(
     scales: Scales | None,
     h: Switched,
     start: Array,
-    log: list[float] | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> Integrate:
-    """Return the integration of the motion; log: of a smooth one, as `smooth_motion` has it."""
+    """Return the integration of the motion; progress: called with times at which it is evaluated."""
     if h.smooth and scales:
-        known = (scales.sizes, scales.turn, start, scales.stiff, scales.windows, log)
-        return smooth_motion(system, values, engine, *known)
-    return lambda start, times, local, companion, budget: march(h, start, times, local, budget, companion=companion)
+        return smooth_motion(
+            system, values, engine, scales.sizes, scales.turn, start, scales.stiff, scales.windows, h.narrow, progress
+        )
+    observe: Observer | None = progress and (lambda now, left, until, curve: progress(now + until))
+    return lambda start, times, local, companion, budget: march(h, start, times, local, budget, observe, companion)

@@ -18,6 +18,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
 from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.function_values import Piece, in_pieces
+from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import (
     Generated,
     depends_on_time,
@@ -25,7 +26,7 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.mechanics.running.singular import mass_at, rows_at
+from lagrotor.mechanics.running.singular import mass_at, rows_at, unbounded_force
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
 from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.calibrated import COMPANION_FIRST, MOST_EVENTS
@@ -103,8 +104,8 @@ class Switched:
     among them, and the events as they were given.
 
     scale (N + m,): of each component, for the solver; sizes: of each, zero before they are known.
-    windows: where something acts briefly by the clock. While it is run: the phases that it was in, the endings of its runs, and
-    the times between which a step may hide an event.
+    windows: where something acts briefly by the clock. narrow: parts that change within a small part of the swing.
+    While it is run: the phases that it was in, the endings of its runs, and the times between which a step may hide an event.
     """
 
     system: Equations
@@ -116,6 +117,7 @@ class Switched:
     splines: tuple[Piece, ...] = ()
     shown: tuple[Event | Impact, ...] = ()
     windows: tuple[Window, ...] = ()
+    narrow: tuple[NarrowPart, ...] = ()
     phases: dict[tuple[Any, ...], Phase] = field(default_factory=dict)
     endings: list[Ending] = field(default_factory=list)
     hidden: list[tuple[float, float]] = field(default_factory=list)
@@ -368,11 +370,13 @@ def _smooth(
     system, scale = phase.system, h.scale
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
+    motion = motion_program(system, h.narrow)
+    y, scale = np.append(y, np.zeros(len(h.narrow))), with_followed(scale, h.narrow, local / SAFETY, first < 1)
     project = projection_of(system, numbers) if system.multipliers else None
     y = y if project is None else project(y)
     watch = phase.condition_program.along(numbers)
 
-    rhs = phase.motion.rate(parameter_values(phase.motion, numbers), now)
+    rhs = motion.rate(parameter_values(motion, numbers), now)
     segment = in_units(Segment(rhs, y, 0.0, times[-1], times, np.inf, budget, project), scale)
     parts, done, solver = [np.empty((0, len(y)))], 0, None
     try:
@@ -403,7 +407,8 @@ def _smooth(
     except StopError as stop:
         end = stop.reached.end * scale if stop.reached else y
         so_far = Stretch(np.concatenate(parts), end, stop.evaluations)
-        raise StopError(stop.at, stop.reason, so_far, cause=stop.cause) from None
+        words = unbounded_force(system, numbers, end, h.sizes) if stop.cause == "stopped" and h.sizes.all() else ""
+        raise StopError(stop.at, words or stop.reason, so_far, cause="singular" if words else stop.cause) from None
     assert solver is not None  # a phase that is begun has a length
     return Stretch(np.concatenate(parts), solver.y * scale, solver.nfev), None
 

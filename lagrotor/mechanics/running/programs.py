@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from lagrotor.algebra.differentiation import along
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, SingularError, near
 from lagrotor.mechanics.bodies.articulated import tree_accelerations
@@ -53,6 +54,7 @@ _LONG = 300  # operations of a Lagrangian from which on its equations are made b
 _STATES = 3  # random ones, at which the rank of a matrix is read off
 _NEWTON = 20  # steps that bring them onto the constraints
 _ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
+FOLLOWED = 1000  # times ψ: heyoka carries it, as what no rate depends on, at a millionth
 MANY = 100  # stages from which on common parts of their sums and products are not worth the search
 
 
@@ -115,15 +117,22 @@ class Generated:
 
 
 @lru_cache(maxsize=64)
-def motion_program(system: Equations) -> Generated:
-    """The program of a system's right-hand side, (q, u[, t]) → (v, u'[, 1]).
+def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generated:
+    """The program of a system's right-hand side, (q, u[, t], ψ) → (v, u'[, 1], ψ').
+
+    followed: g, the factor and the part of each ψ, ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
 
     Raises:
         SingularError: when the mass matrix or the Schur complement is singular in its structure.
     """
     stages, rates, _ = motion_of_speeds(system)
     clock = [sp.S.One] * depends_on_time(system)
-    return _program(state_symbols(system), stages, [*system.c.v, *rates, *clock], moving=True)
+    moving = dict(zip((*system.c.q, t, *system.speeds), (*system.c.v, sp.S.One, *rates), strict=True))
+    if (given := system.kinematics) is not None:
+        moving |= dict(zip(system.c.v, given.B * sp.Matrix(rates) + given.alpha, strict=True))
+    more = [FOLLOWED * factor * along(g, moving.keys(), moving.values()) for g, factor, _ in followed]
+    states = (*state_symbols(system), *(sp.Symbol(f"_followed{i}", real=True) for i in range(len(followed))))
+    return _program(states, stages, [*system.c.v, *rates, *clock, *more], moving=True)
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:

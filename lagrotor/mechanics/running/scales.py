@@ -1,7 +1,7 @@
 """How large and how fast a motion is: what its errors are relative to, in whatever units it is given."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.flow import Array, Rhs, Values, projection_of
+from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import (
     clock_program,
     energy_program,
@@ -30,6 +31,7 @@ _PER_TURN = 50  # evaluations that the survey takes for a turn
 _STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
 _LOST = 1e-12  # of the largest velocity, below which another has no digit in the energy
 _ROUNDING = 1e-14  # of the largest place: under constraints a smaller one is rounding of the others
+_OVERFLOWS = 1e75  # of a number whose fourth power is in the energy
 _QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordinate: what moves less is at rest
 
 
@@ -38,7 +40,7 @@ class Scales:
     """turn: the time (s) in which the motion typically turns. sizes (N + m,): the largest value of each coordinate and velocity,
     not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them. stiff: whether
     neighbouring motions are drawn together so fast that a run may be by a stiff method. windows: where something acts briefly by
-    the clock.
+    the clock. survey (m, d): the states that they are made of.
     """
 
     turn: float
@@ -46,6 +48,7 @@ class Scales:
     evaluations: int
     stiff: bool = False
     windows: tuple[Window, ...] = ()
+    survey: Array = field(default_factory=lambda: np.empty((0, 0)))
 
     def distance(self, one: Array, other: Array) -> Array:
         """How far apart two runs (n, d) are, (n,): the largest difference of a component over its size."""
@@ -86,19 +89,21 @@ def motion_scales(
     times: Array,
     motion: Integrate | None = None,
     windows: tuple[Window, ...] = (),
+    followed: tuple[NarrowPart, ...] = (),
 ) -> Scales:
     """The scales of a motion from a coarse integration over the times, or over what a small budget reaches of them.
 
-    motion: where it is not smooth. windows: where something acts briefly by the clock.
+    motion: where it is not smooth. windows: where something acts briefly by the clock. followed: what is integrated with the
+    motion.
     """
     span = float(times[-1] - times[0])
     if span == 0:
-        return Scales(1.0, _sizes(system, values, start[None], 1.0), 0)
+        return Scales(1.0, _sizes(system, values, start[None], 1.0), 0, survey=start[None])
     smooth, grid = motion is None, np.linspace(times[0], times[-1], 400)
     size = len(system.c.q) + len(system.speeds)
     guess = size + 2 if smooth else 0  # evaluations of `first_sizes`
     if motion is None:
-        motion = _coarsely(system, values, start, span, windows)
+        motion = _coarsely(system, values, start, span, windows, followed)
     try:
         stretch, reached = motion(start, grid, _COARSE, False, _EVALUATIONS), span
     except StopError as stop:
@@ -116,7 +121,8 @@ def motion_scales(
         evaluations += len(some) * (size + 1)
     if stiff and reached < span:  # DOP853's steps are set by what dies out, not by the motion
         try:
-            stretch = _coarsely(system, values, start, span, windows, lsoda)(start, grid, _COARSE, False, _EVALUATIONS)
+            motion = _coarsely(system, values, start, span, windows, followed, lsoda)
+            stretch = motion(start, grid, _COARSE, False, _EVALUATIONS)
             states, evaluations, reached = _finite(states, stretch), evaluations + guess + stretch.evaluations, span
         except StopError as stop:
             evaluations += guess + stop.evaluations
@@ -124,7 +130,7 @@ def motion_scales(
     kept = (
         states if windows else _but_for_peaks(states)
     )  # what acts briefly leaves a motion that is far larger than before it
-    return Scales(turn, _sizes(system, values, kept, turn), evaluations, bool(stiff), windows)
+    return Scales(turn, _sizes(system, values, kept, turn), evaluations, bool(stiff), windows, states)
 
 
 def _but_for_peaks(states: Array) -> Array:
@@ -148,22 +154,26 @@ def _coarsely(
     start: Array,
     span: float,
     windows: tuple[Window, ...],
+    followed: tuple[NarrowPart, ...],
     solver: Callable[[Segment, float], Stretch] = dop853,
 ) -> Integrate:
-    n, m, program = len(system.c.q), len(system.speeds), motion_program(system)
+    n, m, d, program = len(system.c.q), len(system.speeds), len(start), motion_program(system, followed)
     parameters = parameter_values(program, values)
-    bare = program.rhs(*parameters)
-    scale = np.append(first_sizes(bare, start, span, n, m), np.ones(len(start) - n - m))
+    bare = motion_program(system).rhs(*parameter_values(motion_program(system), values))
+    scale = np.append(first_sizes(bare, start, span, n, m), np.ones(d - n - m))
+    scale = with_followed(scale, followed, _COARSE)
     project = projection_of(system, values) if system.multipliers else None
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         since = times - times[0]
         rate = program.rate(parameters, float(times[0]))
+        start = np.append(start, np.zeros(len(followed)))
         problem = Problem(rate, start, budget, windows=windows_since(times[0], windows), project=project)
         try:
-            return integrate(problem, since, local, by_units(lambda part, _, tol: solver(part, tol), scale))
+            return integrate(problem, since, local, by_units(lambda part, _, tol: solver(part, tol), scale)).cut(d)
         except StopError as stop:
-            raise StopError(float(times[0]) + stop.at, stop.reason, stop.reached, cause=stop.cause) from None
+            reached = stop.reached and stop.reached.cut(d)
+            raise StopError(float(times[0]) + stop.at, stop.reason, reached, cause=stop.cause) from None
 
     return motion
 
@@ -201,6 +211,8 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
 
     largest = np.abs(states[:, : n + m]).max(0)
     at_rest, moving = energy(0 * u), energy(u)
+    if not np.isfinite(moving[0]) and np.abs(states[0, : n + m]).max() > _OVERFLOWS:
+        raise InputError("simulate: the energy overflows at the start: take other units, or a smaller q0 or v0")
     if not np.isfinite(moving[0]):
         raise InputError("simulate: the energy has no real value at the start: give a Lagrangian that has one there")
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))

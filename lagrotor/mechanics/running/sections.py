@@ -128,10 +128,10 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
         return stretch.end, stretch.evaluations
     sizes, spent = run.scales.sizes, 0
 
-    def states_at(times: Array, start: Array, log: list[float] | None = None) -> Array:
+    def states_at(times: Array, start: Array, record: Callable[[float], None] | None = None) -> Array:
         nonlocal spent
         budget = _BUDGET[0] + _BUDGET[1] * float(times[-1] - times[0]) / run.scales.turn
-        run_on = integration_of(run.system, run.values, "core", run.scales, run.switched, run.states[0], log)
+        run_on = integration_of(run.system, run.values, "core", run.scales, run.switched, run.states[0], record)
         stretch = run_on(start, times, local, False, budget)
         spent += stretch.evaluations
         return stretch.states
@@ -152,8 +152,8 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
         return states[-1]
 
     log: list[float] = []
-    states_at(run.t[[i, j]], run.states[i], log)
-    times, least = begin + np.unique(log), _CLOCK * np.spacing(max(abs(begin), abs(end)))
+    states_at(run.t[[i, j]], run.states[i], log.append)
+    times, least = np.unique(log), _CLOCK * np.spacing(max(abs(begin), abs(end)))
     edges = times[(times > begin) & (times < end - least)][_STEPS - 1 :: _STEPS]
     edges = edges[np.diff(edges, prepend=begin) > least]
     return look(np.concatenate([[begin], edges, [end]]), run.states[i], _HALVINGS), spent

@@ -19,6 +19,7 @@ from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projec
 from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
 from lagrotor.mechanics.running.monodromy import lyapunov
 from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
+from lagrotor.mechanics.running.narrow import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
 from lagrotor.mechanics.running.scales import Scales, clock_windows, motion_scales
@@ -29,11 +30,12 @@ from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import DEPENDENT
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
-from lagrotor.numerics.integrate import Engine, check_engine, check_tolerance
+from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
 from lagrotor.numerics.segment import StopError
 
 _BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
 _PATIENCE = Patience(20_000, 1_600)
+_STIFF = Patience(200_000, 16_000)  # of a stiff motion, whose turns take many steps
 _A_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
 _BETWEEN = 8  # intervals of the interpolation between two samples, in which dependent constraints are sought
 
@@ -92,7 +94,8 @@ class SystemRun(SampledMotion):
         h = with_events(system, values, given)
         windows = clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
         scales = replace(scales, windows=windows)
-        h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows)
+        narrow = narrow_parts(h.system, h.numbers(h.slipping), states)
+        h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows, narrow=narrow)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
@@ -108,10 +111,12 @@ def simulate_system(
     tol: float = 1e-9,
     engine: Engine = "core",
     events: Event | Impact | Sequence[Event | Impact] = (),
+    progress: Callable[[float], None] | None = None,
 ) -> SystemRun:
     """`System.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
+    check_progress(progress)
     given = check_events(system, events)
     system, values = put_functions("simulate", system, values, [e for event in given for e in event.expressions])
     given = tuple(event_with(event, lambda e: with_values(e, values)) for event in given)
@@ -135,32 +140,42 @@ def simulate_system(
     h = replace(h, windows=clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), times))
     if h.smooth:
         start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
-        scales = motion_scales(system, values, start, times, windows=h.windows)
     elif engine == "fast":
         raise InputError("simulate: engine='fast' takes no events, and no force that jumps: use engine='core'")
     else:
         start = begin(h, q, v, times[0])
-        scales = motion_scales(system, values, start, times, integration_of(system, values, engine, None, h, start))
+
+    def survey() -> Scales:
+        motion = None if h.smooth else integration_of(system, values, engine, None, h, start)
+        return motion_scales(system, values, start, times, motion, h.windows if h.smooth else (), h.narrow)
+
+    scales = survey()
+    if narrow := narrow_parts(h.system, h.numbers(h.slipping), scales.survey):
+        h, first = replace(h, narrow=narrow), scales
+        scales = replace(again := survey(), evaluations=again.evaluations + first.evaluations)
+    if not h.smooth:
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes)
         _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
     evolution = Evolution(
         start=start,
-        integrate=integration_of(system, values, engine, scales, h, start),
+        integrate=integration_of(system, values, engine, scales, h, start, progress),
         distance=scales.distance,
         turn=scales.turn,
-        patience=_PATIENCE,
+        patience=_STIFF if scales.stiff else _PATIENCE,
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
         slack=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
         sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),
         defect=defect_of(system, values, scales.sizes) if h.smooth else None,
         independent=engine == "fast",
+        sudden=bool(h.narrow),
     )
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
         **estimate.known | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
         engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
     )  # fmt: skip
-    estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, stacklevel=3)
+    hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)
+    estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, 3, hint)
     if system.multipliers:
         run = replace(run, evaluations=run.evaluations + _warn_of_dependence(run))
     return run if h.smooth else _up_to_its_end(run)

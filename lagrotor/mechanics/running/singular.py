@@ -7,15 +7,21 @@ import numpy as np
 
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.function_values import Array
-from lagrotor.mechanics.running.programs import Generated, energy_program, mass_program, rows_program
+from lagrotor.mechanics.running.programs import Generated, energy_program, function_program, mass_program, rows_program
 from lagrotor.shown import scientific
 
 _SINGULAR = 1e-6  # least eigenvalue of the mass matrix over that at the start; least cosine of the constraints' normals
+_UNBOUNDED = 1e8
 _TAKES_PART = 0.2  # component of a direction from which on a coordinate is named
 
 
-def singular_position(system: Equations, values: Mapping[Any, Any], start: Array) -> Callable[[Array], str]:
-    """state → the words of the singular position that is measured there, none where it is regular; `start`: a regular state."""
+def singular_position(
+    system: Equations, values: Mapping[Any, Any], start: Array, sizes: Array
+) -> Callable[[Array], str]:
+    """state → the words of the singular position that is measured there, none where it is regular; `start`: a regular state.
+
+    sizes (N + m,): of the components of the motion.
+    """
     known = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
     scale = np.where(known > 0, known, 1.0)
 
@@ -34,9 +40,22 @@ def singular_position(system: Equations, values: Mapping[Any, Any], start: Array
             )
         if system.left and (cosine := float(independence(system, values, state[None])[0])) < _SINGULAR:
             return f"the constraints are dependent there: the least singular value of their normals is {scientific(cosine, 1)}"
-        return ""
+        return unbounded_force(system, values, state, sizes)
 
     return words
+
+
+def unbounded_force(system: Equations, values: Mapping[Any, Any], state: Array, sizes: Array) -> str:
+    """The words of a force that grows without bound, as at a collision: the acceleration at the state would change a velocity by
+    its size in 10⁻⁸ of the time in which the motion covers its sizes; none elsewhere."""
+    n = len(system.c.q)
+    change = _at(function_program(system, *system.c.a), system, values, state)[:, 0]
+    i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
+    if not _UNBOUNDED * typical * np.max(sizes[n:]) < abs(change[i]) < np.inf:  # also where it is no number
+        return ""
+    return (
+        f"the force grows without bound there: the acceleration of {system.c.q[i]} is {scientific(float(change[i]), 1)}"
+    )
 
 
 def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:

@@ -35,6 +35,13 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "truth": (lambda: run(values={m: True, length: 1}), "m = True must be a number"),
     "coordinate": (lambda: run(values={m: 1, length: 1, x: 3}), "theta a value, which moves"),
     "twice": (lambda: run(values={m: 1, length: 1, "m": 3}), "m with two values"),
+    "strangers": (
+        lambda: run(values={m: 1, length: 1, "b": 1, "a": 1}),
+        "values name a, b, which .* its letters are length, m: leave them out",
+    ),
+    "overflow": (lambda: forced(x).simulate({}, (1e300,), (1e300,), T), "the energy overflows at the start"),
+    "no energy": (lambda: System(c, v**2 / 2 - sp.sqrt(x - 1)).simulate({}, (0,), (0,), T), "energy has no real value"),
+    "progress": (lambda: pendulum.simulate({m: 1, length: 1}, (0.1,), (0,), T, progress=5), "progress = 5 must be"),
     "complex start": (lambda: run(q0=np.array([0.1 + 1j])), "must be 1 numbers"),
     "start of texts": (lambda: run(q0=["0.1"]), "must be 1 numbers"),
     "times of texts": (lambda: run(t=["0", "1"]), "must be an array of times"),
