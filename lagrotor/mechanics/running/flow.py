@@ -102,8 +102,7 @@ def smooth_motion(
     units, begun = np.append(powers_of_two(sizes), np.ones(d - known)), np.zeros(len(followed))
     words = singular_position(system, values, start, sizes)
 
-    def problem_of(start: Array, budget: float, companion: bool) -> Problem:
-        begin = float(start[d - 1])
+    def problem_of(begin: float, start: Array, budget: float, companion: bool) -> Problem:
         return Problem(
             reporting(program.rate(parameters, begin), progress, begin),
             start,
@@ -113,18 +112,18 @@ def smooth_motion(
             typical_rate=2 * np.pi / turn,
         )
 
-    def by_taylor(start: Array, times: Array, local: float, companion: bool) -> Stretch:
+    def by_taylor(begin: float, start: Array, times: Array, local: float, companion: bool) -> Stretch:
         order = taylor_order(local, companion)
         between = turn / 2 if project else np.inf
         # The time is a state, which may grow without end.
         clock = tuple(range(known, d + len(followed)))
         solver = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
-        return integrate(problem_of(start, np.inf, companion), times, local, solver)
+        return integrate(problem_of(begin, start, np.inf, companion), times, local, solver)
 
-    def by_core(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
+    def by_core(begin: float, start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
         for stiff ones may be off by the same."""
-        spent, problem = 0, problem_of(start, budget, companion)
+        spent, problem = 0, problem_of(begin, start, budget, companion)
         scale = with_followed(units, followed, local, companion)
         if companion and stiff and local >= CROSSOVER.value:
             by_dop853 = by_units(lambda segment, _, tol: dop853(segment, tol / 20), scale)
@@ -145,24 +144,22 @@ def smooth_motion(
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         if len(times) == 1:
             return Stretch(start[None], start, 0)
-        since, start = times - times[0], np.concatenate([start[:known], [times[0]] * (d - known), begun])
+        begin, since = float(times[0]), times - times[0]
+        start = np.concatenate([start[:known], [begin] * (d - known), begun])
         try:
-            return (
-                by_taylor(start, since, local, companion)
-                if engine == "fast"
-                else by_core(start, since, local, companion, budget)
-            ).cut(d)
+            if engine == "fast":
+                return by_taylor(begin, start, since, local, companion).cut(d)
+            return by_core(begin, start, since, local, companion, budget).cut(d)
         except StopError as stop:
-            begin, at, spent = float(times[0]), stop.at, stop.evaluations
+            at, spent = stop.at, stop.evaluations
             end = stop.reached.end if stop.reached else start
             reached = stop.reached and stop.reached.cut(d)
             if not (singular := words(end)) and stop.cause == "budget":  # spent on the way to one?
                 rest = min(float(times[-1]) - begin - at, _AHEAD * turn)
                 at, end, more = _some_steps_on(program.rate(parameters, begin), at, end, rest)
                 singular, spent = words(end), spent + more
-            if singular:
-                raise StopError(begin + at, singular, reached, spent, "singular") from None
-            raise StopError(begin + stop.at, stop.reason, reached, spent, stop.cause) from None
+            where = (at, singular, "singular") if singular else (stop.at, stop.reason, stop.cause)
+            raise StopError(begin + where[0], where[1], reached, spent, where[2]) from None
 
     return motion
 

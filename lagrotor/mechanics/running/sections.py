@@ -25,6 +25,7 @@ from lagrotor.mechanics.running.motion import SampledMotion, integration_of
 from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
 from lagrotor.numerics.calibrated import BEYOND
+from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
 
 Kind = TypeVar("Kind", bound=SampledMotion)
@@ -132,7 +133,10 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
         nonlocal spent
         budget = _BUDGET[0] + _BUDGET[1] * float(times[-1] - times[0]) / run.scales.turn
         run_on = integration_of(run.system, run.values, "core", run.scales, run.switched, run.states[0], record)
-        stretch = run_on(start, times, local, False, budget)
+        try:
+            stretch = run_on(start, times, local, False, budget)
+        except StopError:  # LSODA may fail by rounding where it is read at many times
+            stretch = run_on(start, times, 10 * local, False, budget)
         spent += stretch.evaluations
         return stretch.states
 
