@@ -234,10 +234,11 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
 
 
 def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
-    """Return whether a is a rational number times b, neither being zero, up to what they are divided by."""
-    if a.free_symbols != b.free_symbols:
+    """Return whether a, which is divided by no letter, is a rational number times b, or times what b is divided by."""
+    above, below = sp.together(a).as_numer_denom()
+    if a.free_symbols != b.free_symbols or below.free_symbols:
         return False
-    one, other = (sp.expand(sp.together(e).as_numer_denom()[0]).as_content_primitive()[1] for e in (a, b))
+    one, other = (sp.expand(e).as_content_primitive()[1] for e in (above, sp.together(b).as_numer_denom()[0]))
     return 0 in (sp.expand(one - other), sp.expand(one + other))
 
 

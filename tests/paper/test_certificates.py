@@ -198,7 +198,7 @@ KINDS: dict[str, tuple[Callable[[], tuple[str, CertifiedLine]], list[tuple[str, 
         [("  (premise_1 : 2 * sin x = 2 * y)", "  (* *)"), ("2 * sin x = 2 * y", "2 * cos x = 2 * y")],
     ),
     "an equation between quotients": (
-        lambda: of(x**2 / y**2, z**2 / J**2, [sp.Eq(x * J, y * z)]),
+        lambda: of(x / y, z / J, [sp.Eq(x * J, y * z)]),
         [("  (premise_1 : x * J = y * z)", "  (* *)"), ("x * J = y * z", "y * J = x * z")],
     ),
     "a number beside a vector": (
