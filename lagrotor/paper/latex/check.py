@@ -122,7 +122,7 @@ def check_source(
     """
     notation = notation_of([*(each.latex for each in source.equations), *source.inline], said)
     readings = [
-        (each, read_formula(each.latex, notation, each.lead, each.subject))
+        (each, read_formula(each.latex, notation, each.lead))
         for each in with_progress("read", source.equations, progress)
     ]
     checker = _Checker(source, readings, notation)
@@ -244,10 +244,10 @@ class _Checker:
         self, verdict: str, left: Side, right: Side, used: list[PrintedMeaning], printed: PrintedStatement
     ) -> str:
         """The guess that a verdict on two sides, with premises, rests on, each read by itself; nothing where none does."""
-        shown, whole = self.readings[self.place]
+        whole = self.readings[self.place][1]
         if not _guess(whole) and not used:
             return ""
-        alone = read_formula(f"{left.latex} = {right.latex}", self.notation, subject=shown.subject)
+        alone = read_formula(f"{left.latex} = {right.latex}", self.notation)
         same = alone.whole and [side.node for side in alone.statements[0].sides] == [left.node, right.node]
         own = (alone if same else whole).guesses
         guesses = (*own, *(each for one in used for each in read_formula(one.latex, self.notation).guesses))

@@ -1,14 +1,12 @@
 r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
 
 import re
-from collections import Counter
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.paper.latex import packages
-from lagrotor.paper.latex.chapters import count_words, subjects_of
 from lagrotor.paper.latex.counters import Counters
 from lagrotor.paper.latex.expansion import STYLES, Expander, unstyled
 from lagrotor.paper.latex.groups import Macro
@@ -57,7 +55,7 @@ class Displayed:
     """One displayed equation: `number` as printed, empty where it has none; `latex` expanded, without labels and numbers.
 
     lead: the left side, in LaTeX, of the row before, which this row continues. place: file and line; rows: the line of each of
-    its rows. cites: labels that the text before it names. subject: what its chapter is about, where letters may be no numbers.
+    its rows. cites: labels that the text before it names.
     """
 
     id: str
@@ -69,7 +67,6 @@ class Displayed:
     place: tuple[str, int] = ("", 0)
     rows: tuple[int, ...] = ()
     cites: tuple[str, ...] = ()
-    subject: str = ""
 
 
 @dataclass
@@ -163,7 +160,6 @@ class _Walker:
         self.words = ""  # of the paragraph, since the last display
         self.beside: list[str] = []  # displays by which the next words stand
         self.ids: set[str] = set()
-        self.chapters: dict[str, Counter[str]] = {}
         self.only_cited = False  # \mathtoolsset{showonlyrefs}
         self.referred: set[str] = set()  # by \eqref
         self.numbered = numbered  # labels that have a number; None: all
@@ -201,10 +197,6 @@ class _Walker:
             if name.endswith(STYLES) and _COUNTS.search(text)
         )
         self.found.counting = [*styles, *(name for name in self.found.missing if name.endswith(".cls"))]
-        subjects = subjects_of(self.chapters)
-        for place, each in enumerate(self.found.equations):
-            if subject := subjects.get(_chapter(each.section)):
-                self.found.equations[place] = replace(each, subject=subject)
         self.found.preamble = "\n".join(
             rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in self.expander.loaded
         )
@@ -219,7 +211,6 @@ class _Walker:
             self._inline("$", token)
         elif token.kind == "text":
             self._text(token.text)
-            self._count(token.text)
 
     def _command(self, token: Token) -> None:
         name = token.text[1:]
@@ -348,11 +339,6 @@ class _Walker:
             else:
                 self._take(token)
 
-    def _count(self, text: str) -> None:
-        """The words that say what the chapter is about."""
-        if self.body:
-            count_words(text, self.chapters.setdefault(_chapter(self.section), Counter()))
-
     def _text(self, text: str) -> None:
         """The words of a paragraph stand by the display before them and by the one behind."""
         first, *others = _EMPTY_LINE.split(text)
@@ -401,9 +387,6 @@ class _Walker:
             found.append(token)
         latex = latex_of(found).strip()
         self.found.inline.setdefault(latex, self.section)
-        behind = self.expander.peek()
-        if latex == r"\sigma" and behind is not None:
-            self._count(f"σ{behind.text[:9]}")
         self._text(f" ${latex}$ ")
 
     def _is_display(self, token: Token) -> bool:
@@ -663,10 +646,6 @@ class _Walker:
 
 
 _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
-
-
-def _chapter(section: str) -> str:
-    return section.split(".")[0]
 
 
 def _has_text(tokens: list[Token]) -> bool:

@@ -100,7 +100,7 @@ def _from_source(folder: Path, source: Path, again: bool) -> Begun:
     notation = paper_notation(
         [*(each.latex for each in found.equations), *found.inline], said, str(folder / "paper.toml")
     )
-    prints = [read_print(each.latex, notation, each.lead, each.subject) for each in found.equations]
+    prints = [read_print(each.latex, notation, each.lead) for each in found.equations]
     rows, changed, gone = _merged(found, prints, old.get("equation", []), _derived(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
     titles = _write_about(folder, found, rows, again)
@@ -239,7 +239,7 @@ def _between(places: Mapping[int, int | None]) -> dict[int, list[int]]:
 def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
     title = each.label or f"displayed equation {each.id}"
     row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section, "title": title}
-    row |= {"label": each.label, "latex": each.latex, "lead": each.lead, "subject": each.subject}
+    row |= {"label": each.label, "latex": each.latex, "lead": each.lead}
     lines = [dict(line) for line in made.lines]
     row |= {"read": "unconfirmed" if lines else "", "guesses": list(made.guesses), "aside": list(made.aside)}
     if known is not None:
