@@ -44,7 +44,6 @@ from lagrotor.paper.latex.consistency import (
 )
 from lagrotor.paper.latex.displays import Displayed, Source
 from lagrotor.paper.latex.formula import Reading, read_formula, with_progress
-from lagrotor.paper.latex.read_statements import PrintedStatement, Side
 from lagrotor.paper.latex.settled import (
     ANY_BASE,
     is_of_argument,
@@ -55,6 +54,7 @@ from lagrotor.paper.latex.settled import (
     other_readings,
 )
 from lagrotor.paper.latex.slips import change_to_agree, constant_value, functions_of
+from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.substitution import WANTED, PrintedMeaning, SectionMeanings, put_for, rounds
 from lagrotor.paper.latex.tree import (
     KNOWN,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from lagrotor.paper.latex.dimensions import FormulaDimensions
 from lagrotor.paper.latex.displays import Displayed
-from lagrotor.paper.latex.read_statements import PrintedStatement
+from lagrotor.paper.latex.statements import PrintedStatement
 from lagrotor.paper.latex.tree import Letter, Node, Number, letters_of, walk
 from lagrotor.paper.latex.usage import Notation, notation_of
 from lagrotor.paper.latex.words_beside import gives_a_meaning

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from lagrotor.paper.latex.formula import read_formula
-from lagrotor.paper.latex.read_statements import PrintedStatement, Side
+from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.tokens import NESTING, Token, latex_of, tokenize
 from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant, text_of, walk
 from lagrotor.paper.latex.usage import Notation, declared_notation, notation_of

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 from lagrotor.paper.latex.boxes import Box, FormulaError, left_open
@@ -11,6 +11,7 @@ from lagrotor.paper.latex.read_integral import differential_degree, holds_variat
 from lagrotor.paper.latex.read_scripts import letter_of
 from lagrotor.paper.latex.rows import is_related, is_unit_like, parted, strip, without_thin
 from lagrotor.paper.latex.settled import may_not_commute
+from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.tree import (
     KNOWN,
     Call,
@@ -33,28 +34,6 @@ _CONDITION = re.compile(
 )
 _SETS = ("in", "->", "subset", "supset", "not in", "<->", "<-")  # relations of what need not be alike
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather)\b")
-
-
-@dataclass(frozen=True)
-class Side:
-    """One side of a relation: what it says and how it is printed."""
-
-    node: Node
-    latex: str
-    at: int
-
-
-@dataclass(frozen=True)
-class PrintedStatement:
-    """Sides and the relations between them; `order`: (small letter, power) of a term O(…) that the last side had.
-
-    kind: equation, approximation, inequality, range, expression or other.
-    """
-
-    sides: tuple[Side, ...]
-    relations: tuple[str, ...]
-    kind: str
-    order: tuple[str, int] | None = None
 
 
 def read_statements(reader: FormulaReader, row: list[Box]) -> list[PrintedStatement]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from lagrotor.paper.latex.boxes import GREEK
-from lagrotor.paper.latex.read_statements import PrintedStatement
+from lagrotor.paper.latex.statements import PrintedStatement
 from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, is_vector, letters_of, product_of, walk
 
 _MEMORY = 60  # displays back to which a step may refer

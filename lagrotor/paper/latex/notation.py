@@ -1,0 +1,176 @@
+r"""The notation of a paper: the kinds that its author declares for letters, and one sweep that proposes them.
+
+Every letter that the table does not name is a real number. A name is written as in a reading, without its index: `theta` for
+\theta, `rbold` for \mathbf r, `rvec` for \vec r; the name `r` alone covers all three.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields, replace
+from itertools import pairwise
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.paper.latex.boxes import Box, FormulaError, boxes, is_printed_as_vector
+from lagrotor.paper.latex.rows import all_boxes, derivative_mark, without_thin
+
+
+@dataclass(frozen=True)
+class Notation:
+    """The declared kinds of a paper's letters; every other letter is a real number.
+
+    numbers: e where it is Euler's number, i and j where they are the imaginary unit.
+    """
+
+    functions: frozenset[str] = frozenset()
+    vectors: frozenset[str] = frozenset()
+    matrices: frozenset[str] = frozenset()
+    operators: frozenset[str] = frozenset()
+    indices: frozenset[str] = frozenset()
+    complex: frozenset[str] = frozenset()
+    positive: frozenset[str] = frozenset()
+    numbers: frozenset[str] = frozenset()
+    decimal_comma: bool = False
+
+
+# Keys of the table that hold letters; kinds of which a letter can have one only.
+KINDS = tuple(each.name for each in fields(Notation) if each.name != "decimal_comma")
+_EXCLUSIVE = (("vectors", "matrices", "operators", "indices", "positive", "numbers"), ("complex", "positive"))
+
+
+def declared(table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
+    """Return the notation that an author declares in a table.
+
+    Parameters
+    ----------
+    table : Mapping[str, Any]
+        Kind to the names of its letters, parted by spaces, and `decimal_comma` to true or false.
+    where : str
+        The name of the file, for messages.
+
+    Raises
+    ------
+    InputError
+        For an unknown key, a value of the wrong type, and a letter of two kinds that exclude each other.
+    """
+    keys = (*KINDS, "decimal_comma")
+    if unknown := sorted(table.keys() - set(keys)):
+        raise InputError(f"{where}: notation: {unknown[0]!r} is no key: the keys are {', '.join(keys)}")
+    names: dict[str, frozenset[str]] = {}
+    for kind in KINDS:
+        value = table.get(kind, "")
+        if not isinstance(value, str):
+            raise InputError(f'{where}: notation: {kind} is no text: write {kind} = "f V", names parted by spaces')
+        names[kind] = frozenset(map(_name, value.replace(",", " ").split()))
+    comma = table.get("decimal_comma", False)
+    if not isinstance(comma, bool):
+        raise InputError(f"{where}: notation: decimal_comma is {comma!r}: write true or false")
+    for kinds in _EXCLUSIVE:
+        for one in kinds:
+            for other in kinds[: kinds.index(one)]:
+                if both := sorted(names[one] & names[other]):
+                    raise InputError(f"{where}: notation: {both[0]} stands in {other} and in {one}: keep one of them")
+    return Notation(**names, decimal_comma=comma)
+
+
+def _name(word: str) -> str:
+    """The name of a letter as readings have it."""
+    word = word.removeprefix("\\")
+    return "lamda" if word == "lambda" else word
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A kind that the print suggests for a letter; `evidence` is the formula where it is seen."""
+
+    kind: str
+    letter: str
+    evidence: str
+
+
+def with_proposals(declared: Notation, proposals: Iterable[Proposal]) -> Notation:
+    """Return the notation with the proposals for those letters that the author has not declared."""
+    known = frozenset().union(*(getattr(declared, kind) for kind in KINDS))
+    names: dict[str, set[str]] = {kind: set(getattr(declared, kind)) for kind in KINDS}
+    for each in proposals:
+        if each.letter not in known:
+            names[each.kind].add(each.letter)
+    return replace(declared, **{kind: frozenset(found) for kind, found in names.items()})
+
+
+def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
+    """Return the kinds that the formulas of a source suggest for its letters, each with its first evidence.
+
+    A letter before the bracket of an argument is a function; a letter in bold or with an arrow is a vector, or a matrix where
+    it multiplies another or is transposed; the letter below a sum is an index; e with letters in its power is Euler's number,
+    and i beside it the imaginary unit, unless they stand elsewhere as letters.
+    """
+    seen: dict[tuple[str, str], str] = {}
+    for latex in formulas:
+        try:
+            row = boxes(latex)
+        except (FormulaError, RecursionError):
+            continue
+        for kind, letter in _evidence(row):
+            seen.setdefault((kind, letter), latex)
+    for letter in ("e", "i", "j"):  # a charge e beside an exponential, an index i beside an imaginary unit
+        if ("letters", letter) in seen:
+            seen.pop(("numbers", letter), None)
+    for kind, letter in [*seen]:
+        if kind == "vectors" and ("matrices", letter) in seen:
+            del seen[kind, letter]
+    return tuple(Proposal(kind, letter, latex) for (kind, letter), latex in seen.items() if kind in KINDS)
+
+
+def stem_of(box: Box) -> str:
+    """Return the name of a letter without its index, dots and primes."""
+    marks = "".join(mark for mark in box.marks if not mark.endswith("dot"))
+    return _name(box.name) + box.style + marks
+
+
+def names_of(box: Box) -> tuple[str, ...]:
+    """Return the names by which the table may mean a letter, the most exact first."""
+    return (stem_of(box), _name(box.name))
+
+
+def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
+    """Kinds and letters that a row of boxes suggests, with those of all that it holds."""
+    flat = without_thin(row)
+    for box, after in pairwise([*flat, Box("thin", "", 0, 0)]):
+        if box.kind == "letter":
+            yield from _of_letter(box, after)
+        elif box.kind == "big" and box.name in ("sum", "prod"):
+            below = without_thin(box.sub or [])
+            yield from (("indices", stem_of(each)) for each in below[:1] if each.kind == "letter")
+        for held in (*box.parts, box.sub or [], box.sup or []):
+            yield from _evidence(held)
+
+
+def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
+    """Kinds that a letter and the box behind it suggest."""
+    power = without_thin(box.sup or [])
+    if box.name in ("e", "i", "j") and not (box.marks or box.style or box.primes or box.sub):
+        letters = {each.name for each in all_boxes(power) if each.kind == "letter"}
+        if box.name == "e" and letters:
+            yield "numbers", "e"
+            yield from (("numbers", unit) for unit in ("i", "j") if unit in letters and len(power) > 1)
+        elif box.name == "e":
+            yield "letters", "e"
+        elif after.name == "hbar":
+            yield "numbers", box.name
+    if is_printed_as_vector(box):
+        transposed = [each.name for each in power] in (["T"], ["top"], ["intercal"])
+        acts = box.name.isupper() and after.kind == "letter" and is_printed_as_vector(after)
+        equal = [each.kind for each in (after,)] == ["matrix"]
+        yield ("matrices" if box.name.isupper() and (transposed or acts or equal) else "vectors"), stem_of(box)
+    if after.kind == "bracket" and after.name == "(" and box.name not in ("O", "d") and _is_argument(after):
+        yield "functions", stem_of(box)
+
+
+def _is_argument(bracket: Box) -> bool:
+    """Whether a bracket holds what only an argument is: one letter other than t, a list, a product; no sum and no number."""
+    content = without_thin(bracket.parts[0])
+    names = {each.name for each in content if each.kind == "letter"}
+    adds = any(each.kind in ("operator", "relation") and each.name not in ("/", "cdot") for each in content[1:])
+    derivative = any(each.kind == "fraction" and derivative_mark(each) for each in content)
+    only_time = len(content) == 1 and names == {"t"}
+    return bool(names) and not (adds or derivative or only_time) and content[0].kind in ("letter", "number")
