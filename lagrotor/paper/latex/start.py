@@ -20,7 +20,6 @@ from lagrotor.paper.catalogue import reading_digest
 from lagrotor.paper.latex.displays import Displayed, Source
 from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.printed import Print, paper_notation, read_print
-from lagrotor.paper.latex.stated_system import proposed_system
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.title_page import toml
 
@@ -390,7 +389,7 @@ def _write_about(folder: Path, found: Source, rows: list[dict[str, Any]], again:
     ]
     if found.preamble:
         head.append(f"preamble = '''{found.preamble}'''")
-    write_text(file, "\n".join([*head, "", "[sections]", *sections]) + "\n" + proposed_system(rows))
+    write_text(file, "\n".join([*head, "", "[sections]", *sections]) + "\n")
     return []
 
 
