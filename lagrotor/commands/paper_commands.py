@@ -216,47 +216,52 @@ def derive_command(given: argparse.Namespace) -> int:
 
 
 def check_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.latex.check import FAULT, FOUND, WRONG, check_source
+    from lagrotor.paper.latex.check import FAULT, FOUND, HOLDS, NOT_JUDGED, REFUTED, WRONG, Check, check_source
     from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.markup import read_source
-    from lagrotor.paper.latex.usage import declared_notation
+    from lagrotor.paper.latex.notation import Notation, declared
     from lagrotor.paper.readable import readable
     from lagrotor.paper.title_page import toml
 
-    found, displayed = [], 0
+    rows, displayed = [], 0
     for file in given.sources:
         source = read_source(file)
         displayed += len(source.equations)
         for note in source.notes or ([] if source.equations else ["it has no displayed equation"]):
             say(f"{file}: {note}", 0)
-        beside = Path(file).parent / "paper.toml"
-        said = declared_notation(toml(beside).get("notation", {}), str(beside)) if beside.is_file() else None
+        about = Path(file).parent / "paper.toml"
+        notation = declared(toml(about).get("notation", {}), str(about)) if about.is_file() else Notation()
         with progress(2 * -(-len(source.equations) // EVERY)) as begins:
-            rows = check_source(source, said, begins)
-        found += [(file, file.parent / each.file if each.file else file, each) for each in rows]
+            check = check_source(source, notation, begins)
+        rows += [(file.parent / each.file if each.file else file, each) for each in check.findings]
+    whole = Check(tuple(each for _, each in rows))
     if given.json:
         several = len(given.sources) > 1
-        data = [each.as_data() | ({"file": str(file)} if several or each.file else {}) for _, file, each in found]
+        shown = [(file, each) for file, each in rows if given.all or each.verdict in FOUND]
+        found = [each.as_data() | ({"file": str(file)} if several or each.file else {}) for file, each in shown]
+        data = {"findings": found, "steps": whole.counts, "reasons": whole.reasons}
         print(json.dumps(data, indent=1, ensure_ascii=False))
     else:
-        unknown = Counter((source, each.why) for source, _, each in found if " is not known: " in each.why)
-        for source, file, each in found:
-            displays = unknown[source, each.why]
-            if (given.all and displays >= 0) or each.verdict in FOUND:
+        for file, each in rows:
+            if given.all or each.verdict in FOUND:
                 step = f", step {each.step}" if each.step else ""
                 of = "" if each.verdict == FAULT else f"({each.equation}){step}: {each.verdict}: "
-                more = f"; so in {_some(displays, 'display')}" if displays > 1 else ""
-                print(wrap(f"{file}:{each.line}: {of}{readable(each.why) if of else each.why}{more}", 4))
-                if displays:  # what nothing defines is said where it is first
-                    unknown[source, each.why] = -1
-        counts = Counter(each.verdict for *_, each in found)
-        nothing = (
-            f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: lagrotor init FOLDER --from FILE makes "
-            "a paper of them, to be judged"
+                print(wrap(f"{file}:{each.line}: {of}{readable(each.why) if of else each.why}", 4))
+                if each.verdict == REFUTED:
+                    print(wrap("    {} = {}".format(*map(readable, each.members)), 6))
+        counts = whole.counts
+        verbs = (
+            (HOLDS, "holds", "hold"),
+            (REFUTED, "is refuted", "are refuted"),
+            (NOT_JUDGED, "is not judged", "are not judged"),
         )
-        rest = "" if given.all or counts.keys() <= {*FOUND} else "; to see all: --all"
-        say((", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or nothing) + rest, 0)
-    return 1 if any(each.verdict in WRONG for *_, each in found) else 0
+        said = [f"{counts[verdict]} {one if counts[verdict] == 1 else more}" for verdict, one, more in verbs]
+        said[0] = f"{_some(counts[HOLDS], 'step')}{said[0].removeprefix(str(counts[HOLDS]))}"
+        say(f"{_some(displayed, 'displayed equation')}: {', '.join(said)}", 0)
+        if whole.reasons:
+            reasons = "; ".join(f"{reason} ({count})" for reason, count in whole.reasons.items())
+            say(f"not judged because {reasons}{'' if given.all else '; all of them: --all'}", 0)
+    return 1 if any(each.verdict in WRONG for _, each in rows) else 0
 
 
 def _some(count: int, what: str) -> str:

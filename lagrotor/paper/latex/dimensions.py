@@ -7,12 +7,15 @@ decimal, or a term other than 1 may be a quantity without its unit: such an equa
 """
 
 import re
-from collections import defaultdict
-from collections.abc import Collection, Iterable
+from collections import Counter, defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
 
 from lagrotor.errors import InputError
-from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_vector, letters_of, text_of
+from lagrotor.paper.latex.displays import Displayed
+from lagrotor.paper.latex.sentence import MEANING, said_of
+from lagrotor.paper.latex.statements import PrintedStatement
+from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_vector, letters_of, text_of, walk
 from lagrotor.paper.units import dimension_of
 
 Row = dict[str, Fraction]
@@ -192,3 +195,59 @@ def _rational(node: Node) -> Fraction | None:
 
 def _is_zero(node: Node) -> bool:
     return isinstance(node, Number) and node.value == 0 and not is_vector(node)
+
+
+def other_dimensions(
+    statements: Iterable[tuple[Displayed, PrintedStatement]],
+    values: Iterable[tuple[str, list[Node]]],
+    words: Mapping[str, str],
+) -> Iterator[tuple[Displayed, str]]:
+    """Find equations whose dimensions contradict those of the others.
+
+    A letter that several equations need otherwise than the rest has another meaning there: of these only an equation that
+    contradicts its own section is reported.
+
+    Parameters
+    ----------
+    statements : iterable of tuple
+        Each equation with a statement of it.
+    values : iterable of tuple
+        Sections, and sides of equations in the text that may give a unit: m = 2 kg.
+    words : Mapping[str, str]
+        Equation id to the words beside it.
+
+    Yields
+    ------
+    tuple of Displayed and str
+        The equation, and the parts whose dimensions differ.
+    """
+    printed = [row for row in statements if row[1].kind in ("equation", "approximation", "inequality")]
+    rows: list[tuple[str, list[Node], Displayed | None]] = [(section, sides, None) for section, sides in values]
+    rows += [(each.section, _without_values(statement), each) for each, statement in printed]
+    numbers = {
+        side.name
+        for _, sides, _ in rows
+        if any(isinstance(side, Number) for side in sides)
+        for side in sides
+        if isinstance(side, Letter)
+    }
+    whole = FormulaDimensions(numbers)
+    sections: defaultdict[str, FormulaDimensions] = defaultdict(lambda: FormulaDimensions(numbers))
+    broken: list[tuple[Displayed, set[str], str, bool]] = []
+    for section, sides, each in rows:
+        near = sections[section.split(".")[0]].add(sides) is not None
+        if (why := whole.add(sides)) is not None and each is not None:
+            broken.append((each, {name for side in sides for name in letters_of(side)}, why, near))
+    letters = Counter(name for _, names, _, _ in broken for name in names)
+    for each, names, why, near in broken:
+        alone = all(letters[name] == 1 for name in names)
+        if near or (alone and not said_of(words.get(each.id, ""), MEANING)):
+            yield each, why
+
+
+def _without_values(statement: PrintedStatement) -> list[Node]:
+    """Return the sides but for those behind ≈ with a number of their own, which may be quantities without a unit."""
+    nodes = [side.node for side in statement.sides]
+    numbers = [{each for each in walk(node) if isinstance(each, Number)} for node in nodes]
+    pairs = zip(statement.relations, numbers, numbers[1:], nodes[1:], strict=False)
+    return [nodes[0], *(node for relation, before, after, node in pairs if relation != "~" or after <= before)]

@@ -10,7 +10,6 @@ from lagrotor.paper.latex.formula_reader import FormulaReader, settled
 from lagrotor.paper.latex.read_integral import differential_degree, holds_variation
 from lagrotor.paper.latex.read_scripts import letter_of
 from lagrotor.paper.latex.rows import is_related, is_unit_like, parted, strip, without_thin
-from lagrotor.paper.latex.settled import may_not_commute
 from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.tree import (
     KNOWN,
@@ -71,8 +70,6 @@ def _mark_sides(reader: FormulaReader, statement: PrintedStatement) -> None:
         reader.guess("same", "two signs that differ in print are the same, as a dot and a rate")
     terms = (term for n in nodes for term in (n.args if isinstance(n, Call) and n.name == "sum" else (n,)))
     plain = (each for each in terms if not any(isinstance(n, Call) and n.name in KNOWN for n in walk(each)))
-    if may_not_commute([Call("sum", tuple(plain))]):  # \theta\eta = -\eta\theta, but no e^{ax} y = y e^{ax}
-        reader.guess("commuting", "the factors commute, as numbers do")
     if (acting := _may_act(nodes)) and acting not in reader.notation.letters:
         what = f"{acting} is a factor of what follows, and no operator on it"
         reader.guess("operator", what, settled(acting, "letters"))

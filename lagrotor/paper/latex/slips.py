@@ -1,6 +1,6 @@
 """Slips of an author: one sign, factor, power, index or function of a side changed, so that it agrees with another."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from fractions import Fraction
 from functools import partial
 from itertools import chain, islice
@@ -8,8 +8,8 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.paper.latex.compared import LARGEST, decided, nearly_equal, value_at
-from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, has_opaque, letters_of, text_of, walk
+from lagrotor.paper.latex.comparison import LARGEST, decided, nearly_equal, value_at
+from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, has_opaque, text_of
 
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
@@ -23,11 +23,9 @@ def change_to_agree(
     names: set[str],
     value: Callable[[Node], Any],
     by_identity: bool = False,
-    factors: Collection[Node] = (),
 ) -> str | None:
     """The one change of a side with which it is the other, `fixed`; value: of a side as an expression.
 
-    factors: one of them may be missing, or one too many.
     by_identity: by more than to the same print, as cos x = sin x, and not by putting θ₁ for θ₂: both may be conditions.
     """
     given = value(changing)
@@ -40,8 +38,7 @@ def change_to_agree(
     if ratio is not None and not (bare and fixed == sp.Rational(str(ratio)) * given):
         return f"with the factor {ratio} of the whole they agree"
     whole = () if bare else _whole(changing)
-    missing = () if by_identity else _with_factors(changing, factors)
-    for mutant, said in islice(chain(whole, slips(changing, () if by_identity else names), missing), _MOST_SLIPS):
+    for mutant, said in islice(chain(whole, slips(changing, () if by_identity else names)), _MOST_SLIPS):
         other = value(mutant)
         if other is None or (by_identity and fixed == other):
             continue
@@ -117,31 +114,6 @@ def _of_power(node: Call) -> Iterator[tuple[Node, str]]:
             )
     if node.name == "exp":
         yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
-
-
-def _with_factors(node: Node, factors: Collection[Node]) -> Iterator[tuple[Node, str]]:
-    """The node with a term of a sum multiplied by a factor, or divided by it."""
-    if not isinstance(node, Call):
-        return
-    for place, term in enumerate(node.args) if node.name == "sum" else ():
-        for factor in factors:
-            yield _with(node, place, Call("product", (term, factor))), f"{text_of(term)} times {text_of(factor)}"
-            yield _with(node, place, Call("quotient", (term, factor))), f"{text_of(term)} by {text_of(factor)}"
-    for place, part in enumerate(node.args):
-        for changed, said in _with_factors(part, factors):
-            yield _with(node, place, changed), said
-
-
-def functions_of(nodes: Iterable[Node]) -> list[Node]:
-    """Sines, exponentials … in nodes, and what is taken for them: of what may be missing no one sets them to 1."""
-    calls = [
-        each
-        for node in nodes
-        for each in walk(node)
-        if isinstance(each, Call) and each.name in KNOWN and letters_of(each)
-    ]
-    others = [Call(_TAKEN_FOR[each.name], each.args) for each in calls if each.name in _TAKEN_FOR]
-    return list(dict.fromkeys([*calls, *others]))
 
 
 def _of_function(node: Call) -> Iterator[tuple[Node, str]]:

@@ -17,8 +17,8 @@ r"""A derivation stated as text: coordinates, a Lagrangian and constraints in `p
     "7" = "integral"                        # F with dF/dt = 0 along every motion
     "8" = "small motion theta at theta = 0" # motion, acceleration or momentum through first order about an equilibrium
 
-The constraints, their rates and the definitions are premises of every verdict. A verdict names those that it needs. A print with a
-letter that neither the system nor a definition has is refused, because its value decides whether the print is right.
+The constraints, their rates and the definitions are premises of every verdict. A verdict names those that it needs. A
+print with a letter that neither the system nor a definition has is refused: its value decides whether the print is right.
 
 The text is parsed by the reader of expressions; nothing in it runs. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
 §§1.4, 2.4, 2.6, 2.7, 6.2.
@@ -53,7 +53,7 @@ from lagrotor.mechanics.systems import System
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.printed import paper_notation
-from lagrotor.paper.latex.tree import Node, in_catalogue, letters_of, text_of
+from lagrotor.paper.latex.tree import Node, text_of
 from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Premise
 

@@ -205,6 +205,13 @@ WANTED: tuple[Callable[[Collection[Node], Collection[Node]], list[Node]], ...] =
 )
 
 
+def put_rounds(node: Node, put: Iterable[dict[Node, PrintedMeaning]]) -> Node:
+    """Return the node with premises put in, round by round."""
+    for one in put:
+        node = put_for(node, {key: each.value for key, each in one.items()})
+    return node
+
+
 def rounds(
     left: Node,
     right: Node,

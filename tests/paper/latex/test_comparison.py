@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from lagrotor.paper.latex import compared, tree
+from lagrotor.paper.latex import comparison, tree
 from lagrotor.paper.latex.check import check_source
 from lagrotor.paper.latex.displays import read_latex
 
@@ -25,7 +25,7 @@ x, y = sp.symbols("x y", real=True)
     ],
 )
 def test_sides_differ_only_where_both_are_real(a: sp.Expr, b: sp.Expr, may: bool) -> None:
-    assert compared.may_agree(a, b) is may
+    assert comparison.may_agree(a, b) is may
 
 
 def test_what_is_not_real_at_positive_letters_takes_no_exact_decision(monkeypatch: pytest.MonkeyPatch) -> None:
