@@ -1,4 +1,4 @@
-"""The commands about a paper: judge, init, readings, derive, check, reproduce, audit, certify, claims, figure.
+"""The commands about a paper: judge, init, notation, readings, derive, check, reproduce, audit, certify, claims, figure.
 
 Exit status 1 when a verdict is not as recorded, or a check finds something wrong.
 
@@ -28,7 +28,7 @@ def add_paper_commands(command: Command) -> None:
 
 
 def _add_reading_commands(command: Command) -> None:
-    """judge, init, readings, derive, check."""
+    """judge, init, notation, readings, derive, check."""
     added = command("judge", judge_command, "judge one equation", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"')
     added.description = (
         "Judge one equation, written as in Python or in LaTeX: whether it holds, where, under which premises; the proof\n"
@@ -52,6 +52,18 @@ def _add_reading_commands(command: Command) -> None:
     added.add_argument("--from", type=Path, metavar="FILE", dest="source", help=source)
 
     added = command(
+        "notation", notation_command, "declare the kinds of letters", "lagrotor notation my-paper --confirm f r"
+    )
+    added.description = (
+        "Show the letters that are declared or proposed as functions, vectors, matrices, indices or numbers, each with a\n"
+        "formula where this is seen. Every other letter is a real number."
+    )
+    added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
+    added.add_argument("--confirm", nargs="+", default=[], metavar="LETTER", help="declare these as proposed")
+    added.add_argument("--real", nargs="+", default=[], metavar="LETTER", help="declare these as real numbers")
+    added.add_argument("--json", action="store_true", help="print a JSON list, one object a letter")
+
+    added = command(
         "readings", readings_command, "compare readings with the print", "lagrotor readings my-paper --confirm 3 5a"
     )
     added.description = "How each equation was read, beside its print; what you confirm can be judged."
@@ -67,12 +79,12 @@ def _add_reading_commands(command: Command) -> None:
 
     added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
     added.description = (
-        "Check a source without any derivation: what is not ended, each step of a chain, equations against those before, units.\n"
+        "Check a source without any derivation: each step of a chain, equations against those they cite, dimensions, indices.\n"
         "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
     )
     added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex, .md or .ipynb file")
-    added.add_argument("--json", action="store_true", help="print a JSON list of {equation, step, line, verdict, why}")
-    added.add_argument("--all", action="store_true", help="show what agrees, and what was not read, too")
+    added.add_argument("--json", action="store_true", help="print a JSON object: findings, steps, reasons")
+    added.add_argument("--all", action="store_true", help="show the steps that hold and those that are not judged, too")
 
 
 def _add_testing_commands(command: Command) -> None:
@@ -150,7 +162,7 @@ def judge_command(given: argparse.Namespace) -> int:
 
 
 def init_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.latex.start import begin_paper
+    from lagrotor.paper.latex.init import begin_paper
 
     made = begin_paper(given.folder, given.source)
     equations = _some(made.equations, "equation")
@@ -164,16 +176,43 @@ def init_command(given: argparse.Namespace) -> int:
     if made.moved:
         print(f"ids stay while numbers move: {', '.join(made.moved)}")
     if given.source:
+        print(f"see the kinds of its letters: lagrotor notation {made.folder}")
         print(f"compare the readings with the print: lagrotor readings {made.folder}")
     print(f"go on with {made.folder / 'README.md'}, and with: lagrotor audit --paper {made.folder}")
+    return 0
+
+
+def notation_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.catalogue import Catalogue
+    from lagrotor.paper.latex.init import declare
+    from lagrotor.paper.latex.readings import letter_kinds
+
+    rows = letter_kinds(Catalogue(given.folder))
+    proposals = {each.letter: each.kind for each in rows if not each.declared}
+    if unknown := [letter for letter in given.confirm if letter not in proposals]:
+        raise InputError(
+            f"notation: nothing is proposed for {unknown[0]}: the proposals are for {', '.join(proposals) or 'no letter'}"
+        )
+    if given.confirm or given.real:
+        declare(
+            given.folder, {letter: proposals[letter] for letter in given.confirm} | dict.fromkeys(given.real, "real")
+        )
+        rows = letter_kinds(Catalogue(given.folder))
+    if given.json:
+        print(json.dumps([asdict(each) for each in rows], indent=1, ensure_ascii=False))
+        return 0
+    shown = [(each.letter, each.kind, "declared" if each.declared else "proposed", each.evidence) for each in rows]
+    print(table(("letter", "kind", "", "seen in"), shown) if rows else "every letter is a real number")
+    if any(not each.declared for each in rows):
+        say(f"declare a proposal: lagrotor notation {given.folder} --confirm LETTER …, or --real LETTER …", 0)
     return 0
 
 
 def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
     from lagrotor.paper.latex.formula import EVERY
+    from lagrotor.paper.latex.init import confirm
     from lagrotor.paper.latex.readings import as_printed, readings
-    from lagrotor.paper.latex.start import confirm
     from lagrotor.paper.readable import from_latex, readable
 
     paper = Catalogue(given.folder)
@@ -193,8 +232,6 @@ def readings_command(given: argparse.Namespace) -> int:
             sides = as_printed(text, each.print).split(" = ")
             shown = " = ".join(from_latex(side) if "\\" in side else readable(side) for side in sides)
             print(wrap(f"    read     {shown}", 13))
-        for guess in each.guesses:
-            print(wrap(f"    guessed  {guess}", 13))
         if each.stopped:
             print(wrap(f"    stopped  {each.stopped}: {each.helps}", 13))
     counts = Counter(each.status for each in found)

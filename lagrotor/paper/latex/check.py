@@ -550,7 +550,7 @@ def letters_of_statement(statement: PrintedStatement) -> set[str]:
 
 
 def _difference(a: Any, b: Any) -> str:
-    return "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(counted(sp.factor_terms, a - b))
+    return "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(counted(sp.factor_terms, counted(sp.expand, a - b)))
 
 
 def _comparable(a: Any, b: Any) -> bool:

@@ -18,7 +18,8 @@ from lagrotor.paper.latex.rows import all_boxes, derivative_mark, without_thin
 class Notation:
     """The declared kinds of a paper's letters; every other letter is a real number.
 
-    numbers: e where it is Euler's number, i and j where they are the imaginary unit.
+    numbers: e where it is Euler's number, i and j where they are the imaginary unit. real: letters that are real numbers although
+    a proposal says otherwise.
     """
 
     functions: frozenset[str] = frozenset()
@@ -29,12 +30,17 @@ class Notation:
     complex: frozenset[str] = frozenset()
     positive: frozenset[str] = frozenset()
     numbers: frozenset[str] = frozenset()
+    real: frozenset[str] = frozenset()
     decimal_comma: bool = False
 
 
 # Keys of the table that hold letters; kinds of which a letter can have one only.
 KINDS = tuple(each.name for each in fields(Notation) if each.name != "decimal_comma")
-_EXCLUSIVE = (("vectors", "matrices", "operators", "indices", "positive", "numbers"), ("complex", "positive"))
+_EXCLUSIVE = (
+    ("real", "functions", "vectors", "matrices", "operators", "indices", "complex", "numbers"),
+    ("vectors", "matrices", "operators", "indices", "positive", "numbers"),
+    ("complex", "positive"),
+)
 
 
 def declared(table: Mapping[str, Any], where: str = "paper.toml") -> Notation:

@@ -5,40 +5,40 @@ from dataclasses import dataclass
 from typing import Any
 
 from lagrotor.paper.latex.formula import read_formula
+from lagrotor.paper.latex.notation import Notation, declared, propose, with_proposals
 from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.tokens import NESTING, Token, latex_of, tokenize
 from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant, text_of, walk
-from lagrotor.paper.latex.usage import Notation, declared_notation, notation_of
 
 
 @dataclass(frozen=True)
 class Print:
-    """What was read of an equation: `lines` for the catalogue, the statements kept aside as text, its letters.
+    """The reading of an equation as data.
 
-    letters, vectors: names of scalars and vectors; guesses: what custom settled; stop: (token, what would help).
+    lines: for the catalogue. aside: statements that no line can hold, as text. letters, vectors: names of scalars and vectors.
+    stop: (token, the way out) where it cannot be read whole.
     """
 
     lines: tuple[Mapping[str, Any], ...] = ()
     aside: tuple[str, ...] = ()
     letters: tuple[str, ...] = ()
     vectors: tuple[str, ...] = ()
-    guesses: tuple[str, ...] = ()
     stop: tuple[str, str] | None = None
 
     @property
     def read(self) -> bool:
-        """Whether it was read whole."""
+        """Whether the equation was read whole."""
         return self.stop is None
 
 
-def paper_notation(formulas: Iterable[str], said: Mapping[str, Any], where: str = "paper.toml") -> Notation:
-    """How a paper uses its letters: what is seen in its formulas, and what the author says."""
-    return notation_of(formulas, declared_notation(said, where))
+def paper_notation(formulas: Iterable[str], table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
+    """Return the kinds of a paper's letters: those that its [notation] declares, and the proposals of one sweep."""
+    return with_proposals(declared(table, where), propose(formulas))
 
 
-def read_print(latex: str, notation: Notation | None = None, lead: str = "", subject: str = "") -> Print:
-    """The printed lines as data; without lines where there are none, and with the stop where it cannot be read whole."""
-    reading = read_formula(latex, notation or notation_of([latex]), lead, subject)
+def read_print(latex: str, notation: Notation, lead: str = "") -> Print:
+    """Return the printed lines of an equation as data."""
+    reading = read_formula(latex, notation, lead)
     if not reading.whole:
         return Print(stop=reading.stop)
     lines, aside, letters, vectors = [], [], dict[str, None](), dict[str, None]()
@@ -52,7 +52,7 @@ def read_print(latex: str, notation: Notation | None = None, lead: str = "", sub
             for each in walk(side.node):
                 if isinstance(each, Letter) and not is_constant(each):
                     (vectors if each.vector else letters)[each.name] = None
-    return Print(tuple(lines), tuple(aside), tuple(letters), tuple(vectors), reading.guesses)
+    return Print(tuple(lines), tuple(aside), tuple(letters), tuple(vectors))
 
 
 def _line(statement: PrintedStatement) -> dict[str, Any] | None:

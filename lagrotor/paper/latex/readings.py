@@ -11,18 +11,17 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.latex.formula import with_progress
+from lagrotor.paper.latex.notation import KINDS, Notation, declared, propose
 from lagrotor.paper.latex.printed import paper_notation, read_print
-from lagrotor.paper.latex.usage import Notation
 
 
 @dataclass(frozen=True)
 class EquationReading:
-    """How one equation was read.
+    """The reading of one equation.
 
     status: confirmed, unconfirmed, by hand, changed (the print has changed since), gone (the source no longer has it), aside
-    (read, and nothing in it is compared), not read. said: its lines and what is kept aside, as text. guesses: what custom
-    settled; stopped, helps: where a reading stopped and what would help. number: the printed one, where it is another than the
-    id, which stays.
+    (read, and nothing in it is compared), not read. said: its lines, and statements that are kept aside, as text. stopped,
+    helps: the token where a reading stopped, and the way out. number: the printed one, where it is another than the id.
     """
 
     id: str
@@ -30,20 +29,29 @@ class EquationReading:
     print: str
     status: str
     said: tuple[str, ...] = ()
-    guesses: tuple[str, ...] = ()
     stopped: str = ""
     helps: str = ""
     number: str = ""
 
     def as_data(self) -> dict[str, Any]:
-        """As an object of JSON."""
+        """Return the reading as an object of JSON."""
         return asdict(self)
 
 
 def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) -> Iterator[EquationReading]:
-    """The reading of every equation, in the paper's order. Raises InputError for a [notation] that means nothing.
+    """Read every equation, in the paper's order.
 
-    progress: called with what is done next, before each `EVERY` equations.
+    Parameters
+    ----------
+    paper : Catalogue
+        The paper.
+    progress : callable, optional
+        Called with a sentence before each `EVERY` equations.
+
+    Raises
+    ------
+    InputError
+        If the table [notation] cannot be read.
     """
     equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
@@ -53,25 +61,38 @@ def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) ->
 
 
 def _reading(entry: Equation, notation: Notation) -> EquationReading:
-    said = _said(entry.line)
+    shown = EquationReading(entry.id, entry.title, entry.latex, "gone", _said(entry.line))
     if entry.read == "gone":
-        return EquationReading(entry.id, entry.title, entry.latex, "gone", said)
+        return shown
     if entry.line:
         status = "by hand" if not entry.read else "confirmed" if entry.is_confirmed else "unconfirmed"
         status = "changed" if entry.changed and status == "unconfirmed" else status
-        guesses = entry.guesses
-        if guesses and status == "unconfirmed":  # what [notation] says since then
-            made = read_print(entry.latex, notation, entry.lead, entry.subject)
-            now = _said(made.lines)
-            guesses = made.guesses if now == said else (*guesses, "[notation] reads it otherwise now: repeat init")
-        return EquationReading(entry.id, entry.title, entry.latex, status, (*said, *entry.aside), guesses)
-    made = read_print(entry.latex, notation, entry.lead, entry.subject)
-    if made.stop is not None:
-        stopped, helps = made.stop
-        return EquationReading(entry.id, entry.title, entry.latex, "not read", stopped=stopped, helps=helps)
-    if made.lines:
-        return EquationReading(entry.id, entry.title, entry.latex, "unread so far", _said(made.lines), made.guesses)
-    return EquationReading(entry.id, entry.title, entry.latex, "aside", made.aside, made.guesses)
+        return replace(shown, status=status, said=(*shown.said, *entry.aside))
+    print_ = read_print(entry.latex, notation, entry.lead)
+    if print_.stop is not None:
+        return replace(shown, status="not read", stopped=print_.stop[0], helps=print_.stop[1])
+    if print_.lines:  # [notation] has changed since init
+        return replace(shown, status="unread so far", said=_said(print_.lines))
+    return replace(shown, status="aside", said=print_.aside)
+
+
+@dataclass(frozen=True)
+class LetterKind:
+    """The kind of one letter: declared in [notation], or proposed by the formula `evidence`."""
+
+    letter: str
+    kind: str
+    declared: bool
+    evidence: str = ""
+
+
+def letter_kinds(paper: Catalogue) -> list[LetterKind]:
+    """Return the letters of a paper that are no plain real numbers, the declared ones first."""
+    table = declared(paper.about.notation, str(paper.folder / "paper.toml"))
+    kinds = [LetterKind(letter, kind, True) for kind in KINDS for letter in sorted(getattr(table, kind))]
+    known = {each.letter for each in kinds}
+    proposals = propose(entry.latex for entry in paper.equations.values())
+    return kinds + [LetterKind(p.letter, p.kind, False, p.evidence) for p in proposals if p.letter not in known]
 
 
 def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:

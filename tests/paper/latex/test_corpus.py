@@ -11,9 +11,9 @@ import pytest
 from lagrotor.errors import InputError
 from lagrotor.paper.latex.displays import read_latex
 from lagrotor.paper.latex.formula import read_formula
+from lagrotor.paper.latex.init import aux_numbers
 from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.printed import statement_text
-from lagrotor.paper.latex.start import aux_numbers
 from lagrotor.paper.latex.usage import notation_of
 
 CORPUS: list[dict[str, Any]] = tomllib.loads(Path(__file__).with_name("corpus.toml").read_text(encoding="utf-8"))[

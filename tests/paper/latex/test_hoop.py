@@ -11,7 +11,7 @@ from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.paper import Paper
 from lagrotor.paper.catalogue import Catalogue
-from lagrotor.paper.latex.start import begin_paper, confirm
+from lagrotor.paper.latex.init import begin_paper, confirm
 from lagrotor.paper.latex.stated_system import write_derivation
 from lagrotor.paper.scripts import beside
 

@@ -1,6 +1,7 @@
-"""A new paper: a folder with one worked equation, claim and figure, or one made from a source; it can be made again.
+"""A new paper: a folder with one worked equation, or one made from a source; it can be made again from a changed source.
 
-Made again from a source that has changed, what is confirmed or derived stays, and what has changed is marked.
+Made again, an equation keeps its id, its title, its confirmation and its comments if its label or its LaTeX is the same. An
+equation whose print has changed is marked, and its reading is to be confirmed again.
 """
 
 import json
@@ -9,7 +10,6 @@ import shutil
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import compress, product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -19,6 +19,7 @@ from lagrotor.files import read_text, write_text
 from lagrotor.paper.catalogue import reading_digest
 from lagrotor.paper.latex.displays import Displayed, Source
 from lagrotor.paper.latex.markup import read_source
+from lagrotor.paper.latex.notation import declared
 from lagrotor.paper.latex.printed import Print, paper_notation, read_print
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.title_page import toml
@@ -31,18 +32,17 @@ _HOLDS_SOURCE = (
 )
 _NOT_COPIED = shutil.ignore_patterns("__pycache__", "report", ".*")
 _HEAD = (
-    "# The displayed equations of {name}. Each reading is unconfirmed until `lagrotor readings` shows it to you and you\n"
-    "# confirm it. Made again by `lagrotor init`: what is confirmed or derived stays, and comments\n"
-    "# stand above their equation."
+    "# The displayed equations of {name}. `lagrotor readings` shows each reading beside its print; confirm it there.\n"
+    "# `lagrotor init` makes this file again: confirmed and derived equations stay, comments stand above their equation."
 )
 
 
 @dataclass(frozen=True)
-class Begun:
-    """What was made: the folder, how many equations it has, of how many the print was read, and what is to be said of it.
+class NewPaper:
+    """The folder that was made, the number of its equations, and how many of them were read.
 
-    changed, gone: ids of equations whose print has changed, and that the source no longer has. moved: those with another
-    number now, in words.
+    notes: sentences on the source. changed, gone: ids of equations whose print has changed, and that the source no longer
+    has. moved: sentences on equations that have another number now.
     """
 
     folder: Path
@@ -54,10 +54,20 @@ class Begun:
     moved: tuple[str, ...] = ()
 
 
-def begin_paper(folder: Path, source: Path | None = None) -> Begun:
-    """Make the folder, or make it again from its source. Raises InputError before anything is written.
+def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
+    """Make the folder of a paper, or make it again from its source.
 
-    Where it holds something that is no paper, cannot be made, or the source has no equation.
+    Parameters
+    ----------
+    folder : Path
+        A new or an empty folder, or a paper that is made again.
+    source : Path, optional
+        LaTeX, Markdown or a notebook; without it the folder holds a worked example.
+
+    Raises
+    ------
+    InputError
+        Before anything is written, if the folder holds something else, or the source has no displayed equation.
     """
     again = (folder / "paper.toml").is_file()
     if again and source is None:
@@ -69,58 +79,55 @@ def begin_paper(folder: Path, source: Path | None = None) -> Begun:
     if again and source is not None:
         return _from_source(folder, source, again)
     with TemporaryDirectory(prefix=".made.", dir=folder if folder.is_dir() else folder.resolve().parent) as near:
-        made = Path(near) / "paper"  # made whole there, so that what is interrupted leaves nothing
-        begun = _example(made, folder.resolve().name) if source is None else _from_source(made, source, again)
+        whole = Path(near) / "paper"  # so that an interrupt leaves nothing
+        paper = _example(whole, folder.resolve().name) if source is None else _from_source(whole, source, again)
         if folder.is_dir():
-            for each in made.iterdir():
+            for each in whole.iterdir():
                 each.rename(folder / each.name)
         else:
-            made.rename(folder)
-    return replace(begun, folder=folder)
+            whole.rename(folder)
+    return replace(paper, folder=folder)
 
 
-def _example(folder: Path, title: str) -> Begun:
+def _example(folder: Path, title: str) -> NewPaper:
     shutil.copytree(beside(_EXAMPLE), folder, ignore=_NOT_COPIED)
     about = read_text(folder / "paper.toml")
-    made = re.sub(r"^title = .*$", lambda _: f"title = {_text(title)}", about, count=1, flags=re.MULTILINE)
-    write_text(folder / "paper.toml", made)
-    return Begun(folder, 1, 1)
+    about = re.sub(r"^title = .*$", lambda _: f"title = {_text(title)}", about, count=1, flags=re.MULTILINE)
+    write_text(folder / "paper.toml", about)
+    return NewPaper(folder, 1, 1)
 
 
-def _from_source(folder: Path, source: Path, again: bool) -> Begun:
-    given = read_source(source)
-    faults = [f"{file or source.name}:{line}: {said}" for file, line, said in given.faults]
-    if not given.equations:
-        why = "; ".join([f"--from {source}: it has no displayed equation", *(*faults, *given.notes)[:3]])
+def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
+    source = read_source(path)
+    faults = [f"{file or path.name}:{line}: {said}" for file, line, said in source.faults]
+    if not source.equations:
+        why = "; ".join([f"--from {path}: it has no displayed equation", *(*faults, *source.notes)[:3]])
         raise InputError(f"{why}: lagrotor init alone makes a folder to begin with")
-    found, differences = _numbered(given, aux_numbers(source), source)
+    source, differences = _numbered(source, aux_numbers(path), path)
     old = toml(folder / "equations.toml") if again else {}
-    said = toml(folder / "paper.toml").get("notation", {}) if again else {}
-    notation = paper_notation(
-        [*(each.latex for each in found.equations), *found.inline], said, str(folder / "paper.toml")
-    )
-    prints = [read_print(each.latex, notation, each.lead) for each in found.equations]
-    rows, changed, gone = _merged(found, prints, old.get("equation", []), _derived(folder))
+    table = toml(folder / "paper.toml").get("notation", {}) if again else {}
+    formulas = [*(each.latex for each in source.equations), *source.inline]
+    notation = paper_notation(formulas, table, str(folder / "paper.toml"))
+    prints = [read_print(each.latex, notation, each.lead) for each in source.equations]
+    rows, changed, gone = _merged(source.equations, prints, old.get("equation", []), _derived(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
-    titles = _write_about(folder, found, rows, again)
+    sections = _write_about(folder, source, again)
     _write_symbols(folder, prints, again)
-    text = _catalogue(
-        _HEAD.format(name=source.name), rows, _vectors(found, prints, old), _comments(folder / "equations.toml")
-    )
-    write_text(folder / "equations.toml", text)  # last: what stands before it is of these equations
+    vectors = _vectors(source.equations, prints, old.get("letters", {}))
+    text = _catalogue(_HEAD.format(name=path.name), rows, vectors, _comments(folder / "equations.toml"))
+    write_text(folder / "equations.toml", text)  # last: the other files are about these equations
     if not again:
-        about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=source.name))
+        about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=path.name))
         write_text(folder / "README.md", about)
-    notes = (*faults, *found.notes, *differences, *titles)
-    numbers = {row["id"]: row.get("number") for row in old.get("equation", [])}
-    moved = [
+    before = {row["id"]: row.get("number") for row in old.get("equation", [])}
+    moved = tuple(
         f"{row['id']} is ({row['number']})"
         for row in rows
-        if row.get("number") not in (None, row["id"], numbers.get(row["id"], row.get("number")))
-    ]
-    return Begun(
-        folder, len(prints), sum(each.read for each in prints), notes, tuple(changed), tuple(gone), tuple(moved)
+        if row.get("number") not in (None, row["id"], before.get(row["id"], row.get("number")))
     )
+    notes = (*faults, *source.notes, *differences, *sections)
+    read = sum(each.read for each in prints)
+    return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone), moved)
 
 
 def _numbered(found: Source, aux: Mapping[str, str], source: Path) -> tuple[Source, list[str]]:
@@ -162,95 +169,64 @@ def aux_numbers(source: Path) -> dict[str, str]:
 
 
 def _derived(folder: Path) -> set[str]:
-    """Ids that a derivation states."""
+    """Return the ids that a derivation states."""
     scripts = (folder / "derivations").glob("*.py")
     return {i for script in scripts for i in re.findall(r"verdict\(\s*[\"']([^\"']+)[\"']", read_text(script))}
 
 
 def _merged(
-    found: Source, prints: list[Print], old: list[dict[str, Any]], derived: set[str]
+    equations: list[Displayed], prints: list[Print], old: list[dict[str, Any]], derived: set[str]
 ) -> tuple[list[dict[str, Any]], list[str], list[str]]:
-    """The rows of equations.toml: those of the source, with what was known of them; ids changed; ids gone."""
-    before, ids = _known(found.equations, old), {row["id"] for row in old}
+    """Return the rows of equations.toml with the entries of the old ones, the ids changed, and the ids gone."""
+    before, ids = _known(equations, old), {row["id"] for row in old}
     taken: set[str] = set()
     rows: list[dict[str, Any]] = []
     changed: list[str] = []
-    for place, (each, made) in enumerate(zip(found.equations, prints, strict=True)):
-        known = old[before[place]] if place in before else None
-        row = _row(each, made, known, changed)
-        if known is None:
-            while row["id"] in taken or row["id"] in ids:
-                row["id"] += "'"
+    for place, (each, print_) in enumerate(zip(equations, prints, strict=True)):
+        row = _row(each, print_, old[before[place]] if place in before else None, changed)
+        while place not in before and (row["id"] in taken or row["id"] in ids):
+            row["id"] += "'"
         taken.add(row["id"])
         rows.append(row)
-    gone = [row["id"] for row in old if row["id"] not in taken]
-    kept = [
-        row | {"read": "gone"}
-        for row in old
-        if row["id"] in gone and (row["id"] in derived or row.get("read") == "confirmed")
-    ]
-    return [*rows, *kept], changed, gone
+    gone = [row for row in old if row["id"] not in taken]
+    stay = [row | {"read": "gone"} for row in gone if row["id"] in derived or row.get("read") == "confirmed"]
+    return [*rows, *stay], changed, [row["id"] for row in gone]
 
 
 def _known(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
-    """Place of an equation → place of its row before: alike in label and print, in label, in print.
-
-    What then remains between the same two is paired in order where it is as many, else by its id; what has two labels is two.
-    """
+    """Return place of an equation → place of its old row: alike in label and LaTeX, in label, in LaTeX with a new label."""
     known: dict[int, int] = {}
-    names = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]
-    for kept in ((True, True), (True, False), (False, True)):
-        rows: dict[tuple[str, ...], list[int]] = {}
-        for place in sorted({*range(len(old))}.difference(known.values())):
-            rows.setdefault(tuple(compress(names[place], kept)), []).append(place)
-        rows.pop(("",), None)
-        for place, each in enumerate(equations):
-            if place not in known and (alike := rows.get(tuple(compress((each.label, each.latex), kept)))):
-                known[place] = alike.pop(0)
-    gone = {place for place, row in enumerate(old) if row.get("read") == "gone"}
-    news = _between({place: known.get(place) for place in range(len(equations))})
-    olds = _between(
-        {place: place if place in known.values() else None for place in range(len(old)) if place not in gone}
+    rows = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]
+    labels = {each.label for each in equations} & {label for label, _ in rows} - {""}
+    keys = (
+        lambda label, latex: (label, latex),
+        lambda label, latex: label,
+        lambda label, latex: "" if label in labels else latex,
     )
-    for last, left in olds.items():
-        new = news.get(last, [])
-        pairs = zip(new, left, strict=True) if len(new) == len(left) else product(new, left)
-        for one, other in pairs:
-            if (len(new) == len(left) or equations[one].id == old[other]["id"]) and not (
-                equations[one].label and names[other][0]
-            ):
-                known[one] = other
+    for key in keys:
+        for place, each in enumerate(equations):
+            name = key(each.label, each.latex)
+            free = (row for row, names in enumerate(rows) if row not in known.values() and key(*names) == name)
+            if place not in known and name and (row := next(free, None)) is not None:
+                known[place] = row
     return known
 
 
-def _between(places: Mapping[int, int | None]) -> dict[int, list[int]]:
-    """The row that stands before → the places behind it that have none."""
-    found: dict[int, list[int]] = {}
-    last = -1
-    for place, row in places.items():
-        if row is None:
-            found.setdefault(last, []).append(place)
-        else:
-            last = row
-    return found
-
-
-def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
+def _row(each: Displayed, print_: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
     title = each.label or f"displayed equation {each.id}"
     row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section, "title": title}
-    row |= {"label": each.label, "latex": each.latex, "lead": each.lead}
-    lines = [dict(line) for line in made.lines]
-    row |= {"read": "unconfirmed" if lines else "", "guesses": list(made.guesses), "aside": list(made.aside)}
+    lines = [dict(line) for line in print_.lines]
+    row |= {"label": each.label, "latex": each.latex, "lead": each.lead, "aside": list(print_.aside)}
+    row["read"] = "unconfirmed" if lines else ""
     if known is not None:
         same = known.get("latex") == each.latex
-        kept = ("id",) if known.get("title") == known.get("label") else ("id", "title")
-        row |= {k: v for k, v in known.items() if k not in (*row, "line", "changed", "print") or k in kept}
-        before = known.get(
-            "line", ()
-        )  # what the author added to a line, such as an order, stays with what is read alike
-        lines = [dict(next((old for old in before if old | line == old), line)) for line in lines]
+        stay = ("id",) if known.get("title") == known.get("label") else ("id", "title")
+        skip = (*row, "line", "changed", "print", "guesses", "subject")
+        row |= {key: value for key, value in known.items() if key not in skip or key in stay}
+        old = known.get("line", ())  # the author's additions to a line, such as an order, stay if it is read alike
+        lines = [dict(next((before for before in old if before | line == before), line)) for line in lines]
         if same and known.get("read") != "unconfirmed" and known.get("line"):
-            row |= {k: v for k, v in known.items() if k in ("read", "print", "guesses", "aside", "reading")}
+            row |= {key: value for key, value in known.items() if key in ("read", "print", "aside", "reading")}
             row["read"] = known.get("read", "")
             lines = [dict(line) for line in known["line"]]
         elif not same:
@@ -263,15 +239,16 @@ def _row(each: Displayed, made: Print, known: Mapping[str, Any] | None, changed:
     return {key: value for key, value in row.items() if value not in ("", [], None)}
 
 
-def _vectors(found: Source, prints: list[Print], old: Mapping[str, Any]) -> dict[str, dict[str, str]]:
-    """The letters of each section besides the paper's own: those that are printed as vectors."""
-    known: dict[str, dict[str, str]] = {section: dict(rows) for section, rows in old.get("letters", {}).items()}
-    for each, made in zip(found.equations, prints, strict=True):
-        if made.vectors:
-            rows = known.setdefault(each.section, {})
-            names = dict.fromkeys([*rows.get("vector", "").split(), *made.vectors])
-            rows["vector"] = " ".join(names)
-    return known
+def _vectors(
+    equations: list[Displayed], prints: list[Print], old: Mapping[str, Mapping[str, str]]
+) -> dict[str, dict[str, str]]:
+    """Return the tables [letters.SECTION] with the letters that are vectors."""
+    letters = {section: dict(rows) for section, rows in old.items()}
+    for each, print_ in zip(equations, prints, strict=True):
+        if print_.vectors:
+            rows = letters.setdefault(each.section, {})
+            rows["vector"] = " ".join(dict.fromkeys([*rows.get("vector", "").split(), *print_.vectors]))
+    return letters
 
 
 def _comments(file: Path) -> dict[str, list[str]]:
@@ -374,57 +351,62 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
 # ---- paper.toml and symbols.py
 
 
-def _write_about(folder: Path, found: Source, rows: list[dict[str, Any]], again: bool) -> list[str]:
-    """Write paper.toml, or renew its sections; what is to be said of them."""
+def declare(folder: Path, kinds: Mapping[str, str]) -> None:
+    """Write letters with their kinds, "f" → "functions", into the table [notation] of paper.toml.
+
+    Raises
+    ------
+    InputError
+        If the table cannot be read, or a letter would have two kinds that exclude each other.
+    """
     file = folder / "paper.toml"
+    table = dict(toml(file).get("notation", {}))
+    for letter, kind in kinds.items():
+        table[kind] = " ".join(dict.fromkeys([*str(table.get(kind, "")).split(), letter]))
+    declared(table, str(file))
+    _write_table(file, "notation", [f"{key} = {_text(value)}" for key, value in table.items()])
+
+
+def _write_table(file: Path, name: str, rows: list[str]) -> None:
+    """Write one table of a TOML file, in its place or at the end; comments within it stay, above its rows."""
+    text = read_text(file)
+    old = re.search(rf"^\[{name}\][^\n]*\n(?:(?![\[\n])[^\n]*\n?)*", text, re.MULTILINE)
+    comments = [line for line in old[0].splitlines()[1:] if line.startswith("#")] if old else []
+    block = "\n".join([old[0].splitlines()[0] if old else f"[{name}]", *comments, *rows]) + "\n"
+    write_text(file, text.replace(old[0], block, 1) if old else f"{text.rstrip()}\n\n{block}")
+
+
+def _write_about(folder: Path, source: Source, again: bool) -> list[str]:
+    """Write paper.toml; made again only its sections are renewed, and sentences say which titles change."""
+    file = folder / "paper.toml"
+    sections = [f"{_text(number)} = {_text(title)}" for number, title in source.sections.items()]
     if again:
-        return _renew_sections(file, found.sections)
-    sections = [f"{_text(number)} = {_text(title)}" for number, title in found.sections.items()]
+        known = toml(file).get("sections", {})
+        if known != source.sections:
+            _write_table(file, "sections", sections)
+        old = ((number, title) for number, title in known.items() if title not in source.sections.values())
+        return [f'section {number} was "{title}", which the source does not have' for number, title in old]
     head = [
-        f"title = {_text(found.title)}",
-        f"authors = {json.dumps(found.authors, ensure_ascii=False)}",
+        f"title = {_text(source.title)}",
+        f"authors = {json.dumps(source.authors, ensure_ascii=False)}",
         "results = []",
         'equations_in = "s"',
         'claims_in = "c"',
     ]
-    if found.preamble:
-        head.append(f"preamble = '''{found.preamble}'''")
+    if source.preamble:
+        head.append(f"preamble = '''{source.preamble}'''")
     write_text(file, "\n".join([*head, "", "[sections]", *sections]) + "\n")
     return []
 
 
-def _renew_sections(file: Path, sections: Mapping[str, str]) -> list[str]:
-    """The titles of the source, in its order; one that the source has nowhere is the author's, which stays and is said."""
-    text, known = read_text(file), toml(file).get("sections", {})
-    own = {number: title for number, title in known.items() if title not in sections.values()}
-    made = {**sections, **own}
-    if [*made.items()] != [*known.items()]:
-        head, found, rest = _in_two(text, r"^\[ *sections *\][^\n]*\n?")
-        block, table, after = _in_two(rest, r"^\[")
-        rows = [f"{_text(number)} = {_text(title)}" for number, title in made.items()]
-        others = [line for line in block.splitlines() if line.startswith("#") or "=" not in line]
-        block = "\n".join([(found or "[sections]").rstrip("\n"), *rows, *others])
-        write_text(file, f"{head.rstrip()}\n\n{block.rstrip()}\n" + (f"\n{table}{after}" if table else ""))
-    return [
-        f'section {number} is "{sections[number]}", which paper.toml calls "{title}": it stays so'
-        for number, title in own.items()
-        if number in sections
-    ]
-
-
-def _in_two(text: str, pattern: str) -> tuple[str, str, str]:
-    """What stands before the first match, the match, and what stands behind it."""
-    match = re.search(pattern, text, re.MULTILINE)
-    return (text[: match.start()], match[0], text[match.end() :]) if match else (text, "", "")
-
-
 def _write_symbols(folder: Path, prints: Iterable[Print], again: bool) -> None:
+    """Write symbols.py with the letters of the prints; made again it gets those that are new."""
     file = folder / "symbols.py"
     letters = dict.fromkeys(letter for each in prints for letter in each.letters)
     known = read_text(file) if again and file.is_file() else ""
     if known:
         names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", known) for name in call.split()}
-        new = [name for name in letters if _stem(name) not in names]
+        new = [name for name in letters if re.sub(r"_d?dot$", "", name) not in names]
         if new:
             write_text(file, known.rstrip("\n") + "\n" + "\n".join(map(_letter, new)) + "\n")
         return
@@ -433,19 +415,15 @@ def _write_symbols(folder: Path, prints: Iterable[Print], again: bool) -> None:
     write_text(file, "\n".join([*rows, *map(_letter, letters)]) + "\n")
 
 
-def _stem(name: str) -> str:
-    return re.sub(r"_d?dot$", "", name)
-
-
 def _letter(name: str) -> str:
     return f'{name} = GLOSSARY.letter("{name}", "?", "?", real=True)'
 
 
 def _text(value: str | float) -> str:
-    """A string, a number, true or false in TOML."""
+    """Return a string, a number, true or false in TOML."""
     return json.dumps(value, ensure_ascii=False)
 
 
 def _latex(value: str) -> str:
-    """A TOML string in which a backslash is a backslash."""
+    """Return a TOML string in which a backslash is a backslash."""
     return f"'''{value}'''" if "'''" not in value and not value.endswith("'") else _text(value)
