@@ -4,12 +4,15 @@ Nothing is interpreted here; every token is in one box.
 """
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
+from keyword import iskeyword
 from string import ascii_letters
 from typing import NoReturn
 
 from lagrotor.paper.latex.tokens import BRACES, Token, tokenize
+from lagrotor.paper.letters import FUNCTIONS as CALLED
 
 _GREEK_NAMES = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega "
@@ -31,69 +34,53 @@ ACCENTS = {
 }  # fmt: skip
 STYLES = {
     "mathrm": "", "mathbf": "bold", "boldsymbol": "bold", "mathcal": "cal", "mathscr": "scr", "mathfrak": "frak",
-    "mathbb": "bb", "mathit": "", "mathsf": "sf", "mathtt": "tt", "mathnormal": "", "symbf": "bold", "mathds": "bb", "rm": "",
-    "bf": "bold", "it": "", "cal": "cal", "bfseries": "bold", "text": "", "textbf": "bold", "operatorname": "", "mathbbm": "bb",
-    "bold": "bold", "symbfit": "bold", "symbfup": "bold", "symcal": "cal", "symscr": "scr", "symbb": "bb", "symfrak": "frak",
+    "mathbb": "bb", "mathit": "", "mathsf": "sf", "mathtt": "tt", "mathnormal": "", "symbf": "bold", "rm": "", "bf": "bold",
+    "it": "", "cal": "cal", "bfseries": "bold", "text": "", "textrm": "", "mbox": "", "textbf": "bold", "operatorname": "",
+    "bm": "bold", "pmb": "bold", "bold": "bold", "vb": "bold",
 }  # fmt: skip
-_SWITCHES = ("rm", "bf", "it", "cal", "bfseries")
+_TEXT, _SWITCHES = ("text", "textrm", "mbox"), ("rm", "bf", "it", "cal", "bfseries")
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth", "sech", "csch", "exp")},
     **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arcsinh": "asinh", "arccosh": "acosh", "arctanh": "atanh"},
     **{"arsinh": "asinh", "arcosh": "acosh", "artanh": "atanh", "asin": "asin", "acos": "acos", "atan": "atan"},
     **{"ln": "log", "log": "log", "lg": "log10", "sgn": "sign", "sign": "sign", "csch": "csch", "tg": "tan", "ctg": "cot"},
     **{"arctg": "atan", "sh": "sinh", "ch": "cosh", "th": "tanh", "cosec": "csc"},
-    **{name: name for name in ("det", "tr", "Tr", "diag", "rank", "dim", "arg", "Re", "Im", "max", "min", "sup", "inf")},
-    **{name: name for name in ("ker", "deg", "gcd")},
+    **{name: name for name in ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")},
 }  # fmt: skip
 BIG = {
     "sum": "Sum", "prod": "Product", "int": "Integral", "oint": "Integral", "iint": "Integral", "iiint": "Integral",
-    "lim": "limit", "oiint": "Integral", "intop": "Integral", "bigcup": "", "bigcap": "", "bigoplus": "", "bigotimes": "",
-    "limsup": "", "liminf": "", "coprod": "",
+    "lim": "limit",
 }  # fmt: skip
 RELATIONS = {
-    "=": "=", "<": "<", ">": ">", "approx": "~", "simeq": "~", "sim": "~",
-    "cong": "~", "approxeq": "~", "equiv": ":=", "neq": "!=",
-    "ne": "!=", "le": "<=", "leq": "<=", "leqslant": "<=", "ge": ">=", "geq": ">=", "geqslant": ">=", "ll": "<<", "gg": ">>",
+    "=": "=", "<": "<", ">": ">", "approx": "~", "simeq": "~", "sim": "~", "cong": "~", "equiv": ":=", "neq": "!=", "ne": "!=",
+    "le": "<=", "leq": "<=", "leqslant": "<=", "ge": ">=", "geq": ">=", "geqslant": ">=", "ll": "<<", "gg": ">>",
     "propto": "propto", "to": "->", "rightarrow": "->", "longrightarrow": "->", "mapsto": "->", "in": "in", "lesssim": "<~",
-    "gtrsim": ">~", "doteq": "~", "triangleq": ":=", "coloneqq": ":=", "leftarrow": "<-", "notin": "not in", "subset": "subset",
-    "subseteq": "subset", "longmapsto": "->", "leftrightarrow": "<->", "perp": "perp", "parallel": "parallel", "not": "!=",
-    "mid": "mid", "longleftrightarrow": "<->",
-    "asymp": "~", "prec": "prec", "succ": "succ", "ni": "ni", "rightleftharpoons": "<->", "thickapprox": "~", "thicksim": "~",
-    "lll": "<<", "ggg": ">>", "supset": "supset", "nearrow": "nearrow", "searrow": "searrow", "hookrightarrow": "->",
-    "gets": "<-",
-    "colon": ":",
+    "gtrsim": ">~", "doteq": "~", "triangleq": ":=", "coloneqq": ":=", "perp": "perp", "parallel": "parallel",
 }  # fmt: skip
-ARROWS = {"Rightarrow", "implies", "iff", "Leftrightarrow", "Longrightarrow", "Longleftrightarrow", "therefore", "because",
-          "impliedby", "Leftarrow", "leadsto", "land", "lor"}  # fmt: skip
+_ARROWS = ("Rightarrow", "implies", "iff", "Leftrightarrow", "Longrightarrow", "Longleftrightarrow", "therefore", "because",
+           "forall")  # fmt: skip
 _WIDE = ("quad", "qquad")
 _THIN = (",", ";", ":", " ", ">", "thinspace", "medspace", "thickspace", "enspace", "enskip", "\n", "nobreakspace")
 _NOTHING = (
-    "!", "displaystyle", "textstyle", "scriptstyle", "scriptscriptstyle", "limits", "nolimits", "negthinspace", "nobreak",
-    "allowbreak", "strut", "null", "/", "mathop", "mathrel", "mathbin", "mathord", "mathopen", "mathclose", "mathpunct",
-    "mathinner", "relax", "hfill", "hfil", "hskip", "kern", "mkern", "notag", "nonumber", "leavevmode", "noindent", "centering",
-    "small", "footnotesize", "large", "Large", "normalsize", "tiny", "scriptsize", "ignorespaces",
-    "upshape", "rmfamily", "normalfont", "par", "qedhere", "protect", "break", "penalty", "raggedright",
-    "begingroup", "endgroup",
+    "!", "displaystyle", "textstyle", "scriptstyle", "limits", "nolimits", "negthinspace", "nobreak", "allowbreak", "strut",
+    "null", "/", "relax", "hfill", "notag", "nonumber", "noindent", "centering", "small", "footnotesize", "qedhere",
 )  # fmt: skip
 _DOTS = ("dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotso", "dotsm", "hdots")
 _OPERATORS = {
     "+": "+", "-": "-", "−": "-", "*": "*", "/": "/", "cdot": "cdot", "times": "times", "pm": "pm", "mp": "mp", "div": "/",
-    "ast": "*",
-    "bullet": "bullet", "wedge": "wedge", "otimes": "otimes", "oplus": "oplus", "circ": "circ", "star": "star", "·": "cdot",
-    "×": "times",
-    "odot": "odot", "cup": "cup", "cap": "cap", "setminus": "setminus", "cdotp": "cdot", "centerdot": "cdot", "ltimes": "ltimes",
+    "ast": "*", "·": "cdot", "×": "times", "wedge": "wedge", "otimes": "otimes", "oplus": "oplus", "circ": "circ",
+    "star": "star", "bullet": "bullet",
 }  # fmt: skip
 _INFIX = {r"\over": "fraction", r"\choose": "binomial"}
 _SIZES = re.compile(r"[bB]igg?[lrm]?|middle")
 _OPEN = {"(": ")", "[": "]", r"\{": r"\}", r"\langle": r"\rangle", r"\lfloor": r"\rfloor", r"\lceil": r"\rceil",
          r"\lvert": r"\rvert", r"\lVert": r"\rVert", r"\lbrace": r"\rbrace", r"\lbrack": r"\rbrack", "⟨": "⟩"}  # fmt: skip
 _CLOSE = set(_OPEN.values())
-_MATRICES = ("matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "psmallmatrix",
-             "bsmallmatrix", "pmatrix*", "bmatrix*")  # fmt: skip
+_MATRICES = ("matrix", "pmatrix", "bmatrix", "vmatrix", "smallmatrix", "array")
 ROWS = ("aligned", "split", "gathered", "alignedat", "multlined", "align", "align*", "gather", "gather*", "eqnarray*", "eqnarray",
-        "IEEEeqnarraybox", "equation", "equation*")  # fmt: skip
+        "equation", "equation*")  # fmt: skip
 _PAIRS = ("aligned", "alignedat", "align", "align*", "split")
-_CASES = ("cases", "dcases", "cases*", "dcases*", "rcases", "numcases")
+_CASES = ("cases", "dcases")
 _MOST = 200  # brackets within brackets
 
 
@@ -103,11 +90,6 @@ class FormulaError(Exception):
     def __init__(self, at: int, what: str, help_: str) -> None:
         super().__init__(what)
         self.at, self.what, self.help = at, what, help_
-
-
-def left_open(box: "Box", what: str, help_: str) -> FormulaError:
-    """The stop at a box of which the print does not say whether it is this."""
-    return FormulaError(box.at, f"whether {what} is open", help_)
 
 
 @dataclass(slots=True)
@@ -156,7 +138,6 @@ def _items(latex: str) -> list[Token]:
 class _Reader:
     def __init__(self, latex: str) -> None:
         self.latex, self.items, self.place, self.depth = latex, _items(latex), 0, 0
-        self.angles = 0  # angle brackets that are open, in which a bar parts a bra from a ket
 
     def stop(self, what: str, help_: str) -> NoReturn:
         item = self.items[min(self.place, len(self.items) - 1)]
@@ -254,8 +235,6 @@ class _Reader:
                 self.comma_in_number(found)
             else:
                 self.extend(found, style)
-                if len(found) > 2 and _multiplies(*found[-3:]):
-                    found[-2] = replace(found[-2], kind="operator", name="cdot")
         self.depth -= 1
         return found
 
@@ -295,39 +274,19 @@ class _Reader:
 
     @staticmethod
     def primed(target: Box, item: Token, count: int) -> None:
-        """Give primes to a letter; behind anything else they mean what only the author knows."""
+        """Give primes to a letter; behind anything else they are not read."""
         if target.kind != "letter":
-            why = "a prime stands behind what is no letter"
+            why = "' stands behind a sign that is no letter"
             raise FormulaError(item.at, why, "write the derivative, or give it a letter")
         target.primes += count
 
     def script(self, found: list[Box]) -> None:
         item = self.take()
-        _as_letters(found)
         target = found[-1] if found else None
-        if (
-            target is not None
-            and item.text == "^"
-            and (
-                target.kind == "unit" or (target.kind == "text" and _is_unit(target.name))  # \text{W/m}^2
-            )
-        ):
-            above = self.argument()
-            if all(b.kind == "number" or b.name == "-" for b in above):
-                found[-1] = replace(
-                    target, kind="unit", name=f"{target.name}^{{{''.join(b.name for b in above)}}}", end=self.end
-                )
-                return
-            raise FormulaError(item.at, "a unit has a power that is no number", "write it in braces, \\mathrm{m^2}")
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow", "unit"):
             why = f"{item.text} has nothing before it"
             raise FormulaError(item.at, why, "write the letter that the script belongs to")
-        content = [
-            replace(box, kind="letter", name=self.latex[box.at + 1 : box.end])
-            if box.kind == "relation" and self.latex[box.at : box.end] in (r"\perp", r"\parallel")
-            else box
-            for box in self.argument()
-        ]
+        content = self.argument()
         while content and content[0].kind == "thin":  # \mathrm{d}^{\,3}
             content = content[1:]
         if item.text == "^":
@@ -353,8 +312,7 @@ class _Reader:
             self.place -= 1
             return self.group(style)
         if text in ("|", r"\vert"):
-            ket = not self.angles and self.first_ahead((text, r"\langle", r"\rangle", "=")) == r"\rangle"
-            return [self.ket(item) if ket else Box("bar", "|", item.at, self.end)]
+            return [Box("bar", "|", item.at, self.end)]
         if item.kind == "command":
             return self.command(item, style)
         if item.kind == "align":
@@ -392,11 +350,11 @@ class _Reader:
     def command(self, item: Token, style: str) -> list[Box]:
         name = item.text[1:]
         if name in _NOTHING:
-            return self.nothing(name)
+            return []
         if name in ACCENTS:
             return [self.accent(name, item, style)]
         if name in RELATIONS:
-            return [self.relation(name, item)]
+            return [Box("relation", RELATIONS[name], item.at, self.end)]
         if item.text in _OPEN:
             return [self.bracket(item.text, item, style)]
         if name == "left" or _SIZES.fullmatch(name):
@@ -407,24 +365,6 @@ class _Reader:
             return self.styled(name, item)
         self.place -= 1
         self.stop("is not known", "write what it stands for, or define it by \\newcommand")
-
-    def nothing(self, name: str) -> list[Box]:
-        """Take a command that prints nothing, with its length where it has one."""
-        if name in ("hskip", "kern", "mkern"):
-            while (after := self.peek()) is not None and (after.text in ".-" or after.text.isdecimal()):
-                self.take()
-            for _ in range(2):
-                if (after := self.peek()) is not None and after.text.isalpha():
-                    self.take()
-        return []
-
-    def relation(self, name: str, item: Token) -> Box:
-        if name != "not":
-            return Box("relation", RELATIONS[name], item.at, self.end)
-        denied = RELATIONS.get(self.take().text.lstrip("\\"), "")
-        if not denied:
-            raise FormulaError(item.at, r"\not strikes out what is no relation", r"write \nmid, \neq or \slashed")
-        return Box("relation", "!=" if denied == "=" else f"not {denied}", item.at, self.end)
 
     def accent(self, name: str, item: Token, style: str) -> Box:
         content = self.argument(style)
@@ -443,37 +383,32 @@ class _Reader:
         style = STYLES[name]
         if name == "operatorname" and (after := self.peek()) is not None and after.text == "*":
             self.take()
-        word = (
-            self.plain_ahead()
-            if name in ("text", "textbf", "mathrm", "operatorname", "mathit", "mathsf", "mathtt")
-            else None
-        )
+        word = self.plain_ahead() if name in (*_TEXT, "mathrm", "operatorname", "mathit", "mathsf", "mathtt") else None
         if word is not None:
             stripped = word.strip()
-            bold = name == "textbf" and len(stripped) == 1  # m\textbf{a}
-            if name in ("text", "textbf") and word != "d" and stripped not in FUNCTIONS and not bold:
+            if name == "operatorname" or (len(stripped) > 1 and stripped in FUNCTIONS):
                 self.plain()
-                return [Box("text", stripped, item.at, self.end)] if stripped else [Box("thin", "", item.at, self.end)]
+                return [Box("function", stripped, item.at, self.end)]
+            if name in _TEXT and stripped != "d":
+                self.plain()
+                return [Box("text" if stripped else "thin", stripped, item.at, self.end)]
             if re.fullmatch(r"[A-Za-z]{2,}", stripped):
                 self.plain()
-                if stripped in FUNCTIONS or name == "operatorname":
-                    return [Box("function", stripped, item.at, self.end)]
                 if stripped[0] == "d" and len(stripped) == 2 and name == "mathrm":
                     d = Box("letter", "d", item.at, item.at + 1, upright=True)
                     return [d, Box("letter", stripped[1], item.at + 1, self.end)]
                 return [Box("letter", stripped, item.at, self.end, upright=True)]
-            unit = stripped.replace(r"\Omega", "Ohm") if stripped != r"\Omega" else ""
-            if name == "mathrm" and _is_unit(unit):
+            if name == "mathrm" and _UNIT.fullmatch(stripped):
                 self.plain()
-                return [Box("unit", unit, item.at, self.end)]
+                return [Box("unit", stripped, item.at, self.end)]
         content = self.argument(style or "upright")
         for box in content:
             if box.kind == "letter" and style:
                 box.style = style
             elif box.kind == "letter":
                 box.upright = True
-            elif box.kind == "number" and box.name == "1" and style:  # the unit matrix
-                box.kind, box.name, box.style = "letter", "one", style
+            elif box.kind == "number" and style and box.name != "0":
+                raise FormulaError(box.at, f"{item.text}{{{box.name}}} is not read", "give the unit matrix a letter")
         return content
 
     def plain_ahead(self) -> str | None:
@@ -508,35 +443,9 @@ class _Reader:
         closing = self.take().text
         return [Box("bracket", opening, item.at, self.end, parts, closing=closing)]
 
-    def first_ahead(self, wanted: tuple[str, ...]) -> str:
-        """The first of these that comes, in the same braces."""
-        depth = 0
-        for item in self.items[self.place :]:
-            depth += BRACES.get(item.kind, 0)
-            if depth < 0 or (depth == 0 and item.text in wanted):
-                return item.text
-        return ""
-
-    def ends_at_bar(self) -> bool:
-        """Whether a sign and another bar follow the next bar: <a| + |b> is no product."""
-        bar = next(k for k in range(self.place, len(self.items)) if self.items[k].text == "|")
-        return [each.text for each in self.items[bar + 1 : bar + 3]] in (["+", "|"], ["-", "|"], ["=", "|"])
-
-    def ket(self, item: Token) -> Box:
-        content = self.sequence((r"\rangle",))
-        if (after := self.peek()) is None or after.text != r"\rangle":
-            raise FormulaError(item.at, "a ket is not closed", r"write \rangle where it ends")
-        self.take()
-        return Box("bracket", "|", item.at, self.end, [content], closing=r"\rangle")
-
     def bracket(self, opening: str, item: Token, style: str = "") -> Box:
         closing = _OPEN[opening]
-        is_bra = opening == r"\langle" and self.first_ahead(("|", r"\langle", r"\rangle")) == "|"
-        if is_bra and (self.first_ahead((r"\langle", r"\rangle")) != r"\rangle" or self.ends_at_bar()):
-            closing = "|"
-        self.angles += closing == r"\rangle"
         content = self.sequence((closing,), style)
-        self.angles -= closing == r"\rangle"
         after = self.peek()
         if after is not None and after.text.startswith("\\") and _SIZES.fullmatch(after.text[1:]):
             self.take()
@@ -554,6 +463,27 @@ class _Reader:
         kind = "binomial" if item.text.endswith("binom") else "fraction"
         return [Box(kind, "", item.at, self.end, [over, under])]
 
+    def _derivative(self, item: Token, style: str) -> list[Box]:
+        r"""\dv[2]{x}{t}, \pdv{L}{q} and \dv{t} as fractions."""
+        degree, parts = self.bracketed(), [self.argument(style)]
+        if (after := self.peek()) is not None and after.kind == "open":
+            parts.append(self.argument(style))
+        under, order = parts[-1], boxes(degree) if degree else None
+        if len(under) != 1 or under[0].sup is not None:
+            raise FormulaError(item.at, f"{item.text} is by more than a letter", r"write \frac{d f}{d x}")
+        kind, name = ("letter", "d") if item.text == r"\dv" else ("partial", "partial")
+        marks = [Box(kind, name, item.at, self.end, upright=True, sup=sup) for sup in (order, None)]
+        rows = [[marks[0], *(parts[0] if len(parts) > 1 else [])], [marks[1], replace(under[0], sup=order)]]
+        return [Box("fraction", "", item.at, self.end, rows)]
+
+    def _enclosed(self, item: Token, style: str) -> list[Box]:
+        r"""\abs{x} and \norm{x}."""
+        sign = "|" if item.text == r"\abs" else r"\|"
+        return [Box("bracket", sign, item.at, self.end, [self.argument(style)], closing=sign)]
+
+    def _differential(self, item: Token, style: str) -> list[Box]:
+        return [Box("letter", "d", item.at, item.at + 1, upright=True)]
+
     def _sqrt(self, item: Token, style: str) -> list[Box]:
         degree = self.bracketed()
         content = self.argument("" if style == "upright" else style)
@@ -562,14 +492,15 @@ class _Reader:
 
     def _begin(self, item: Token, style: str) -> list[Box]:
         name = self.plain()
-        if name in _MATRICES or name in ROWS or name in _CASES:
-            self.bracketed()
-            if name in ("array", "alignedat", "alignat", "IEEEeqnarraybox") and "|" in self.plain() and name == "array":
-                raise FormulaError(item.at, "a line stands in the matrix", "write its blocks by themselves")
-            kind = "cases" if name in _CASES else "rows" if name in ROWS else "matrix"
-            rows = self.rows(name, item)
-            return [Box(kind, name, item.at, self.end, [[Box("row", "", item.at, self.end, row) for row in rows]])]
-        raise FormulaError(item.at, rf"\begin{{{name}}} is not known", "write the formula without this environment")
+        if name not in (*_MATRICES, *ROWS, *_CASES):
+            why = rf"\begin{{{name}}} is not known"
+            raise FormulaError(item.at, why, "write the formula without this environment")
+        self.bracketed()
+        if name in ("array", "alignedat") and "|" in self.plain():
+            raise FormulaError(item.at, "a line stands in the matrix", "write its blocks by themselves")
+        kind = "cases" if name in _CASES else "rows" if name in ROWS else "matrix"
+        rows = self.rows(name, item)
+        return [Box(kind, name, item.at, self.end, [[Box("row", "", item.at, self.end, row) for row in rows]])]
 
     def rows(self, name: str, item: Token) -> list[list[list[Box]]]:
         """Rows of cells until the environment ends."""
@@ -591,16 +522,6 @@ class _Reader:
                 self.plain()
                 return [row for row in rows if any(row)]
 
-    def _overset(self, item: Token, style: str) -> list[Box]:
-        label = self.plain()
-        base = self.argument(style)
-        for box in base:
-            box.marks = (label,) if label not in ("!", r"\mathrm{def}", r"\text{def}", "def") else ()
-        if any(box.kind not in ("relation", "arrow") for box in base):
-            why = f"{item.text} sets a mark on what is no relation"
-            raise FormulaError(item.at, why, "give it a letter of its own")
-        return base
-
     def _underbrace(self, item: Token, style: str) -> list[Box]:
         content = self.argument(style)
         after = self.peek()
@@ -610,15 +531,6 @@ class _Reader:
         if content and content[0].kind == "operator":  # the sign joins it to what stands before
             return content
         return [Box("group", "", item.at, self.end, [content])]
-
-    def _xrightarrow(self, item: Token, style: str) -> list[Box]:
-        self.bracketed()
-        self.plain()
-        return [Box("relation", "->", item.at, self.end)]
-
-    def _unread(self, item: Token, style: str) -> list[Box]:
-        way_out = "write the condition in one line" if item.text == r"\substack" else "keep it aside"
-        raise FormulaError(item.at, f"{item.text} is not read", way_out)
 
     def _passed_over(self, item: Token, style: str) -> list[Box]:
         self.plain()
@@ -641,33 +553,6 @@ def is_printed_as_vector(box: Box) -> bool:
     return box.style == "bold" or "vec" in box.marks or "under" in box.marks
 
 
-def _multiplies(left: Box, stop: Box, right: Box) -> bool:
-    r"""Whether a full stop stands between two vectors or \nabla without a space: \nabla.\vec u."""
-    between = (stop.kind, stop.name) == ("comma", ".") and left.end == stop.at and stop.end == right.at
-    return between and all(b.kind == "nabla" or is_printed_as_vector(b) for b in (left, right))
-
-
-def _as_letters(row: list[Box]) -> None:
-    r"""The words at the end of a row as upright letters, \text{J kg}^{-1}: a script belongs to the last of them."""
-    if not row or row[-1].kind != "text" or not re.fullmatch(r"[A-Za-z]+(?:[ ~][A-Za-z]+)*", row[-1].name):
-        return
-    box = row.pop()
-    words = re.split(r"[ ~]", box.name)
-    for word in words[:-1]:
-        row += [Box("letter", word, box.at, box.end, upright=True), Box("thin", "", box.end, box.end)]
-    row.append(Box("letter", words[-1], box.at, box.end, upright=True))
-
-
-def _is_unit(word: str) -> bool:
-    """Whether upright letters are a unit of several parts, such as m/s^2."""
-    parts = re.search(r"[A-Za-z].*[A-Za-z/^]|\\[,.%]|[/]|%", word) and not word.startswith("{")
-    return bool(
-        parts
-        and re.fullmatch(r"[A-Za-z\d\s/^{}.,\\\-~·%]+(?:/\([A-Za-z\d\s^{}.,\\\-~·]+\))?", word)
-        and not re.search(r"\\[A-Za-z]", word)
-    )
-
-
 def _alone(item: Token, style: str) -> Box | None:
     """The box that a token is whatever stands beside it; None where others may belong to it."""
     text = item.text
@@ -685,23 +570,20 @@ def _letter(item: Token, style: str) -> Box | None:
     return Box("letter", name, item.at, end, style="" if upright else style, upright=upright)
 
 
-_SIMPLE = {
-    "partial": "partial", "nabla": "nabla", "infty": "infinity", "%": "percent", "forall": "arrow",
-    "exists": "arrow", "square": "square", "Box": "square", "uparrow": "letter",
-    "downarrow": "letter", "triangle": "letter", "degree": "degree", "emptyset": "letter",
-}  # fmt: skip
-
+_SIMPLE = {"partial": "partial", "nabla": "nabla", "infty": "infinity", "%": "percent", "degree": "degree"}
+# A unit of several parts, m/s^2.
+_UNIT = re.compile(r"(?=.*[A-Za-z].*[A-Za-z/^]|%)[A-Za-z\d\s/^{}.\-~·%]+")
 
 # Characters and commands that are a letter, with its name; those that are another box whatever stands beside them: (kind, name).
 _LETTERS = {letter: letter for letter in ascii_letters} | _UNICODE
 _LETTERS |= {command: re.sub(r"var(?=[A-Z])", "", command[1:]) for command in GREEK}  # \varDelta is an italic \Delta
-_LETTERS |= {rf"\{name}": name for name in ("prime", "dagger", "top", "intercal", "hslash", "complement")}
+_LETTERS |= {rf"\{name}": name for name in ("prime", "dagger", "top", "intercal")}
 _UPRIGHT_GREEK = ("Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Phi", "Psi", "Omega")
 _COMMANDS: dict[str, tuple[str, str]] = {
     **dict.fromkeys(_WIDE, ("wide", "")),
     **dict.fromkeys(_THIN, ("thin", "")),
     **{name: ("operator", sign) for name, sign in _OPERATORS.items() if name.isalpha()},
-    **{name: ("arrow", name) for name in ARROWS},
+    **{name: ("arrow", name) for name in _ARROWS},
     **{name: ("dots", name) for name in _DOTS},
     **{name: ("big", name) for name in BIG},
     **{name: ("function", name) for name in FUNCTIONS},
@@ -724,10 +606,123 @@ _FORMS: dict[str, Form] = {
     ),
     "sqrt": _Reader._sqrt,
     "begin": _Reader._begin,
-    **dict.fromkeys(("overset", "stackrel", "underset"), _Reader._overset),
+    **dict.fromkeys(("dv", "pdv"), _Reader._derivative),
+    **dict.fromkeys(("abs", "norm"), _Reader._enclosed),
+    "dd": _Reader._differential,
     **dict.fromkeys(("underbrace", "overbrace"), _Reader._underbrace),
-    **dict.fromkeys(("xrightarrow", "xleftarrow"), _Reader._xrightarrow),
-    **dict.fromkeys(("substack", "pmod"), _Reader._unread),
     **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._passed_over),
     "\\": _Reader._line_end,
 }
+
+
+# ---- rows of boxes
+
+
+def strip(row: list[Box]) -> list[Box]:
+    """Return a row without spaces and punctuation at its ends."""
+    start, end = 0, len(row)
+    while start < end and row[start].kind in ("thin", "wide"):
+        start += 1
+    while end > start and row[end - 1].kind in ("thin", "wide", "comma"):
+        end -= 1
+    return row[start:end]
+
+
+def without_thin(row: Iterable[Box]) -> list[Box]:
+    """Return a row without thin spaces."""
+    return [each for each in row if each.kind != "thin"]
+
+
+def parted(row: list[Box], *kinds: str) -> list[list[Box]]:
+    """Return the parts of a row between the boxes of these kinds; a full stop parts nothing."""
+    ends = [-1, *(k for k, box in enumerate(row) if box.kind in kinds and box.name != "."), len(row)]
+    return [row[first + 1 : last] for first, last in pairwise(ends)]
+
+
+def all_boxes(row: Iterable[Box]) -> Iterator[Box]:
+    """Yield the boxes of a row and all that they hold."""
+    for box in row:
+        yield box
+        for held in (*box.parts, box.sub or (), box.sup or ()):
+            yield from all_boxes(held)
+
+
+def is_mark(box: Box, mark: str) -> bool:
+    """Whether a box is the d or the ∂ of a derivative."""
+    if mark == "partial":
+        return box.kind == "partial" and box.sub is None
+    return box.kind == "letter" and box.name == mark and not (box.marks or box.sub or box.primes or box.style)
+
+
+def is_derivative(box: Box) -> str:
+    """Return d or partial where a fraction is a derivative; nothing where it is none."""
+    if box.kind == "fraction":
+        over, under = (without_thin(part) for part in box.parts)
+        for mark in ("d", "partial"):
+            if (
+                over
+                and len(under) > 1
+                and is_mark(over[0], mark)
+                and is_mark(under[0], mark)
+                and under[1].kind == "letter"
+            ):
+                return mark
+    return ""
+
+
+# ---- names of letters
+
+
+def stem_of(box: Box) -> str:
+    """Return the name of a letter with its font and marks, without index, dots and primes."""
+    return {"lambda": "lamda"}.get(box.name, box.name) + box.style + "".join(_marks(box))
+
+
+def _marks(box: Box) -> list[str]:
+    return sorted((mark for mark in box.marks if not mark.endswith("dot")), key=lambda mark: mark != "vec")
+
+
+def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
+    r"""Return the name of a letter in Python: theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__max for T^{\max}."""
+    rates = sum(len(mark) - len("ot") for mark in box.marks if mark.endswith("dot"))
+    name = stem_of(box) + "prime" * box.primes + "".join(f"__{part}" for part in raised)
+    name += "".join(f"_{part}" for part in index) + (f"_{'d' * rates}ot" if rates else "")
+    return f"{name}_" if name in CALLED or iskeyword(name) else name
+
+
+def index_of(box: Box) -> list[str]:
+    """Return the parts of an index, such as ["1"], ["cm"] or ["i", "j"]. Raises FormulaError for other signs in it."""
+    found: list[str] = []
+    alone = True  # a comma or a Greek letter ends a run of letters
+    for part in box.sub or ():
+        if part.kind in ("comma", "thin") and part.name != ".":
+            alone = alone or part.kind == "comma"
+            continue
+        inner = _index(part)
+        greek = part.kind == "letter" and len(part.name) > 1 and not part.upright
+        if alone or greek or len(inner) != 1 or not found:
+            found += inner
+        else:
+            found[-1] += inner[0]
+        alone = greek
+    return found
+
+
+def _index(part: Box) -> list[str]:
+    """Return the words of one box of an index."""
+    if part.kind == "letter" and part.sup is None:
+        return [part.name + part.style + "prime" * part.primes + "".join(part.marks), *index_of(part)]
+    plain = part.sup is None and part.sub is None
+    if part.kind == "number" and plain and "," not in part.name:
+        return [part.name.replace(".", "p")]
+    name = "".join(c for c in part.name if c.isalnum())
+    if part.kind in ("text", "function") and plain and 0 < len(name) <= 24 and "\\" not in part.name:
+        return [name]
+    if part.kind in ("operator", "infinity", "relation") and part.name in _INDEX_SIGNS:
+        return [_INDEX_SIGNS[part.name]]
+    if part.kind in ("group", "fraction") and plain:  # i + 1/2
+        return ["over".join("".join(word for each in held for word in _index(each)) for held in part.parts)]
+    raise FormulaError(part.at, "an index is not letters and numbers", "give the letter another index")
+
+
+_INDEX_SIGNS = {"+": "plus", "-": "minus", "*": "star", "/": "over", "infty": "inf", "=": "eq", "->": "to"}

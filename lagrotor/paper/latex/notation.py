@@ -10,8 +10,16 @@ from itertools import pairwise
 from typing import Any
 
 from lagrotor.errors import InputError
-from lagrotor.paper.latex.boxes import Box, FormulaError, boxes, is_printed_as_vector
-from lagrotor.paper.latex.rows import all_boxes, derivative_mark, without_thin
+from lagrotor.paper.latex.boxes import (
+    Box,
+    FormulaError,
+    all_boxes,
+    boxes,
+    is_derivative,
+    is_printed_as_vector,
+    stem_of,
+    without_thin,
+)
 
 
 @dataclass(frozen=True)
@@ -116,7 +124,11 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
             row = boxes(latex)
         except (FormulaError, RecursionError):
             continue
-        for kind, letter in _evidence(row):
+        evidence = [*_evidence(row)]
+        if any(kind in ("vectors", "matrices") for kind, _ in evidence):  # \vec E = E\hat r
+            hats = (box for box in all_boxes(row) if "hat" in box.marks and box.name.islower())
+            evidence += [("vectors", stem_of(box)) for box in hats]
+        for kind, letter in evidence:
             seen.setdefault((kind, letter), latex)
     for letter in ("e", "i", "j"):  # a charge e beside an exponential, an index i beside an imaginary unit
         if ("letters", letter) in seen:
@@ -127,28 +139,34 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
     return tuple(Proposal(kind, letter, latex) for (kind, letter), latex in seen.items() if kind in KINDS)
 
 
-def stem_of(box: Box) -> str:
-    """Return the name of a letter without its index, dots and primes."""
-    marks = "".join(mark for mark in box.marks if not mark.endswith("dot"))
-    return _name(box.name) + box.style + marks
-
-
-def names_of(box: Box) -> tuple[str, ...]:
-    """Return the names by which the table may mean a letter, the most exact first."""
-    return (stem_of(box), _name(box.name))
+def has_kind(notation: Notation, kind: str, box: Box) -> bool:
+    """Whether the notation declares a letter to be of a kind, by its name with its font and marks, or without them."""
+    names = getattr(notation, kind)
+    return bool(names) and (stem_of(box) in names or _name(box.name) in names)
 
 
 def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
     """Kinds and letters that a row of boxes suggests, with those of all that it holds."""
     flat = without_thin(row)
-    for box, after in pairwise([*flat, Box("thin", "", 0, 0)]):
+    for place, (box, after) in enumerate(pairwise([*flat, Box("thin", "", 0, 0)])):
         if box.kind == "letter":
             yield from _of_letter(box, after)
+            yield from _of_value(flat, place)
         elif box.kind == "big" and box.name in ("sum", "prod"):
             below = without_thin(box.sub or [])
             yield from (("indices", stem_of(each)) for each in below[:1] if each.kind == "letter")
         for held in (*box.parts, box.sub or [], box.sup or []):
             yield from _evidence(held)
+
+
+def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
+    """Kinds that a letter has as it is equal to a matrix or a column."""
+    after = [each for each in row[place + 1 : place + 3] if each.kind != "align"]
+    if len(after) == 2 and after[0].name in ("=", ":=") and row[place].kind == "letter":
+        inside = without_thin(after[1].parts[0]) if after[1].kind == "bracket" else after[1:]
+        if len(inside) == 1 and inside[0].kind == "matrix" and inside[0].name != "vmatrix":
+            columns = max(len(line.parts) for line in inside[0].parts[0])
+            yield "matrices" if columns > 1 else "vectors", stem_of(row[place])
 
 
 def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
@@ -166,8 +184,7 @@ def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
     if is_printed_as_vector(box):
         transposed = [each.name for each in power] in (["T"], ["top"], ["intercal"])
         acts = box.name.isupper() and after.kind == "letter" and is_printed_as_vector(after)
-        equal = [each.kind for each in (after,)] == ["matrix"]
-        yield ("matrices" if box.name.isupper() and (transposed or acts or equal) else "vectors"), stem_of(box)
+        yield ("matrices" if box.name.isupper() and (transposed or acts) else "vectors"), stem_of(box)
     if after.kind == "bracket" and after.name == "(" and box.name not in ("O", "d") and _is_argument(after):
         yield "functions", stem_of(box)
 
@@ -177,6 +194,6 @@ def _is_argument(bracket: Box) -> bool:
     content = without_thin(bracket.parts[0])
     names = {each.name for each in content if each.kind == "letter"}
     adds = any(each.kind in ("operator", "relation") and each.name not in ("/", "cdot") for each in content[1:])
-    derivative = any(each.kind == "fraction" and derivative_mark(each) for each in content)
+    derivative = any(is_derivative(each) for each in content)
     only_time = len(content) == 1 and names == {"t"}
     return bool(names) and not (adds or derivative or only_time) and content[0].kind in ("letter", "number")

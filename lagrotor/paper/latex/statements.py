@@ -1,8 +1,17 @@
-"""The statements of a formula as data: sides, the relations between them, the kind of each."""
+"""The statements of a formula: rows that continue each other, parts between commas and words, sides and relations."""
 
-from dataclasses import dataclass
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
-from lagrotor.paper.latex.tree import Node
+from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip, without_thin
+from lagrotor.paper.latex.grammar import Grammar, is_unit
+from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, walk
+
+_CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
+_DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather|or)\b")
+_SETS = ("in", "->")  # relations of what need not be alike
+_SIMPLE = ("number", "dots", "letter", "operator", "infinity", "fraction", "root")
 
 
 @dataclass(frozen=True)
@@ -25,3 +34,302 @@ class PrintedStatement:
     relations: tuple[str, ...]
     kind: str
     order: tuple[str, int] | None = None
+
+
+def read_statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
+    """Return the statements of a formula, its rows joined where one continues the other."""
+    found: list[PrintedStatement] = []
+    for piece in _pieces(strip(row)):
+        found += _statements(reader, piece)
+    return found
+
+
+def _is_related(row: list[Box]) -> bool:
+    return any(box.kind == "relation" for box in row)
+
+
+def _pieces(row: list[Box]) -> list[list[Box]]:
+    """Return the rows of a display, each with the rows that continue it; what stands beside them is a piece of its own."""
+    lines = _system(row[0]) if row else None
+    beside = strip(row[1:])
+    if lines is None or (beside and row[1].kind not in ("wide", "comma", "thin", "text")):
+        return [row]
+    pieces: list[list[Box]] = []
+    for line in lines:
+        line = without_thin(line)
+        while line and line[0].kind == "wide":
+            line = line[1:]
+        if not line:
+            continue
+        if pieces and _continues(pieces[-1], line):
+            twice = pieces[-1][-1].kind == line[0].kind == "relation"  # = \\ =
+            pieces[-1] = [*pieces[-1][: -1 if twice else None], *line]
+        else:
+            pieces.append(line)
+    held = [each for piece in pieces for each in (_pieces(strip(piece)) if len(strip(piece)) == 1 else [piece])]
+    return [*held, *([beside] if beside else [])]
+
+
+def _system(box: Box) -> list[list[Box]] | None:
+    """Return the lines of rows or of a system of equations; None where a box is neither."""
+    if box.sub is not None or box.sup is not None:
+        return None
+    if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
+        inside = strip(box.parts[0])
+        return _system(inside[0]) if len(inside) == 1 else None
+    if box.kind in ("rows", "cases") or (box.kind == "matrix" and box.name == "array"):
+        lines = [_joined(line.parts) for line in box.parts[0]]
+        if box.kind == "rows" or all(map(_is_related, lines)):
+            return lines
+    return None
+
+
+def _joined(cells: Sequence[list[Box]]) -> list[Box]:
+    """Return the cells of a line; a second relation that continues none is a statement beside the first."""
+    line: list[Box] = []
+    for cell in cells:
+        before, inner = strip(line), strip(cell)
+        ends = any(b and b[k].kind in ("operator", "relation") for b, k in ((before, -1), (inner, 0)))
+        if not ends and _is_related(before) and _is_related(inner):
+            line.append(Box("wide", "", inner[0].at, inner[0].at))
+        line += cell
+    return line
+
+
+def _continues(before: list[Box], line: list[Box]) -> bool:
+    last, first = before[-1], line[0]
+    if last.kind in ("operator", "relation"):
+        return True
+    if last.kind == "comma" or first.kind in ("arrow", "text"):
+        return False
+    starts = first.kind == "relation" or (first.kind == "operator" and first.name in ("+", "-", "cdot", "times", "/"))
+    if starts and _is_related(line) and first.kind != "relation":
+        raise FormulaError(
+            first.at, "whether a row continues the row before is open", "write a comma between statements"
+        )
+    if starts and any(box.kind in ("text", "wide", "comma") for box in strip(before)):
+        why = "a row continues one of several statements"
+        raise FormulaError(first.at, why, "write each statement in its rows")
+    if not starts and not _is_related(line):
+        raise FormulaError(first.at, "a row has no relation", "begin it with the sign that joins it to the row before")
+    return starts
+
+
+def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
+    """Return a piece in parts between wide spaces, words, arrows and commas: the sign before each part, and its boxes."""
+    parts: list[tuple[str, list[Box]]] = [("", [])]
+    for place, box in enumerate(row):
+        following = next((b for b in row[place + 1 :] if b.kind not in ("thin", "wide")), None)
+        if box.kind == "arrow" or (box.kind == "text" and not _is_side(row, place)):
+            if box.kind == "text" and _DENYING.search(box.name):
+                raise FormulaError(
+                    box.at, f"{box.name}: the words deny what they join", "write each statement by itself"
+                )
+            condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
+            parts.append(("condition" if condition else box.kind, []))
+        elif box.kind == "bracket" and box.name == "(" and _is_related(box.parts[0]) and not (box.sup or box.sub):
+            parts += [("condition", list(box.parts[0])), ("wide", [])]
+        elif (
+            box.kind == "comma"
+            and box.name == "."
+            and following
+            and row[place + 1].kind not in ("wide", "arrow", "text")
+        ):
+            raise FormulaError(box.at, "a full stop stands within the formula", r"write \cdot for a product")
+        elif box.kind in ("wide", "comma"):
+            before = strip(parts[-1][1])
+            goes_on = before and before[-1].kind in ("operator", "relation")
+            signed = following is not None and before and (
+                following.kind == "relation" or (box.kind == "wide" and following.kind == "operator" and following.name != "-")
+            )  # fmt: skip
+            if not (goes_on or signed):
+                waiting = not before and parts[-1][0] in ("text", "condition")
+                parts.append((parts[-1][0] if waiting else box.kind, []))
+        elif not (box.name == ":" and not parts[-1][1]):
+            parts[-1][1].append(box)
+    return parts
+
+
+def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
+    """Return the statements of one piece."""
+    found: list[PrintedStatement] = []
+    parts = _parts(reader, row)
+    several = [sign for sign, _ in parts].count("comma") > 1
+    for sign, part in parts:
+        part = strip(part)
+        if not part:
+            continue
+        if _is_related(part) and found and sign == "comma" and found[-1].kind == "expression":
+            raise FormulaError(part[0].at, "what stands before the comma has no relation", "write it for each letter")
+        if not _is_related(part) and found and sign in ("comma", "wide"):
+            found[-1] = _listed(reader, found[-1], part, several)
+        elif sign == "condition":
+            stated = _statements(reader, part)
+            found += [replace(each, kind="range" if each.kind == "range" else sign) for each in stated]
+        else:
+            found.append(read_statement(reader, part))
+    return found
+
+
+def _is_side(row: list[Box], place: int) -> bool:
+    """Whether words are a whole side of a relation, or a unit behind a number."""
+    before = next((b for b in reversed(row[:place]) if b.kind != "thin"), None)
+    after = row[place + 1] if place + 1 < len(row) else None
+    if before is not None and before.kind == "number" and is_unit(row[place].name):
+        return True
+    edges = (before is None or before.kind == "relation") and (
+        after is None or after.kind in ("relation", "wide", "comma")
+    )
+    return edges and not (before is None and (after is None or after.kind != "relation"))
+
+
+def _listed(reader: Grammar, last: PrintedStatement, part: list[Box], several: bool) -> PrintedStatement:
+    """Return n = 1 with a further value as n = 1, 2. Raises FormulaError where what follows a comma is no value."""
+    close = reader.source[max(part[0].at - 2, 0) : part[0].at]
+    if part[0].kind == "number" and not several and re.fullmatch(r"\d,", close):
+        why = "whether the comma is in a number is open"
+        raise FormulaError(part[0].at - 1, why, "write {,} in the number, or a space behind the comma")
+    if (
+        all(b.kind in _SIMPLE for b in part)
+        and last.kind in ("equation", "range", "condition")
+        and len(last.sides) == 2
+    ):
+        first, end = last.sides
+        if last.kind == "range" or (isinstance(first.node, Letter) and isinstance(end.node, Number | Letter)):
+            values = end.node.args if isinstance(end.node, Call) and last.kind == "range" else (end.node,)
+            ends = [part[:-1], part[-1:]] if len(part) > 1 and part[-1].kind == "dots" else [part]  # 1, 2...
+            end = replace(end, node=Call("values", (*values, *(_side(reader, each) for each in ends))))
+            return replace(last, sides=(first, end), kind="range")
+    raise FormulaError(part[0].at, "what follows the comma has no relation", "write it as a statement of its own")
+
+
+def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
+    """Return one statement. Raises FormulaError where a side is missing, or a vector is equal to a number."""
+    sides = [strip(side) for side in parted(row, "relation")]
+    relations = [box.name for box in row if box.kind == "relation"]
+    if len(sides) > 2 and not sides[-1]:
+        raise FormulaError(row[-1].at, "a side of the relation is missing", "write it")
+    if len(sides) > 2 and len(sides[-1]) == 1 and sides[-1][0].kind == "dots":
+        sides, relations = sides[:-1], relations[:-1]  # the chain goes on
+    if len(sides) > 1 and not sides[0]:
+        raise FormulaError(row[0].at, "the left side is missing", "write what is equal, or join it to the row before")
+    read: list[Side] = []
+    for place, side in enumerate(sides):
+        if not side:
+            raise FormulaError(row[-1].at, "a side of the relation is missing", "write it")
+        _check_side(side)
+        index = (
+            len(side) == 1 and side[0].kind == "letter" and side[0].name in ("i", "j") and not side[0].sup and not place
+        )
+        node: Node = reader.letter(side[0]) if index and len(sides) > 1 else _side(reader, side)
+        read.append(Side(node, _balanced(reader.source, side[0].at, side[-1].end), side[0].at))
+    if not any(relation in _SETS for relation in relations):
+        _check_kinds(read, row)
+    order, kept = _order_term(read[-1].node)
+    read[-1] = replace(read[-1], node=kept)
+    return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
+
+
+def _check_kinds(sides: list[Side], row: list[Box]) -> None:
+    """Raise FormulaError where a vector is equal to a number, or a differential stands on one side only."""
+    nodes = [side.node for side in sides if not is_printed_zero(side.node) and side.node != Call("dots", ())]
+    if len(set(map(is_vector, nodes))) > 1:
+        way = "declare the vectors in [notation], or mark them alike"
+        raise FormulaError(row[0].at, "a vector is equal to a number", way)
+    degrees = {_degree(node) for node in nodes}
+    if len(degrees) > 1:
+        way = "write the derivative, or both differentials"
+        raise FormulaError(row[0].at, "a differential stands on one side only", way)
+
+
+def _degree(node: Node) -> int:
+    """Return how many differentials the first term has as factors."""
+    if not isinstance(node, Call) or node.name == "differential":
+        return int(isinstance(node, Call))
+    if node.name in ("product", "dot", "cross", "matmul"):
+        return sum(map(_degree, node.args))
+    if node.name == "quotient":
+        return _degree(node.args[0]) - _degree(node.args[1])
+    if node.name == "power" and isinstance(node.args[1], Number):
+        return int(_degree(node.args[0]) * node.args[1].value)
+    return _degree(node.args[0]) if node.name in ("sum", "negative", "Sum", "sqrt") else 0
+
+
+def _check_side(side: list[Box]) -> None:
+    """Raise FormulaError for a side that is an acronym or stands in square brackets."""
+    plain = [b for b in side if b.kind == "letter" and not (b.sub or b.sup or b.marks or b.style)]
+    name = "".join(box.name for box in plain)
+    if 2 < len(side) == len(name) and name.isupper():
+        raise FormulaError(side[0].at, f"{name} is a word", r"write \mathrm for it, or \cdot")
+    if len(side) == 1 and side[0].kind == "bracket" and side[0].name == "[" and not (side[0].sub or side[0].sup):
+        if len(side[0].parts[0]) > 1 or side[0].parts[0][0].kind != "matrix":
+            why = "what the square brackets mean is open"
+            raise FormulaError(side[0].at, why, "leave them out, or write what it is")
+
+
+def _side(reader: Grammar, row: list[Box]) -> Node:
+    if len(row) == 1 and row[0].kind == "text":
+        name = "".join(c if c.isalnum() else "_" for c in row[0].name).strip("_")
+        if not re.match(r"[A-Za-z]\w*$", name) or _DENYING.search(row[0].name):
+            raise FormulaError(row[0].at, "words stand for a side", "give it a letter")
+        return Letter(name)
+    return reader.expression(row)
+
+
+def _kind(relations: list[str]) -> str:
+    kinds = set(relations)
+    if not kinds:
+        return "expression"
+    if kinds <= {"=", ":="}:
+        return "equation"
+    if kinds <= {"=", ":=", "~"}:
+        return "approximation"
+    if kinds <= {"=", ":=", "<", ">", "<=", ">=", "<<", ">>", "!=", "<~", ">~"}:
+        return "inequality"
+    return "other"
+
+
+def _order_term(node: Node) -> tuple[tuple[str, int] | None, Node]:
+    """Return the power of a term O(x^n) in which a sum ends, and the sum without it. Raises FormulaError for other O(…)."""
+    last = node.args[-1] if isinstance(node, Call) and node.name == "sum" else None
+    if not (isinstance(node, Call) and isinstance(last, Call) and last.name == "order"):
+        if any(isinstance(each, Call) and each.name == "order" for each in walk(node)) and node != last:
+            return None, node
+        return None, node
+    power: Node
+    inner, power = last.args[0], number(1)
+    if isinstance(inner, Call) and inner.name == "power":
+        inner, power = inner.args
+    if not (isinstance(inner, Letter) and isinstance(power, Number) and power.value.denominator == 1):
+        return None, node
+    rest = node.args[:-1]
+    return (inner.name, int(power.value)), rest[0] if len(rest) == 1 else Call("sum", rest)
+
+
+# A font or an arrow that what follows stands in.
+_ENCLOSING = re.compile(
+    r"(?:\{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)"
+    r"|\\(?:math(?:bf|bb|cal|frak|it|rm|scr|sf|tt)|bm|boldsymbol|pmb|operatorname|vec)\*?\s*\{?)\s*$"
+)
+
+
+def _opened(source: str, at: int) -> int:
+    """Return where the fonts and arrows begin that what begins here stands in."""
+    while enclosing := _ENCLOSING.search(source, 0, at):
+        at = enclosing.start()
+    return at
+
+
+def _balanced(source: str, at: int, end: int) -> str:
+    r"""Return the LaTeX of a side with the braces and fonts that enclose its ends: {\bf k}_1, not k}_1."""
+    at = _opened(source, at)
+    bare = re.sub(r"\\.", "  ", source)
+    depth = least = 0
+    for sign in bare[at:end]:
+        depth += (sign == "{") - (sign == "}")
+        least = min(least, depth)
+    for _ in range(-least):
+        at = _opened(source, bare.rfind("{", 0, at))
+    for _ in range(depth - least):
+        end = bare.find("}", end) + 1 or end
+    return source[at:end].strip()

@@ -24,10 +24,11 @@ class Number:
 
 @dataclass(frozen=True)
 class Letter:
-    r"""A letter with its index, marks and dots: theta_1_dot for \\dot\\theta_1; vector: it is printed as one."""
+    r"""A letter with its index, marks and dots, theta_1_dot for \dot\theta_1; a matrix is a vector, too."""
 
     name: str
     vector: bool = False
+    matrix: bool = False
 
 
 @dataclass(frozen=True)
@@ -51,12 +52,9 @@ Node: TypeAlias = Number | Letter | Call
 CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
 # Operations whose value is a vector or a matrix, and those that are one where their first argument is.
-_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "operator_gradient", "inverse", "grad", "rot")
-_CARRYING_NAMES = (
-    "sum negative quotient Derivative rate bar mean transpose Integral prime limit Sum differential laplacian plus_minus "
-    "minus_plus advection at called delta Delta at_constant"
-)
-_CARRYING = frozenset(_CARRYING_NAMES.split())
+_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "inverse", "transpose")
+_CARRYING = ("sum", "negative", "quotient", "Derivative", "rate", "prime", "Integral", "limit", "Sum", "differential", "laplacian",
+             "at", "power", "cases", "case")  # fmt: skip
 # What a line of the catalogue may call, but in another sense than a print.
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
@@ -107,21 +105,7 @@ def is_vector(node: Node) -> bool:
         return any(map(is_vector, node.args))
     if node.name in _CARRYING and not (node.name == "differential" and len(node.args) > 1):  # d^3 r
         return is_vector(node.args[0])
-    if node.name == "exp":
-        return is_matrix(node.args[0])
-    stem = node.name.split("_")[0].removesuffix("prime")
-    return node.name in _VECTORS or stem.endswith(("bold", "vec", "under"))
-
-
-def may_be_vector(node: Node) -> bool:
-    """Whether a factor of it is a letter with a hat, or the divergence of what is printed in bold."""
-    if not isinstance(node, Call):
-        return isinstance(node, Letter) and "hat" in node.name and node.name[0].islower()
-    if node.name == "divergence":
-        return isinstance(node.args[0], Letter) and "bold" in node.args[0].name
-    first = node.args[:1] if node.name in ("quotient", "negative", "Derivative", "rate") else ()
-    test = all if node.name == "sum" else any
-    return test(is_vector(n) or may_be_vector(n) for n in (node.args if node.name in ("product", "sum") else first))
+    return node.name in _VECTORS or node.name.split("_")[0].removesuffix("prime").endswith(("bold", "vec"))
 
 
 def is_printed_zero(node: Node) -> bool:
@@ -135,37 +119,17 @@ def product_of(factors: list[Node]) -> Node:
     return flat[0] if len(flat) == 1 else Call("product", tuple(flat))
 
 
-def is_numeric(node: Node) -> bool:
-    """Whether a node has no letters, or begins with a number."""
-    if isinstance(node, Call) and node.name == "product":
-        units = (isinstance(each, Letter) and each.name.startswith("unit_") for each in node.args[1:])
-        return (is_numeric(node.args[0]) and all(units)) or all(map(is_numeric, node.args))
-    return isinstance(node, Number) or (isinstance(node, Call) and all(map(is_numeric, node.args)))
-
-
 def is_matrix(node: Node) -> bool:
-    """Whether a node is a matrix: a bold capital, a matrix as it is written, a transposed one."""
+    """Whether a node is a matrix: a declared one, one that is written out, a transposed one, a product of such."""
     if not isinstance(node, Call):
-        return isinstance(node, Letter) and node.vector and node.name[0].isupper() and "bold" in node.name
-    if node.name in ("sum", "negative", "quotient", "exp"):
+        return isinstance(node, Letter) and node.matrix
+    if node.name in ("sum", "negative", "quotient", "power", "rate", "Derivative", "Sum"):
         return is_matrix(node.args[0])
-    own = node.name in ("matrix", "transpose", "inverse", "matmul")
-    return own or (node.name == "product" and any(map(is_matrix, node.args)))
-
-
-def is_scalar(node: Node) -> bool:
-    """Whether a node is arithmetic of letters that are no vectors, and not 0."""
-    plain = all(not isinstance(n, Call) or n.name in _ARITHMETIC for n in walk(node))
-    return plain and not is_printed_zero(node) and not any(isinstance(n, Letter) and n.vector for n in walk(node))
-
-
-def is_operator(node: Node) -> bool:
-    """Whether a node does not commute with what it is multiplied by: a ket, a bra, a derivative, an operator with a dagger."""
-    if isinstance(node, Call):
-        return node.name.split("_")[0] in ("ket", "bra", "operator") or (
-            node.name in ("power", "product", "matmul") and any(map(is_operator, node.args))
-        )
-    return isinstance(node, Letter) and "__dagger" in node.name
+    if node.name == "matmul":
+        return is_matrix(node.args[-1]) or node.args[-1] == Call("transpose", node.args[-1:])
+    return node.name in ("matrix", "transpose", "inverse") or (
+        node.name == "product" and any(map(is_matrix, node.args))
+    )
 
 
 def in_catalogue(node: Node) -> bool:
