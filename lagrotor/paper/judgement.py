@@ -15,8 +15,8 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.paper.grammar import parsed
 from lagrotor.paper.latex.formula import read_formula
+from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.tree import text_of
-from lagrotor.paper.latex.usage import notation_of
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.letters import FUNCTIONS, read
 from lagrotor.paper.premises import Premise, premises_of
@@ -152,7 +152,7 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
         parts = [part.strip() for part in _SIGN.split(text)]
         yield _Text(tuple(parts[::2]), tuple(_TYPED.get(sign, sign) for sign in parts[1::2]))
         return
-    reading = read_formula(text, notation_of([text]))
+    reading = read_formula(text, with_proposals(Notation(), propose([text])))
     if reading.stop is not None:
         what, way = reading.stop
         raise InputError(f"{where}: {text!r}: {what}: {way}")

@@ -687,7 +687,8 @@ def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> 
     rates = sum(len(mark) - len("ot") for mark in box.marks if mark.endswith("dot"))
     name = stem_of(box) + "prime" * box.primes + "".join(f"__{part}" for part in raised)
     name += "".join(f"_{part}" for part in index) + (f"_{'d' * rates}ot" if rates else "")
-    return f"{name}_" if name in CALLED or iskeyword(name) else name
+    taken = name in CALLED or iskeyword(name) or (name == "hbar" and box.name == "h")  # a mean h is no ħ
+    return f"{name}_" if taken else name
 
 
 def index_of(box: Box) -> list[str]:

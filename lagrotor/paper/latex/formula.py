@@ -50,7 +50,6 @@ def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> R
         row = boxes(source)
         reader.letters = frozenset(_alone(row))
         reader.indices = frozenset(b.name for box in all_boxes(row) for b in box.sub or () if b.kind == "letter")
-        reader.moving = frozenset(stem_of(b) for b in all_boxes(row) if any(mark.endswith("dot") for mark in b.marks))
         statements = tuple(read_statements(reader, row))
     except FormulaError as stop:
         return Reading(stop=(stop.what, stop.help))

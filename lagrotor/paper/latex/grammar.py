@@ -49,7 +49,7 @@ _UNIT_NAMES = (
 UNITS = frozenset(_UNIT_NAMES.split())
 _UNIT_PARTS = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s·]")
 _WORDS = frozenset(
-    ["sin", "cos", "tan", "exp", "log", "ln", "det", "max", "min", "lim", "cot", "sinh", "cosh", "tanh", "const"]
+    ["sin", "cos", "tan", "exp", "log", "ln", "det", "max", "min", "lim", "cot", "sinh", "cosh", "tanh", "const", "var"]
 )
 _MOST_DIGITS = 1000
 _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
@@ -57,7 +57,7 @@ _ANGLES = ("theta", "phi", "varphi", "psi", "vartheta", "chi", "alpha", "beta", 
 _LAST = ("t", "tau", "x", "y", "z", "s")  # in which the argument of a sine without brackets ends
 _LABELS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _TRANSPOSES = ("T", "top", "intercal")
-_FUNCTION_LIKE = ("f", "delta", "Delta", "Gamma", "zeta")  # before a bracket these are no factors
+_FUNCTION_LIKE = ("delta", "Delta", "Gamma", "zeta")  # before a bracket these are no factors
 _BRACKETS = {r"\lbrace": r"\{", r"\rbrace": r"\}", r"\vert": "|", r"\lvert": "|", r"\rvert": "|", r"\lVert": r"\|", r"\rVert": r"\|",
              r"\Vert": r"\|", "[": "(", "]": ")", r"\{": "(", r"\}": ")"}  # fmt: skip
 
@@ -70,7 +70,6 @@ class Grammar:
         self.bound: list[str] = []  # the indices of the sums that are open here
         self.letters: frozenset[str] = frozenset()  # names of letters that stand by themselves in the formula
         self.indices: frozenset[str] = frozenset()  # names of letters in its indices
-        self.moving: frozenset[str] = frozenset()  # names of letters that have a dot in it
 
     def refused(self, box: Box, why: str, *kinds: str, way: str = "") -> FormulaError:
         """Return the stop at a letter, with the entries of [notation] that would allow it."""
@@ -347,6 +346,8 @@ class Grammar:
                 return self.power(Letter("imaginary_unit"), box), place + 1
             if name == "i" and not declared:
                 raise self.refused(box, "whether i is the imaginary unit is open", "numbers", "indices")
+        if name == "pi" and self._kind(box, "functions") and not (after is not None and after.kind == "bracket"):
+            raise FormulaError(box.at, "whether pi is the number or a quantity is open", "give the quantity an index")
         if name == "pi" and not declared:
             return self.power(Letter("pi"), box), place + 1
         acts = after is not None and after.kind in ("letter", "bracket", "group", "partial")
@@ -404,7 +405,7 @@ class Grammar:
         ):
             return self.power(self.power(self.letter(box), box), bracket)
         adds = any(b.kind == "operator" and b.name in ("+", "-") for b in content[1:])
-        late = plain in self.moving and any(b.name == "t" for b in content)  # \dot x = x(t - \tau)
+        late = any([b.name for b in part] == ["t"] for part in parted(content, "operator"))  # x(t - \tau)
         derived = [b.kind for b in content] == ["fraction"] and bool(bracket.sup or is_derivative(content[0]))
         if (
             (adds or derived)
@@ -1016,7 +1017,7 @@ class Grammar:
                 if box.sub or box.sup
                 else []
             )
-            region = [Letter("_".join(("over_loop" if box.name == "oint" else "over", *words)))]
+            region = [Letter("_".join(("over", *(words or ["loop"]))))]
         variable = variables[0] if len(variables) == 1 else Call("volume", tuple(variables))
         return Call("Integral", (self._integrand(strip(inner), variable), variable, *region)), end
 

@@ -163,7 +163,8 @@ def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
     """Kinds that a letter has as it is equal to a matrix or a column."""
     after = [each for each in row[place + 1 : place + 3] if each.kind != "align"]
     if len(after) == 2 and after[0].name in ("=", ":=") and row[place].kind == "letter":
-        inside = without_thin(after[1].parts[0]) if after[1].kind == "bracket" else after[1:]
+        closed = after[1].kind == "bracket" and after[1].closing != "."
+        inside = without_thin(after[1].parts[0]) if closed else after[1:]
         if len(inside) == 1 and inside[0].kind == "matrix" and inside[0].name != "vmatrix":
             columns = max(len(line.parts) for line in inside[0].parts[0])
             yield "matrices" if columns > 1 else "vectors", stem_of(row[place])

@@ -249,9 +249,10 @@ def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
 
 def _evaluated(node: Call, opaque: Opaque) -> Any:
     """A determinant, a column, a sum of a few terms, the derivative or integral of an explicit expression; else None."""
-    if node.name == "det" and all(isinstance(row, Call) and row.name == "row" for row in node.args):
-        rows = [[sympy_expression(each, opaque) for each in row.args] for row in node.args if isinstance(row, Call)]
-        return sp.Matrix(rows).det() if len(rows) == len(rows[0]) <= 4 else None
+    if node.name == "det":
+        inner = sympy_expression(node.args[0], opaque)
+        explicit = isinstance(inner, sp.MatrixBase) and not has_opaque(inner) and inner.rows == inner.cols <= 4
+        return inner.det() if explicit else None
     if node.name == "column" and len(node.args) == 3 and not any(map(is_vector, node.args)):
         return sp.Matrix([sympy_expression(each, opaque) for each in node.args])
     if node.name == "rate" and opaque.rates is not None and isinstance(node.args[0], Call):

@@ -13,8 +13,8 @@ from lagrotor.paper.latex.displays import read_latex
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.init import aux_numbers
 from lagrotor.paper.latex.markup import read_source
+from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.printed import statement_text
-from lagrotor.paper.latex.usage import notation_of
 
 CORPUS: list[dict[str, Any]] = tomllib.loads(Path(__file__).with_name("corpus.toml").read_text(encoding="utf-8"))[
     "source"
@@ -49,7 +49,7 @@ def test_numbers_and_readings_are_as_recorded(row: dict[str, Any], tmp_path: Pat
         return
     source = read_source(file)
     assert [each.number for each in source.equations] == row["numbers"]
-    notation = notation_of([*(each.latex for each in source.equations), *source.inline])
+    notation = with_proposals(Notation(), propose([*(each.latex for each in source.equations), *source.inline]))
     readings = [read_formula(each.latex, notation, each.lead) for each in source.equations]
     said = [
         "; ".join(map(statement_text, r.statements)) if r.stop is None else f"stopped: {r.stop[0]}" for r in readings

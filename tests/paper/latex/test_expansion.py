@@ -13,7 +13,6 @@ from lagrotor.paper.latex.markup import markdown_as_latex, read_source
 from lagrotor.paper.latex.primitives import PRIMITIVES
 from lagrotor.paper.latex.printed import statement_text
 from lagrotor.paper.latex.tokens import latex_of
-from lagrotor.paper.latex.usage import notation_of
 
 PREAMBLE = "\\documentclass{article}\n\\def\\be#1\\ee{\\begin{equation}#1\\end{equation}}\\def\\x#1;{(#1)}\n"
 
@@ -107,7 +106,7 @@ DERIVATIVES = [
 def test_derivatives_of_packages_are_read_or_refused_in_words(package: str, formula: str, said: str) -> None:
     text = rf"\documentclass{{article}}\usepackage{{{package}}}\begin{{document}}\[ g = {formula} \]\end{{document}}"
     (equation,) = read_latex(text).equations
-    reading = read_formula(equation.latex, notation_of([equation.latex]))
+    reading = read_formula(equation.latex)
     shown = reading.stop[0] if reading.stop else statement_text(reading.statements[0]).removeprefix("g = ")
     assert said in (shown, equation.latex.removeprefix("g = "))
 
