@@ -51,6 +51,7 @@ from lagrotor.paper.latex.tree import (
     is_vector,
     letters_of,
     number,
+    rates_of,
     sympy_expression,
     text_of,
     walk,
@@ -195,13 +196,14 @@ class _Checker:
         self.labelled: defaultdict[str, list[Displayed]] = defaultdict(list)
         self.place = 0
         self.statements = [(each, s) for each, reading in readings for s in reading.statements]
-        self.rates = _rates(statement for _, statement in self.statements)
+        self.rates = rates_of(side.node for _, statement in self.statements for side in statement.sides)
 
     def findings(self, progress: Callable[[str], None] | None = None) -> Iterator[StepFinding]:
         """Every finding."""
         for place, (each, reading) in enumerate(with_progress("check", self.readings, progress)):
             self.place = place
             if not reading.whole:
+                self.given.unread |= {(each.section, name) for name in letters_printed(each.latex.partition("=")[0])}
                 yield self._finding(each, 0, None, NOT_JUDGED, f"{NOT_READ}: {self._stop(reading)}")
                 continue
             self._take_text(each.section)
@@ -566,16 +568,3 @@ def _hidden(side: Any) -> set[sp.Symbol]:
 def _but_for_dots(others: set[str], letters: set[str]) -> bool:
     """Return whether the new letters are those of the other member, but for dots: a rate is another quantity."""
     return {_DOTTED.sub(r"\1", name) for name in others - letters} <= {_DOTTED.sub(r"\1", name) for name in letters}
-
-
-def _rates(statements: Iterable[PrintedStatement]) -> dict[sp.Symbol, sp.Symbol]:
-    """Return letters with dots, and components of vectors, with their rates."""
-    rates: dict[sp.Symbol, sp.Symbol] = {}
-    for letter in {each for statement in statements for side in statement.sides for each in walk(side.node)}:
-        if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
-            stem, dots = dotted[1], len(dotted[2])
-            names = [stem, *(f"{stem}_{'d' * n}ot" for n in range(1, dots + 2))]
-            for end in ("_1", "_2", "_3") if letter.vector else ("",):
-                real = [sp.Symbol(name + end, real=True) for name in names]
-                rates |= dict(pairwise(real))
-    return rates

@@ -206,7 +206,8 @@ class Grammar:
             last = made.args[-1] if isinstance(made, Call) and made.name == "product" else made
             if (
                 isinstance(last, Call)
-                and last.name in _OPEN_ENDED
+                and {last.name, *(n.name for n in last.args[:1] if isinstance(n, Call) and last.name == "power")}
+                & _OPEN_ENDED
                 and self.source[: part[0].at].rstrip(" /")[-1:] not in ")]}"
             ):
                 raise FormulaError(part[0].at, "whether the slash is within the function is open", "write brackets")
@@ -331,7 +332,10 @@ class Grammar:
     def _sign(self, row: list[Box], place: int) -> tuple[Node, int] | None:
         """Return a letter that is a sign: e, i, π, d and Δ; None where it is a letter like others."""
         box, after = row[place], row[place + 1] if place + 1 < len(row) else None
-        name, declared = box.name, self._kind(box, "functions", "vectors", "matrices", "indices", "complex", "positive")
+        name, declared = (
+            box.name,
+            self._kind(box, "functions", "vectors", "matrices", "indices", "complex", "positive", "real"),
+        )
         if name == "e" and (self._kind(box, "numbers") or box.upright):
             return Call("exp", (self.expression(box.sup) if box.sup else number(1),)), place + 1
         if (
@@ -395,6 +399,8 @@ class Grammar:
         plain = stem_of(box)
         if plain in ("O", "Ocal") and not (box.sub or box.sup):
             return Call("order", (self.expression(content),))
+        if self._kind(box, "real", "positive", "complex"):
+            return None
         if self._kind(box, "functions"):
             self._check_call(box, bracket)
             return self._call(box, bracket)
@@ -415,7 +421,7 @@ class Grammar:
         ):
             return None
         why = f"{self.source[box.at : box.end]} before {bracket.name} is a function or a factor"
-        raise self.refused(box, why, "functions", way=r"write \cdot for a product")
+        raise self.refused(box, why, "functions", "real")
 
     def _check_call(self, box: Box, bracket: Box) -> None:
         """Raise FormulaError where the bracket behind a function holds rates in a sum or the function itself."""
@@ -503,7 +509,7 @@ class Grammar:
             )
         if box.kind != "letter" or not row:
             return
-        numbers = [b for b in row if b.kind == "letter" and self._kind(b, "positive", "complex")]
+        numbers = [b for b in row if b.kind == "letter" and self._kind(b, "positive", "complex", "real")]
         if len(names) == len(row) > 1 or (
             len(numbers) < len(names)
             and (
@@ -519,7 +525,7 @@ class Grammar:
             raise FormulaError(
                 row[0].at,
                 why,
-                f'write \\cdot or brackets, or in paper.toml [notation] positive = "{(names or [""])[0]}"',
+                f'write \\cdot or brackets, or in paper.toml [notation] real = "{(names or [""])[0]}"',
             )
         if [b.name for b in row] == ["0"]:
             raise FormulaError(row[0].at, "whether 0 is an upper index or a power is open", "write the index below")
@@ -560,15 +566,12 @@ class Grammar:
         if "{,}" not in text:
             return Fraction(text)
         whole, *groups = text.split("{,}")
-        if self.notation.decimal_comma and len(groups) == 1 and "." not in text:
-            return Fraction(f"{whole}.{groups[0]}")
-        if self.notation.decimal_comma or whole == "0" or not all(len(each.partition(".")[0]) == 3 for each in groups):
-            raise FormulaError(
-                box.at,
-                f"{text} is no number",
-                "write in paper.toml [notation] decimal_comma = true, or a decimal point",
-            )
-        return Fraction(whole + "".join(groups))
+        thousands = whole != "0" and all(len(each.partition(".")[0]) == 3 for each in groups)
+        if thousands and not self.notation.decimal_comma:
+            return Fraction(whole + "".join(groups))
+        if len(groups) > 1 or "." in text:
+            raise FormulaError(box.at, f"{text} is no number", "write a decimal point")
+        return Fraction(f"{whole}.{groups[0]}")
 
     def _unit(self, row: list[Box], place: int) -> tuple[Node, int]:
         raise FormulaError(row[place].at, f"{row[place].name} is no letter of a formula", r"write \text{…} for words")
@@ -615,6 +618,8 @@ class Grammar:
                 )
             return tuple(self.expression(part) for part in parted(first.parts[0], "comma")), start + 1
         named = FUNCTIONS.get(box.name, box.name)
+        if first.kind == "matrix" and first.sup is None:
+            return (self.expression([first]),), start + 1
         if box.name not in FUNCTIONS or named in ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min"):
             alone = first.kind == "letter" and all(
                 b.kind == "operator" for b in without_thin(row[start + 1 : start + 2])

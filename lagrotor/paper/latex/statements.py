@@ -225,7 +225,7 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
         read.append(Side(node, _balanced(reader.source, side[0].at, side[-1].end), side[0].at))
     if not any(relation in _SETS for relation in relations):
         _check_kinds(read, row)
-    order, kept = _order_term(read[-1].node)
+    order, kept = without_order(read[-1].node)
     read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
 
@@ -289,12 +289,10 @@ def _kind(relations: list[str]) -> str:
     return "other"
 
 
-def _order_term(node: Node) -> tuple[tuple[str, int] | None, Node]:
-    """Return the power of a term O(x^n) in which a sum ends, and the sum without it. Raises FormulaError for other O(…)."""
+def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:
+    """Return the power of a term O(x^n) in which a sum ends, and the sum without it."""
     last = node.args[-1] if isinstance(node, Call) and node.name == "sum" else None
     if not (isinstance(node, Call) and isinstance(last, Call) and last.name == "order"):
-        if any(isinstance(each, Call) and each.name == "order" for each in walk(node)) and node != last:
-            return None, node
         return None, node
     power: Node
     inner, power = last.args[0], number(1)

@@ -40,10 +40,11 @@ class PrintedMeaning:
 
 @dataclass
 class SectionMeanings:
-    """The premises before a place, by what they give."""
+    """The premises before a place, by what they give; `unread`: sections and letters that an unread display may give."""
 
     known: defaultdict[Node, list[PrintedMeaning]] = field(default_factory=lambda: defaultdict(list))
     functions: defaultdict[str, list[PrintedMeaning]] = field(default_factory=lambda: defaultdict(list))
+    unread: set[tuple[str, str]] = field(default_factory=set)
 
     def add(self, statement: PrintedStatement, name: str, section: str, place: int) -> None:
         """Take over what an equation gives: its left side by each other one, the last first."""
@@ -105,7 +106,10 @@ class SectionMeanings:
         """Whether no equation of its section but a statement itself gives anything else for the same."""
         near = [each for each in self._given(premise.meaning, but) if each.section == premise.section]
         own = {each.value for each in near if each.statement is premise.statement}
-        return all(each.value in own for each in near)
+        names = letters_of(premise.meaning)[:1]
+        return not any((premise.section, name.split("_")[0]) in self.unread for name in names) and all(
+            each.value in own for each in near
+        )
 
 
 def _values(left: Node, right: Node) -> Iterator[tuple[Node, Node]]:

@@ -1,17 +1,19 @@
 """What a printed formula says: numbers, letters and calls; as text in the names of letters, and as a sympy expression."""
 
 import operator
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import sympy as sp
 
 from lagrotor.algebra.proving import evaluated
 from lagrotor.algebra.work import at_most
-from lagrotor.errors import WorkError
+from lagrotor.errors import InputError, WorkError
 from lagrotor.paper.letters import FUNCTIONS
 
 
@@ -62,6 +64,7 @@ _MOST_BITS = 20_000  # of a number that is evaluated
 # Operations of what is integrated in closed form, and the calls of functions that it may take.
 _MOST_INTEGRATED, _MOST_CALLS = 60, 3_000_000
 _MOST_ADDED = 40  # terms of a sum that is written out
+_DOTTED = re.compile(r"(\w+?)_(d*)ot")
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
 _KNOWN_NAMES = (
@@ -132,6 +135,17 @@ def is_matrix(node: Node) -> bool:
     )
 
 
+def divisors(node: Node) -> Iterator[Node]:
+    """Yield what a node divides by, and what it takes a logarithm of, but within sums and integrals."""
+    if isinstance(node, Call) and node.name not in _BINDING:
+        if node.name == "quotient":
+            yield node.args[1]
+        elif node.name == "log" or (node.name == "power" and "-" in text_of(node.args[1])):
+            yield node.args[0]
+        for each in node.args:
+            yield from divisors(each)
+
+
 def in_catalogue(node: Node) -> bool:
     """Whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
     each = list(walk(node))
@@ -176,7 +190,8 @@ class Opaque:
 
     rates: letters and components to their rates. Where they are known, derivatives and integrals of explicit expressions are
     taken, the other letters held fixed, and `fixing` says whether any were. positive: letters that are; `assuming` says whether
-    others were taken as positive, so that an integral has a value.
+    others were taken as positive, so that an integral has a value. refuses: whether a part that stands for itself is refused
+    in words; then a letter before its argument is a function of sympy, and sums and integrals are left to the decision.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
@@ -184,17 +199,41 @@ class Opaque:
     fixing: bool = False
     positive: frozenset[str] = frozenset()
     assuming: bool = False
+    refuses: bool = False
 
-    def symbol(self, node: Node) -> sp.Symbol | sp.MatrixBase:
-        """The symbol that stands for a part; of a vector, its components."""
+    def symbol(self, node: Node) -> Any:
+        """Return the symbol that stands for a part; of a vector, its components. Raises InputError where none may."""
         text = text_of(node)
+        if self.refuses and isinstance(node, Call):
+            if node.name not in _UNDECIDED and not any(map(is_vector, (node, *node.args))):
+                return sp.Function(node.name, real=True)(*(sympy_expression(each, self) for each in node.args))
+            raise InputError(f"{text} is not decided: {_UNDECIDED.get(node.name, 'write its components')}")
         if is_vector(node) and not is_matrix(node):
             return sp.Matrix(sp.symbols([f"[{text}]_{k}" for k in (1, 2, 3)], real=True))
         return self.names.setdefault(text, sp.Symbol(f"[{text}]", real=True))
 
 
-def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
-    """The node as a sympy expression of real letters; what is not arithmetic stands for itself."""
+# Calls without a value of sympy that is decided, and what would help.
+_OF_NABLA = "write its components"
+_UNDECIDED = {
+    "limit": "limits are not decided", "Integral": "write an integral of an explicit expression between two limits",
+    "Derivative": "write the expression that is differentiated, or give it by a premise, L = …",
+    "rate": "write the expression that is differentiated, or give it by a premise", "prime": "write the argument, V'(r)",
+    "Sum": "write the first and the last index as numbers, or without letters that bear the index",
+    "Product": "write the factors", "at": "write the value", "differential": "write a derivative or an integral",
+    "gradient": _OF_NABLA, "divergence": _OF_NABLA, "curl": _OF_NABLA, "laplacian": _OF_NABLA, "dots": "write what is left out",
+    "matmul": "write the entries of the matrices", "det": "write the entries of the matrix", "order": "write O(x^n) at the end",
+    "transpose": "write the entries of the matrix", "inverse": "write the entries of the matrix",
+    "tr": "write the entries of the matrix", "cases": "write one statement for each case", "values": "write one statement each",
+    "arg": "write it by real letters", "Re": "write it by real letters", "Im": "write it by real letters",
+    "max": "write one of them", "min": "write one of them",
+    **dict.fromkeys(("sum", "product", "quotient", "power", "cross", "dot", "norm", "column", "matrix", "row"),
+                    "its parts are a vector and a number, or of different sizes, or too large"),
+}  # fmt: skip
+
+
+def sympy_expression(node: Node, opaque: Opaque) -> Any:
+    """Return the node as a sympy expression of real letters; a part that is not explicit stands for itself."""
     if isinstance(node, Number):
         return sp.Rational(node.value.numerator, node.value.denominator)
     if isinstance(node, Letter):
@@ -203,13 +242,45 @@ def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
         if node.vector:
             return sp.Matrix(sp.symbols(f"{node.name}_1:4", real=True))
         return sp.Symbol(node.name, real=True)
-    if not _transparent(node):
-        value = _evaluated(node, opaque)
-        return opaque.symbol(node) if value is None else value
+    value = _bound(node, opaque) if node.name in _BINDING else _value(node, opaque)
+    return opaque.symbol(node) if value is None else value
+
+
+def _value(node: Call, opaque: Opaque) -> Any:
+    """Return the value of arithmetic, of a known function, of vectors and of matrices that are written out; else None."""
+    if node.name == "matrix":
+        return sp.Matrix(
+            [[sympy_expression(each, opaque) for each in row.args] for row in node.args if isinstance(row, Call)]
+        )
+    if node.name not in _VALUES and node.name not in KNOWN:
+        return None
+    if node.name in _OF_MATRICES and any(isinstance(each, Letter) and each.matrix for each in walk(node)):
+        return None  # a matrix whose entries are not known
     parts = [sympy_expression(each, opaque) for each in node.args]
-    if _too_large(node, parts):
-        return opaque.symbol(node)
-    return _VALUES[node.name](*parts) if node.name in _VALUES else KNOWN[node.name](*parts)
+    sizes = [part.shape if isinstance(part, sp.MatrixBase) else () for part in parts]
+    if _too_large(node, parts) or not _fits(node.name, sizes):
+        return None
+    if node.name in KNOWN:
+        return KNOWN[node.name](*parts, evaluate=not any(part.has(sp.Function) for part in parts))
+    return _VALUES[node.name](*parts)
+
+
+def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
+    """Whether an operation is defined for parts of these sizes; () is the size of a number."""
+    if name == "sum":
+        return len(set(sizes)) == 1
+    if name == "product":
+        return len([size for size in sizes if size]) < 2
+    if name == "matmul":
+        inner = [size for size in sizes if size]
+        return all(a[1] == b[0] for a, b in pairwise(inner))
+    if name == "power":
+        return not sizes[1] and (not sizes[0] or sizes[0][0] == sizes[0][1])
+    if name in ("cross", "dot", "norm"):
+        return len(set(sizes)) == 1 and sizes[0][-1:] == (1,) and (name != "cross" or sizes[0][0] == 3)
+    if name in ("det", "inverse", "tr"):
+        return bool(sizes[0]) and sizes[0][0] == sizes[0][1] <= 4
+    return bool(sizes[0]) if name == "transpose" else name in ("negative", "quotient") or not any(sizes)
 
 
 def has_opaque(*values: Any) -> bool:
@@ -217,9 +288,20 @@ def has_opaque(*values: Any) -> bool:
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
+def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
+    """Return the letters with dots, and the components of vectors, with their rates."""
+    rates: dict[sp.Symbol, sp.Symbol] = {}
+    for letter in {each for node in nodes for each in walk(node)}:
+        if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
+            names = [dotted[1], *(f"{dotted[1]}_{'d' * n}ot" for n in range(1, len(dotted[2]) + 2))]
+            for end in ("_1", "_2", "_3") if letter.vector else ("",):
+                rates |= dict(pairwise(sp.Symbol(name + end, real=True) for name in names))
+    return rates
+
+
 @lru_cache(maxsize=1000)
 def _in_closed_form(integral: sp.Integral) -> sp.Expr:
-    """The value of an integral, which a section may have in many steps and with each premise; itself beyond its own bound."""
+    """Return the value of an integral, which a section may have in many steps; itself beyond its own bound."""
     try:
         return at_most(_MOST_CALLS, evaluated, integral)
     except WorkError:
@@ -227,18 +309,15 @@ def _in_closed_form(integral: sp.Integral) -> sp.Expr:
 
 
 def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
-    """The value of an integral: of the factor that its variable is in, with positive letters where signs decide on it."""
+    """Return the value of an integral, with positive letters where signs decide on it."""
     variable, low, high = integral.limits[0]
     outside, inner = integral.function.as_independent(variable, as_Add=False)
     if sp.count_ops(inner) > _MOST_INTEGRATED:
         return None
     powers = (each.exp for each in inner.atoms(sp.Pow) if each.has(variable))
     entire = not inner.has(sp.log, sp.tan) and all(exponent.is_Integer and exponent > 0 for exponent in powers)
-    if (
-        not {low, high} & {sp.oo, -sp.oo}
-        and entire
-        and (inner.free_symbols == {variable} or inner.is_polynomial(variable))
-    ):
+    finite = entire and not {low, high} & {sp.oo, -sp.oo}
+    if finite and (inner.free_symbols == {variable} or inner.is_polynomial(variable)):
         return outside * _in_closed_form(sp.Integral(inner, (variable, low, high)))
     signed = {s: sp.Symbol(s.name, positive=True) for s in sorted(integral.free_symbols, key=str)}
     inner, low, high = (each.xreplace(signed) for each in (inner, low, high))
@@ -247,72 +326,77 @@ def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
     return outside * sp.logcombine(value).xreplace({dummy: symbol for symbol, dummy in signed.items()})
 
 
-def _evaluated(node: Call, opaque: Opaque) -> Any:
-    """A determinant, a column, a sum of a few terms, the derivative or integral of an explicit expression; else None."""
-    if node.name == "det":
-        inner = sympy_expression(node.args[0], opaque)
-        explicit = isinstance(inner, sp.MatrixBase) and not has_opaque(inner) and inner.rows == inner.cols <= 4
-        return inner.det() if explicit else None
-    if node.name == "column" and len(node.args) == 3 and not any(map(is_vector, node.args)):
-        return sp.Matrix([sympy_expression(each, opaque) for each in node.args])
-    if node.name == "rate" and opaque.rates is not None and isinstance(node.args[0], Call):
-        return _rate(sympy_expression(node.args[0], opaque), opaque)
-    if node.name == "at_constant":
-        return _at_constant(node, opaque)
-    if node.name not in ("Sum", "Derivative", "Integral", "at") or not isinstance(node.args[1], Letter):
+def _bound(node: Call, opaque: Opaque) -> Any:
+    """Return the value of a sum of a few terms, of the derivative or integral of an explicit expression; else None."""
+    inner = sympy_expression(node.args[0], opaque)
+    if node.name == "rate":
+        return None if isinstance(node.args[0], Letter) or opaque.rates is None else _rate(inner, opaque)
+    if not isinstance(node.args[1], Letter) or node.args[1].vector or isinstance(inner, sp.MatrixBase):
         return None
-    inner, name, rest = sympy_expression(node.args[0], opaque), node.args[1].name, node.args[2:]
+    name, ends = node.args[1].name, [sympy_expression(each, opaque) for each in node.args[2:]]
     variable = sp.Symbol(name, real=True)
-    if isinstance(inner, sp.MatrixBase) or (
-        has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner))
-    ):
+    if has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner)):
         return None
     if node.name == "at":
-        return None if len(rest) != 1 else inner.subs(variable, sympy_expression(rest[0], opaque))
-    if node.name == "Sum":
-        ends = [each.value for each in rest if isinstance(each, Number) and each.value.denominator == 1]
-        indexed = any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
-        if len(rest) != 2 or len(ends) != 2 or ends[1] - ends[0] > _MOST_ADDED or indexed:
-            return None
-        return sum((inner.subs(variable, k) for k in range(int(ends[0]), int(ends[1]) + 1)), sp.S.Zero)
+        return None if len(ends) != 1 else inner.subs(variable, ends[0])
+    if node.name in ("Sum", "Product"):
+        return _added(node, inner, variable, ends, opaque)
     others = inner.free_symbols - {variable}
-    if variable not in inner.free_symbols or (others and opaque.rates is None):
+    if (variable not in inner.free_symbols and (others or not opaque.refuses)) or (others and opaque.rates is None):
         return None
     if node.name == "Derivative":
-        order = rest[0].value if rest and isinstance(rest[0], Number) else Fraction(len(rest) + 1)
-        value = sp.diff(inner, variable, int(order)) if order.denominator == 1 and 0 < order < 20 else None
-    elif len(rest) != 2 or inner.has(sp.I):  # what is complex is not decided
+        order = ends[0] if ends else sp.S.One
+        value = sp.diff(inner, variable, int(order)) if order.is_Integer and 0 < order < 20 else None
+    elif len(ends) != 2 or inner.has(sp.I):  # what is complex is not decided
         return None
+    elif opaque.refuses:
+        return sp.Integral(inner, (variable, *ends))
     else:
-        value = _integrated(sp.Integral(inner, (variable, *(sympy_expression(each, opaque) for each in rest))), opaque)
+        value = _integrated(sp.Integral(inner, (variable, *ends)), opaque)
     opaque.fixing |= bool(others)
+    if opaque.refuses and value is not None and not value.has(sp.nan, sp.zoo):
+        return value
     return None if value is None or value.has(sp.Integral, sp.Derivative, sp.nan, sp.zoo) else value
 
 
+def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
+    """Return a sum or a product of a few terms; for a decision a sum of any length, but for letters that bear its index."""
+    name = variable.name
+    if len(ends) != 2 or ends[0].is_Integer is not True:
+        return None
+    if ends[1].is_Integer and ends[1] - ends[0] <= _MOST_ADDED:
+        terms = [_indexed(inner, name, k) for k in range(int(ends[0]), int(ends[1]) + 1)]
+        return (sp.Add if node.name == "Sum" else sp.Mul)(*terms)
+    free = not any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
+    return sp.Sum(inner, (variable, *ends)) if opaque.refuses and free and node.name == "Sum" else None
+
+
+def _indexed(inner: Any, name: str, k: int) -> Any:
+    """Return a term of a sum, the index and the letters that bear it replaced: x_i by x_2."""
+    names = {
+        symbol: [str(k) if part == name else part for part in symbol.name.split("_")[1:]]
+        for symbol in inner.free_symbols
+    }
+    put = {
+        s: sp.Symbol("_".join((s.name.split("_")[0], *parts)), real=True) for s, parts in names.items() if "_" in s.name
+    }
+    return inner.xreplace(put | {sp.Symbol(name, real=True): sp.Integer(k)})
+
+
 def _apart(derivative: Call, inner: sp.Expr) -> bool:
-    """Whether what stands for itself are functions of other letters than the derivative's: V(r) beside a velocity."""
+    """Whether parts that stand for themselves are functions of other letters than the derivative's: V(r) and a velocity."""
     functions = {
         f"[{text_of(each)}]"
         for each in walk(derivative.args[0])
         if isinstance(each, Call)
-        and each.name not in ("Sum", "Derivative", "Integral", "at", "limit", "rate")
+        and each.name not in (*_BINDING, "limit")
         and not set(letters_of(derivative.args[1])) & set(letters_of(each))
     }
     return {symbol.name for symbol in inner.free_symbols if has_opaque(symbol)} <= functions
 
 
-def _at_constant(node: Call, opaque: Opaque) -> Any:
-    """(∂p/∂T)_V of an explicit expression in T and V; None where it is none, or V is not in it."""
-    derivative, *held = node.args
-    if not isinstance(derivative, Call) or derivative.name != "Derivative":
-        return None
-    names = {symbol.name for symbol in sympy_expression(derivative.args[0], opaque).free_symbols}
-    explicit = all(isinstance(each, Letter) and each.name in names for each in held)
-    return _evaluated(derivative, opaque) if explicit else None
-
-
 def _rate(inner: Any, opaque: Opaque) -> Any:
-    """The derivative by t along the rates of its letters, those without one held fixed; None where it has no rate."""
+    """Return the derivative by t along the rates of the letters, those without one held fixed; None where none has a rate."""
     time = sp.Symbol("t", real=True)
     rates = {**(opaque.rates or {}), time: sp.S.One}
     moving = sorted(inner.free_symbols & rates.keys(), key=str)
@@ -322,16 +406,32 @@ def _rate(inner: Any, opaque: Opaque) -> Any:
     return reduce(operator.add, [inner.diff(symbol) * rates[symbol] for symbol in moving])
 
 
+_BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
+_OF_MATRICES = ("matmul", "det", "inverse", "transpose", "tr", "power")
 _VALUES: dict[str, Any] = {
     "sum": lambda *parts: reduce(operator.add, parts),
     "product": lambda *parts: reduce(operator.mul, parts),
+    "matmul": lambda *parts: reduce(operator.mul, parts),
     "negative": operator.neg,
     "quotient": operator.truediv,
-    "power": operator.pow,
+    "power": lambda base, exponent: _raised(base, exponent),
     "cross": lambda u, v: u.cross(v),
     "dot": lambda u, v: u.dot(v),
     "norm": lambda u: sp.sqrt(u.dot(u)),
+    "column": lambda *entries: sp.Matrix(entries),
+    "transpose": lambda A: A.T,
+    "inverse": lambda A: A.adjugate() / A.det(),
+    "det": lambda A: A.det(),
+    "tr": lambda A: A.trace(),
+    "binomial": sp.binomial,
 }
+
+
+def _raised(base: Any, exponent: Any) -> Any:
+    """Return a power; sympy does not evaluate the root of a function."""
+    if isinstance(base, sp.Expr) and base.has(sp.Function) and not exponent.is_Integer:
+        return sp.Pow(base, exponent, evaluate=False)
+    return base**exponent
 
 
 def _too_large(node: Call, parts: list[Any]) -> bool:
@@ -339,31 +439,6 @@ def _too_large(node: Call, parts: list[Any]) -> bool:
     if node.name == "power" and all(isinstance(part, sp.Rational) for part in parts):
         base, exponent = parts
         return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)
+    if node.name == "power" and isinstance(parts[0], sp.MatrixBase):
+        return not (isinstance(parts[1], sp.Integer) and 0 < parts[1] < 10)
     return node.name == "factorial" and isinstance(parts[0], sp.Integer) and parts[0] > _MOST_BITS // 10
-
-
-def _transparent(node: Call) -> bool:
-    """Whether the parts of a call are looked into."""
-    vectors = [is_vector(each) for each in node.args]
-    if node.name == "sum":
-        return all(vectors) or not any(vectors)
-    if node.name == "product":
-        return sum(vectors) <= 1
-    if node.name in ("quotient", "power"):
-        return not vectors[1] and (node.name == "quotient" or not vectors[0])
-    if node.name in ("cross", "dot"):
-        return all(map(_column, node.args))
-    if node.name == "norm":
-        return _column(node.args[0])
-    return node.name == "negative" or (node.name in KNOWN and not any(vectors))
-
-
-def _column(node: Node) -> bool:
-    """Whether it is a vector of three components."""
-    if not isinstance(node, Call):
-        return isinstance(node, Letter) and node.vector
-    if node.name in ("negative", "quotient"):
-        return _column(node.args[0])
-    if node.name in ("sum", "cross"):
-        return all(map(_column, node.args))
-    return node.name == "product" and sum(map(is_vector, node.args)) == 1 and any(map(_column, node.args))

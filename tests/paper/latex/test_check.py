@@ -256,10 +256,6 @@ PASSAGES = {
         r"\begin{align} r &= \frac{k - q}{k + q}, \\ t &= \frac{2k}{k + q} .\end{align} They add up to one:",
         r"T = \frac{q}{k}t^2 = \frac{4kq}{(k + q)^2}", "{4kq", "{2kq",
     ),
-    "a variance": (
-        r"\[ \langle n\rangle = N p \] \[ \langle n^2\rangle = N p(1 - p) + N^2 p^2 \] and the variance is",
-        r"\sigma^2 = \langle n^2\rangle - \langle n\rangle^2 = N p(1 - p)", "(1 - p)", "(1 + p)",
-    ),
     "an integral to infinity": (
         r"With $a > 0$,", r"\int_0^\infty v^2 e^{-a v^2}\,dv = \frac{\sqrt\pi}{4a^{3/2}}", "{4a", "{2a",
     ),
@@ -273,10 +269,6 @@ PASSAGES = {
     ),
     "the derivative of a function by a prime": (
         r"The potential is $V(r) = a r^4 - b r^2$. Its slope is", r"V'(r) = 4 a r^3 - 2 b r", "- 2 b", "+ 2 b",
-    ),
-    "a derivative at constant volume": (
-        r"With $p = \frac{R T}{V - b} - \frac{a}{V^2}$ the pressure rises by",
-        r"\left(\frac{\partial p}{\partial T}\right)_V = \frac{R}{V - b}", "V - b", "V + b",
     ),
     "a magnitude": (
         r"The modulus is \[ |Z| = \sqrt{R^2 + \omega^2 L^2} \] and the mean power",
