@@ -520,7 +520,7 @@ READERS = {
     "paper/record.py": "recorded.toml",
     "paper/scripts.py": "program",
     "paper/latex/markup.py": "notebook",
-    "paper/latex/source_files.py": "LaTeX",
+    "paper/latex/numbers.py": "LaTeX",
     "paper/latex/init.py": "LaTeX",
     "paper/latex/token_stream.py": "LaTeX",
     "paper/theorems.py": "theorem",

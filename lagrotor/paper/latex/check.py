@@ -74,7 +74,6 @@ MAYBE = "it may be a condition"
 ALL_REAL = Notation()
 _VERDICTS = tuple[str, str, list[PrintedMeaning]]
 _RELATION = re.compile(r"=|[<>]|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong|leq?|geq?)\b")
-_UNKNOWN = re.compile(r"(\\(?:[A-Za-z@]+|begin\{[^{}]*\})) is not known")
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 
@@ -204,7 +203,8 @@ class _Checker:
             self.place = place
             if not reading.whole:
                 self.given.unread |= {(each.section, name) for name in letters_printed(each.latex.partition("=")[0])}
-                yield self._finding(each, 0, None, NOT_JUDGED, f"{NOT_READ}: {self._stop(reading)}")
+                what, helps = reading.stop or ("", "")
+                yield self._finding(each, 0, None, NOT_JUDGED, f"{NOT_READ}: {what}: {helps}")
                 continue
             self._take_text(each.section)
             for statement in reading.statements:
@@ -226,15 +226,6 @@ class _Checker:
             line = each.rows[min(each.latex[: sides[1].at].count(r"\\"), len(each.rows) - 1)]
         members = tuple(text_of(side.node) for side in sides or ())
         return StepFinding(each.id, step, line, verdict, why, members, file if file != self.source.file else "")
-
-    def _stop(self, reading: Reading) -> str:
-        """Return where a reading stopped and the way out; packages that are missing may define an unknown command."""
-        what, helps = reading.stop or ("", "")
-        if (name := _UNKNOWN.fullmatch(what)) and (missing := self.source.missing):
-            files = " and ".join(f"{file}, loaded in line {line}," for file, line in missing.items())
-            verb = "is" if len(missing) == 1 else "are"
-            helps = f"{files} {verb} not beside the source: {name[1]} may be defined there"
-        return f"{what}: {helps}"
 
     # ---- chains
 

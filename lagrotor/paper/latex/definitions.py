@@ -1,162 +1,318 @@
-r"""Definitions of commands: \newcommand, \def, \let, \NewDocumentCommand, \DeclarePairedDelimiter …"""
+r"""Commands of LaTeX that define others, choose between branches and take in files."""
 
-from collections.abc import Iterable
-from dataclasses import replace
-from itertools import chain, pairwise
+import re
 
-from lagrotor.paper.latex.expansion import Expander, Primitive
-from lagrotor.paper.latex.groups import Macro, numbered
+from lagrotor.paper.latex import packages
+from lagrotor.paper.latex.macros import CHOICES, Expander, Macro, Parameter, Primitive, head_of, is_condition
 from lagrotor.paper.latex.tokens import Token, latex_of, plain, tokenize
 
 HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
+# Environments of displayed formulas: LaTeX's and amsmath's.
+DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath", "IEEEeqnarray")
+_COUNTING = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\numberwithin", r"\@addtoreset", r"\counterwithin")
+_COMMANDS = (*HEADINGS, r"\appendix")  # which may stand as environments, \begin{appendix}
 
 
-def _defined(expander: Expander, token: Token) -> bool:
-    expander.star()
-    expander.skip_spaces()
-    named = expander.argument()
-    count = expander.optional()
-    default = expander.optional() if count is not None else None
-    body = expander.argument()
-    name = next((t.text for t in named if t.kind == "command"), "")
-    known = (expander.macros, expander.packages, expander.primitives, HEADINGS)
-    if not name or (token.text == r"\providecommand" and any(name in each for each in known)):
-        return True
-    if _is_kept(expander, name, body):
-        return True
-    expander.macros[name] = Macro(tuple(body), numbered(count), None if default is None else tuple(default))
+def _define(expander: Expander, name: str, macro: Macro, token: Token, everywhere: bool = False) -> bool:
+    """Define a name, unless its meaning is fixed here: headings, definitions, counters and files."""
+    if name in expander.primitives and name not in _REPLACEABLE:
+        expander.notes.append(f"{expander.place(token.at)}: {name} is defined anew: its standard meaning is taken")
+    elif name.startswith("\\") and name not in HEADINGS:
+        expander.define(name, macro, everywhere)
     return True
+
+
+def _newcommand(expander: Expander, token: Token) -> bool:
+    expander.star()
+    name = expander.name()
+    macro = Macro(head=_head(expander), body=tuple(expander.argument()))
+    if token.text == r"\providecommand" and name in (*expander.macros, *expander.primitives):
+        return True
+    return _define(expander, name, macro, token)
+
+
+def _head(expander: Expander) -> tuple[Parameter, ...]:
+    """Take [number of arguments][default of the first]."""
+    digits = latex_of(expander.optional() or ()).strip()
+    head = [Parameter("m")] * (int(digits) if digits.isdecimal() and int(digits) < 10 else 0)
+    if head and (default := expander.optional()) is not None:
+        head[0] = Parameter("o", default=tuple(default))
+    return tuple(head)
 
 
 def _document_command(expander: Expander, token: Token) -> bool:
-    named, spec, body = expander.argument(), latex_of(expander.argument()), expander.argument()
-    if named:
-        expander.macros[named[0].text] = Macro(tuple(body), spec=spec.strip() or " ")
-    return True
+    name, spec, body = expander.name(), latex_of(expander.argument()), expander.argument()
+    return _define(expander, name, Macro(tuple(body), head_of(spec)), token)
 
 
 def _def(expander: Expander, token: Token) -> bool:
-    target = next_name(expander)
-    head: list[Token] = []
+    target = _next_name(expander)
+    marks: list[Token] = []
     while (part := expander.next()) is not None and part.kind != "open":
-        head.append(part)
+        marks.append(part)
     body = expander.group(token.at)
-    by_lines = any(a.text == b.text == "^" for a, b in pairwise(head))  # ^^M: it reads lines as they stand
-    if target is not None and target.kind == "command" and not by_lines and not _is_kept(expander, target.text, body):
-        if token.text in (r"\edef", r"\xdef"):  # a command that is not known yet cannot stand for itself
-            body = [part for part in expander.expand(body) if part.text != target.text]
-        macro = Macro(tuple(body), tuple(head))
-        if token.text in (r"\gdef", r"\xdef"):
-            expander.macros.define_globally(target.text, macro)
-        else:
-            expander.macros[target.text] = macro
-    return True
+    head: list[Parameter] = []
+    for place, mark in enumerate(marks):
+        after = marks[place + 1] if place + 1 < len(marks) else mark
+        if mark.kind == "param":
+            head.append(Parameter("m") if after.kind == "param" else Parameter("u", after))
+        elif mark.text.strip() and not (place and marks[place - 1].kind == "param"):
+            head.append(Parameter("=", mark))
+    # \edef expands its body at once, and no macro of a formula reads powers as marks: such a name has no meaning
+    if token.text in (r"\edef", r"\xdef") or any(mark.kind == "script" for mark in marks):
+        expander.define(target.text, None, everywhere=True)
+        return True
+    return _define(expander, target.text, Macro(tuple(body), tuple(head)), token, token.text == r"\gdef")
 
 
 def _let(expander: Expander, token: Token) -> bool:
-    target, source = next_name(expander), next_name(expander)
-    if source is not None and source.text.startswith("="):
+    target, source = _next_name(expander), _next_name(expander)
+    if source.text.startswith("="):
         expander.push(plain(source.text[1:].lstrip(), source.at))
-        source = next_name(expander)
-    if source is not None and source.kind == "text" and len(source.text) > 1:
-        expander.push([Token("text", source.text[1:], source.at + 1)])
-        source = Token("text", source.text[0], source.at)
-    if target is not None and source is not None and target.kind == "command":
-        known = expander.macros.get(source.text)
-        if known is not None:
-            expander.macros[target.text] = known
-        elif source.kind == "command" and source.text in expander.packages:
-            expander.macros.pop(target.text, None)
-            expander.own[target.text] = expander.packages[source.text]
-        elif source.text != target.text:
-            kind = "primitive" if source.kind == "command" else source.kind
-            expander.macros[target.text] = Macro((Token(kind, source.text, source.at),))
+        source = _next_name(expander)
+    if source.kind == "text":
+        expander.push(plain(source.text[1:], source.at + 1))
+        source = Token("text", source.text[:1], source.at)
+    if target.text == source.text:
+        return True
+    same = source._replace(kind="primitive" if source.kind == "command" else source.kind)
+    macro = expander.macros.get(source.text) or Macro((same,))
+    return _define(expander, target.text, macro, token, token.text == r"\glet")
+
+
+def _global(expander: Expander, token: Token) -> bool:
+    r"""\global\def is \gdef."""
+    after = _next_name(expander)
+    name = {r"\def": r"\gdef", r"\edef": r"\xdef", r"\let": r"\glet"}.get(after.text, after.text)
+    expander.push((Token(after.kind, name, after.at),))
     return True
 
 
-def _extended(expander: Expander, token: Token) -> bool:
-    r"""\g@addto@macro\appendix{…}, \apptocmd{\appendix}{…}{}{}, \pretocmd: more behind or before what a command does."""
-    named, added = expander.argument(), expander.argument()
-    if token.text.endswith("tocmd"):
-        expander.argument(), expander.argument()
-    if named and named[0].kind == "command":
-        known = expander.macros.get(named[0].text) or Macro((Token("primitive", named[0].text, token.at),))
-        parts = (added, known.body) if token.text.startswith(r"\pre") else (known.body, added)
-        expander.macros.define_globally(named[0].text, replace(known, body=tuple(chain(*parts))))
-    return True
-
-
-def _named(expander: Expander, token: Token) -> bool:
-    expander.push([token])
-    made = next_name(expander)
-    expander.push([made] if made else [])
-    return True
-
-
-def next_name(expander: Expander) -> Token | None:
-    r"""The command that is defined next, \csname … \endcsname too."""
+def _next_name(expander: Expander) -> Token:
+    """Take the next token, without space before it."""
     expander.skip_spaces()
-    while (token := expander.next()) is not None and token.text == r"\expandafter":
-        expander.skip_spaces()
-    if token is None or token.text != r"\csname":
-        return token
-    name: list[Token] = []
-    while (part := expander.next()) is not None and part.text != r"\endcsname":
-        name.append(part)
-    return Token("command", "\\" + latex_of(expander.expand(name)).strip(), token.at)
-
-
-def _is_kept(expander: Expander, name: str, body: list[Token]) -> bool:
-    """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here, or reads ahead."""
-    known = name in HEADINGS or name in expander.primitives
-    return any(
-        t.text in (r"\@setfontsize", r"\futurelet", r"\not@math@alphabet")
-        or (known and ("@" in t.text or t.text == r"\secdef") and t.kind == "command")
-        for t in body
-    )
+    return expander.next() or Token("text", "", 0)
 
 
 def _operator(expander: Expander, token: Token) -> bool:
     star = "*" if expander.star() else ""
-    named, body = expander.argument(), expander.argument()
-    if named:
-        made = [Token("command", r"\operatorname", 0), *plain(star, 0), Token("open", "{", 0)]
-        expander.macros[named[0].text] = Macro((*made, *body, Token("close", "}", 0)))
-    return True
+    name, body = expander.name(), latex_of(expander.argument())
+    return _define(expander, name, Macro.of(rf"\operatorname{star}{{{body}}}"), token)
 
 
 def _pair(expander: Expander, token: Token) -> bool:
-    r"""\DeclarePairedDelimiter{\abs}{|}{|}; \DeclarePairedDelimiterX{\ip}[2]{<}{>}{#1,#2}."""
-    named = expander.argument()
-    head = numbered(expander.optional(), 1)
-    left, right = expander.argument(), expander.argument()
-    body = expander.argument() if token.text.endswith("X") else [Token("param", "#1", 0)]
-    inside = [each for each in body if each.text != r"\delimsize"]
-    made = Macro((*tokenize(r"\left"), *left, *inside, *tokenize(r"\right"), *right), head)
+    r"""\DeclarePairedDelimiter{\abs}{|}{|}: * and [\big] may come before the argument."""
+    name, left, right = expander.name(), expander.name(), expander.name()
+    return _define(expander, name, Macro.of(rf"\left{left}#3\right{right}", "som"), token)
 
-    def paired(expander: Expander) -> Iterable[Token]:
-        if not expander.star():
-            expander.optional()
-        return expander.body(made, token)
 
-    if named:
-        expander.macros.pop(named[0].text, None)
-        expander.own[named[0].text] = paired
+def _new_environment(expander: Expander, token: Token) -> bool:
+    r"""\newenvironment{x} defines \x and \endx, as LaTeX does."""
+    expander.star()
+    name = expander.name()
+    head = head_of(latex_of(expander.argument())) if "Document" in token.text else _head(expander)
+    begin, end = expander.argument(), expander.argument()
+    expander.define(rf"\{name}", Macro(tuple(begin), head))
+    expander.define(rf"\end{name}", Macro(tuple(end)))
     return True
 
 
-_COMMANDS = r"\newcommand \renewcommand \providecommand \DeclareRobustCommand \newrobustcmd \renewrobustcmd"
-_DOCUMENT_COMMANDS = (
-    r"\NewDocumentCommand \RenewDocumentCommand \ProvideDocumentCommand \DeclareDocumentCommand "
-    r"\NewExpandableDocumentCommand"
-)
+def _new_theorem(expander: Expander, token: Token) -> bool:
+    r"""\newtheorem{name}[equation]{Title}: an environment that steps the counter of equations."""
+    expander.star()
+    name, shared = expander.name(), expander.optional()
+    expander.argument()
+    expander.optional()
+    if latex_of(shared or ()).strip() == "equation":
+        expander.define(rf"\{name}", Macro.of(r"\stepcounter{equation}"))
+        expander.define(rf"\end{name}", Macro(()))
+    return True
+
+
+def _begin(expander: Expander, token: Token) -> bool:
+    name = expander.name()
+    if name != "document":
+        expander.begin_group(name)
+    if _is_command(expander, token, name):
+        expander.push((Token("command", rf"\{name}", token.at),))
+    else:
+        expander.push((Token("begin", rf"\begin{{{name}}}", token.at),))
+    return True
+
+
+def _end(expander: Expander, token: Token) -> bool:
+    name = expander.name()
+    end = Token("end", rf"\end{{{name}}}", token.at)
+    if _is_command(expander, token, name):
+        end = Token("command", rf"\end{name}" if rf"\end{name}" in expander.macros else r"\relax", token.at)
+    expander.push((end, Token("scope", name, token.at)))
+    return True
+
+
+def _is_command(expander: Expander, token: Token, name: str) -> bool:
+    r"""Return True if \begin{x} is the command \x."""
+    macros = expander.macros if token.kind == "command" else ()
+    return (rf"\{name}" in macros and rf"\end{name}" in macros) or rf"\{name}" in _COMMANDS
+
+
+def _display(expander: Expander, token: Token) -> bool:
+    r"""\align and \endalign are \begin{align} and \end{align}, whatever the source has defined these to be."""
+    name = token.text[1:]
+    verb, name = (r"\end", name[3:]) if name.startswith("end") else (r"\begin", name)
+    expander.push((Token("primitive", verb, token.at), *tokenize(f"{{{name}}}", token.at)))
+    return True
+
+
+def _condition(expander: Expander, token: Token) -> bool:
+    if (
+        token.text == r"\iftrue"
+        or (token.text == r"\ifmmode" and expander.in_formula)
+        or ((end := expander.skip((r"\else", r"\fi"), token)) is not None and end.text == r"\else")
+    ):
+        expander.branches += 1
+    return True
+
+
+def _else(expander: Expander, token: Token) -> bool:
+    if not expander.branches:
+        return not expander.in_formula
+    expander.branches -= 1
+    if token.text == r"\else":
+        expander.skip((r"\fi",), token)
+    return True
+
+
+def _new_if(expander: Expander, token: Token) -> bool:
+    r"""\newif\ifx defines \ifx to be \iffalse, and \xtrue and \xfalse to change that."""
+    name = _next_name(expander).text
+    if is_condition(name):
+        expander.define(name, Macro((Token("primitive", r"\iffalse", token.at),)))
+        for value in ("true", "false"):
+            expander.define(rf"\{name[3:]}{value}", Macro.of(rf"\let{name}\if{value}"))
+    return True
+
+
+def _choice(expander: Expander, token: Token) -> bool:
+    r"""\ifthenelse{…}{…}{…} and others that have their branches in braces: none is decided."""
+    if not expander.in_formula:
+        expander.star()
+        expander.leave_out(token, CHOICES[token.text])
+    return not expander.in_formula
+
+
+def _if_value(expander: Expander, token: Token) -> bool:
+    r"""\IfValueTF, \IfNoValueT, \IfBooleanTF: of an argument of \NewDocumentCommand."""
+    tested = expander.name()
+    holds = tested == "*" if "Boolean" in token.text else (tested == r"\NoValue") == ("NoValue" in token.text)
+    ending = "TF" if token.text.endswith("TF") else token.text[-1]
+    branches = {letter: expander.argument() for letter in ending}
+    expander.push(branches.get("T" if holds else "F", ()))
+    return True
+
+
+def _text(expander: Expander, token: Token) -> bool:
+    r"""\mbox{\boldmath $u$} is \boldsymbol{u}, \text{$u$} is {u}; other words stay."""
+    if not expander.begins("{"):
+        return False
+    inside = expander.argument()
+    formula = re.fullmatch(r"\{?\s*(\\boldmath)?\s*\{?\s*\$([^$]*)\$\s*\}*", latex_of(inside).strip())
+    if formula is not None:
+        expander.push(tokenize(("\\boldsymbol{" if formula[1] else "{") + formula[2] + "}", token.at))
+    else:
+        words = (Token("open", "{", token.at), *inside, Token("close", "}", token.at))
+        expander.push((Token("word", r"\text", token.at), *words))
+    return True
+
+
+def _quantity(expander: Expander, token: Token) -> bool:
+    r"""\num[…]{3.2e5}, \unit[…]{…} of siunitx."""
+    if "siunitx" not in expander.loaded:
+        return False
+    expander.optional()
+    text = expander.name()
+    expander.push(
+        tokenize(packages.number_print(text) if token.text == r"\num" else packages.unit_print(text), token.at)
+    )
+    return True
+
+
+def _use(expander: Expander, token: Token) -> bool:
+    r"""\usepackage: the commands known here; of a package beside the source, its definitions, and nothing in it is expanded."""
+    expander.optional()
+    for name in map(str.strip, expander.name().split(",")):
+        known = name in packages.TABLE or name in packages.DISTRIBUTED or name in expander.loaded
+        expander.load(name)
+        if known or (path := expander.file_beside(name, (".sty",))) is None:
+            continue
+        for each in expander.tokens_apart(path):
+            inside = expander.group(each.at) if each.kind == "open" else (each,)
+            if any(part.text in _COUNTING for part in inside):
+                expander.doubt = f"{name}.sty may number equations in a way of its own"
+            if each.text in DEFINITIONS:
+                DEFINITIONS[each.text](expander, each)
+            elif each.kind == "command" and is_condition(each.text):
+                expander.leave_out(each)
+    expander.optional()
+    return True
+
+
+def _input(expander: Expander, token: Token) -> bool:
+    expander.skip_spaces()
+    after = expander.peek()
+    if token.text == r"\input" and after is not None and after.kind == "text":
+        name = after.text.split()[0]
+        expander.take(name)
+    else:
+        name = expander.name()
+    expander.read_file(name, token.at)
+    return True
+
+
+def _ignored(expander: Expander, token: Token) -> bool:
+    return True
+
+
+def _with_argument(expander: Expander, token: Token) -> bool:
+    r"""Leave out the argument of \titleformat, \tikzset …"""
+    expander.star()
+    expander.argument()
+    return True
+
+
 DEFINITIONS: dict[str, Primitive] = {
-    **dict.fromkeys(_COMMANDS.split(), _defined),
+    **dict.fromkeys(
+        (r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand", r"\newrobustcmd"), _newcommand
+    ),
     **dict.fromkeys((r"\def", r"\gdef", r"\edef", r"\xdef"), _def),
-    **dict.fromkeys(_DOCUMENT_COMMANDS.split(), _document_command),
-    **dict.fromkeys((r"\DeclarePairedDelimiter", r"\DeclarePairedDelimiterX"), _pair),
-    **dict.fromkeys((r"\g@addto@macro", r"\appto", r"\gappto", r"\apptocmd", r"\preto", r"\pretocmd"), _extended),
-    r"\csname": _named,
-    r"\let": _let,
+    **dict.fromkeys((r"\let", r"\glet"), _let),
+    **dict.fromkeys((r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment"), _new_environment),
+    **dict.fromkeys((r"\usepackage", r"\RequirePackage"), _use),
+    **dict.fromkeys((r"\input", r"\include", r"\subfile", r"\@input"), _input),
+    **dict.fromkeys((r"\NewDocumentCommand", r"\RenewDocumentCommand", r"\DeclareDocumentCommand"), _document_command),
+    r"\DeclarePairedDelimiter": _pair,
     r"\DeclareMathOperator": _operator,
+    r"\newtheorem": _new_theorem,
+    r"\global": _global,
+    r"\newif": _new_if,
+}
+_REPLACEABLE = dict[str, Primitive](
+    {
+        **dict.fromkeys((r"\mbox", r"\hbox", r"\textnormal", r"\textrm", r"\textit", r"\text"), _text),
+        **dict.fromkeys((r"\num", r"\unit", r"\si"), _quantity),
+    }
+)
+_IGNORED = r"\long \protected \outer \relax \protect \expandafter \makeatletter \makeatother \xspace"
+PRIMITIVES: dict[str, Primitive] = {
+    **DEFINITIONS,
+    **_REPLACEABLE,
+    **{rf"\{end}{name}": _display for name in (*DISPLAYS, "subequations") for end in ("", "end")},
+    **dict.fromkeys((r"\iftrue", r"\iffalse", r"\ifmmode"), _condition),
+    **dict.fromkeys((r"\else", r"\fi"), _else),
+    **dict.fromkeys(CHOICES, _choice),
+    **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
+    **dict.fromkeys(_IGNORED.split(), _ignored),
+    **dict.fromkeys((r"\titleformat", r"\titlespacing", r"\tikzset", r"\pgfkeys", r"\pgfplotsset"), _with_argument),
+    r"\begin": _begin,
+    r"\end": _end,
+    r"\endinput": lambda expander, token: expander.end_file(token.at) or True,
 }

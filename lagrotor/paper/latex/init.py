@@ -7,7 +7,6 @@ equation whose print has changed is marked, and its reading is to be confirmed a
 import json
 import re
 import shutil
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -103,7 +102,6 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     if not source.equations:
         why = "; ".join([f"--from {path}: it has no displayed equation", *(*faults, *source.notes)[:3]])
         raise InputError(f"{why}: lagrotor init alone makes a folder to begin with")
-    source, differences = _numbered(source, aux_numbers(path), path)
     old = toml(folder / "equations.toml") if again else {}
     table = toml(folder / "paper.toml").get("notation", {}) if again else {}
     formulas = [*(each.latex for each in source.equations), *source.inline]
@@ -125,44 +123,9 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
         for row in rows
         if row.get("number") not in (None, row["id"], before.get(row["id"], row.get("number")))
     )
-    notes = (*faults, *source.notes, *differences, *sections)
+    notes = (*faults, *source.notes, *sections)
     read = sum(each.read for each in prints)
     return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone), moved)
-
-
-def _numbered(found: Source, aux: Mapping[str, str], source: Path) -> tuple[Source, list[str]]:
-    """The source with the numbers that LaTeX wrote beside it, and where they differ from those that its text gives."""
-    said: list[str] = []
-    if found.counting and not aux and any(each.number for each in found.equations):
-        said.append(
-            f"{' and '.join(found.counting)} may number equations in a way of {'its' if len(found.counting) == 1 else 'their'} "
-            f"own: LaTeX's numbers are taken where {source.with_suffix('.aux').name} lies beside the source"
-        )
-    ids = {each.id for each in found.equations}
-    labels = Counter(each.label for each in found.equations)
-    for place, each in enumerate(found.equations):
-        number = aux.get(each.label, each.number) if labels[each.label] == 1 and each.label else each.number
-        if number not in (each.number, found.labels.get(each.label)):
-            said.append(
-                f"{each.label} is ({number}) in {source.with_suffix('.aux').name} and ({each.number or 'without a number'}) by "
-                "the source: the first is taken"
-            )
-            identifier = number if number not in ids else each.id
-            found.equations[place] = replace(each, number=number, id=identifier)
-    return found, said
-
-
-def aux_numbers(source: Path) -> dict[str, str]:
-    """Label → number as LaTeX wrote it beside the source; empty where it has not."""
-    file = source.with_suffix(".aux")
-    if not file.is_file():
-        return {}
-    text = file.read_text(encoding="utf-8", errors="replace")
-    for name in re.findall(r"\\@input\{([^{}]*)\}", text):
-        if (inner := file.parent / name).is_file():
-            text += inner.read_text(encoding="utf-8", errors="replace")
-    rows = re.findall(r"\\newlabel\{([^{}]*)\}\{\{((?:[^{}]|\{[^{}]*\})*)\}", text)
-    return {label: re.sub(r"[{}$]|\\relax\s*", "", number).replace(r"^\prime", "'") for label, number in rows}
 
 
 # ---- equations.toml

