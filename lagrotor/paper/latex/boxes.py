@@ -85,11 +85,11 @@ _MOST = 200  # brackets within brackets
 
 
 class FormulaError(Exception):
-    """Where the reading stops: the place in the LaTeX, what stands there, and what would help."""
+    """Where the reading stops: what stands there, and what would help."""
 
-    def __init__(self, at: int, what: str, help_: str) -> None:
+    def __init__(self, what: str, help_: str) -> None:
         super().__init__(what)
-        self.at, self.what, self.help = at, what, help_
+        self.what, self.help = what, help_
 
 
 @dataclass(slots=True)
@@ -113,6 +113,7 @@ class Box:
     primes: int = 0
     closing: str = ""
     upright: bool = False
+    spaced: bool = False
 
 
 def boxes(latex: str) -> list[Box]:
@@ -141,7 +142,7 @@ class _Reader:
 
     def stop(self, what: str, help_: str) -> NoReturn:
         item = self.items[min(self.place, len(self.items) - 1)]
-        raise FormulaError(item.at, f"{item.text} {what}", help_)
+        raise FormulaError(f"{item.text} {what}", help_)
 
     def peek(self) -> Token | None:
         return self.items[self.place] if self.place < len(self.items) else None
@@ -174,7 +175,7 @@ class _Reader:
         opened = self.take()
         found = self.sequence(("}",), style)
         if self.peek() is None:
-            raise FormulaError(opened.at, "{ is not closed", "write the brace that closes it")
+            raise FormulaError("{ is not closed", "write the brace that closes it")
         self.take()
         if len(found) == 1 and self.latex.startswith(
             tuple(_INFIX), found[0].at
@@ -225,7 +226,7 @@ class _Reader:
                 self.take()
                 under = self.sequence(ends, style)
                 self.depth -= 1
-                return [Box(_INFIX[item.text], "", item.at, self.end, [found, under])]
+                return [Box(_INFIX[item.text], "", item.at, self.end, [_without_spaces(found), under])]
             if item.kind == "script":
                 self.script(found)
             elif item.text in ("'", "’", "′"):
@@ -236,7 +237,7 @@ class _Reader:
             else:
                 self.extend(found, style)
         self.depth -= 1
-        return found
+        return _without_spaces(found)
 
     def extend(self, found: list[Box], style: str) -> None:
         first = self.peek()
@@ -268,7 +269,7 @@ class _Reader:
 
     def prime(self, found: list[Box], item: Token) -> None:
         if not found:
-            raise FormulaError(item.at, "' has nothing before it", "write the letter that it belongs to")
+            raise FormulaError("' has nothing before it", "write the letter that it belongs to")
         self.primed(found[-1], item, 1)
         found[-1].end = item.at + 1
 
@@ -276,28 +277,24 @@ class _Reader:
     def primed(target: Box, item: Token, count: int) -> None:
         """Give primes to a letter; behind anything else they are not read."""
         if target.kind != "letter":
-            why = "' stands behind a sign that is no letter"
-            raise FormulaError(item.at, why, "write the derivative, or give it a letter")
+            raise FormulaError("' stands behind a sign that is no letter", "write the derivative, or give it a letter")
         target.primes += count
 
     def script(self, found: list[Box]) -> None:
         item = self.take()
         target = found[-1] if found else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow", "unit"):
-            why = f"{item.text} has nothing before it"
-            raise FormulaError(item.at, why, "write the letter that the script belongs to")
+            raise FormulaError(f"{item.text} has nothing before it", "write the letter that the script belongs to")
         content = self.argument()
-        while content and content[0].kind == "thin":  # \mathrm{d}^{\,3}
-            content = content[1:]
         if item.text == "^":
             if content and all(b.kind == "letter" and b.name == "prime" for b in content):
                 self.primed(target, item, len(content))
             elif target.sup is not None:
-                raise FormulaError(item.at, "two powers follow each other", "write braces around the first")
+                raise FormulaError("two powers follow each other", "write braces around the first")
             else:
                 target.sup = content
         elif target.sub is not None:
-            raise FormulaError(item.at, "two indices follow each other", "write them in one pair of braces")
+            raise FormulaError("two indices follow each other", "write them in one pair of braces")
         else:
             target.sub = content
         target.end = self.end
@@ -408,7 +405,7 @@ class _Reader:
             elif box.kind == "letter":
                 box.upright = True
             elif box.kind == "number" and style and box.name != "0":
-                raise FormulaError(box.at, f"{item.text}{{{box.name}}} is not read", "give the unit matrix a letter")
+                raise FormulaError(f"{item.text}{{{box.name}}} is not read", "give the unit matrix a letter")
         return content
 
     def plain_ahead(self) -> str | None:
@@ -436,10 +433,10 @@ class _Reader:
         opening = self.take().text
         parts: list[list[Box]] = [self.sequence((r"\right",), style)]
         if self.peek() is None:
-            raise FormulaError(item.at, r"\left is not closed", r"write \right with its bracket")
+            raise FormulaError(r"\left is not closed", r"write \right with its bracket")
         self.take()
         if self.peek() is None:
-            raise FormulaError(item.at, r"\right has no bracket", "write one, or a full stop")
+            raise FormulaError(r"\right has no bracket", "write one, or a full stop")
         closing = self.take().text
         return [Box("bracket", opening, item.at, self.end, parts, closing=closing)]
 
@@ -451,7 +448,7 @@ class _Reader:
             self.take()
             after = self.peek()
         if after is None or after.text != closing:
-            raise FormulaError(item.at, f"{opening} is not closed by {closing}", f"write {closing} where it ends")
+            raise FormulaError(f"{opening} is not closed by {closing}", f"write {closing} where it ends")
         self.take()
         return Box("bracket", opening, item.at, self.end, [content], closing=closing)
 
@@ -470,7 +467,7 @@ class _Reader:
             parts.append(self.argument(style))
         under, order = parts[-1], boxes(degree) if degree else None
         if len(under) != 1 or under[0].sup is not None:
-            raise FormulaError(item.at, f"{item.text} is by more than a letter", r"write \frac{d f}{d x}")
+            raise FormulaError(f"{item.text} is by more than a letter", r"write \frac{d f}{d x}")
         kind, name = ("letter", "d") if item.text == r"\dv" else ("partial", "partial")
         marks = [Box(kind, name, item.at, self.end, upright=True, sup=sup) for sup in (order, None)]
         rows = [[marks[0], *(parts[0] if len(parts) > 1 else [])], [marks[1], replace(under[0], sup=order)]]
@@ -493,11 +490,10 @@ class _Reader:
     def _begin(self, item: Token, style: str) -> list[Box]:
         name = self.plain()
         if name not in (*_MATRICES, *ROWS, *_CASES):
-            why = rf"\begin{{{name}}} is not known"
-            raise FormulaError(item.at, why, "write the formula without this environment")
+            raise FormulaError(rf"\begin{{{name}}} is not known", "write the formula without this environment")
         self.bracketed()
         if name in ("array", "alignedat") and "|" in self.plain():
-            raise FormulaError(item.at, "a line stands in the matrix", "write its blocks by themselves")
+            raise FormulaError("a line stands in the matrix", "write its blocks by themselves")
         kind = "cases" if name in _CASES else "rows" if name in ROWS else "matrix"
         rows = self.rows(name, item)
         return [Box(kind, name, item.at, self.end, [[Box("row", "", item.at, self.end, row) for row in rows]])]
@@ -509,7 +505,7 @@ class _Reader:
             rows[-1][-1] += self.sequence(("&", r"\\", r"\end", r"\hline", r"\cr"))
             after = self.peek()
             if after is None or after.text not in ("&", r"\\", r"\end", r"\hline", r"\cr"):
-                raise FormulaError(item.at, rf"\begin{{{name}}} is not closed", rf"write \end{{{name}}}")
+                raise FormulaError(rf"\begin{{{name}}} is not closed", rf"write \end{{{name}}}")
             self.take()
             if after.text == "&":
                 if name in _PAIRS and len(rows[-1]) % 2 == 0:  # every second & begins another equation
@@ -540,6 +536,13 @@ class _Reader:
         """A line of a display that has one line only: TeX passes over it."""
         self.bracketed()
         return [Box("wide", "", item.at, self.end)]
+
+
+def _without_spaces(row: list[Box]) -> list[Box]:
+    """Return a row without its thin spaces, each of which is said of the box behind it."""
+    for before, box in pairwise(row):
+        box.spaced |= before.kind == "thin"
+    return [box for box in row if box.kind != "thin"]
 
 
 def _joins(before: Box, made: Box, style: str) -> bool:
@@ -621,16 +624,11 @@ _FORMS: dict[str, Form] = {
 def strip(row: list[Box]) -> list[Box]:
     """Return a row without spaces and punctuation at its ends."""
     start, end = 0, len(row)
-    while start < end and row[start].kind in ("thin", "wide"):
+    while start < end and row[start].kind == "wide":
         start += 1
-    while end > start and row[end - 1].kind in ("thin", "wide", "comma"):
+    while end > start and row[end - 1].kind in ("wide", "comma"):
         end -= 1
     return row[start:end]
-
-
-def without_thin(row: Iterable[Box]) -> list[Box]:
-    """Return a row without thin spaces."""
-    return [each for each in row if each.kind != "thin"]
 
 
 def parted(row: list[Box], *kinds: str) -> list[list[Box]]:
@@ -657,7 +655,7 @@ def is_mark(box: Box, mark: str) -> bool:
 def is_derivative(box: Box) -> str:
     """Return d or partial where a fraction is a derivative; nothing where it is none."""
     if box.kind == "fraction":
-        over, under = (without_thin(part) for part in box.parts)
+        over, under = box.parts
         for mark in ("d", "partial"):
             if (
                 over
@@ -696,8 +694,8 @@ def index_of(box: Box) -> list[str]:
     found: list[str] = []
     alone = True  # a comma or a Greek letter ends a run of letters
     for part in box.sub or ():
-        if part.kind in ("comma", "thin") and part.name != ".":
-            alone = alone or part.kind == "comma"
+        if part.kind == "comma" and part.name != ".":
+            alone = True
             continue
         inner = _index(part)
         greek = part.kind == "letter" and len(part.name) > 1 and not part.upright
@@ -723,7 +721,7 @@ def _index(part: Box) -> list[str]:
         return [_INDEX_SIGNS[part.name]]
     if part.kind in ("group", "fraction") and plain:  # i + 1/2
         return ["over".join("".join(word for each in held for word in _index(each)) for held in part.parts)]
-    raise FormulaError(part.at, "an index is not letters and numbers", "give the letter another index")
+    raise FormulaError("an index is not letters and numbers", "give the letter another index")
 
 
 _INDEX_SIGNS = {"+": "plus", "-": "minus", "*": "star", "/": "over", "infty": "inf", "=": "eq", "->": "to"}

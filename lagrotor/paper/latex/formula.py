@@ -45,11 +45,10 @@ def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> R
         The left side of the row before, which the formula continues.
     """
     source = f"{lead} {latex}" if lead else latex
-    reader = Grammar(source, notation)
     try:
         row = boxes(source)
-        reader.letters = frozenset(_alone(row))
-        reader.indices = frozenset(b.name for box in all_boxes(row) for b in box.sub or () if b.kind == "letter")
+        lowered = frozenset(b.name for box in all_boxes(row) for b in box.sub or () if b.kind == "letter")
+        reader = Grammar(source, notation, frozenset(_alone(row)), lowered)
         statements = tuple(read_statements(reader, row))
     except FormulaError as stop:
         return Reading(stop=(stop.what, stop.help))

@@ -10,16 +10,7 @@ from itertools import pairwise
 from typing import Any
 
 from lagrotor.errors import InputError
-from lagrotor.paper.latex.boxes import (
-    Box,
-    FormulaError,
-    all_boxes,
-    boxes,
-    is_derivative,
-    is_printed_as_vector,
-    stem_of,
-    without_thin,
-)
+from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, is_derivative, is_printed_as_vector, stem_of
 
 
 @dataclass(frozen=True)
@@ -147,13 +138,12 @@ def has_kind(notation: Notation, kind: str, box: Box) -> bool:
 
 def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
     """Kinds and letters that a row of boxes suggests, with those of all that it holds."""
-    flat = without_thin(row)
-    for place, (box, after) in enumerate(pairwise([*flat, Box("thin", "", 0, 0)])):
+    for place, (box, after) in enumerate(pairwise([*row, Box("thin", "", 0, 0)])):
         if box.kind == "letter":
             yield from _of_letter(box, after)
-            yield from _of_value(flat, place)
+            yield from _of_value(row, place)
         elif box.kind == "big" and box.name in ("sum", "prod"):
-            below = without_thin(box.sub or [])
+            below = box.sub or []
             yield from (("indices", stem_of(each)) for each in below[:1] if each.kind == "letter")
         for held in (*box.parts, box.sub or [], box.sup or []):
             yield from _evidence(held)
@@ -164,7 +154,7 @@ def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
     after = [each for each in row[place + 1 : place + 3] if each.kind != "align"]
     if len(after) == 2 and after[0].name in ("=", ":=") and row[place].kind == "letter":
         closed = after[1].kind == "bracket" and after[1].closing != "."
-        inside = without_thin(after[1].parts[0]) if closed else after[1:]
+        inside = after[1].parts[0] if closed else after[1:]
         if len(inside) == 1 and inside[0].kind == "matrix" and inside[0].name != "vmatrix":
             columns = max(len(line.parts) for line in inside[0].parts[0])
             yield "matrices" if columns > 1 else "vectors", stem_of(row[place])
@@ -172,7 +162,7 @@ def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
 
 def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
     """Kinds that a letter and the box behind it suggest."""
-    power = without_thin(box.sup or [])
+    power = box.sup or []
     if box.name in ("e", "i", "j") and not (box.marks or box.style or box.primes or box.sub):
         letters = {each.name for each in all_boxes(power) if each.kind == "letter"}
         if box.name == "e" and letters:
@@ -192,7 +182,7 @@ def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
 
 def _is_argument(bracket: Box) -> bool:
     """Whether a bracket holds what only an argument is: one letter other than t, a list, a product; no sum and no number."""
-    content = without_thin(bracket.parts[0])
+    content = bracket.parts[0]
     names = {each.name for each in content if each.kind == "letter"}
     adds = any(each.kind in ("operator", "relation") and each.name not in ("/", "cdot") for each in content[1:])
     derivative = any(is_derivative(each) for each in content)

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip, without_thin
+from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
 from lagrotor.paper.latex.grammar import Grammar, is_unit
 from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, walk
 
@@ -52,11 +52,10 @@ def _pieces(row: list[Box]) -> list[list[Box]]:
     """Return the rows of a display, each with the rows that continue it; what stands beside them is a piece of its own."""
     lines = _system(row[0]) if row else None
     beside = strip(row[1:])
-    if lines is None or (beside and row[1].kind not in ("wide", "comma", "thin", "text")):
+    if lines is None or (beside and row[1].kind not in ("wide", "comma", "text")):
         return [row]
     pieces: list[list[Box]] = []
     for line in lines:
-        line = without_thin(line)
         while line and line[0].kind == "wide":
             line = line[1:]
         if not line:
@@ -104,14 +103,11 @@ def _continues(before: list[Box], line: list[Box]) -> bool:
         return False
     starts = first.kind == "relation" or (first.kind == "operator" and first.name in ("+", "-", "cdot", "times", "/"))
     if starts and _is_related(line) and first.kind != "relation":
-        raise FormulaError(
-            first.at, "whether a row continues the row before is open", "write a comma between statements"
-        )
+        raise FormulaError("whether a row continues the row before is open", "write a comma between statements")
     if starts and any(box.kind in ("text", "wide", "comma") for box in strip(before)):
-        why = "a row continues one of several statements"
-        raise FormulaError(first.at, why, "write each statement in its rows")
+        raise FormulaError("a row continues one of several statements", "write each statement in its rows")
     if not starts and not _is_related(line):
-        raise FormulaError(first.at, "a row has no relation", "begin it with the sign that joins it to the row before")
+        raise FormulaError("a row has no relation", "begin it with the sign that joins it to the row before")
     return starts
 
 
@@ -119,12 +115,10 @@ def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
     """Return a piece in parts between wide spaces, words, arrows and commas: the sign before each part, and its boxes."""
     parts: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
-        following = next((b for b in row[place + 1 :] if b.kind not in ("thin", "wide")), None)
+        following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
         if box.kind == "arrow" or (box.kind == "text" and not _is_side(row, place)):
             if box.kind == "text" and _DENYING.search(box.name):
-                raise FormulaError(
-                    box.at, f"{box.name}: the words deny what they join", "write each statement by itself"
-                )
+                raise FormulaError(f"{box.name}: the words deny what they join", "write each statement by itself")
             condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
             parts.append(("condition" if condition else box.kind, []))
         elif box.kind == "bracket" and box.name == "(" and _is_related(box.parts[0]) and not (box.sup or box.sub):
@@ -135,7 +129,7 @@ def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
             and following
             and row[place + 1].kind not in ("wide", "arrow", "text")
         ):
-            raise FormulaError(box.at, "a full stop stands within the formula", r"write \cdot for a product")
+            raise FormulaError("a full stop stands within the formula", r"write \cdot for a product")
         elif box.kind in ("wide", "comma"):
             before = strip(parts[-1][1])
             goes_on = before and before[-1].kind in ("operator", "relation")
@@ -160,7 +154,7 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
         if not part:
             continue
         if _is_related(part) and found and sign == "comma" and found[-1].kind == "expression":
-            raise FormulaError(part[0].at, "what stands before the comma has no relation", "write it for each letter")
+            raise FormulaError("what stands before the comma has no relation", "write it for each letter")
         if not _is_related(part) and found and sign in ("comma", "wide"):
             found[-1] = _listed(reader, found[-1], part, several)
         elif sign == "condition":
@@ -173,7 +167,7 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
 
 def _is_side(row: list[Box], place: int) -> bool:
     """Whether words are a whole side of a relation, or a unit behind a number."""
-    before = next((b for b in reversed(row[:place]) if b.kind != "thin"), None)
+    before = row[place - 1] if place else None
     after = row[place + 1] if place + 1 < len(row) else None
     if before is not None and before.kind == "number" and is_unit(row[place].name):
         return True
@@ -187,8 +181,9 @@ def _listed(reader: Grammar, last: PrintedStatement, part: list[Box], several: b
     """Return n = 1 with a further value as n = 1, 2. Raises FormulaError where what follows a comma is no value."""
     close = reader.source[max(part[0].at - 2, 0) : part[0].at]
     if part[0].kind == "number" and not several and re.fullmatch(r"\d,", close):
-        why = "whether the comma is in a number is open"
-        raise FormulaError(part[0].at - 1, why, "write {,} in the number, or a space behind the comma")
+        raise FormulaError(
+            "whether the comma is in a number is open", "write {,} in the number, or a space behind the comma"
+        )
     if (
         all(b.kind in _SIMPLE for b in part)
         and last.kind in ("equation", "range", "condition")
@@ -200,7 +195,7 @@ def _listed(reader: Grammar, last: PrintedStatement, part: list[Box], several: b
             ends = [part[:-1], part[-1:]] if len(part) > 1 and part[-1].kind == "dots" else [part]  # 1, 2...
             end = replace(end, node=Call("values", (*values, *(_side(reader, each) for each in ends))))
             return replace(last, sides=(first, end), kind="range")
-    raise FormulaError(part[0].at, "what follows the comma has no relation", "write it as a statement of its own")
+    raise FormulaError("what follows the comma has no relation", "write it as a statement of its own")
 
 
 def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
@@ -208,15 +203,15 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     sides = [strip(side) for side in parted(row, "relation")]
     relations = [box.name for box in row if box.kind == "relation"]
     if len(sides) > 2 and not sides[-1]:
-        raise FormulaError(row[-1].at, "a side of the relation is missing", "write it")
+        raise FormulaError("a side of the relation is missing", "write it")
     if len(sides) > 2 and len(sides[-1]) == 1 and sides[-1][0].kind == "dots":
         sides, relations = sides[:-1], relations[:-1]  # the chain goes on
     if len(sides) > 1 and not sides[0]:
-        raise FormulaError(row[0].at, "the left side is missing", "write what is equal, or join it to the row before")
+        raise FormulaError("the left side is missing", "write what is equal, or join it to the row before")
     read: list[Side] = []
     for place, side in enumerate(sides):
         if not side:
-            raise FormulaError(row[-1].at, "a side of the relation is missing", "write it")
+            raise FormulaError("a side of the relation is missing", "write it")
         _check_side(side)
         index = (
             len(side) == 1 and side[0].kind == "letter" and side[0].name in ("i", "j") and not side[0].sup and not place
@@ -234,12 +229,10 @@ def _check_kinds(sides: list[Side], row: list[Box]) -> None:
     """Raise FormulaError where a vector is equal to a number, or a differential stands on one side only."""
     nodes = [side.node for side in sides if not is_printed_zero(side.node) and side.node != Call("dots", ())]
     if len(set(map(is_vector, nodes))) > 1:
-        way = "declare the vectors in [notation], or mark them alike"
-        raise FormulaError(row[0].at, "a vector is equal to a number", way)
+        raise FormulaError("a vector is equal to a number", "declare the vectors in [notation], or mark them alike")
     degrees = {_degree(node) for node in nodes}
     if len(degrees) > 1:
-        way = "write the derivative, or both differentials"
-        raise FormulaError(row[0].at, "a differential stands on one side only", way)
+        raise FormulaError("a differential stands on one side only", "write the derivative, or both differentials")
 
 
 def _degree(node: Node) -> int:
@@ -260,18 +253,17 @@ def _check_side(side: list[Box]) -> None:
     plain = [b for b in side if b.kind == "letter" and not (b.sub or b.sup or b.marks or b.style)]
     name = "".join(box.name for box in plain)
     if 2 < len(side) == len(name) and name.isupper():
-        raise FormulaError(side[0].at, f"{name} is a word", r"write \mathrm for it, or \cdot")
+        raise FormulaError(f"{name} is a word", r"write \mathrm for it, or \cdot")
     if len(side) == 1 and side[0].kind == "bracket" and side[0].name == "[" and not (side[0].sub or side[0].sup):
         if len(side[0].parts[0]) > 1 or side[0].parts[0][0].kind != "matrix":
-            why = "what the square brackets mean is open"
-            raise FormulaError(side[0].at, why, "leave them out, or write what it is")
+            raise FormulaError("what the square brackets mean is open", "leave them out, or write what it is")
 
 
 def _side(reader: Grammar, row: list[Box]) -> Node:
     if len(row) == 1 and row[0].kind == "text":
         name = "".join(c if c.isalnum() else "_" for c in row[0].name).strip("_")
         if not re.match(r"[A-Za-z]\w*$", name) or _DENYING.search(row[0].name):
-            raise FormulaError(row[0].at, "words stand for a side", "give it a letter")
+            raise FormulaError("words stand for a side", "give it a letter")
         return Letter(name)
     return reader.expression(row)
 
