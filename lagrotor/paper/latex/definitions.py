@@ -13,22 +13,19 @@ _COUNTING = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\numberwithin"
 _COMMANDS = (*HEADINGS, r"\appendix")  # which may stand as environments, \begin{appendix}
 
 
-def _define(expander: Expander, name: str, macro: Macro, token: Token, everywhere: bool = False) -> bool:
+def _define(expander: Expander, name: str, macro: Macro, token: Token, everywhere: bool = False) -> None:
     """Define a name, unless its meaning is fixed here: headings, definitions, counters and files."""
     if name in expander.primitives and name not in _REPLACEABLE:
         expander.notes.append(f"{expander.place(token.at)}: {name} is defined anew: its standard meaning is taken")
     elif name.startswith("\\") and name not in HEADINGS:
         expander.define(name, macro, everywhere)
-    return True
 
 
-def _newcommand(expander: Expander, token: Token) -> bool:
+def _newcommand(expander: Expander, token: Token) -> None:
     expander.star()
-    name = expander.name()
-    macro = Macro(head=_head(expander), body=tuple(expander.argument()))
-    if token.text == r"\providecommand" and name in (*expander.macros, *expander.primitives):
-        return True
-    return _define(expander, name, macro, token)
+    name, head, body = expander.name(), _head(expander), expander.argument()
+    if token.text != r"\providecommand" or name not in (*expander.macros, *expander.primitives):
+        _define(expander, name, Macro(tuple(body), head), token)
 
 
 def _head(expander: Expander) -> tuple[Parameter, ...]:
@@ -40,12 +37,12 @@ def _head(expander: Expander) -> tuple[Parameter, ...]:
     return tuple(head)
 
 
-def _document_command(expander: Expander, token: Token) -> bool:
+def _document_command(expander: Expander, token: Token) -> None:
     name, spec, body = expander.name(), latex_of(expander.argument()), expander.argument()
-    return _define(expander, name, Macro(tuple(body), head_of(spec)), token)
+    _define(expander, name, Macro(tuple(body), head_of(spec)), token)
 
 
-def _def(expander: Expander, token: Token) -> bool:
+def _def(expander: Expander, token: Token) -> None:
     target = _next_name(expander)
     marks: list[Token] = []
     while (part := expander.next()) is not None and part.kind != "open":
@@ -61,11 +58,11 @@ def _def(expander: Expander, token: Token) -> bool:
     # \edef expands its body at once, and no macro of a formula reads powers as marks: such a name has no meaning
     if token.text in (r"\edef", r"\xdef") or any(mark.kind == "script" for mark in marks):
         expander.define(target.text, None, everywhere=True)
-        return True
-    return _define(expander, target.text, Macro(tuple(body), tuple(head)), token, token.text == r"\gdef")
+    else:
+        _define(expander, target.text, Macro(tuple(body), tuple(head)), token, token.text == r"\gdef")
 
 
-def _let(expander: Expander, token: Token) -> bool:
+def _let(expander: Expander, token: Token) -> None:
     target, source = _next_name(expander), _next_name(expander)
     if source.text.startswith("="):
         expander.push(plain(source.text[1:].lstrip(), source.at))
@@ -73,19 +70,17 @@ def _let(expander: Expander, token: Token) -> bool:
     if source.kind == "text":
         expander.push(plain(source.text[1:], source.at + 1))
         source = Token("text", source.text[:1], source.at)
-    if target.text == source.text:
-        return True
     same = source._replace(kind="primitive" if source.kind == "command" else source.kind)
-    macro = expander.macros.get(source.text) or Macro((same,))
-    return _define(expander, target.text, macro, token, token.text == r"\glet")
+    if target.text != source.text:
+        macro = expander.macros.get(source.text) or Macro((same,))
+        _define(expander, target.text, macro, token, token.text == r"\glet")
 
 
-def _global(expander: Expander, token: Token) -> bool:
+def _global(expander: Expander, token: Token) -> None:
     r"""\global\def is \gdef."""
     after = _next_name(expander)
     name = {r"\def": r"\gdef", r"\edef": r"\xdef", r"\let": r"\glet"}.get(after.text, after.text)
     expander.push((Token(after.kind, name, after.at),))
-    return True
 
 
 def _next_name(expander: Expander) -> Token:
@@ -94,59 +89,51 @@ def _next_name(expander: Expander) -> Token:
     return expander.next() or Token("text", "", 0)
 
 
-def _operator(expander: Expander, token: Token) -> bool:
+def _operator(expander: Expander, token: Token) -> None:
     star = "*" if expander.star() else ""
     name, body = expander.name(), latex_of(expander.argument())
-    return _define(expander, name, Macro.of(rf"\operatorname{star}{{{body}}}"), token)
+    _define(expander, name, Macro.of(rf"\operatorname{star}{{{body}}}"), token)
 
 
-def _pair(expander: Expander, token: Token) -> bool:
+def _pair(expander: Expander, token: Token) -> None:
     r"""\DeclarePairedDelimiter{\abs}{|}{|}: * and [\big] may come before the argument."""
     name, left, right = expander.name(), expander.name(), expander.name()
-    return _define(expander, name, Macro.of(rf"\left{left}#3\right{right}", "som"), token)
+    _define(expander, name, Macro.of(rf"\left{left}#3\right{right}", "som"), token)
 
 
-def _new_environment(expander: Expander, token: Token) -> bool:
+def _new_environment(expander: Expander, token: Token) -> None:
     r"""\newenvironment{x} defines \x and \endx, as LaTeX does."""
     expander.star()
-    name = expander.name()
-    head = head_of(latex_of(expander.argument())) if "Document" in token.text else _head(expander)
+    name, head = expander.name(), _head(expander)
     begin, end = expander.argument(), expander.argument()
     expander.define(rf"\{name}", Macro(tuple(begin), head))
     expander.define(rf"\end{name}", Macro(tuple(end)))
-    return True
 
 
-def _new_theorem(expander: Expander, token: Token) -> bool:
+def _new_theorem(expander: Expander, token: Token) -> None:
     r"""\newtheorem{name}[equation]{Title}: an environment that steps the counter of equations."""
     expander.star()
     name, shared = expander.name(), expander.optional()
-    expander.argument()
-    expander.optional()
     if latex_of(shared or ()).strip() == "equation":
         expander.define(rf"\{name}", Macro.of(r"\stepcounter{equation}"))
         expander.define(rf"\end{name}", Macro(()))
-    return True
 
 
-def _begin(expander: Expander, token: Token) -> bool:
+def _begin(expander: Expander, token: Token) -> None:
     name = expander.name()
     if name != "document":
         expander.begin_group(name)
-    if _is_command(expander, token, name):
-        expander.push((Token("command", rf"\{name}", token.at),))
-    else:
-        expander.push((Token("begin", rf"\begin{{{name}}}", token.at),))
-    return True
+    command = _is_command(expander, token, name)
+    begin = Token("command", rf"\{name}", token.at) if command else Token("begin", rf"\begin{{{name}}}", token.at)
+    expander.push((begin,))
 
 
-def _end(expander: Expander, token: Token) -> bool:
+def _end(expander: Expander, token: Token) -> None:
     name = expander.name()
     end = Token("end", rf"\end{{{name}}}", token.at)
     if _is_command(expander, token, name):
         end = Token("command", rf"\end{name}" if rf"\end{name}" in expander.macros else r"\relax", token.at)
     expander.push((end, Token("scope", name, token.at)))
-    return True
 
 
 def _is_command(expander: Expander, token: Token, name: str) -> bool:
@@ -155,22 +142,17 @@ def _is_command(expander: Expander, token: Token, name: str) -> bool:
     return (rf"\{name}" in macros and rf"\end{name}" in macros) or rf"\{name}" in _COMMANDS
 
 
-def _display(expander: Expander, token: Token) -> bool:
+def _display(expander: Expander, token: Token) -> None:
     r"""\align and \endalign are \begin{align} and \end{align}, whatever the source has defined these to be."""
     name = token.text[1:]
     verb, name = (r"\end", name[3:]) if name.startswith("end") else (r"\begin", name)
     expander.push((Token("primitive", verb, token.at), *tokenize(f"{{{name}}}", token.at)))
-    return True
 
 
-def _condition(expander: Expander, token: Token) -> bool:
-    if (
-        token.text == r"\iftrue"
-        or (token.text == r"\ifmmode" and expander.in_formula)
-        or ((end := expander.skip((r"\else", r"\fi"), token)) is not None and end.text == r"\else")
-    ):
+def _condition(expander: Expander, token: Token) -> None:
+    holds = token.text == r"\iftrue" or (token.text == r"\ifmmode" and expander.in_formula)
+    if holds or ((end := expander.skip((r"\else", r"\fi"), token)) is not None and end.text == r"\else"):
         expander.branches += 1
-    return True
 
 
 def _else(expander: Expander, token: Token) -> bool:
@@ -182,14 +164,13 @@ def _else(expander: Expander, token: Token) -> bool:
     return True
 
 
-def _new_if(expander: Expander, token: Token) -> bool:
+def _new_if(expander: Expander, token: Token) -> None:
     r"""\newif\ifx defines \ifx to be \iffalse, and \xtrue and \xfalse to change that."""
     name = _next_name(expander).text
     if is_condition(name):
         expander.define(name, Macro((Token("primitive", r"\iffalse", token.at),)))
         for value in ("true", "false"):
             expander.define(rf"\{name[3:]}{value}", Macro.of(rf"\let{name}\if{value}"))
-    return True
 
 
 def _choice(expander: Expander, token: Token) -> bool:
@@ -200,14 +181,13 @@ def _choice(expander: Expander, token: Token) -> bool:
     return not expander.in_formula
 
 
-def _if_value(expander: Expander, token: Token) -> bool:
+def _if_value(expander: Expander, token: Token) -> None:
     r"""\IfValueTF, \IfNoValueT, \IfBooleanTF: of an argument of \NewDocumentCommand."""
     tested = expander.name()
     holds = tested == "*" if "Boolean" in token.text else (tested == r"\NoValue") == ("NoValue" in token.text)
     ending = "TF" if token.text.endswith("TF") else token.text[-1]
     branches = {letter: expander.argument() for letter in ending}
     expander.push(branches.get("T" if holds else "F", ()))
-    return True
 
 
 def _text(expander: Expander, token: Token) -> bool:
@@ -216,11 +196,9 @@ def _text(expander: Expander, token: Token) -> bool:
         return False
     inside = expander.argument()
     formula = re.fullmatch(r"\{?\s*(\\boldmath)?\s*\{?\s*\$([^$]*)\$\s*\}*", latex_of(inside).strip())
-    if formula is not None:
-        expander.push(tokenize(("\\boldsymbol{" if formula[1] else "{") + formula[2] + "}", token.at))
-    else:
-        words = (Token("open", "{", token.at), *inside, Token("close", "}", token.at))
-        expander.push((Token("word", r"\text", token.at), *words))
+    words = (Token("open", "{", token.at), *inside, Token("close", "}", token.at))
+    shown = ("\\boldsymbol{" if formula[1] else "{") + formula[2] + "}" if formula else ""
+    expander.push(tokenize(shown, token.at) if formula else (Token("word", r"\text", token.at), *words))
     return True
 
 
@@ -230,21 +208,18 @@ def _quantity(expander: Expander, token: Token) -> bool:
         return False
     expander.optional()
     text = expander.name()
-    expander.push(
-        tokenize(packages.number_print(text) if token.text == r"\num" else packages.unit_print(text), token.at)
-    )
+    expander.push(tokenize((packages.number_print if token.text == r"\num" else packages.unit_print)(text), token.at))
     return True
 
 
-def _use(expander: Expander, token: Token) -> bool:
+def _use(expander: Expander, token: Token) -> None:
     r"""\usepackage: the commands known here; of a package beside the source, its definitions, and nothing in it is expanded."""
     expander.optional()
     for name in map(str.strip, expander.name().split(",")):
         known = name in packages.TABLE or name in packages.DISTRIBUTED or name in expander.loaded
         expander.load(name)
-        if known or (path := expander.file_beside(name, (".sty",))) is None:
-            continue
-        for each in expander.tokens_apart(path):
+        path = None if known else expander.file_beside(name, (".sty",))
+        for each in expander.tokens_apart(path) if path else ():
             inside = expander.group(each.at) if each.kind == "open" else (each,)
             if any(part.text in _COUNTING for part in inside):
                 expander.doubt = f"{name}.sty may number equations in a way of its own"
@@ -252,11 +227,9 @@ def _use(expander: Expander, token: Token) -> bool:
                 DEFINITIONS[each.text](expander, each)
             elif each.kind == "command" and is_condition(each.text):
                 expander.leave_out(each)
-    expander.optional()
-    return True
 
 
-def _input(expander: Expander, token: Token) -> bool:
+def _input(expander: Expander, token: Token) -> None:
     expander.skip_spaces()
     after = expander.peek()
     if token.text == r"\input" and after is not None and after.kind == "text":
@@ -265,54 +238,48 @@ def _input(expander: Expander, token: Token) -> bool:
     else:
         name = expander.name()
     expander.read_file(name, token.at)
-    return True
 
 
-def _ignored(expander: Expander, token: Token) -> bool:
-    return True
+def _end_input(expander: Expander, token: Token) -> None:
+    expander.end_file(token.at)
 
 
-def _with_argument(expander: Expander, token: Token) -> bool:
+def _with_argument(expander: Expander, token: Token) -> None:
     r"""Leave out the argument of \titleformat, \tikzset …"""
     expander.star()
     expander.argument()
-    return True
+
+
+def _commands(names: str, primitive: Primitive) -> dict[str, Primitive]:
+    return dict.fromkeys((rf"\{name}" for name in names.split()), primitive)
 
 
 DEFINITIONS: dict[str, Primitive] = {
-    **dict.fromkeys(
-        (r"\newcommand", r"\renewcommand", r"\providecommand", r"\DeclareRobustCommand", r"\newrobustcmd"), _newcommand
-    ),
-    **dict.fromkeys((r"\def", r"\gdef", r"\edef", r"\xdef"), _def),
-    **dict.fromkeys((r"\let", r"\glet"), _let),
-    **dict.fromkeys((r"\newenvironment", r"\renewenvironment", r"\NewDocumentEnvironment"), _new_environment),
-    **dict.fromkeys((r"\usepackage", r"\RequirePackage"), _use),
-    **dict.fromkeys((r"\input", r"\include", r"\subfile", r"\@input"), _input),
-    **dict.fromkeys((r"\NewDocumentCommand", r"\RenewDocumentCommand", r"\DeclareDocumentCommand"), _document_command),
-    r"\DeclarePairedDelimiter": _pair,
-    r"\DeclareMathOperator": _operator,
-    r"\newtheorem": _new_theorem,
-    r"\global": _global,
-    r"\newif": _new_if,
+    **_commands("newcommand renewcommand providecommand DeclareRobustCommand newrobustcmd", _newcommand),
+    **_commands("NewDocumentCommand RenewDocumentCommand DeclareDocumentCommand", _document_command),
+    **_commands("def gdef edef xdef", _def),
+    **_commands("let glet", _let),
+    **_commands("global", _global),
+    **_commands("newenvironment renewenvironment", _new_environment),
+    **_commands("newtheorem", _new_theorem),
+    **_commands("newif", _new_if),
+    **_commands("DeclareMathOperator", _operator),
+    **_commands("DeclarePairedDelimiter", _pair),
+    **_commands("usepackage RequirePackage", _use),
+    **_commands("input include subfile @input", _input),
 }
-_REPLACEABLE = dict[str, Primitive](
-    {
-        **dict.fromkeys((r"\mbox", r"\hbox", r"\textnormal", r"\textrm", r"\textit", r"\text"), _text),
-        **dict.fromkeys((r"\num", r"\unit", r"\si"), _quantity),
-    }
-)
-_IGNORED = r"\long \protected \outer \relax \protect \expandafter \makeatletter \makeatother \xspace"
+_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text) | _commands("num unit si", _quantity)
 PRIMITIVES: dict[str, Primitive] = {
     **DEFINITIONS,
     **_REPLACEABLE,
-    **{rf"\{end}{name}": _display for name in (*DISPLAYS, "subequations") for end in ("", "end")},
-    **dict.fromkeys((r"\iftrue", r"\iffalse", r"\ifmmode"), _condition),
-    **dict.fromkeys((r"\else", r"\fi"), _else),
+    **_commands(" ".join(f"{name} end{name}" for name in (*DISPLAYS, "subequations")), _display),
+    **_commands("begin", _begin),
+    **_commands("end", _end),
+    **_commands("iftrue iffalse ifmmode", _condition),
+    **_commands("else fi", _else),
     **dict.fromkeys(CHOICES, _choice),
     **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
-    **dict.fromkeys(_IGNORED.split(), _ignored),
-    **dict.fromkeys((r"\titleformat", r"\titlespacing", r"\tikzset", r"\pgfkeys", r"\pgfplotsset"), _with_argument),
-    r"\begin": _begin,
-    r"\end": _end,
-    r"\endinput": lambda expander, token: expander.end_file(token.at) or True,
+    **_commands("long protected outer relax protect expandafter makeatletter makeatother xspace", lambda *_: None),
+    **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _with_argument),
+    **_commands("endinput", _end_input),
 }

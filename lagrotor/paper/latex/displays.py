@@ -1,9 +1,8 @@
 r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
 
 import re
-from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
@@ -91,11 +90,12 @@ class _Row:
     """One row of a display as it is read."""
 
     numbered: bool
+    stepped: bool  # whether the counter was stepped as the display began
     tokens: list[Token] = field(default_factory=list)
-    tag: str = ""
     labels: list[str] = field(default_factory=list)
+    tag: str = ""
     number: str = ""
-    stepped: bool = False
+    latex: str = ""
 
 
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
@@ -105,41 +105,7 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
         walker.read()
     except RecursionError:
         raise InputError(f"{file or 'the source'}: commands are nested too deeply: write them in parts") from None
-    if file is not None:
-        _number_by_aux(walker.source, file, walker.expander.doubt)
     return walker.source
-
-
-def _number_by_aux(source: Source, file: Path, doubt: str) -> None:
-    """Give each equation with a label the number that LaTeX wrote beside the source; say which numbers are not certain."""
-    numbers, name = aux_numbers(file), file.with_suffix(".aux").name
-    labels = Counter(each.label for each in source.equations if each.label and each.number)
-    others = [
-        each
-        for each in source.equations
-        if labels[each.label] == 1 and numbers.get(each.label, each.number) != each.number
-    ]
-    if others:
-        first, more = others[0], f", as {len(others) - 1} more differ" if others[1:] else ""
-        said = f"{first.label} is ({numbers[first.label]}) in {name} and ({first.number}) by the source{more}"
-        source.notes.append(f"{said}: the first is taken, and equations without a label are counted")
-    if numbers and (missing := [label for label in labels if label not in numbers]):
-        source.notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
-    elif doubt and not numbers and any(each.number for each in source.equations):
-        source.notes.append(
-            f"{doubt}, and the numbers may be others: put {name}, which LaTeX writes, beside the source"
-        )
-    ids: set[str] = set()
-    words = dict(source.words)
-    for place, each in enumerate(source.equations):
-        number = numbers[each.label] if each in others else each.number
-        identifier = number if each in others else each.id
-        while identifier in ids:
-            identifier += "'"
-        ids.add(identifier)
-        source.words[identifier] = words[each.id]
-        source.equations[place] = replace(each, number=number, id=identifier)
-        source.labels |= {each.label: number} if each in others else {}
 
 
 class _Walker:
@@ -150,17 +116,17 @@ class _Walker:
         self.counters = Counters()
         self.expander = Expander(text, file, PRIMITIVES | self.counters.primitives())
         self.counters.begin(self.expander, "article")
+        self.aux, self.aux_name = ({}, "") if file is None else (aux_numbers(file), file.with_suffix(".aux").name)
+        self.others: list[str] = []  # labels whose number in the .aux is another one, in words
         self.whole = r"\documentclass" in text
         self.body = not self.whole
         self.section, self.starred, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0  # the last number, and how many displays without one came since
-        self.parent = ""  # of subequations
         self.outer: list[tuple[int, Macro | None]] = []  # subequations: the value of the counter, and its print
         self.cited: list[str] = []  # labels named since the last display
         self.words = ""  # of the paragraph, since the last display
         self.neighbours: list[str] = []  # displays to which the next words belong
-        self.ids: set[str] = set()
-        self.ended = ""  # a display whose end was missing: what ends it later ends nothing
+        self.ended = ""  # the end of a display that was missing: it ends nothing later
         self.conditions = 0  # those that the preamble has and that are not decided
         self.passed: dict[str, int] = {}  # environments that are not known: their place
 
@@ -172,104 +138,113 @@ class _Walker:
             self._take(token)
         source, expander = self.source, self.expander
         source.faults = [(*expander.line(at), said) for at, said in sorted(expander.faults)]
+        source.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in expander.loaded)
         source.notes += dict.fromkeys(expander.notes)
         for name in dict.fromkeys(name for name, _ in expander.undecided):
-            first, *others = (place for each, place in expander.undecided if each == name)
-            more = f", nor in {len(others)} more places" if others else ""
+            first, *more = (place for each, place in expander.undecided if each == name)
+            others = f", nor in {len(more)} more places" if more else ""
             helps = r"both branches are left out; write \iftrue or \iffalse"
-            source.notes.append(f"{first}: {name} is not decided{more}: {helps}")
-        if self.passed or self.conditions < len(expander.undecided):
-            expander.doubt = expander.doubt or "a part of the source is left out"
-        source.notes += [
-            rf"{expander.place(at)}: \begin{{{name}}} is not known, and its formula is passed over: write equation, or define it"
-            rf" by \newenvironment{{{name}}}"
-            for name, at in self.passed.items()
-        ]
-        source.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in expander.loaded)
+            source.notes.append(f"{first}: {name} is not decided{others}: {helps}")
+        for name, at in self.passed.items():
+            said = rf"{expander.place(at)}: \begin{{{name}}} is not known, and its formula is passed over"
+            source.notes.append(rf"{said}: write equation, or define it by \newenvironment{{{name}}}")
+        self._note_numbers()
+
+    def _note_numbers(self) -> None:
+        """Say which numbers are not certain."""
+        name, notes = self.aux_name, self.source.notes
+        left_out = self.passed or self.conditions < len(self.expander.undecided)
+        doubt = self.expander.doubt or ("a part of the source is left out" if left_out else "")
+        missing = [label for label in self.source.labels if self.aux and label not in self.aux]
+        if self.others:
+            more = f", as {len(self.others) - 1} more differ" if self.others[1:] else ""
+            notes.append(f"{self.others[0]}{more}: the first is taken, and equations without a label are counted")
+        if missing:
+            notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
+        elif doubt and name and not self.aux and any(each.number for each in self.source.equations):
+            notes.append(f"{doubt}, and the numbers may be others: put {name}, which LaTeX writes, beside the source")
 
     def _take(self, token: Token) -> None:
         if token.kind == "text":
             self._text(token.text)
+        elif token.text == r"\[":
+            self._display("displaymath", token, r"\]")
+        elif token.text == r"\(":
+            self._inline(token, r"\)")
         elif token.kind == "command":
             self._command(token)
         elif token.kind == "begin":
             self._begin(token)
-        elif token.kind == "math" and self.body:
-            if token.text == "$$":
-                self._display("displaymath", token, "$$")
-            else:
-                self._inline("$", token)
-        elif token.kind == "end":
-            if token.text == r"\end{subequations}":
-                self._end_subequations()
-            elif token.text == self.ended:
-                self.ended = ""
-            elif token.text.replace(r"\end", r"\begin") in _BEGINS:
-                self.expander.fault(token.at, f"{token.text} ends nothing that has begun")
+        elif token.kind == "math" and not self.body:
+            pass
+        elif token.text == "$$":
+            self._display("displaymath", token, "$$")
+        elif token.text == "$":
+            self._inline(token, "$")
+        elif token.text == r"\end{subequations}" and self.outer:
+            self.counters.values["equation"], printed = self.outer.pop()
+            self.expander.define(r"\theequation", printed)
+        elif token.text.replace(r"\end", r"\begin") in _BEGINS:
+            self._stray(token, f"{token.text} ends nothing that has begun")
         elif token.kind == "script" and self.body and self.expander.scopes:
             name = self.expander.scopes[-1][0]
             if name != "{" and not _NO_DISPLAY.search(name):
                 self.passed.setdefault(name, token.at)
 
+    def _stray(self, token: Token, fault: str) -> None:
+        """Keep a fault, unless the token ends a display that is known to be without end."""
+        if token.text != self.ended:
+            self.expander.fault(token.at, fault)
+        self.ended = ""
+
     def _command(self, token: Token) -> None:
-        name = token.text[1:]
-        if token.text in HEADINGS and self.body:
-            if (after := self.expander.peek()) is None or after.kind != "close":
-                star = self.expander.star()
-                self.expander.optional()
-                self._section(name, latex_of(self.expander.expand(self.expander.argument())), star)
-        elif name == "label":
-            label = self.expander.name()
-            if self.outer:
-                self.source.labels[label] = self.parent
-        elif name == "title":
-            self.expander.optional()
-            self.source.title = plain_heading(self._argument()) or self.source.title
-        elif name == "author":
-            self.expander.optional()
-            self.source.authors += names_of_authors(self._argument())
-        elif name == "[":
-            self._display("displaymath", token, r"\]")
-        elif name == "(":
-            self._inline(r"\)", token)
-        elif name in _FAULTS and self.body:
-            if token.text == self.ended:
-                self.ended = ""
+        name, expander = token.text[1:], self.expander
+        if token.text in HEADINGS and self.body and not ((after := expander.peek()) and after.kind == "close"):
+            star = expander.star()
+            expander.optional()
+            self._section(name, self._argument(), star)
+        elif name in ("title", "author"):
+            expander.optional()
+            text = self._argument()
+            if name == "title":
+                self.source.title = plain_heading(text) or self.source.title
             else:
-                self.expander.fault(token.at, _FAULTS[name])
+                self.source.authors += names_of_authors(text)
+        elif name in _FAULTS and self.body:
+            self._stray(token, _FAULTS[name])
+        elif name == "label":
+            label = expander.name()
+            if self.outer:
+                self.source.labels[label] = self.aux.get(label, latex_of(expander.macros[r"\theparentequation"].body))
         elif name == "appendix":
-            self.counters.begin_appendix(self.expander, self.expander.star())
+            self.counters.begin_appendix(expander, expander.star())
         elif name in ("frontmatter", "mainmatter", "backmatter"):
             self.numbered_chapters = name == "mainmatter"
-        elif name == "mathtoolsset" and "showonlyrefs" in self.expander.name():
-            self.expander.doubt = "showonlyrefs of mathtools withdraws numbers"
+        elif name == "mathtoolsset" and "showonlyrefs" in expander.name():
+            expander.doubt = "showonlyrefs of mathtools withdraws numbers"
         elif token.text in _REFERENCES:
-            self.cited += (label.strip() for label in self.expander.name().split(","))
+            self.cited += (label.strip() for label in expander.name().split(","))
 
     def _argument(self) -> str:
         return latex_of(self.expander.expand(self.expander.argument()))
 
     def _begin(self, token: Token) -> None:
         name = token.text[7:-1]
+        kind, end = name.rstrip("*"), rf"\end{{{name}}}"
         if name == "document":
             self.body, self.conditions = True, len(self.expander.undecided)
-        elif not self.body:
-            pass
-        elif name == "subequations":
+        elif name == "subequations" and self.body:
             self._begin_subequations()
-        elif name == "empheq":
+        elif name == "empheq" and self.body:
             self.expander.optional()
             inner = self.expander.name().partition("=")[0]
-            self._display(inner.rstrip("*"), token, r"\end{empheq}", inner.endswith("*"))
-        elif token.text in _BEGINS:
-            kind = name.rstrip("*")
+            self._display(inner.rstrip("*"), token, end, inner.endswith("*"))
+        elif token.text in _BEGINS and self.body:
             if kind in _WITH_ARGUMENT:
                 self.expander.optional()
                 self.expander.argument()
-            self._display(kind, token, rf"\end{{{name}}}", name.endswith("*"))
-        elif name == "math":
-            self._inline(r"\end{math}", token)
-        elif name.rstrip("*") in _REFUSED:
+            self._display(kind, token, end, name != kind)
+        elif kind in _REFUSED:
             self.passed.setdefault(name, token.at)
 
     def _begin_subequations(self) -> None:
@@ -277,15 +252,9 @@ class _Walker:
         counters, expander = self.counters, self.expander
         counters.step("equation")
         self.outer.append((counters.values["equation"], expander.macros.get(r"\theequation")))
-        self.parent = counters.printed(expander, "equation")
-        expander.define(r"\theparentequation", Macro.of(self.parent))
+        expander.define(r"\theparentequation", Macro.of(counters.printed(expander, "equation")))
         expander.define(r"\theequation", Macro.of(r"\theparentequation\alph{equation}"))
         counters.values["equation"] = 0
-
-    def _end_subequations(self) -> None:
-        if self.outer:
-            self.counters.values["equation"], printed = self.outer.pop()
-            self.expander.define(r"\theequation", printed)
 
     def _text(self, text: str) -> None:
         """Give the words of a paragraph to the display before them and to the one behind."""
@@ -293,8 +262,7 @@ class _Walker:
         for display in self.neighbours:
             self.source.words[display] += first
         self.words = others[-1] if others else self.words + first
-        if others:
-            self.neighbours = []
+        self.neighbours = [] if others else self.neighbours
 
     def _section(self, level: str, heading: str, star: bool) -> None:
         title = plain_heading(heading)
@@ -314,7 +282,7 @@ class _Walker:
 
     # ---- formulas
 
-    def _inline(self, end: str, begin: Token) -> None:
+    def _inline(self, begin: Token, end: str) -> None:
         inside: list[Token] = []
         braces = 0
         self.expander.in_formula = True
@@ -323,42 +291,43 @@ class _Walker:
                 break
             if token.text in _NO_FORMULA or token.text in _BEGINS or ends_paragraph(token):
                 self.expander.fault(begin.at, f"{begin.text} is not closed in its paragraph")
-                self.expander.in_formula = False
-                return self.expander.push((token,))
+                self.expander.push((token,))
+                inside = []
+                break
             braces += BRACES.get(token.kind, 0)
             inside.append(token)
         self.expander.in_formula = False
-        latex = latex_of(inside).strip()
-        self.source.inline.setdefault(latex, self.section)
-        return self._text(f" ${latex}$ ")
+        if latex := latex_of(inside).strip():
+            self.source.inline.setdefault(latex, self.section)
+            self._text(f" ${latex}$ ")
 
     def _display(self, kind: str, token: Token, end: str, starred: bool = False) -> None:
         """Read a display row by row, each of which gets its number as it ends."""
         by_rows = kind in _ROWS
         numbered = not starred and kind != "displaymath"
-        rows = [_Row(numbered)]
-        if numbered and not by_rows:
+        rows = [_Row(numbered, numbered and not by_rows)]
+        if rows[0].stepped:
             self.counters.step("equation")
-            rows[0].stepped = True
         depth = braces = 0
         self.expander.in_formula = True
         for part in self._inside(token, end):
             depth += _NESTING.get(part.kind, 0)
             braces += BRACES.get(part.kind, 0)
-            row = rows[-1]
-            if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or part.text in _BETWEEN):
+            row, between = rows[-1], part.text in _BETWEEN
+            if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or between):
                 self._pass_end(part)
-                if by_rows and (part.text not in _BETWEEN or _has_text(row.tokens)):
-                    self._finish(row, by_rows)
-                    rows.append(_Row(numbered))
-                elif part.text not in _BETWEEN:
+                if by_rows and not (between and _is_empty(row)):
+                    self._finish(row)
+                    rows.append(_Row(numbered, False))
+                elif not between:
                     row.tokens.append(part)
             elif part.kind != "command" or not self._sets_number(part, row):
                 row.tokens.append(part)
         self.expander.in_formula = False
-        self._finish(rows[-1], by_rows)
-        if end == "$$" and not rows[-1].tag:
-            self._number_behind(rows[-1])
+        self._finish(rows[-1])
+        after = self.expander.peek()
+        if end == "$$" and not self.whole and after is not None and not rows[0].tag:  # Markdown: $$ … $$ (3)
+            rows[0].number = (re.match(r"(?:\s*\((\w[\w.]*)\))?", after.text) or [""])[1] or ""
         self._keep(rows, kind, token)
 
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
@@ -381,8 +350,7 @@ class _Walker:
             braces += BRACES.get(part.kind, 0)
             yield part
         self.ended = end
-        kind = "ended" if begin.kind == "begin" else "closed"
-        return self.expander.fault(begin.at, f"{begin.text} is not {kind}")
+        return self.expander.fault(begin.at, f"{begin.text} is not {'ended' if begin.kind == 'begin' else 'closed'}")
 
     def _pass_end(self, part: Token) -> None:
         r"""Take the star and the space behind \\, the text of \intertext."""
@@ -396,143 +364,109 @@ class _Walker:
     def _sets_number(self, part: Token, row: _Row) -> bool:
         """Take a command that says something of the number of a row only; return False for another one."""
         name, expander = part.text, self.expander
-        if name in (r"\tag", r"\eqno", r"\leqno"):
-            self._withdraw(row)
-            if name == r"\tag":
-                expander.star()
-                row.tag = plain_number(re.sub(r"\\(?:eq)?ref\{([^{}]*)\}", self._number_of, self._argument()))
-            else:
-                shown = expander.argument()
-                row.tag = plain_number(
-                    latex_of(shown) + (latex_of((expander.next() or part,)) if latex_of(shown) == "(" else "")
-                )
+        if name in (r"\tag", r"\eqno", r"\leqno", *_NO_NUMBER):
+            self.counters.values["equation"] -= row.stepped
+            row.stepped = False
+        if name == r"\tag":
+            expander.star()
+            row.tag = plain_number(re.sub(r"\\(?:eq)?ref\{([^{}]*)\}", self._number_of, self._argument()))
+        elif name in (r"\eqno", r"\leqno"):
+            row.tag = plain_number(latex_of(expander.delimited("(", ")") or expander.argument()))
         elif name in _NO_NUMBER:
-            self._withdraw(row)
             row.numbered = False
         elif name in (r"\yesnumber", r"\IEEEyesnumber"):
             row.numbered = True
         elif name == r"\label":
             row.labels.append(expander.name())
-        elif name == r"\displaybreak":
-            expander.optional()
-        elif name in (r"\raisetag", r"\noalign"):
-            expander.argument()
         else:
-            return name == r"\allowdisplaybreaks"
+            return False
         return True
 
     def _number_of(self, label: re.Match[str]) -> str:
         return self.source.labels.get(label[1], "")
 
-    def _finish(self, row: _Row, by_rows: bool) -> None:
+    def _finish(self, row: _Row) -> None:
         """Give a row that has ended its number."""
-        if row.tag:
-            row.number = row.tag
-        elif row.numbered:
-            if by_rows:
+        if row.numbered and not row.tag:
+            if not row.stepped:
                 self.counters.step("equation")
             row.number = self.counters.printed(self.expander, "equation")
-
-    def _withdraw(self, row: _Row) -> None:
-        """Take back the number that a display took as it began."""
-        if row.stepped:
-            self.counters.values["equation"] -= 1
-            row.stepped = False
-
-    def _number_behind(self, row: _Row) -> None:
-        """Take a number in brackets behind $$ … $$, as Markdown has it."""
-        after = self.expander.peek()
-        if not self.whole and after is not None and after.kind == "text":
-            match = re.match(r"\s*\((\w[\w.]*)\)", after.text)
-            row.number = match[1] if match else ""
+        else:
+            row.number = row.tag
 
     # ---- equations
 
     def _keep(self, rows: list[_Row], kind: str, token: Token) -> None:
         """Keep the equations of a display: rows that continue the one before are joined with it."""
-        known = len(self.source.equations)
-        group: list[_Row] = []
-        sources: list[str] = []
-        previous = ""
+        groups: list[list[_Row]] = []
         for row, after in pairwise(rows):
-            if kind in _PAIRS + ("gather",) and not row.number:  # amsmath keeps a label until a row has a number
+            if kind in (*_PAIRS, "gather") and not row.number:  # amsmath keeps a label until a row has a number
                 row.labels, after.labels = [], row.labels + after.labels
         for row in rows:
-            source = " ".join(latex_of(row.tokens).split())
-            self.source.labels |= dict.fromkeys(row.labels if row.number else (), row.number)
-            if not source.replace("&", "").strip():
-                continue
-            if group and self._continues(group, row, source):
-                group.append(row)
-                sources.append(source)
-                continue
-            if group:
-                previous = self._one(group, sources, kind, token, previous)
-            group, sources = [row], [source]
-        if group:
-            self._one(group, sources, kind, token, previous)
+            for label in row.labels if row.number else ():
+                number = self.aux.get(label, row.number)
+                if number != row.number:
+                    self.others.append(f"{label} is ({number}) in {self.aux_name} and ({row.number}) by the source")
+                self.source.labels[label] = row.number = number
+            row.latex = " ".join(latex_of(row.tokens).split())
+            if groups and not _is_empty(row) and _continues(groups[-1], row):
+                groups[-1].append(row)
+            elif not _is_empty(row):
+                groups.append([row])
+        known, lead = len(self.source.equations), ""
+        for group in groups:
+            lead = self._add(group, kind, token, lead)
         self.cited, self.words = [], ""
         self.neighbours = [each.id for each in self.source.equations[known:]]
 
-    def _continues(self, group: list[_Row], row: _Row, source: str) -> bool:
-        """Return True if a row continues the equation of the rows before."""
-        body = source[_LEADING.match(source).end() :]  # type: ignore[union-attr]
-        before = latex_of(group[-1].tokens).rstrip(" &~")
-        if re.search(r"(?:[+\-*/=<>(]|\\(?:times|cdot|pm|left|approx|equiv|quad))\s*$", before) and not re.search(
-            r"\\quad\s*$", before
-        ):
-            return True
-        if _OPERATORS.match(body):
-            return not before.endswith((",", ";", ".")) or not body.startswith("-")
-        if _RELATIONS.match(body) and not body.startswith((r"\Rightarrow", r"\implies", r"\iff", r"\Leftrightarrow")):
-            return sum(bool(each.number) for each in (*group, row)) <= 1
-        return _unbalanced(" ".join(latex_of(each.tokens) for each in group))
-
-    def _one(self, group: list[_Row], sources: list[str], kind: str, token: Token, previous: str) -> str:
-        """Keep one equation of rows and their LaTeX; return its left side."""
+    def _add(self, group: list[_Row], kind: str, token: Token, lead: str) -> str:
+        """Keep one equation of rows, of which the first may continue another with this left side; return its left side."""
         number = next((row.number for row in group if row.number), "")
-        labels = [label for row in group for label in row.labels]
-        if len(sources) > 1:
-            latex = r"\begin{aligned} " + r" \\ ".join(sources) + r" \end{aligned}"
-        else:
-            latex = _without_columns(group[0].tokens, kind)
-        if kind == "multline" and r"\\" in latex:
+        label = next((label for row in group for label in row.labels), "")
+        latex = _without_columns(group[0].tokens, kind)
+        if len(group) > 1:
+            latex = r"\begin{aligned} " + r" \\ ".join(row.latex for row in group) + r" \end{aligned}"
+        elif kind == "multline" and r"\\" in latex:
             latex = rf"\begin{{gathered}} {latex} \end{{gathered}}"
         latex = re.sub(r"\\(begin|end)\{split\}", r"\\\1{aligned}", latex)  # which stands in any formula
-        body = latex[_LEADING.match(latex).end() :]  # type: ignore[union-attr]
-        continues = bool(len(sources) == 1 and _RELATIONS.match(body)) and previous
-        self._add(number, labels, latex, previous if continues else "", group, token)
-        return previous if continues else _left_side(sources[0])
-
-    def _add(self, number: str, labels: list[str], latex: str, lead: str, group: list[_Row], token: Token) -> None:
+        lead = lead if len(group) == 1 and _RELATIONS.match(_body(latex)) else ""
         self.since = 0 if number else self.since + 1
         self.last = number or self.last
-        identifier = number or f"{self.last or 0}{_letters(self.since)}"
-        while identifier in self.ids or not identifier:
+        identifier, source = number or f"{self.last or 0}{_letters(self.since)}", self.source
+        while identifier in source.words or not identifier:
             identifier += "'"
-        self.ids.add(identifier)
-        source = self.source
         source.words[identifier] = f"{self.words} □ "  # where the display stands in its sentence
         source.sections.setdefault(self.section, "Before the first section")
         firsts = [next((t for t in row.tokens if t.text.strip(" \n\t&")), token) for row in group]
-        places = [first.at + len(first.text) - len(first.text.lstrip()) for first in firsts]
-        lines = [self.expander.line(at) for at in places]
-        label, rows = labels[0] if labels else "", tuple(n for _, n in lines)
-        cites = tuple(self.cited)
+        lines = [self.expander.line(t.at + len(t.text) - len(t.text.lstrip())) for t in firsts]
+        rows, cites = tuple(n for _, n in lines), tuple(self.cited)
         source.equations.append(Displayed(identifier, self.section, number, label, latex, lead, lines[0], rows, cites))
+        return lead or _left_side(group[0].latex)
 
 
-def _has_text(tokens: list[Token]) -> bool:
-    return any(each.text.strip(" \n&") for each in tokens)
+def _is_empty(row: _Row) -> bool:
+    return not any(each.text.strip(" \n\t&") for each in row.tokens)
 
 
-def _unbalanced(source: str) -> bool:
-    """Return True if a bracket is open at the end of a row."""
-    lefts, rights = (len(re.findall(rf"\\{side}(?![a-z])", source)) for side in ("left", "right"))
-    if lefts != rights:
+def _body(latex: str) -> str:
+    return latex[_LEADING.match(latex).end() :]  # type: ignore[union-attr]
+
+
+def _continues(group: list[_Row], row: _Row) -> bool:
+    """Return True if a row continues the equation of the rows before."""
+    body, before = _body(row.latex), group[-1].latex.rstrip(" &~")
+    if re.search(r"(?:[+\-*/=<>(]|\\(?:times|cdot|pm|left|approx|equiv))\s*$", before):
         return True
-    bare = re.sub(r"\\(?:left|right|[bB]igg?[lrm]?)(?![a-z])\s*|\\[{}]", "", source)
-    return bare.count("(") > bare.count(")") or (bare.count("[") > bare.count("]") and ")" not in bare)
+    if _OPERATORS.match(body):
+        return not before.endswith((",", ";", ".")) or not body.startswith("-")
+    if _RELATIONS.match(body) and not body.startswith((r"\Rightarrow", r"\implies", r"\iff", r"\Leftrightarrow")):
+        return sum(bool(each.number) for each in (*group, row)) <= 1
+    # a bracket is open at the end of the rows before
+    whole = " ".join(each.latex for each in group)
+    lefts, rights = (len(re.findall(rf"\\{side}(?![a-z])", whole)) for side in ("left", "right"))
+    bare = re.sub(r"\\(?:left|right|[bB]igg?[lrm]?)(?![a-z])\s*|\\[{}]", "", whole)
+    square = bare.count("[") > bare.count("]") and ")" not in bare
+    return lefts != rights or bare.count("(") > bare.count(")") or square
 
 
 def _left_side(source: str) -> str:

@@ -27,7 +27,7 @@ _LETTER = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")  # o
 
 
 class Parameter(NamedTuple):
-    r"""One argument of a macro: m, s, o or g as in \NewDocumentCommand, u (ends with `mark`), or = (the text that must follow)."""
+    r"""One argument of a macro: m, s, o or g as in \NewDocumentCommand, u (ends with `mark`), or = (the mark must follow)."""
 
     kind: str
     mark: Token = Token("text", "[]", 0)
@@ -58,7 +58,7 @@ def head_of(spec: str) -> tuple[Parameter, ...]:
 
 
 # A command that acts on the expansion; it returns False if its token stays in the text.
-Primitive = Callable[["Expander", Token], bool]
+Primitive = Callable[["Expander", Token], bool | None]
 
 
 class Expander(TokenStream):
@@ -128,7 +128,7 @@ class Expander(TokenStream):
             self.push(body)
             return True
         if (primitive := self.primitives.get(name)) is not None:
-            return primitive(self, token)
+            return primitive(self, token) is not False
         if name in (r"\begingroup", r"\bgroup"):
             self.begin_group("{")
         elif name in (r"\endgroup", r"\egroup"):
@@ -201,12 +201,13 @@ class Expander(TokenStream):
         """Define the commands of a package that are known here."""
         self.loaded.add(package)
         for line in packages.TABLE.get(package, "").splitlines():
-            name, _, rest = line.strip().partition(" ")
+            names, _, rest = line.strip().partition(" ")
             spec, _, body = rest.partition(" ")
-            if name and not (name in self.macros and package == "siunitx"):  # \qty of physics
-                macro = Macro.of(body, spec)
-                same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
-                self.define(name, Macro(same, macro.head))
+            for name in filter(None, names.split(",")):
+                if not (name in self.macros and package == "siunitx"):  # \qty of physics
+                    macro = Macro.of(body, spec)
+                    same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
+                    self.define(name, Macro(same, macro.head))
 
     # ---- conditions
 

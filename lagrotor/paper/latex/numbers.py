@@ -4,6 +4,7 @@ A number is printed by \theequation, a macro as in LaTeX, which a source may def
 """
 
 import re
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
@@ -26,19 +27,18 @@ _REVTEX = _ARTICLE | {
     "subsection": r"\Alph{subsection}",
     "subsubsection": r"\arabic{subsubsection}",
 }
-# How each class prints its counters.
+_REVTEX_CLASSES = ("revtex4", "revtex4-1", "revtex4-2")
+_PLAIN = ("article", "amsart", "scrartcl", "extarticle", "elsarticle", "standalone", "subfiles", "beamer")
 _CLASSES = {
-    **dict.fromkeys(
-        ["article", "amsart", "scrartcl", "extarticle", "elsarticle", "standalone", "subfiles", "beamer"], _ARTICLE
-    ),
-    **dict.fromkeys(["book", "report", "memoir", "extbook", "extreport"], _BOOK),
-    **dict.fromkeys(["scrbook", "scrreprt"], _BOOK | {"equation": r"\thechapter.\arabic{equation}"}),
-    **dict.fromkeys(["revtex4", "revtex4-1", "revtex4-2"], _REVTEX),
+    **dict.fromkeys(_PLAIN, _ARTICLE),
+    **dict.fromkeys(("book", "report", "memoir", "extbook", "extreport"), _BOOK),
+    **dict.fromkeys(("scrbook", "scrreprt"), _BOOK | {"equation": r"\thechapter.\arabic{equation}"}),
+    **dict.fromkeys(_REVTEX_CLASSES, _REVTEX),
     "IEEEtran": _ARTICLE | {"section": r"\Roman{section}"},
 }
 # Classes that number the equations of an appendix by its sections.
 _APPENDICES = {
-    **dict.fromkeys(["revtex4", "revtex4-1", "revtex4-2"], r"\Alph{section}\arabic{equation}"),
+    **dict.fromkeys(_REVTEX_CLASSES, r"\Alph{section}\arabic{equation}"),
     "elsarticle": r"\Alph{section}.\arabic{equation}",
 }
 _WITHIN = {"section": "chapter", "subsection": "section", "subsubsection": "subsection"}
@@ -58,7 +58,7 @@ class Counters:
 
     def __init__(self) -> None:
         self.values = dict.fromkeys(("part", "chapter", *_ARTICLE), 0)
-        self.parents: dict[str, str] = dict(_WITHIN)  # counter → the one whose step sets it to zero
+        self.parents = dict(_WITHIN)  # counter → the one whose step sets it to zero
         self.document_class = ""
 
     def begin(self, expander: Expander, document_class: str) -> None:
@@ -71,15 +71,12 @@ class Counters:
         for name, text in formats.items():
             expander.define(rf"\the{name}", Macro.of(text), everywhere=True)
 
-    def step(self, name: str) -> None:
+    def step(self, name: str, by: int = 1) -> None:
         """Add one to a counter, and set those to zero that are numbered within it."""
-        self.values[name] = self.values.get(name, 0) + 1
-        self._reset(name)
-
-    def _reset(self, parent: str) -> None:
-        for inner in [name for name, outer in self.parents.items() if outer == parent]:
+        self.values[name] = self.values.get(name, 0) + by
+        for inner in [each for each, parent in self.parents.items() if parent == name]:
             self.values[inner] = 0
-            self._reset(inner)
+            self.step(inner, 0)
 
     def printed(self, expander: Expander, name: str) -> str:
         """Return a counter as it is printed."""
@@ -88,32 +85,27 @@ class Counters:
     def begin_appendix(self, expander: Expander, star: bool = False) -> None:
         r"""\appendix: letters for chapters or sections."""
         top = "chapter" if r"\thechapter" in expander.macros else "section"
-        self.values[top] = 0
-        self._reset(top)
-        self._print(expander, top, rf"\Alph{{{top}}}")
+        self.step(top, -self.values[top])
+        expander.define(rf"\the{top}", Macro.of(rf"\Alph{{{top}}}"), everywhere=True)
         if text := _APPENDICES.get(self.document_class):
             self.parents["equation"] = "section"
-            self._print(expander, "equation", text.replace("}", "}.", 1) if star else text)
-
-    def _print(self, expander: Expander, name: str, text: str) -> None:
-        expander.define(rf"\the{name}", Macro.of(text), everywhere=True)
-
-    # ---- commands
+            text = text.replace("}", "}.", 1) if star else text
+            expander.define(r"\theequation", Macro.of(text), everywhere=True)
 
     def primitives(self) -> dict[str, Primitive]:
         """Return the commands that set and print counters."""
-        setting = r"\newcounter \setcounter \addtocounter \stepcounter \refstepcounter"
-        within = r"\@addtoreset \numberwithin \counterwithin \counterwithout"
+        setting = (r"\newcounter", r"\setcounter", r"\addtocounter", r"\stepcounter", r"\refstepcounter")
+        within = (r"\@addtoreset", r"\numberwithin", r"\counterwithin", r"\counterwithout")
+        shown = [rf"\{style}" for style in STYLES]
         return {
             r"\documentclass": self._class,
-            r"\value": self._value,
             r"\chapterdot": self._chapter,
-            **dict.fromkeys(setting.split(), self._set),
-            **dict.fromkeys(within.split(), self._number_within),
-            **{rf"\{style}": self._show for style in STYLES},
+            **dict.fromkeys(setting, self._set),
+            **dict.fromkeys(within, self._number_within),
+            **dict.fromkeys((r"\value", *shown), self._show),
         }
 
-    def _class(self, expander: Expander, token: Token) -> bool:
+    def _class(self, expander: Expander, token: Token) -> None:
         options, name = latex_of(expander.optional() or ()).strip(), expander.name()
         if not self.document_class:  # a part that could stand by itself has another
             self.document_class = name
@@ -122,9 +114,8 @@ class Counters:
                 expander.notes.append(
                     f"the source is a part of {options}: give this file, whose commands and numbers it uses"
                 )
-        return True
 
-    def _set(self, expander: Expander, token: Token) -> bool:
+    def _set(self, expander: Expander, token: Token) -> None:
         name, values = expander.name(), self.values
         if token.text == r"\newcounter":
             values[name] = 0
@@ -133,44 +124,27 @@ class Counters:
                 self.parents[name] = parent
         elif "step" in token.text:
             self.step(name)
+        elif re.fullmatch(r"[+-]?\d+", shown := latex_of(expander.expand(expander.argument())).strip()):
+            values[name] = int(shown) + (values.get(name, 0) if token.text == r"\addtocounter" else 0)
         else:
-            shown = latex_of(expander.expand(expander.argument())).strip()
-            if re.fullmatch(r"[+-]?\d+", shown):
-                values[name] = int(shown) + (values.get(name, 0) if token.text == r"\addtocounter" else 0)
-            else:
-                expander.doubt = f"{expander.place(token.at)}: {token.text}{{{name}}}{{{shown}}} is not known"
-        return True
+            expander.doubt = f"{expander.place(token.at)}: {token.text}{{{name}}}{{{shown}}} is not known"
 
-    def _number_within(self, expander: Expander, token: Token) -> bool:
+    def _number_within(self, expander: Expander, token: Token) -> None:
         star = expander.star()
         style = latex_of(expander.optional() or ()).strip().lstrip("\\") or "arabic"
         name, parent = expander.name(), expander.name()
-        text = rf"\the{parent}.\{style}{{{name}}}"
-        if token.text == r"\counterwithout":
-            self.parents.pop(name, None)
-            text = rf"\arabic{{{name}}}"
-        else:
-            self.parents[name] = parent
+        self.parents[name] = parent if token.text != r"\counterwithout" else ""
         if not star and token.text != r"\@addtoreset":
+            text = (rf"\the{parent}." if self.parents[name] else "") + rf"\{style}{{{name}}}"
             expander.define(rf"\the{name}", Macro.of(text), everywhere=True)
-        return True
 
-    def _show(self, expander: Expander, token: Token) -> bool:
-        name = expander.name()
-        if name not in self.values:
-            expander.push(tokenize(f"{{{name}}}", token.at))
-            return False
-        expander.push(plain(STYLES[token.text[1:]](self.values[name]), token.at))
-        return True
+    def _show(self, expander: Expander, token: Token) -> None:
+        value = self.values.get(expander.name(), 0)
+        expander.push(plain(STYLES.get(token.text[1:], str)(value), token.at))
 
-    def _value(self, expander: Expander, token: Token) -> bool:
-        expander.push(plain(str(self.values.get(expander.name(), 0)), token.at))
-        return True
-
-    def _chapter(self, expander: Expander, token: Token) -> bool:
+    def _chapter(self, expander: Expander, token: Token) -> None:
         """Print the number of the chapter before an equation's, where there is one."""
         expander.push(tokenize(r"\thechapter.", token.at) if self.values["chapter"] else ())
-        return True
 
 
 _FONTS = re.compile(
@@ -196,14 +170,13 @@ def _roman(value: int) -> str:
 
 
 def aux_numbers(source: Path) -> dict[str, str]:
-    """Return label → number as LaTeX wrote it beside the source; empty where it has not."""
+    """Return label → number as LaTeX wrote it beside the source, for labels that it wrote once; empty where it has not."""
     file = source.with_suffix(".aux")
-    if not file.is_file():
-        return {}
-    text = file.read_text(encoding="utf-8", errors="replace")
+    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
     for name in re.findall(r"\\@input\{([^{}]*)\}", text):
         inner = file.parent / name
         if inner.resolve().is_relative_to(file.parent.resolve()) and inner.is_file():
             text += inner.read_text(encoding="utf-8", errors="replace")
     rows = re.findall(r"\\newlabel\{([^{}]*)\}\{\{((?:[^{}]|\{[^{}]*\})*)\}", text)
-    return {label: plain_number(number) for label, number in rows}
+    times = Counter(label for label, _ in rows)
+    return {label: plain_number(number) for label, number in rows if times[label] == 1}

@@ -217,7 +217,7 @@ def test_a_label_that_two_displays_have_gives_neither_its_number(tmp_path: Path)
     source = tmp_path / "paper.tex"
     body = r"\begin{equation}\label{a} x = 1 \end{equation}\begin{equation}\label{a} y = 2 \end{equation}"
     source.write_text(rf"\documentclass{{article}}\begin{{document}}{body}\end{{document}}", encoding="utf-8")
-    source.with_suffix(".aux").write_text(r"\newlabel{a}{{2}{1}}", encoding="utf-8")
+    source.with_suffix(".aux").write_text(r"\newlabel{a}{{3}{1}}\newlabel{a}{{4}{1}}", encoding="utf-8")
     begin_paper(tmp_path / "mine", source)
     assert {row["latex"]: row["number"] for row in rows(tmp_path / "mine").values()} == {"x = 1": "1", "y = 2": "2"}
 
