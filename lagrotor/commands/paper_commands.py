@@ -256,7 +256,7 @@ def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.latex.check import FAULT, FOUND, HOLDS, NOT_JUDGED, REFUTED, WRONG, Check, check_source
     from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.markup import read_source
-    from lagrotor.paper.latex.notation import Notation, declared
+    from lagrotor.paper.latex.notation import Notation, declared_notation
     from lagrotor.paper.readable import readable
     from lagrotor.paper.title_page import toml
 
@@ -267,7 +267,7 @@ def check_command(given: argparse.Namespace) -> int:
         for note in source.notes or ([] if source.equations else ["it has no displayed equation"]):
             say(f"{file}: {note}", 0)
         about = Path(file).parent / "paper.toml"
-        notation = declared(toml(about).get("notation", {}), str(about)) if about.is_file() else Notation()
+        notation = declared_notation(toml(about).get("notation", {}), str(about)) if about.is_file() else Notation()
         with progress(2 * -(-len(source.equations) // EVERY)) as begins:
             check = check_source(source, notation, begins)
         rows += [(file.parent / each.file if each.file else file, each) for each in check.findings]

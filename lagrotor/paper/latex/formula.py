@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TypeVar
 
 from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, stem_of
@@ -25,11 +26,6 @@ class Reading:
     def whole(self) -> bool:
         """Whether it was read."""
         return self.stop is None and bool(self.statements)
-
-    @property
-    def guesses(self) -> tuple[str, ...]:
-        """Nothing: no reading rests on a guess."""
-        return ()
 
 
 def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> Reading:
@@ -61,17 +57,15 @@ def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> R
 
 def _alone(row: Iterable[Box]) -> Iterator[str]:
     """Yield the letters that stand in no index, and a Δ that no letter follows."""
-    before = ""
-    for box in row:
-        if before and box.kind != "letter":
-            yield before
-        before = stem_of(box) if box.kind == "letter" and box.name in ("Delta", "delta") else ""
-        if box.kind == "letter" and not before:
+    for box, after in pairwise([*row, None]):
+        if (
+            box is not None
+            and box.kind == "letter"
+            and not (after and after.kind == "letter" and box.name in ("Delta", "delta"))
+        ):
             yield stem_of(box)
-        for held in box.parts:
+        for held in box.parts if box else ():
             yield from _alone(held)
-    if before:
-        yield before
 
 
 def letters_printed(latex: str) -> set[str]:

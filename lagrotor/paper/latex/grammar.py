@@ -219,7 +219,8 @@ class Grammar:
         elif read is not None:
             node, behind = read(self, row, place)
         else:
-            raise FormulaError(f"{self._text(box)} is not read here", "write what it stands for")
+            way = "write one statement for each case" if box.kind == "cases" else "write what it stands for"
+            raise FormulaError(f"{self._text(box)} is not read here", way)
         if behind < len(row) and row[behind].name == "!":
             if box.kind == "function" or [b.name for b in row[behind + 1 : behind + 2]] == ["!"]:
                 raise FormulaError("what ! belongs to is open", "write brackets, or the product")
@@ -299,7 +300,9 @@ class Grammar:
         if settled or after is None or kind not in ("letter", "bracket", "group", "partial"):
             return None
         if name == "d":
-            return self._differential(box, after), place + 2
+            raise FormulaError(
+                "d stands before a letter", r"write \cdot for a product, \frac{d}{dt} or an integral for a differential"
+            )
         return self._difference(row, place) if name in ("Delta", "delta") and not box.sup else None
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -312,21 +315,9 @@ class Grammar:
         behind = row[place + 2] if place + 2 < len(row) else None
         if behind is None or behind.kind != "bracket":
             return self.power(letter, after), place + 2
-        if self._kind(after, "functions") and not (after.sup or behind.sup):
-            return Call(letter.name, self._each(behind.parts[0])), place + 3
         if [b.name for b in behind.parts[0]] != ["t"] or behind.sup:
             raise self._open(after, f"\\{box.name} {after.name} is a function or a factor", "functions")
         return self.power(letter, after), place + 3
-
-    def _differential(self, box: Box, target: Box) -> Node:
-        r"""Read \mathrm{d}x and \mathrm{d}^3r; an italic d before a letter may be a distance."""
-        if not box.upright:
-            way = r"write \cdot behind it, or \mathrm{d} for a differential"
-            raise self._open(box, "d before a letter is a factor or a differential", way=way)
-        if target.kind not in ("letter", "bracket") or target.sup:
-            raise FormulaError("a differential has a power or no letter", "write brackets around what it is of")
-        inner = self.letter(target) if target.kind == "letter" else self.expression(target.parts[0])
-        return Call("differential", (inner, self.expression(box.sup)) if box.sup else (inner,))
 
     def _applied(self, box: Box, bracket: Box) -> Node | None:
         """Return a letter as a function of the bracket behind it, x for x(t); None where it is a factor."""
@@ -532,8 +523,6 @@ class Grammar:
             if pair[0] != "|" and not is_vector(inner):
                 raise FormulaError("‖…‖ is of no vector", 'write in paper.toml [notation] vectors = "…"')
             return Call("norm" if is_vector(inner) else "Abs", (inner,))
-        if pair == (r"\{", ".") and len(content) == 1 and content[0].kind in ("matrix", "rows"):
-            return self._cases(content[0])
         if any(b.kind == "relation" for b in content):
             raise FormulaError("a relation stands in brackets", "write it by itself")
         parts = parted(content, "comma")
@@ -567,22 +556,6 @@ class Grammar:
             return Call("column", tuple(line[0] for line in lines))
         made = Call("matrix", tuple(Call("row", line) for line in lines))
         return Call("det", (made,)) if box.name == "vmatrix" else made
-
-    def _cases(self, box: Box) -> Node:
-        made: list[Node] = []
-        for line in box.parts[0]:
-            if len(line.parts) != 2:
-                raise FormulaError("a case has no condition", "write the value, &, and where it holds")
-            words = [b.name.strip(" ,.;").lower() for b in line.parts[1] if b.kind == "text"]
-            where = strip([b for b in line.parts[1] if b.kind not in ("text", "wide")])
-            if where and len(words) < 2 and {*words} <= {"if", "for", "when"}:
-                condition = self.condition(where)
-            elif not where and words in (["otherwise"], ["else"]):
-                condition = Letter("otherwise")
-            else:
-                raise FormulaError("the condition of a case is not read", r"write a relation, or \text{otherwise}")
-            made.append(Call("case", (self.expression(line.parts[0]), condition)))
-        return Call("cases", tuple(made))
 
     def condition(self, row: list[Box]) -> Node:
         """Return a relation, or a chain of relations, as a node."""
@@ -761,7 +734,7 @@ class Grammar:
 # Readers of the boxes that are a factor by themselves, and of those that take in what follows them.
 _SIMPLE: dict[str, Callable[[Grammar, Box], Node]] = {
     "bracket": Grammar._bracket, "group": Grammar._group, "root": Grammar._root, "matrix": Grammar._matrix,
-    "cases": Grammar._cases, "infinity": lambda reader, box: Letter("oo"), "dots": lambda reader, box: Call("dots", ()),
+    "infinity": lambda reader, box: Letter("oo"), "dots": lambda reader, box: Call("dots", ()),
     "binomial": lambda reader, box: Call("binomial", tuple(map(reader.expression, box.parts))),
 }  # fmt: skip
 _FACTORS: dict[str, Callable[[Grammar, list[Box], int], tuple[Node, int]]] = {

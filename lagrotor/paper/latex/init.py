@@ -18,7 +18,7 @@ from lagrotor.files import read_text, write_text
 from lagrotor.paper.catalogue import reading_digest
 from lagrotor.paper.latex.displays import Displayed, Source
 from lagrotor.paper.latex.markup import read_source
-from lagrotor.paper.latex.notation import declared
+from lagrotor.paper.latex.notation import declared_notation
 from lagrotor.paper.latex.printed import Print, paper_notation, read_print
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.title_page import toml
@@ -326,7 +326,7 @@ def declare(folder: Path, kinds: Mapping[str, str]) -> None:
     table = dict(toml(file).get("notation", {}))
     for letter, kind in kinds.items():
         table[kind] = " ".join(dict.fromkeys([*str(table.get(kind, "")).split(), letter]))
-    declared(table, str(file))
+    declared_notation(table, str(file))
     _write_table(file, "notation", [f"{key} = {_text(value)}" for key, value in table.items()])
 
 

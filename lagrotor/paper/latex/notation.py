@@ -42,7 +42,7 @@ _EXCLUSIVE = (
 )
 
 
-def declared(table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
+def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
     """Return the notation that an author declares in a table.
 
     Parameters
@@ -92,14 +92,13 @@ class Proposal:
     evidence: str
 
 
-def with_proposals(declared: Notation, proposals: Iterable[Proposal]) -> Notation:
+def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notation:
     """Return the notation with the proposals for those letters that the author has not declared."""
-    known = frozenset().union(*(getattr(declared, kind) for kind in KINDS))
-    names: dict[str, set[str]] = {kind: set(getattr(declared, kind)) for kind in KINDS}
-    for each in proposals:
-        if each.letter not in known:
-            names[each.kind].add(each.letter)
-    return replace(declared, **{kind: frozenset(found) for kind, found in names.items()})
+    known = {kind: getattr(notation, kind) for kind in KINDS}
+    settled = frozenset[str]().union(*known.values())
+    free = [each for each in proposals if each.letter not in settled]
+    more: dict[str, Any] = {kind: known[kind] | {each.letter for each in free if each.kind == kind} for kind in KINDS}
+    return replace(notation, **more)
 
 
 def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:

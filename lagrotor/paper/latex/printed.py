@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from lagrotor.paper.latex.formula import read_formula
-from lagrotor.paper.latex.notation import Notation, declared, propose, with_proposals
+from lagrotor.paper.latex.notation import Notation, declared_notation, propose, with_proposals
 from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.tokens import NESTING, Token, latex_of, tokenize
 from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant, text_of, walk
@@ -33,7 +33,7 @@ class Print:
 
 def paper_notation(formulas: Iterable[str], table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
     """Return the kinds of a paper's letters: those that its [notation] declares, and the proposals of one sweep."""
-    return with_proposals(declared(table, where), propose(formulas))
+    return with_proposals(declared_notation(table, where), propose(formulas))
 
 
 def read_print(latex: str, notation: Notation, lead: str = "") -> Print:

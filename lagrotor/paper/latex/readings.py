@@ -11,7 +11,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.latex.formula import with_progress
-from lagrotor.paper.latex.notation import KINDS, Notation, declared, propose
+from lagrotor.paper.latex.notation import KINDS, Notation, declared_notation, propose
 from lagrotor.paper.latex.printed import paper_notation, read_print
 
 
@@ -88,7 +88,7 @@ class LetterKind:
 
 def letter_kinds(paper: Catalogue) -> list[LetterKind]:
     """Return the letters of a paper that are no plain real numbers, the declared ones first."""
-    table = declared(paper.about.notation, str(paper.folder / "paper.toml"))
+    table = declared_notation(paper.about.notation, str(paper.folder / "paper.toml"))
     kinds = [LetterKind(letter, kind, True) for kind in KINDS for letter in sorted(getattr(table, kind))]
     known = {each.letter for each in kinds}
     proposals = propose(entry.latex for entry in paper.equations.values())

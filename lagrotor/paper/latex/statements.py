@@ -6,11 +6,15 @@ from dataclasses import dataclass, replace
 
 from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
 from lagrotor.paper.latex.grammar import Grammar, is_unit
-from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number, walk
+from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number
 
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather|or)\b")
 _SETS = ("in", "->")  # relations of what need not be alike
+# Kinds of statements, each with the relations that it may have.
+_EQUAL, _BOUNDS = {"=", ":="}, {"<", ">", "<=", ">=", "<<", ">>", "!=", "<~", ">~"}
+_KINDS = {"expression": set[str](), "equation": _EQUAL, "approximation": {*_EQUAL, "~"}, "inequality": _EQUAL | _BOUNDS}
+_PARTING = ("wide", "arrow", "text")
 _SIMPLE = ("number", "dots", "letter", "operator", "infinity", "fraction", "root")
 
 
@@ -123,20 +127,13 @@ def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
             parts.append(("condition" if condition else box.kind, []))
         elif box.kind == "bracket" and box.name == "(" and _is_related(box.parts[0]) and not (box.sup or box.sub):
             parts += [("condition", list(box.parts[0])), ("wide", [])]
-        elif (
-            box.kind == "comma"
-            and box.name == "."
-            and following
-            and row[place + 1].kind not in ("wide", "arrow", "text")
-        ):
+        elif box.name == "." and box.kind == "comma" and following and row[place + 1].kind not in _PARTING:
             raise FormulaError("a full stop stands within the formula", r"write \cdot for a product")
         elif box.kind in ("wide", "comma"):
-            before = strip(parts[-1][1])
+            before, after = strip(parts[-1][1]), following or box
             goes_on = before and before[-1].kind in ("operator", "relation")
-            signed = following is not None and before and (
-                following.kind == "relation" or (box.kind == "wide" and following.kind == "operator" and following.name != "-")
-            )  # fmt: skip
-            if not (goes_on or signed):
+            signed = after.kind == "relation" or (box.kind == "wide" and after.kind == "operator" and after.name != "-")
+            if not (goes_on or (signed and before)):
                 waiting = not before and parts[-1][0] in ("text", "condition")
                 parts.append((parts[-1][0] if waiting else box.kind, []))
         elif not (box.name == ":" and not parts[-1][1]):
@@ -171,24 +168,19 @@ def _is_side(row: list[Box], place: int) -> bool:
     after = row[place + 1] if place + 1 < len(row) else None
     if before is not None and before.kind == "number" and is_unit(row[place].name):
         return True
-    edges = (before is None or before.kind == "relation") and (
-        after is None or after.kind in ("relation", "wide", "comma")
-    )
-    return edges and not (before is None and (after is None or after.kind != "relation"))
+    if before is None:
+        return after is not None and after.kind == "relation"
+    return before.kind == "relation" and (after is None or after.kind in ("relation", "wide", "comma"))
 
 
 def _listed(reader: Grammar, last: PrintedStatement, part: list[Box], several: bool) -> PrintedStatement:
     """Return n = 1 with a further value as n = 1, 2. Raises FormulaError where what follows a comma is no value."""
     close = reader.source[max(part[0].at - 2, 0) : part[0].at]
     if part[0].kind == "number" and not several and re.fullmatch(r"\d,", close):
-        raise FormulaError(
-            "whether the comma is in a number is open", "write {,} in the number, or a space behind the comma"
-        )
-    if (
-        all(b.kind in _SIMPLE for b in part)
-        and last.kind in ("equation", "range", "condition")
-        and len(last.sides) == 2
-    ):
+        way = "write {,} in the number, or a space behind the comma"
+        raise FormulaError("whether the comma is in a number is open", way)
+    simple = all(b.kind in _SIMPLE for b in part) and len(last.sides) == 2
+    if simple and last.kind in ("equation", "range", "condition"):
         first, end = last.sides
         if last.kind == "range" or (isinstance(first.node, Letter) and isinstance(end.node, Number | Letter)):
             values = end.node.args if isinstance(end.node, Call) and last.kind == "range" else (end.node,)
@@ -202,50 +194,22 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     """Return one statement. Raises FormulaError where a side is missing, or a vector is equal to a number."""
     sides = [strip(side) for side in parted(row, "relation")]
     relations = [box.name for box in row if box.kind == "relation"]
-    if len(sides) > 2 and not sides[-1]:
-        raise FormulaError("a side of the relation is missing", "write it")
-    if len(sides) > 2 and len(sides[-1]) == 1 and sides[-1][0].kind == "dots":
+    if len(sides) > 2 and [b.kind for b in sides[-1]] == ["dots"]:
         sides, relations = sides[:-1], relations[:-1]  # the chain goes on
-    if len(sides) > 1 and not sides[0]:
-        raise FormulaError("the left side is missing", "write what is equal, or join it to the row before")
+    if not all(sides):
+        raise FormulaError("a side of the relation is missing", "write it, or join it to the row before")
     read: list[Side] = []
     for place, side in enumerate(sides):
-        if not side:
-            raise FormulaError("a side of the relation is missing", "write it")
         _check_side(side)
-        index = (
-            len(side) == 1 and side[0].kind == "letter" and side[0].name in ("i", "j") and not side[0].sup and not place
-        )
-        node: Node = reader.letter(side[0]) if index and len(sides) > 1 else _side(reader, side)
+        index = not place and len(sides) > 1 and [(b.name, b.sup) for b in side] in ([("i", None)], [("j", None)])
+        node: Node = reader.letter(side[0]) if index else _side(reader, side)
         read.append(Side(node, _balanced(reader.source, side[0].at, side[-1].end), side[0].at))
-    if not any(relation in _SETS for relation in relations):
-        _check_kinds(read, row)
+    kinds = {is_vector(side.node) for side in read if not is_printed_zero(side.node) and side.node != Call("dots", ())}
+    if len(kinds) > 1 and not {*relations} & {*_SETS}:
+        raise FormulaError("a vector is equal to a number", "declare the vectors in [notation], or mark them alike")
     order, kept = without_order(read[-1].node)
     read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
-
-
-def _check_kinds(sides: list[Side], row: list[Box]) -> None:
-    """Raise FormulaError where a vector is equal to a number, or a differential stands on one side only."""
-    nodes = [side.node for side in sides if not is_printed_zero(side.node) and side.node != Call("dots", ())]
-    if len(set(map(is_vector, nodes))) > 1:
-        raise FormulaError("a vector is equal to a number", "declare the vectors in [notation], or mark them alike")
-    degrees = {_degree(node) for node in nodes}
-    if len(degrees) > 1:
-        raise FormulaError("a differential stands on one side only", "write the derivative, or both differentials")
-
-
-def _degree(node: Node) -> int:
-    """Return how many differentials the first term has as factors."""
-    if not isinstance(node, Call) or node.name == "differential":
-        return int(isinstance(node, Call))
-    if node.name in ("product", "dot", "cross", "matmul"):
-        return sum(map(_degree, node.args))
-    if node.name == "quotient":
-        return _degree(node.args[0]) - _degree(node.args[1])
-    if node.name == "power" and isinstance(node.args[1], Number):
-        return int(_degree(node.args[0]) * node.args[1].value)
-    return _degree(node.args[0]) if node.name in ("sum", "negative", "Sum", "sqrt") else 0
 
 
 def _check_side(side: list[Box]) -> None:
@@ -254,9 +218,9 @@ def _check_side(side: list[Box]) -> None:
     name = "".join(box.name for box in plain)
     if 2 < len(side) == len(name) and name.isupper():
         raise FormulaError(f"{name} is a word", r"write \mathrm for it, or \cdot")
-    if len(side) == 1 and side[0].kind == "bracket" and side[0].name == "[" and not (side[0].sub or side[0].sup):
-        if len(side[0].parts[0]) > 1 or side[0].parts[0][0].kind != "matrix":
-            raise FormulaError("what the square brackets mean is open", "leave them out, or write what it is")
+    square = len(side) == 1 and side[0].name == "[" and not (side[0].sub or side[0].sup)
+    if square and [b.kind for b in side[0].parts[0]] != ["matrix"]:
+        raise FormulaError("what the square brackets mean is open", "leave them out, or write what it is")
 
 
 def _side(reader: Grammar, row: list[Box]) -> Node:
@@ -269,16 +233,7 @@ def _side(reader: Grammar, row: list[Box]) -> Node:
 
 
 def _kind(relations: list[str]) -> str:
-    kinds = set(relations)
-    if not kinds:
-        return "expression"
-    if kinds <= {"=", ":="}:
-        return "equation"
-    if kinds <= {"=", ":=", "~"}:
-        return "approximation"
-    if kinds <= {"=", ":=", "<", ">", "<=", ">=", "<<", ">>", "!=", "<~", ">~"}:
-        return "inequality"
-    return "other"
+    return next((kind for kind, signs in _KINDS.items() if {*relations} <= signs), "other")
 
 
 def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:

@@ -50,13 +50,13 @@ class Call:
 
 Node: TypeAlias = Number | Letter | Call
 
-# Relations as calls, in the condition of a case or of a sum.
+# Relations as calls, in the condition of a sum.
 CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
 # Operations whose value is a vector or a matrix, and those that are one where their first argument is.
 _VECTORS = ("cross", "column", "matrix", "gradient", "curl", "inverse", "transpose")
-_CARRYING = ("sum", "negative", "quotient", "Derivative", "rate", "prime", "Integral", "limit", "Sum", "differential", "laplacian",
-             "at", "power", "cases", "case")  # fmt: skip
+_CARRYING_NAMES = "sum negative quotient Derivative rate prime Integral limit Sum differential laplacian at power"
+_CARRYING = frozenset(_CARRYING_NAMES.split())
 # What a line of the catalogue may call, but in another sense than a print.
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
@@ -224,7 +224,7 @@ _UNDECIDED = {
     "gradient": _OF_NABLA, "divergence": _OF_NABLA, "curl": _OF_NABLA, "laplacian": _OF_NABLA, "dots": "write what is left out",
     "matmul": "write the entries of the matrices", "det": "write the entries of the matrix", "order": "write O(x^n) at the end",
     "transpose": "write the entries of the matrix", "inverse": "write the entries of the matrix",
-    "tr": "write the entries of the matrix", "cases": "write one statement for each case", "values": "write one statement each",
+    "tr": "write the entries of the matrix", "values": "write one statement each",
     "arg": "write it by real letters", "Re": "write it by real letters", "Im": "write it by real letters",
     "max": "write one of them", "min": "write one of them",
     **dict.fromkeys(("sum", "product", "quotient", "power", "cross", "dot", "norm", "column", "matrix", "row"),

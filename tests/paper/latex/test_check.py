@@ -20,7 +20,7 @@ from lagrotor.paper.latex.check import (
 )
 from lagrotor.paper.latex.displays import read_latex
 from lagrotor.paper.latex.markup import read_source
-from lagrotor.paper.latex.notation import declared
+from lagrotor.paper.latex.notation import declared_notation
 
 
 def written(folder: Path, body: str) -> Path:
@@ -525,7 +525,7 @@ def test_a_step_that_takes_too_much_work_is_not_judged_and_says_so(monkeypatch: 
 def test_a_declared_kind_changes_the_reading() -> None:
     source = read_latex(r"\begin{document}\[ E = f(x + 1) - f x = f \]\end{document}")
     assert [each.verdict for each in check_source(source).findings] == [HOLDS], "letters are real numbers"
-    assert HOLDS not in [each.verdict for each in check_source(source, declared({"functions": "f"})).findings]
+    assert HOLDS not in [each.verdict for each in check_source(source, declared_notation({"functions": "f"})).findings]
 
 
 def test_the_command_counts_steps_names_reasons_and_shows_both_members(

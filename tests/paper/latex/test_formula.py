@@ -4,13 +4,13 @@ import pytest
 
 from lagrotor.errors import InputError
 from lagrotor.paper.latex.formula import read_formula
-from lagrotor.paper.latex.notation import Notation, Proposal, declared, propose, with_proposals
+from lagrotor.paper.latex.notation import Notation, Proposal, declared_notation, propose, with_proposals
 from lagrotor.paper.latex.tree import text_of
 
 
 def said(latex: str, *others: str, **table: str | bool) -> str:
     """The statements as text, in the notation of a table and of what a sweep proposes; what stopped the reading else."""
-    reading = read_formula(latex, with_proposals(declared(table), propose([latex, *others])))
+    reading = read_formula(latex, with_proposals(declared_notation(table), propose([latex, *others])))
     if reading.stop is not None:
         assert reading.stop[1], "what would help"
         return f"stopped: {reading.stop[0]}"
@@ -39,7 +39,6 @@ READ = {
     r"y = \sin\theta\,\dot\theta": "y = sin(theta)*theta_dot",
     "x^{(1)} = l_1^2 + x'": "x__1 = l_1**2 + xprime",
     r"n = \sqrt[3]{5} + \sqrt{a+b} + \frac12": "n = 5**(1/3) + sqrt(a + b) + 1/2",
-    r"f = \begin{cases} 1 & x<0\\ 2 & \text{else}\end{cases}": "f = cases(case(1, Lt(x, 0)), case(2, otherwise))",
     r"A = \begin{pmatrix} a & b\\ c & 0\end{pmatrix}": "A = matrix(row(a, b), row(c, 0))",
     r"\left.\frac{\partial V}{\partial x}\right|_{x=0} = 0": "at(Derivative(V, x), x, 0) = 0",
     r"x = a,\qquad y = b \quad\text{where } z = c.": "x = a; y = b; z = c",
@@ -77,8 +76,6 @@ READ = {
     r"\begin{aligned} a &= b = \\ &= c\end{aligned}": "a = b = c",
     r"a = b, \\ = c": "a = b = c",
     r"\begin{aligned}\begin{cases} a = b\\ c = d\end{cases}\end{aligned}": "a = b; c = d",
-    r"y = \begin{cases} a & 0 \le t \le T\\ b & t > T\end{cases}":
-        "y = cases(case(a, And(Le(0, t), Le(t, T))), case(b, Gt(t, T)))",
     r"y = \mathrm{e}^{im\phi} + i": "y = exp(imaginary_unit*m*phi) + imaginary_unit",
     r"y = {\rm cos}[x - a]": "y = cos(x - a)",
     r"n = 1,2,3,\ldots": "n = values(1, 2, 3, dots())",
@@ -97,8 +94,6 @@ READ = {
     r"I = \int dx\,(x + 1)": "I = Integral(x + 1, x)",
     r"G = \int\frac{dE}{2\pi} f(E, x)": "G = Integral(1/(2*pi)*f(E, x), E)",
     r"t = \text{tr}(A) + \sum_{ij} a_{ij}": "t = tr(A) + Sum(a_ij, i, all, all, j)",
-    r"\mathrm{d}x\mathrm{d}y\mathrm{d}z = \mathrm{d}V\mathrm{d}s\mathrm{d}t":
-        "differential(x)*differential(y)*differential(z) = differential(V)*differential(s)*differential(t)",
     r"Z = \int f\,dx\,dy": "Z = Integral(f, volume(x, y))",
     r"k = 0.4\,\mathrm{cm}^2\,\,\mathrm{g}^{-1}": "k = 2/5*unit_cm**2*unit_g**(-1)",
     r"D = |\mathbf{K} - \mathbf{M}|": "D = norm(Kbold - Mbold)",
@@ -125,6 +120,11 @@ def test_what_is_read_is_what_is_printed(latex: str) -> None:
 
 # What the notation does not declare, or the grammar does not have, and where the reading stops.
 REFUSED = {
+    r"f = \begin{cases} 1 & x<0\\ 2 & \text{else}\end{cases}":
+        r"\begin{cases} 1 & x<0\\ 2 & \text{else}\end{cases} is not read here",
+    r"y = \begin{cases} a & 0 \le t \le T\\ b & t > T\end{cases}":
+        r"\begin{cases} a & 0 \le t \le T\\ b & t > T\end{cases} is not read here",
+    r"\mathrm{d}x\mathrm{d}y\mathrm{d}z = \mathrm{d}V\mathrm{d}s\mathrm{d}t": "d stands before a letter",
     r"P \equiv \frac{\hbar}{i}\frac{\partial}{\partial x}": "whether i is the imaginary unit is open",
     r"H = -\frac{d^2}{dx^2} + V(x)": "the derivative has nothing to act on",
     r"\mathbf p = -i\hbar\nabla,\quad T = -\nabla^2": "the derivative has nothing to act on",
@@ -146,7 +146,7 @@ REFUSED = {
         "what ∂ differentiates by is not clear",
     r"y = \int d\ln m\,f(m), \quad n = 0, \frac12, 1...": "the differential of the integral is missing",
     r"|a\rangle = |b\rangle + c|d\rangle": r"\rangle is not opened",
-    r"(ds)^2 = g_{\mu\nu}\mathrm{d}x^\mu\mathrm{d}x^\nu": "whether d before a letter is a factor or a differential is open",
+    r"(ds)^2 = g_{\mu\nu}\mathrm{d}x^\mu\mathrm{d}x^\nu": "d stands before a letter",
     r"\rho = 46\,\mathrm{\Omega\,cm}": "upright Omega behind a number is no known unit",
     r"T = 25^\circ\mathrm{C} = 77^\circ\text{F}": "a temperature in degrees C is not read",
     "c = (v_i)_n": "an index stands at (v_i)_n",
@@ -156,7 +156,7 @@ REFUSED = {
     r"\overline{\vec u\times\vec v} = \vec a": r"\overline{\vec u\times\vec v} is not read here",
     r"H|n\rangle = E_n|n\rangle": r"\rangle is not opened",
     r"c = \langle n|H|m\rangle": r"\langle … \rangle is not read",
-    "ds^2 = dx^2 + dy^2": "whether d before a letter is a factor or a differential is open",
+    "ds^2 = dx^2 + dy^2": "d stands before a letter",
     "y = (2n)!! + n!": "what ! belongs to is open",
     r"\int |z\rangle\langle z|\,dz = 1": r"\rangle is not opened",
     r"\langle x, y\rangle = n\langle v\rangle_{p}": r"\langle … \rangle is not read",
@@ -213,13 +213,15 @@ REFUSED = {
     r"\vec a\times\vec b\times\vec c = 0": "which × comes first is open",
     r"\vec F = m a": "a vector is equal to a number",
     r"a = b \text{ but not } c = d": "but not: the words deny what they join",
-    r"f(x) = \begin{cases} 1 & x \to 0\\ 2 & x > 1\end{cases}": "a condition is no relation",
+    r"f(x) = \begin{cases} 1 & x \to 0\\ 2 & x > 1\end{cases}":
+        r"\begin{cases} 1 & x \to 0\\ 2 & x > 1\end{cases} is not read here",
     r"y = \sin x y": "where the argument of sin ends is open",
     r"y = \sin\theta^2": "whether the power is of the argument or of the function is open",
     r"y = \sin(\theta)^2": "whether the power is of the argument or of the function is open",
     r"k = \frac{1}{c} v\times H": "whether × is of vectors or of numbers is open",
     r"k = 2 v\times H": "whether × is of vectors or of numbers is open",
-    r"y = \begin{cases} 0 & x < 0 \text{ or } x > L\\ 1 & x = 0\end{cases}": "the condition of a case is not read",
+    r"y = \begin{cases} 0 & x < 0 \text{ or } x > L\\ 1 & x = 0\end{cases}":
+        r"\begin{cases} 0 & x < 0 \text{ or } x > L\\ 1 & x = 0\end{cases} is not read here",
     "n = (a)_{r}": "an index stands at (a)_{r}",
     r"y = \exp(\theta)_{2} S": "whether the power is of the argument or of the function is open",
     r"y = \sum_i a_i x^i": "whether i is an upper index or a power is open",
@@ -229,7 +231,7 @@ REFUSED = {
     "|a|b|c| = 1": "how the bars belong together is open",
     r"x = \foo y": r"\foo is not known",
     "x = ": "a side of the relation is missing",
-    "= x": "the left side is missing",
+    "= x": "a side of the relation is missing",
     r"x = i\omega": "whether i is the imaginary unit is open",
     r"\vec a\vec b = c": "two vectors stand side by side",
     r"L = r\times p": "whether × is of vectors or of numbers is open",
@@ -251,7 +253,7 @@ REFUSED = {
     r"\nabla\cdot\mathbf E\times\mathbf B = 0": "how far the derivative reaches is open",
     "x = 10⁶ y": "⁶ is not known",
     r"\frac{\tilde{\mathrm{d}}v}{\mathrm{d}t} = a": "whether the fraction with d is a derivative is open",
-    r"\ddot r = \mathrm{d}r\,f": "a differential stands on one side only",
+    r"\ddot r = \mathrm{d}r\,f": "d stands before a letter",
     r"P\,\mathrm{d}' A = b": "whether d acts on what follows is open",
     r"\chi^{xxz} = 0": "whether xxz is an upper index or a power is open",
     r"ACC = \frac{TP}{N}": "ACC is a word",
@@ -289,15 +291,15 @@ REFUSED = {
     r"T = V\zeta(3/2)": r"whether \zeta before ( is a function or a factor is open",
     r"A = \Omega^T\Omega": r"whether \Omega^T is transposed or has a power is open",
     r"\tau^{ab}_{ij} = \epsilon_a t^{ab}_{ij}": "whether ab is an upper index or a power is open",
-    r"dx^\mu = F^\mu d\tau": "whether d before a letter is a factor or a differential is open",
+    r"dx^\mu = F^\mu d\tau": "d stands before a letter",
     r"b^{s\dagger} = c": r"s\dagger stands where a power does",
     r"(AB)^\dagger = (c + d)^*": r"\dagger stands where a power does",
     r"\rho\mathbf a = -\nabla p + \nabla\cdot\boldsymbol\sigma": "a vector and a number are added",
-    r"\delta Q = dU + p\,dV": "whether d before a letter is a factor or a differential is open",
+    r"\delta Q = dU + p\,dV": "d stands before a letter",
     r"Z = \int\mathcal{D}q\,e^{iS[q]}": "the differential of the integral is missing",
     r"\nabla.\underline{u} = \underline{a}.\underline{b}": "a full stop stands within the formula",
     r"\int_V \rho + \oint_S\vec j\cdot\hat{\vec n} = 0": "the differential of the integral is missing",
-    "= a = b": "the left side is missing",
+    "= a = b": "a side of the relation is missing",
     r"f = \phi(\mathrm{Re}, \epsilon) + \frac{64}{\text{Re}}": r"whether \phi before ( is a function or a factor is open",
     r"\mathbf q^{n+1/2}_i = \vec F^{int} + \mathbf s^1": "whether n+1/2 is an upper index or a power is open",
     r"c = \left.\frac{\partial S}{\partial E}\right|_{V,N}": "where it is evaluated is not an equation",
@@ -305,7 +307,7 @@ REFUSED = {
     "a, b = 0": "what stands before the comma has no relation",
     r"e_i = a_j,\quad i, j = 1, 2": "whether i is the imaginary unit is open",
     r"\dot z_i = i\omega z_i": "whether i is the imaginary unit is open",
-    r"ds = v\,dt": "whether d before a letter is a factor or a differential is open",
+    r"ds = v\,dt": "d stands before a letter",
     r"y = e^{i\mathbf k\mathbf r}": "two vectors stand side by side",
 }  # fmt: skip
 
@@ -361,7 +363,7 @@ DECLARED = [
 
 @pytest.mark.parametrize(("latex", "table", "reading", "without"), DECLARED)
 def test_a_declared_letter_is_read_as_its_kind(latex: str, table: dict[str, str], reading: str, without: str) -> None:
-    for notation, words in ((declared(table), reading), (Notation(), without)):
+    for notation, words in ((declared_notation(table), reading), (Notation(), without)):
         found = read_formula(latex, notation)
         text = f"stopped: {found.stop[0]}" if found.stop else ""
         text = text or " = ".join(text_of(side.node) for side in found.statements[0].sides)
@@ -402,7 +404,7 @@ def test_one_sweep_proposes_kinds_with_their_evidence(formulas: tuple[str, ...],
 
 def test_declared_letters_win_over_proposals() -> None:
     proposals = [Proposal("functions", "V", "V(x) = 0"), Proposal("vectors", "Fbold", "")]
-    notation = with_proposals(declared({"positive": "V"}), proposals)
+    notation = with_proposals(declared_notation({"positive": "V"}), proposals)
     assert (notation.functions, notation.vectors, notation.positive) == (frozenset(), {"Fbold"}, {"V"})
 
 
@@ -418,7 +420,7 @@ def test_declared_letters_win_over_proposals() -> None:
 )
 def test_a_table_that_says_nothing_is_refused(table: dict[str, object], words: str) -> None:
     with pytest.raises(InputError, match=words):
-        declared(table)
+        declared_notation(table)
 
 
 def test_an_order_that_is_claimed_is_kept() -> None:
