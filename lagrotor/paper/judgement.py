@@ -134,6 +134,10 @@ def _values(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> list[tup
     if not text.nodes:
         names = {**FUNCTIONS, **letters}
         return [(read(side, letters, "judge"), parsed(side, names, "judge", as_written=True)) for side in text.sides]
+    parts = [each for node in text.nodes for each in walk(node)]
+    called = {each.name for each in parts if isinstance(each, Call)}
+    if both := next((each.name for each in parts if isinstance(each, Letter) and each.name in called), None):
+        raise InputError(f"judge: {both} stands with its argument and without it: write the argument everywhere")
     values = [_value(node, letters, opaque) for node in text.nodes]
     shapes = [value.shape for value in values if isinstance(value, sp.MatrixBase)]
     values = [sp.zeros(*shapes[0]) if shapes and value == 0 else value for value in values]
@@ -144,9 +148,6 @@ def _values(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> list[tup
 
 
 def _value(node: Node, letters: Mapping[str, Any], opaque: Opaque) -> Any:
-    called = {each.name for each in walk(node) if isinstance(each, Call)}
-    if both := next((each.name for each in walk(node) if isinstance(each, Letter) and each.name in called), None):
-        raise InputError(f"judge: {both} stands with its argument and without it: write the argument everywhere")
     try:
         value = sympy_expression(node, opaque)
     except InputError as error:

@@ -281,7 +281,7 @@ class _Reader:
             while self.ahead == ".":
                 self.take()
             return [self.made("dots", "dots", item)]
-        if text.isdecimal() or (text == "." and self.ahead.isdecimal()):
+        if text.isdecimal() or (text == "." and self.ahead.isdecimal() and self.items[self.place].at == self.end):
             return [self.number(item)]
         if text in _OPEN:
             return [self.bracket(text, item, style)]

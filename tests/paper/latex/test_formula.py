@@ -1,11 +1,14 @@
 r"""Readings: every token of a print is read as its notation declares it, or the reading names the token where it stops."""
 
 import pytest
+import sympy as sp
 
+from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.notation import Notation, Proposal, declared_notation, propose, with_proposals
-from lagrotor.paper.latex.tree import text_of
+from lagrotor.paper.latex.tree import Letter, Opaque, in_catalogue, letters_of, sympy_expression, text_of, walk
+from lagrotor.paper.letters import read
 
 
 def said(latex: str, *others: str, **table: str | bool) -> str:
@@ -116,6 +119,21 @@ READ = {
 @pytest.mark.parametrize("latex", READ)
 def test_what_is_read_is_what_is_printed(latex: str) -> None:
     assert said(latex) == READ[latex]
+
+
+def test_the_text_of_a_reading_is_what_its_tree_is() -> None:
+    """A catalogue holds the text, a verdict of LaTeX takes the tree."""
+    compared = 0
+    for latex in READ:
+        reading = read_formula(latex, with_proposals(Notation(), propose([latex])))
+        for side in (each for statement in reading.statements for each in statement.sides):
+            if not in_catalogue(side.node) or any(isinstance(each, Letter) and each.vector for each in walk(side.node)):
+                continue
+            letters = {name: sp.Symbol(name, real=True) for name in letters_of(side.node)}
+            text, tree = read(text_of(side.node), letters, "text"), sympy_expression(side.node, Opaque(refuses=True))
+            assert decide_equal(text, tree).answer == "zero" and decide_equal(text, tree + 1).answer != "zero"
+            compared += 1
+    assert compared > 50
 
 
 # What the notation does not declare, or the grammar does not have, and where the reading stops.
