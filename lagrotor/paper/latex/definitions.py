@@ -3,7 +3,7 @@ r"""Commands of LaTeX that define others, choose between branches and take in fi
 import re
 
 from lagrotor.paper.latex import packages
-from lagrotor.paper.latex.macros import CHOICES, Expander, Macro, Parameter, Primitive, head_of, is_condition
+from lagrotor.paper.latex.macros import CHOICES, Expander, Macro, Parameter, Primitive, head_of
 from lagrotor.paper.latex.tokens import Token, latex_of, plain, tokenize
 
 HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
@@ -167,7 +167,7 @@ def _else(expander: Expander, token: Token) -> bool:
 def _new_if(expander: Expander, token: Token) -> None:
     r"""\newif\ifx defines \ifx to be \iffalse, and \xtrue and \xfalse to change that."""
     name = _next_name(expander).text
-    if is_condition(name):
+    if name.startswith(r"\if"):
         expander.define(name, Macro((Token("primitive", r"\iffalse", token.at),)))
         for value in ("true", "false"):
             expander.define(rf"\{name[3:]}{value}", Macro.of(rf"\let{name}\if{value}"))
@@ -179,6 +179,19 @@ def _choice(expander: Expander, token: Token) -> bool:
         expander.star()
         expander.leave_out(token, CHOICES[token.text])
     return not expander.in_formula
+
+
+def _if_next(expander: Expander, token: Token) -> None:
+    r"""\@ifnextchar[{…}{…} and \@ifstar{…}{…}: the next sign says which of the two."""
+    sign = "*" if token.text == r"\@ifstar" else expander.name()
+    branches = expander.argument(), expander.argument()
+    spaces = expander.skip_spaces()
+    comes = expander.begins(sign)
+    if comes and token.text == r"\@ifstar":
+        expander.star()
+    elif not comes:
+        expander.push(plain(spaces, token.at))
+    expander.push(branches[not comes])
 
 
 def _if_value(expander: Expander, token: Token) -> None:
@@ -225,7 +238,7 @@ def _use(expander: Expander, token: Token) -> None:
                 expander.doubt = f"{name}.sty may number equations in a way of its own"
             if each.text in DEFINITIONS:
                 DEFINITIONS[each.text](expander, each)
-            elif each.kind == "command" and is_condition(each.text):
+            elif each.kind == "command" and expander.is_condition(each):
                 expander.leave_out(each)
 
 
@@ -278,6 +291,7 @@ PRIMITIVES: dict[str, Primitive] = {
     **_commands("iftrue iffalse ifmmode", _condition),
     **_commands("else fi", _else),
     **dict.fromkeys(CHOICES, _choice),
+    **_commands("@ifstar @ifnextchar", _if_next),
     **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
     **_commands("long protected outer relax protect expandafter makeatletter makeatother xspace", lambda *_: None),
     **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _with_argument),

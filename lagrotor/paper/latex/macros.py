@@ -19,7 +19,7 @@ _MOST_EXPANSIONS = 20_000  # at one place of the source; a macro that needs more
 _MOST_TOKENS = 2_000_000  # of all expansions, besides ten for each character of the source
 # Commands that choose between arguments, and the number of these.
 CHOICES = {
-    r"\@ifstar": 2, r"\@ifnextchar": 3, r"\@ifundefined": 3, r"\@ifpackageloaded": 3, r"\@ifclassloaded": 3, r"\ifthenelse": 3,
+    r"\@ifundefined": 3, r"\@ifpackageloaded": 3, r"\@ifclassloaded": 3, r"\ifthenelse": 3,
     r"\ifdef": 3, r"\ifundef": 3, r"\ifbool": 3, r"\iftoggle": 3, r"\ifblank": 3, r"\ifstrempty": 3, r"\ifstrequal": 4,
 }  # fmt: skip
 _NO_VALUE = (Token("command", r"\NoValue", 0),)
@@ -133,7 +133,7 @@ class Expander(TokenStream):
             self.begin_group("{")
         elif name in (r"\endgroup", r"\egroup"):
             self.end_group("{")
-        elif is_condition(name) and not self.in_formula:
+        elif self.is_condition(token) and not self.in_formula:
             self.leave_out(token)
             return True
         return False
@@ -235,11 +235,11 @@ class Expander(TokenStream):
             defines = undecided and (
                 "def" in name or "newcommand" in name or name in (r"\let", r"\DeclareMathOperator")
             )
-            depth += -1 if name == r"\fi" else is_condition(name)
+            depth += -1 if name == r"\fi" else self.is_condition(token)
         self.fault(condition.at, rf"{condition.text} has no \fi: the text up to the end is left out")
         return None
 
-
-def is_condition(name: str) -> bool:
-    r"""Return True for a command that ends with \fi, as far as its name says."""
-    return name.startswith(r"\if") and name not in (r"\iff", *CHOICES)
+    def is_condition(self, token: Token) -> bool:
+        r"""Return True for a command that ends with \fi, as far as its name says; one with arguments in braces does not."""
+        named = token.text.startswith(r"\if") and token.text not in (r"\iff", *CHOICES)
+        return named and not self.begins("{")

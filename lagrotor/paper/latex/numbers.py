@@ -26,6 +26,8 @@ _REVTEX = _ARTICLE | {
     "section": r"\Roman{section}",
     "subsection": r"\Alph{subsection}",
     "subsubsection": r"\arabic{subsubsection}",
+    "equationprefix": "",
+    "equation": r"\theequationprefix\arabic{equation}",
 }
 _REVTEX_CLASSES = ("revtex4", "revtex4-1", "revtex4-2")
 _PLAIN = ("article", "amsart", "scrartcl", "extarticle", "elsarticle", "standalone", "subfiles", "beamer")
@@ -36,10 +38,10 @@ _CLASSES = {
     **dict.fromkeys(_REVTEX_CLASSES, _REVTEX),
     "IEEEtran": _ARTICLE | {"section": r"\Roman{section}"},
 }
-# Classes that number the equations of an appendix by its sections.
+# Classes that number the equations of an appendix by its sections: how.
 _APPENDICES = {
-    **dict.fromkeys(_REVTEX_CLASSES, r"\Alph{section}\arabic{equation}"),
-    "elsarticle": r"\Alph{section}.\arabic{equation}",
+    **dict.fromkeys(_REVTEX_CLASSES, ("equationprefix", r"\Alph{section}")),
+    "elsarticle": ("equation", r"\Alph{section}.\arabic{equation}"),
 }
 _WITHIN = {"section": "chapter", "subsection": "section", "subsubsection": "subsection"}
 _ROMAN = {"m": 1000, "cm": 900, "d": 500, "cd": 400, "c": 100, "xc": 90, "l": 50, "xl": 40, "x": 10,
@@ -48,8 +50,8 @@ STYLES: dict[str, Callable[[int], str]] = {
     "arabic": str,
     "roman": lambda n: _roman(n),
     "Roman": lambda n: _roman(n).upper(),
-    "alph": lambda n: chr(ord("a") + n - 1) if 0 < n <= 26 else str(n),
-    "Alph": lambda n: chr(ord("A") + n - 1) if 0 < n <= 26 else str(n),
+    "alph": lambda n: chr(ord("a") + n - 1) if 0 < n <= 26 else "",
+    "Alph": lambda n: chr(ord("A") + n - 1) if 0 < n <= 26 else "",
 }
 
 
@@ -76,7 +78,7 @@ class Counters:
         self.values[name] = self.values.get(name, 0) + by
         for inner in [each for each, parent in self.parents.items() if parent == name]:
             self.values[inner] = 0
-            self.step(inner, 0)
+            self.step(inner, by=0)
 
     def printed(self, expander: Expander, name: str) -> str:
         """Return a counter as it is printed."""
@@ -84,13 +86,12 @@ class Counters:
 
     def begin_appendix(self, expander: Expander, star: bool = False) -> None:
         r"""\appendix: letters for chapters or sections."""
-        top = "chapter" if r"\thechapter" in expander.macros else "section"
-        self.step(top, -self.values[top])
+        top, below = ("chapter", "section") if r"\thechapter" in expander.macros else ("section", "subsection")
+        self.values |= {top: 0, below: 0}
         expander.define(rf"\the{top}", Macro.of(rf"\Alph{{{top}}}"), everywhere=True)
-        if text := _APPENDICES.get(self.document_class):
+        if form := _APPENDICES.get(self.document_class):
             self.parents["equation"] = "section"
-            text = text.replace("}", "}.", 1) if star else text
-            expander.define(r"\theequation", Macro.of(text), everywhere=True)
+            expander.define(rf"\the{form[0]}", Macro.of(form[1] + "." * star), everywhere=True)
 
     def primitives(self) -> dict[str, Primitive]:
         """Return the commands that set and print counters."""

@@ -47,6 +47,10 @@ def expanded(text: str) -> str:
         (r"\newif\foo \foo a\fi", r"\foo a"),  # no condition: LaTeX refuses it
         (r"\edef\x{a}\x", r"\x"),
         (r"\let\x\relax\x a", "a"),
+        (r"\def\x{\@ifstar\y\z}\def\y#1{(#1)}\def\z#1{[#1]}\x*ab \x {c}", "(a)b[c]"),
+        (r"\def\x{\@ifnextchar[\y{\y[z]}}\def\y[#1]{(#1)}\x[a]b \x c", "(a)b(z)c"),
+        (r"\ifentrytype{a}{b}{c}d", r"\ifentrytype{a}{b}{c}d"),  # it has arguments and no \fi
+        (r"\iffalse a\ifnum1=1 b\fi\ifthenelse{a}{b}{c}\iff\ifq{a} c\else d\fi e", "de"),
     ],
 )  # fmt: skip
 def test_a_definition_stands_for_its_body(text: str, result: str) -> None:
