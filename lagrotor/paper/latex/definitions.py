@@ -151,7 +151,7 @@ def _display(expander: Expander, token: Token) -> None:
 
 def _condition(expander: Expander, token: Token) -> None:
     holds = token.text == r"\iftrue" or (token.text == r"\ifmmode" and expander.in_formula)
-    if holds or ((end := expander.skip((r"\else", r"\fi"), token)) is not None and end.text == r"\else"):
+    if holds or expander.skip((r"\else", r"\fi"), token) == r"\else":
         expander.branches += 1
 
 

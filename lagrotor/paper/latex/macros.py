@@ -7,6 +7,7 @@ Nothing is executed. A definition is a list of tokens, and the number of expansi
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,6 +23,19 @@ CHOICES = {
     r"\@ifundefined": 3, r"\@ifpackageloaded": 3, r"\@ifclassloaded": 3, r"\ifthenelse": 3,
     r"\ifdef": 3, r"\ifundef": 3, r"\ifbool": 3, r"\iftoggle": 3, r"\ifblank": 3, r"\ifstrempty": 3, r"\ifstrequal": 4,
 }  # fmt: skip
+# Commands of which a branch without a decision may not have any unnoticed.
+_MATTER = (
+    r"\begin",
+    r"\[",
+    "$$",
+    r"\input",
+    r"\include",
+    r"\chapter",
+    r"\section",
+    r"\subsection",
+    r"\appendix",
+    r"\tag",
+)
 _NO_VALUE = (Token("command", r"\NoValue", 0),)
 _LETTER = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")  # of an argument of \NewDocumentCommand
 
@@ -212,32 +226,32 @@ class Expander(TokenStream):
     # ---- conditions
 
     def leave_out(self, condition: Token, arguments: int = 0) -> None:
-        r"""Leave out the branches of a condition that is not decided; the names that they define have no meaning."""
-        place, line = self.place(condition.at), self.line(condition.at)[1]
-        for _ in range(arguments):
-            self.argument()
-        if not arguments and (last := self.skip((r"\fi",), condition, undecided=True)) is not None:
-            end = self.line(last.at)[1]
-            place += f"-{end}" if end != line else ""
-        self.undecided.append((condition.text, place))
+        r"""Leave out the branches of a condition that is not decided; the names that they define have no meaning.
 
-    def skip(self, ends: tuple[str, ...], condition: Token, undecided: bool = False) -> Token | None:
-        r"""Pass over tokens up to the \else or \fi of a condition, and return this token."""
-        depth, defines = 0, False
+        Branches with equations, headings, counters or files are noted.
+        """
+        passed = [token for _ in range(arguments) for token in self.argument()]
+        if not arguments:
+            self.skip((r"\fi",), condition, passed)
+        for name, after in pairwise(token.text for token in passed if token.kind == "command"):
+            if name in (r"\let", r"\DeclareMathOperator") or "def" in name or "newcommand" in name:
+                self.define(after, None, everywhere=True)
+        if any(token.text in _MATTER or token.text.endswith("counter") for token in passed):
+            end = self.line(passed[-1].at)[1]
+            lines = f"-{end}" if end > self.line(condition.at)[1] else ""
+            self.undecided.append((condition.text, self.place(condition.at) + lines))
+
+    def skip(self, ends: tuple[str, ...], condition: Token, passed: list[Token] | None = None) -> str:
+        r"""Pass over tokens up to the \else or \fi of a condition, and return which it is."""
+        depth = 0
         while (token := self.next()) is not None:
-            name = token.text
-            if token.kind != "command":
-                continue
-            if depth == 0 and name in ends:
-                return token
-            if defines:
-                self.define(name, None, everywhere=True)
-            defines = undecided and (
-                "def" in name or "newcommand" in name or name in (r"\let", r"\DeclareMathOperator")
-            )
-            depth += -1 if name == r"\fi" else self.is_condition(token)
+            if depth == 0 and token.text in ends:
+                return token.text
+            depth += -1 if token.text == r"\fi" else self.is_condition(token)
+            if passed is not None:
+                passed.append(token)
         self.fault(condition.at, rf"{condition.text} has no \fi: the text up to the end is left out")
-        return None
+        return ""
 
     def is_condition(self, token: Token) -> bool:
         r"""Return True for a command that ends with \fi, as far as its name says; one with arguments in braces does not."""

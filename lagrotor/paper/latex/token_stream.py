@@ -72,7 +72,7 @@ class TokenStream:
         r"""Take in a part of the source, the argument of \input; a note says that it is missing."""
         if (path := self.file_beside(name, (".tex", ""))) is not None:
             self.take_in(read_text(path, "latin-1"), path)
-        elif self.file is not None:
+        elif self.file is not None and ".sty:" not in self.place(at):
             self.notes.append(f"{self.place(at)}: {name} is missing: put it into the folder of the source")
 
     def tokens_apart(self, path: Path) -> Iterator[Token]:

@@ -59,10 +59,11 @@ def test_a_definition_stands_for_its_body(text: str, result: str) -> None:
 
 DECIDED = r"write \iftrue or \iffalse"
 CONDITIONS = {
-    r"\ifnum1=1 a\ifodd2 b\fi\else c\fi d": (r"paper.tex:3: \ifnum", []),
+    r"\ifnum1=1 \section{A}\ifodd2 b\fi\else c\fi d": (r"paper.tex:3: \ifnum", []),
+    r"\ifnum1=1 a\ifodd2 b\fi\else c\fi d": ("", []),
     "\\ifx\\a\\b \\begin{equation} a = b \\end{equation}\n\\else c\\fi": (r"paper.tex:3-4: \ifx", []),
     r"\ifthenelse{\boolean{a}}{\[ a = b \]}{\[ c = d \]}\ifthenelse{}{}{}": (r"paper.tex:3: \ifthenelse", []),
-    r"\def\q{a}\ifx\a\b \def\q{b}\else\renewcommand{\q}{c}\fi \[ p = \q \]": (r"paper.tex:3: \ifx", [r"p = \q"]),
+    r"\def\q{a}\ifx\a\b \else\renewcommand{\q}{c}\fi \[ p = \q \]": ("", [r"p = \q"]),
     r"\def\q{\ifdim 1pt=1pt a\else b\fi} \[ p = \q \]": ("", [r"p = \ifdim 1pt=1pt a\else b\fi"]),
     r"\def\q{\ifmmode a\else b\fi} \q \[ p = \q \]": ("", ["p = a"]),
 }
