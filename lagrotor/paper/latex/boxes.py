@@ -169,8 +169,8 @@ class _Reader:
         if not self.ahead:
             raise FormulaError("{ is not closed", "write the brace that closes it")
         self.take()
-        if len(found) == 1 and self.latex.startswith((*_INFIX,), found[0].at):  # {a \over b} is printed with its braces
-            found[0].at, found[0].end = opened.at, self.end
+        if found:  # its ends have their braces
+            found[0].at, found[-1].end = opened.at, self.end
         return found
 
     def plain(self) -> str:
@@ -322,11 +322,10 @@ class _Reader:
     def accent(self, mark: str, item: Token, style: str) -> Box:
         content = self.argument(style)
         only = content[0] if len(content) == 1 else None
-        if only is not None and only.kind == "nabla" and mark == "vec":
-            return only
-        if only is None or only.kind != "letter" or only.sup is not None or only.primes:
+        nabla = only is not None and only.kind == "nabla" and mark == "vec"
+        if only is None or not (nabla or (only.kind == "letter" and only.sup is None and not only.primes)):
             return self.made("accent", mark, item, content)
-        only.marks += (mark,)
+        only.marks += () if nabla else (mark,)
         only.at, only.end = item.at, self.end
         return only
 
@@ -352,6 +351,8 @@ class _Reader:
                 raise FormulaError(f"{item.text}{{{box.name}}} is not read", "give the unit matrix a letter")
             if box.kind == "letter":
                 box.style, box.upright = style or box.style, box.upright or not style
+        if content:
+            content[0].at, content[-1].end = item.at, self.end
         return content
 
     def bracket(self, opening: str, item: Token, style: str = "") -> Box:

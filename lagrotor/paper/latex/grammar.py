@@ -390,6 +390,7 @@ class Grammar:
     def _check_power(self, box: Box, row: list[Box]) -> None:
         """Raise FormulaError for marks and upper indices that stand where a power does."""
         text, letters = self._text(row[0], row[-1]), [b for b in row if b.kind == "letter"]
+        text = text[1:-1] if text[0] == "{" else text
         if any(b.kind in ("text", "relation", "comma") or b.primes or b.name in ("dagger", "prime", "*") for b in row):
             raise FormulaError(f"{text} stands where a power does", "write it as an index")
         if row[0].kind == "bracket" and len(row) == 1:

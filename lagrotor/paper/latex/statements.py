@@ -203,7 +203,7 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
         _check_side(side)
         index = not place and len(sides) > 1 and [(b.name, b.sup) for b in side] in ([("i", None)], [("j", None)])
         node: Node = reader.letter(side[0]) if index else _side(reader, side)
-        read.append(Side(node, _balanced(reader.source, side[0].at, side[-1].end), side[0].at))
+        read.append(Side(node, reader.source[side[0].at : side[-1].end].strip(), side[0].at))
     kinds = {is_vector(side.node) for side in read if not is_printed_zero(side.node) and side.node != Call("dots", ())}
     if len(kinds) > 1 and not {*relations} & {*_SETS}:
         raise FormulaError("a vector is equal to a number", "declare the vectors in [notation], or mark them alike")
@@ -249,32 +249,3 @@ def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:
         return None, node
     rest = node.args[:-1]
     return (inner.name, int(power.value)), rest[0] if len(rest) == 1 else Call("sum", rest)
-
-
-# A font or an arrow that what follows stands in.
-_ENCLOSING = re.compile(
-    r"(?:\{\\(?:bf|rm|cal|it|sf|tt|bfseries|mathrm)"
-    r"|\\(?:math(?:bf|bb|cal|frak|it|rm|scr|sf|tt)|bm|boldsymbol|pmb|operatorname|vec)\*?\s*\{?)\s*$"
-)
-
-
-def _opened(source: str, at: int) -> int:
-    """Return where the fonts and arrows begin that what begins here stands in."""
-    while enclosing := _ENCLOSING.search(source, 0, at):
-        at = enclosing.start()
-    return at
-
-
-def _balanced(source: str, at: int, end: int) -> str:
-    r"""Return the LaTeX of a side with the braces and fonts that enclose its ends: {\bf k}_1, not k}_1."""
-    at = _opened(source, at)
-    bare = re.sub(r"\\.", "  ", source)
-    depth = least = 0
-    for sign in bare[at:end]:
-        depth += (sign == "{") - (sign == "}")
-        least = min(least, depth)
-    for _ in range(-least):
-        at = _opened(source, bare.rfind("{", 0, at))
-    for _ in range(depth - least):
-        end = bare.find("}", end) + 1 or end
-    return source[at:end].strip()

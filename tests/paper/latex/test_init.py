@@ -282,7 +282,7 @@ def test_the_kinds_of_letters_are_proposed_and_declared_once(
     about = (folder / "paper.toml").read_text(encoding="utf-8")
     assert '[notation]\nfunctions = "f"\nreal = "g"\n' in about
     begin_paper(folder, file)
-    assert "f(x) + g*y" in rows(folder)["2"]["line"][0]["members"]
+    assert rows(folder)["2"]["aside"] == ["p = f(x) + g*y"], "no line of the catalogue has an unknown function"
     with pytest.raises(InputError, match="g stands in"):
         declare(folder, {"g": "functions"})
     assert main(["notation", str(folder), "--confirm", "q"]) == 2, "nothing is proposed for it"
