@@ -128,8 +128,6 @@ class _Walker:
         self.words = ""  # of the paragraph, since the last display
         self.neighbours: list[str] = []  # displays to which the next words belong
         self.ended = ""  # the end of a display that was missing: it ends nothing later
-        self.conditions = 0  # those that the preamble has and that are not decided
-        self.passed: dict[str, int] = {}  # environments that are not known: their place
 
     def read(self) -> None:
         """Read the whole source."""
@@ -141,29 +139,17 @@ class _Walker:
         source.faults = [(*expander.line(at), said) for at, said in sorted(expander.faults)]
         source.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in expander.loaded)
         source.notes += dict.fromkeys(expander.notes)
-        for name in dict.fromkeys(name for name, _ in expander.undecided):
-            first, *more = (place for each, place in expander.undecided if each == name)
-            others = f", nor in {len(more)} more places" if more else ""
-            helps = r"both branches are left out; write \iftrue or \iffalse"
-            source.notes.append(f"{first}: {name} is not decided{others}: {helps}")
-        for name, at in self.passed.items():
-            said = rf"{expander.place(at)}: \begin{{{name}}} is not known, and its formula is passed over"
-            source.notes.append(rf"{said}: write equation, or define it by \newenvironment{{{name}}}")
-        self._note_numbers()
-
-    def _note_numbers(self) -> None:
-        """Say which numbers are not certain."""
-        name, notes = self.aux_name, self.source.notes
-        left_out = self.passed or self.conditions < len(self.expander.undecided)
-        doubt = self.expander.doubt or ("a part of the source is left out" if left_out else "")
-        missing = [label for label in self.source.labels if self.aux and label not in self.aux]
         if self.others:
             more = f", as {len(self.others) - 1} more differ" if self.others[1:] else ""
-            notes.append(f"{self.others[0]}{more}: the first is taken, and equations without a label are counted")
+            source.notes.append(
+                f"{self.others[0]}{more}: the first is taken, and equations without a label are counted"
+            )
+        name, missing = self.aux_name, [label for label in source.labels if self.aux and label not in self.aux]
         if missing:
-            notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
-        elif doubt and name and not self.aux and any(each.number for each in self.source.equations):
-            notes.append(f"{doubt}, and the numbers may be others: put {name}, which LaTeX writes, beside the source")
+            source.notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
+        elif expander.doubt and name and not self.aux and any(each.number for each in source.equations):
+            helps = f"put {name}, which LaTeX writes, beside the source"
+            source.notes.append(f"{expander.doubt}, and the numbers may be others: {helps}")
 
     def _take(self, token: Token) -> None:
         if token.kind == "text":
@@ -190,7 +176,14 @@ class _Walker:
         elif token.kind == "script" and self.body and self.expander.scopes:
             name = self.expander.scopes[-1][0]
             if name != "{" and not _NO_DISPLAY.search(name):
-                self.passed.setdefault(name, token.at)
+                self._pass_over(name, token.at)
+
+    def _pass_over(self, name: str, at: int) -> None:
+        """Note an environment that is not known and holds a formula, once for each name."""
+        said = rf"\begin{{{name}}} is not known, and its formula is passed over: write equation, or define it by"
+        if not any(said in note for note in self.expander.notes):
+            self.expander.notes.append(rf"{self.expander.place(at)}: {said} \newenvironment{{{name}}}")
+            self.expander.doubt = self.expander.doubt or "a part of the source is left out"
 
     def _stray(self, token: Token, fault: str) -> None:
         """Keep a fault, unless the token ends a display that is known to be without end."""
@@ -233,7 +226,7 @@ class _Walker:
         name = token.text[7:-1]
         kind, end = name.rstrip("*"), rf"\end{{{name}}}"
         if name == "document":
-            self.body, self.conditions = True, len(self.expander.undecided)
+            self.body = True
         elif name == "subequations" and self.body:
             self._begin_subequations()
         elif name == "empheq" and self.body:
@@ -246,7 +239,7 @@ class _Walker:
                 self.expander.argument()
             self._display(kind, token, end, name != kind)
         elif kind in _REFUSED:
-            self.passed.setdefault(name, token.at)
+            self._pass_over(name, token.at)
 
     def _begin_subequations(self) -> None:
         """Number by letters within the next number."""

@@ -91,7 +91,6 @@ class Expander(TokenStream):
         self.loaded: set[str] = set()
         self.doubt = ""  # why the numbers of equations may be others
         self.branches = 0  # conditions of which a branch is being read
-        self.undecided: list[tuple[str, str]] = []  # conditions with their lines
         self._expansions: Counter[int] = Counter()
         self._made = 0
         self._stream = self._expanded()
@@ -238,8 +237,10 @@ class Expander(TokenStream):
                 self.define(after, None, everywhere=True)
         if any(token.text in _MATTER or token.text.endswith("counter") for token in passed):
             end = self.line(passed[-1].at)[1]
-            lines = f"-{end}" if end > self.line(condition.at)[1] else ""
-            self.undecided.append((condition.text, self.place(condition.at) + lines))
+            place = self.place(condition.at) + (f"-{end}" if end > self.line(condition.at)[1] else "")
+            helps = r"both branches are left out; write \iftrue or \iffalse"
+            self.notes.append(f"{place}: {condition.text} is not decided: {helps}")
+            self.doubt = self.doubt or "a part of the source is left out"
 
     def skip(self, ends: tuple[str, ...], condition: Token, passed: list[Token] | None = None) -> str:
         r"""Pass over tokens up to the \else or \fi of a condition, and return which it is."""

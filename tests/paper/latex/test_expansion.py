@@ -293,6 +293,13 @@ def test_formulas_within_notes_and_theorems_of_myst_are_read_and_those_in_code_a
     ]
 
 
+def test_markdown_may_have_empty_lines_in_a_display(tmp_path: Path) -> None:
+    (file := tmp_path / "notes.md").write_text("$$\n\na = b\n\n  \n+ c\n\n$$\n\n$$d = 1$$\n", encoding="utf-8")
+    source = read_source(file)
+    assert [(each.latex, each.place[1]) for each in source.equations] == [("a = b + c", 3), ("d = 1", 10)]
+    assert source.faults == []
+
+
 def test_cells_without_a_source_are_passed_over(tmp_path: Path) -> None:
     file = tmp_path / "notes.ipynb"
     file.write_text('{"cells": [{"cell_type": "markdown"}, {"cell_type": "markdown", "source": ["$$x = 1$$"]}, {}]}')
