@@ -166,6 +166,8 @@ class Grammar:
             raise FormulaError("nothing follows the sign", "write the second factor")
         made: Node | None = None
         for sign, factors, part in groups:
+            if len(factors) > 1 and any(isinstance(each, Call) and each.name == "order" for each in factors):
+                raise FormulaError("whether O(…) beside a factor is an order is open", r"write \cdot for a product")
             right = _product(factors)
             made = right if made is None else self._joined(made, sign, right, part[0])
         assert made is not None
@@ -276,6 +278,8 @@ class Grammar:
         node: Node = self.letter(box)
         if box.primes and self._kind(box, "functions"):
             node = self.letter(replace(box, primes=0))
+            if is_vector(node):
+                raise self._open(box, f"{self._text(box)} is a derivative or another vector", "vectors")
             for _ in range(box.primes):
                 node = Call("prime", (node,))
         return self.power(node, box), place + 1
@@ -315,7 +319,7 @@ class Grammar:
         behind = row[place + 2] if place + 2 < len(row) else None
         if behind is None or behind.kind != "bracket":
             return self.power(letter, after), place + 2
-        if [b.name for b in behind.parts[0]] != ["t"] or behind.sup:
+        if [(b.name, b.sub) for b in behind.parts[0]] != [("t", None)] or behind.sup:
             raise self._open(after, f"\\{box.name} {after.name} is a function or a factor", "functions")
         return self.power(letter, after), place + 3
 
@@ -328,7 +332,7 @@ class Grammar:
             return None
         if self._kind(box, "functions"):
             return self._call(box, bracket)
-        time = [(b.kind, b.name, b.sup) for b in content] == [("letter", "t", None)]
+        time = [(b.kind, b.name, b.sup, b.sub, b.primes) for b in content] == [("letter", "t", None, None, 0)]
         if bracket.name == "(" and time and "t" not in self.bound:
             return self.power(self.power(self.letter(box), box), bracket)
         adds = any(b.kind == "operator" and b.name in ("+", "-") for b in content[1:])
@@ -597,7 +601,7 @@ class Grammar:
         else:
             node, after = self.expression(over[1:]), row[behind] if behind < len(row) else box
             held = after.parts[0] if after.kind == "bracket" and after.name == "(" else []
-            if in_time and [b.name for b in held] == ["t"]:
+            if in_time and [(b.name, b.sub) for b in held] == [("t", None)]:
                 behind += 1  # \frac{dx}{dt}(t)
             elif held and not any(b.kind == "operator" for b in held[1:]):
                 raise self._open(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")

@@ -141,6 +141,9 @@ def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
         if box.kind == "letter":
             yield from _of_letter(box, after)
             yield from _of_value(row, place)
+        elif box.kind == "function" and box.name in ("det", "tr", "Tr"):
+            inside = after.parts[0] if after.kind == "bracket" else [after]
+            yield from (("matrices", stem_of(b)) for b in inside if b.kind == "letter" and b.name.isupper())
         elif box.kind == "big" and box.name in ("sum", "prod"):
             below = box.sub or []
             yield from (("indices", stem_of(each)) for each in below[:1] if each.kind == "letter")
