@@ -75,6 +75,7 @@ ALL_REAL = Notation()
 _VERDICTS = tuple[str, str, list[PrintedMeaning]]
 _RELATION = re.compile(r"=|[<>]|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong|leq?|geq?)\b")
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
+_BINDING = ("Sum", "Product", "Integral", "limit", "at")
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 
 
@@ -302,7 +303,7 @@ class _Checker:
     def _refuted(self, left: Node, right: Node, a: Any, b: Any, first: bool, premises: bool) -> tuple[str, str]:
         """Return the reason for which a difference that is not zero refutes nothing, or "" and how the members differ.
 
-        Without a slip that explains it, a difference refutes only where no premise could be put in.
+        Without a slip that explains it, a difference refutes only where nothing before speaks of its letters.
         """
         letters, others = set(letters_of(left)), set(letters_of(right))
         if not _comparable(a, b) or (has_opaque(a, b) and (first or not others)):
@@ -323,10 +324,11 @@ class _Checker:
             return BEFORE, ""
         if slip := self._slip(left, right, a, b, first):
             return "", f"{differ}; {slip}"
-        plain = not (first or premises or has_opaque(a, b) or any(map(is_vector, walk(left))))
-        if not plain or self._says(REASON):
-            return (WORDS if plain else MAYBE), ""
-        return "", differ
+        if first or premises or has_opaque(a, b) or any(map(is_vector, walk(left))):
+            return MAYBE, ""
+        if self._says(REASON):
+            return WORDS, ""
+        return (BEFORE, "") if self._speaks_of(a - b) else ("", differ)
 
     def _slip(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> str | None:
         """Return the one change with which the two members agree."""
@@ -409,6 +411,15 @@ class _Checker:
                 return True
         return False
 
+    def _speaks_of(self, difference: Any) -> bool:
+        """Return whether the text or an equation before has a letter of a difference."""
+        stems = {symbol.name.split("_")[0] for symbol in difference.free_symbols}
+        start = self.place
+        while start and self.readings[start][0].lead:  # the first row of the chain
+            start -= 1
+        formulas = chain((each.latex for each, _ in self.readings[:start]), (latex for _, latex, _ in self._text))
+        return any(stems & {name.split("_")[0] for name in letters_printed(latex)} for latex in formulas)
+
     def _may_explain(self, statement: PrintedStatement, a: Any, b: Any) -> bool:
         """Return whether two members agree, or may agree, where a statement holds; it is solved for each letter in turn."""
         sides = [self._value(side.node) for side in statement.sides]
@@ -467,7 +478,7 @@ class _Checker:
         return frozenset(
             s.sides[0].node.name
             for s in statements
-            if isinstance(s.sides[0].node, Letter) and s.relations[0] in relations and s.sides[-1].node == number(0)
+            if isinstance(s.sides[0].node, Letter) and {*s.relations[:1]} & {*relations} and s.sides[-1].node == number(0)
         )
 
     @cached_property
@@ -518,6 +529,7 @@ def _open_indices(statement: PrintedStatement) -> Iterator[str]:
     """Sentences on indices that stand outside their sum on one side, and on another side do not.
 
     An index is the letter itself, or a subscript of a letter that also stands inside the sum: E_k = Σ_k v_k has a label.
+    Products and integrals over the same letter bind it as well.
     """
     sums = [n for side in statement.sides for n in walk(side.node) if isinstance(n, Call) and n.name == "Sum"]
     for index in dict.fromkeys(n.args[1].name for n in sums if isinstance(n.args[1], Letter)):
@@ -532,7 +544,7 @@ def _outside(node: Node, index: str) -> Iterator[str]:
     """The letters of a node that stand outside its sums over an index."""
     if isinstance(node, Letter):
         yield node.name
-    elif isinstance(node, Call) and not (node.name == "Sum" and node.args[1] == Letter(index)):
+    elif isinstance(node, Call) and not (node.name in _BINDING and any(index in letters_of(e) for e in node.args[1:])):
         for part in node.args:
             yield from _outside(part, index)
 

@@ -204,8 +204,8 @@ def other_dimensions(
 ) -> Iterator[tuple[Displayed, str]]:
     """Find equations whose dimensions contradict those of the others.
 
-    A letter that several equations need otherwise than the rest has another meaning there: of these only an equation that
-    contradicts its own section is reported.
+    Each chapter is compared with itself. An equation is reported if no other one that contradicts its chapter has a letter of
+    it: a letter that several equations need otherwise has another meaning there.
 
     Parameters
     ----------
@@ -231,17 +231,15 @@ def other_dimensions(
         for side in sides
         if isinstance(side, Letter)
     }
-    whole = FormulaDimensions(numbers)
-    sections: defaultdict[str, FormulaDimensions] = defaultdict(lambda: FormulaDimensions(numbers))
-    broken: list[tuple[Displayed, set[str], str, bool]] = []
+    chapters: defaultdict[str, FormulaDimensions] = defaultdict(lambda: FormulaDimensions(numbers))
+    broken: list[tuple[str, Displayed, set[str], str]] = []
     for section, sides, each in rows:
-        near = sections[section.split(".")[0]].add(sides) is not None
-        if (why := whole.add(sides)) is not None and each is not None:
-            broken.append((each, {name for side in sides for name in letters_of(side)}, why, near))
-    letters = Counter(name for _, names, _, _ in broken for name in names)
-    for each, names, why, near in broken:
-        alone = all(letters[name] == 1 for name in names)
-        if near or (alone and not said_of(words.get(each.id, ""), MEANING)):
+        chapter = section.split(".")[0]
+        if (why := chapters[chapter].add(sides)) is not None and each is not None:
+            broken.append((chapter, each, {name for side in sides for name in letters_of(side)}, why))
+    counts = Counter((chapter, name) for chapter, _, names, _ in broken for name in names)
+    for chapter, each, names, why in broken:
+        if all(counts[chapter, name] == 1 for name in names) and not said_of(words.get(each.id, ""), MEANING):
             yield each, why
 
 
