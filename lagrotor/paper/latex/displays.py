@@ -328,6 +328,7 @@ class _Walker:
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
         """Yield the tokens of a display. A display that is not ended where TeX would stop is ended there, with a fault."""
         depth = braces = 0
+        may_nest = not self.whole or begin.text.startswith(r"\begin{gather")  # Markdown, and align within gather
         for part in self.expander:
             if depth == 0:
                 if part.text == end and part.kind != "text":
@@ -335,7 +336,8 @@ class _Walker:
                 if part.kind == "end" and part.text != r"\end{document}":
                     return self.expander.fault(part.at, f"{part.text} ends {begin.text}")
                 stops = part.kind == "end" or part.text in _NO_FORMULA
-                if stops or (braces == 0 and (part.text in _BEGINS or ends_paragraph(part))):
+                stops |= part.text in _BEGINS and not (braces or may_nest)
+                if stops or (braces == 0 and ends_paragraph(part)):
                     line = EMPTY_LINE.search(part.text) if part.kind == "text" else None
                     before = part.text[: line.start()] if line else ""
                     yield Token("text", before, part.at)

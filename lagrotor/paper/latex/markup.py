@@ -25,6 +25,7 @@ _DISPLAY = re.compile(
 )
 _ENVIRONMENT = re.compile(r"\\begin\{(equation|align|gather|multline|eqnarray)(\*?)\}(.*?)\\end\{\1\2\}", re.DOTALL)
 _HEADING = re.compile(r"^(#{1,6})[ \t]+(.*?)[ \t#]*$", re.MULTILINE)
+_EMPTY_LINE = re.compile(r"\n[ \t]*(?=\n)")  # which Markdown allows in a display
 _LEVELS = ("section", "subsection", "subsubsection")
 _LARGEST = 20  # MB
 _CONTROLS = [chr(code) for code in range(32) if chr(code) not in "\t\n\r\f"]
@@ -94,7 +95,7 @@ def markdown_as_latex(text: str) -> str:
     text = _DISPLAY.sub(lambda m: keep(_displayed(m[1], m["label"] or ""), m[0]), text)
     text = re.sub(r"(?<!\\)\$\$", lambda m: keep(rf"\{UNCLOSED} ", m[0]), text)
     text = re.sub(r"\\\\\[(.*?)\\\\\]", lambda m: keep(rf"\[{m[1]}\]", m[0]), text, flags=re.DOTALL)
-    text = _ENVIRONMENT.sub(lambda m: keep(m[0], m[0]), text)
+    text = _ENVIRONMENT.sub(lambda m: keep(_EMPTY_LINE.sub("\n%", m[0]), m[0]), text)
     text = _INLINE.sub(lambda m: keep(rf"\({m[1]}\)", m[0]), text)
     text = _HEADING.sub(lambda m: keep(_heading(m[1], m[2]), m[0]), text)
     text = re.sub(r"[\\%#&$_^{}~]", " ", text)
@@ -117,7 +118,7 @@ def _fenced(info: str, body: str) -> str:
 
 def _displayed(body: str, label: str) -> str:
     """Return a display; one with a label in brackets has a number: the label, where it is one, else the next."""
-    body = re.sub(r"\n[ \t]*(?=\n)", "\n%", body)  # Markdown allows empty lines in a display
+    body = _EMPTY_LINE.sub("\n%", body)
     inner = _ENVIRONMENT.fullmatch(body.strip("%\n\t "))
     if inner and not label:
         return body if r"\label" in body or r"\tag" in body else rf"\begin{{{inner[1]}*}}{inner[3]}\end{{{inner[1]}*}}"

@@ -65,6 +65,7 @@ TABLE = {
         \ang om #2^\circ
         """,
     "commath": r"""
+        \dif,\Dif - \mathrm{d}
         \od,\dod,\tod omm \@quotient{\mathrm{d}}{#1}{#2}{#3}
         \pd,\dpd,\tpd omm \@quotient{\partial}{#1}{#2}{#3}
         \abs sm \left| #2 \right|
@@ -88,7 +89,8 @@ _NAMES = (
 DISTRIBUTED = frozenset(_NAMES.split())
 _UNITS = {
     "metre": "m", "meter": "m", "second": "s", "kilogram": "kg", "gram": "g", "newton": "N", "joule": "J", "watt": "W",
-    "hertz": "Hz", "radian": "rad", "kelvin": "K", "ampere": "A", "volt": "V", "pascal": "Pa", "degree": r"^\circ",
+    "hertz": "Hz", "radian": "rad", "kelvin": "K", "ampere": "A", "volt": "V", "pascal": "Pa", "minute": "min", "hour": "h",
+    "degree": r"^\circ",
 }  # fmt: skip
 _PREFIXES = {"": "", "kilo": "k", "mega": "M", "giga": "G", "milli": "m", "micro": "u", "nano": "n", "centi": "c"}
 _UNIT = re.compile(

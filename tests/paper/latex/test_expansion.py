@@ -293,10 +293,31 @@ def test_formulas_within_notes_and_theorems_of_myst_are_read_and_those_in_code_a
     ]
 
 
+BLANK = """$$
+
+a = b
+
+
++ c
+
+$$
+
+$$d = 1$$
+\\begin{gather*}
+
+e = 2
+\\end{gather*}
+"""
+
+
 def test_markdown_may_have_empty_lines_in_a_display(tmp_path: Path) -> None:
-    (file := tmp_path / "notes.md").write_text("$$\n\na = b\n\n  \n+ c\n\n$$\n\n$$d = 1$$\n", encoding="utf-8")
+    (file := tmp_path / "notes.md").write_text(BLANK, encoding="utf-8")
     source = read_source(file)
-    assert [(each.latex, each.place[1]) for each in source.equations] == [("a = b + c", 3), ("d = 1", 10)]
+    assert [(each.latex, each.place[1]) for each in source.equations] == [
+        ("a = b + c", 3),
+        ("d = 1", 10),
+        ("e = 2", 13),
+    ]
     assert source.faults == []
 
 

@@ -63,6 +63,7 @@ def test_one_slip_is_one_fault(body: str, tmp_path: Path) -> None:
         r"\newenvironment{eq}{\begin{equation}\left(}{\right)\end{equation}} \begin{eq} a \end{eq}",
         r"\begin{align} a &= \begin{cases} b & c \\ d & e \end{cases} \\ f &= \{ g \} \end{align} \url{http://a.b/%20c}",
         r"\begin{align} a &= b \\ \intertext{Words." "\n\n" r"More words.} c &= d \end{align}",
+        r"\begin{gather} a = b \\ \begin{align} c &= d \\ &= e \end{align} \end{gather}",
         "{\\bf TeX warns of this brace, and ends",
         "\\tikzset{a={\\begin{center}}} \\lstinline[a=b]|{%| \\begin{itemize} \\item a \\end{enumerate} b}",
         "\\begin{verbatim}\n} $ \\begin{equation} \n\\end{verbatim}",
