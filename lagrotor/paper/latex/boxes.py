@@ -54,10 +54,11 @@ RELATIONS = {
 }  # fmt: skip
 _ARROWS = "Rightarrow implies iff Leftrightarrow Longrightarrow Longleftrightarrow therefore because forall"
 _THIN = (",", ";", ":", " ", ">", "thinspace", "medspace", "thickspace", "enspace", "enskip", "\n", "nobreakspace")
-_NOTHING = (
+_PASSED = (
     "! / displaystyle textstyle scriptstyle limits nolimits negthinspace nobreak allowbreak strut null relax hfill notag "
     "nonumber noindent centering small footnotesize qedhere"
 )
+_NOTHING = frozenset(_PASSED.split())
 _OPERATORS = {
     "+": "+", "-": "-", "−": "-", "*": "*", "/": "/", "·": "cdot", "×": "times", "div": "/", "ast": "*",
     **{name: name for name in ("cdot", "times", "pm", "mp", "wedge", "otimes", "oplus", "circ", "star", "bullet")},
@@ -157,11 +158,10 @@ class _Reader:
             raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write it in braces")
         if self.opens:
             return self.group(style)
-        return (
-            [self.made("number", self.take().text, self.items[self.place - 1])]
-            if self.ahead.isdecimal()
-            else self.single(style)
-        )
+        if not self.ahead.isdecimal():
+            return self.single(style)
+        item = self.take()
+        return [self.made("number", item.text, item)]
 
     def group(self, style: str = "") -> list[Box]:
         opened = self.take()
@@ -253,9 +253,7 @@ class _Reader:
         if item.text == "^" and content and all(b.kind == "letter" and b.name == "prime" for b in content):
             self.prime(found, len(content))
         elif (target.sup if item.text == "^" else target.sub) is not None:
-            raise FormulaError(
-                f"{item.text} follows another {item.text}", "write braces around the first, or one pair of braces"
-            )
+            raise FormulaError(f"{item.text} follows another {item.text}", "write one pair of braces")
         elif item.text == "^":
             target.sup = content
         else:
@@ -303,7 +301,7 @@ class _Reader:
 
     def command(self, item: Token, style: str) -> list[Box]:
         name = item.text[1:]
-        if name in _NOTHING.split():
+        if name in _NOTHING:
             return []
         if name in ACCENTS:
             return [self.accent(ACCENTS[name], item, style)]
@@ -390,11 +388,8 @@ class _Reader:
             raise FormulaError(f"{item.text} is by more than a letter", r"write \frac{d f}{d x}")
         kind, name = ("letter", "d") if item.text == r"\dv" else ("partial", "partial")
         above, below = (self.made(kind, name, item, upright=True, sup=sup) for sup in (order, None))
-        return [
-            self.made(
-                "fraction", "", item, [above, *(parts[0] if parts[1:] else [])], [below, replace(under[0], sup=order)]
-            )
-        ]
+        over = [above, *(parts[0] if parts[1:] else [])]
+        return [self.made("fraction", "", item, over, [below, replace(under[0], sup=order)])]
 
     def _enclosed(self, item: Token, style: str) -> list[Box]:
         r"""Read \abs{x} and \norm{x}."""

@@ -47,24 +47,8 @@ _UNIT_NAMES = (
 )
 UNITS = frozenset(_UNIT_NAMES.split())
 _UNIT_PARTS = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s·]")
-_WORDS = (
-    "sin",
-    "cos",
-    "tan",
-    "exp",
-    "log",
-    "ln",
-    "det",
-    "max",
-    "min",
-    "lim",
-    "cot",
-    "sinh",
-    "cosh",
-    "tanh",
-    "const",
-    "var",
-)
+_NO_NAMES = "sin cos tan exp log ln det max min lim cot sinh cosh tanh const var"
+_WORDS = frozenset(_NO_NAMES.split())
 _MOST_DIGITS = 1000
 _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
 _BRACKETED = ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")  # functions of what stands in brackets
@@ -137,9 +121,7 @@ class Grammar:
             return made[0]
         _check_sums([part for _, part in terms])
         if len({(is_vector(each), is_matrix(each)) for each in made if not _is_any_kind(each)}) > 1:
-            raise FormulaError(
-                "a vector and a number are added", "declare the vectors in [notation], or mark them alike"
-            )
+            raise FormulaError("a vector and a number are added", "declare the vectors in [notation]")
         return Call("sum", tuple(made))
 
     def term(self, row: list[Box]) -> Node:
@@ -268,9 +250,8 @@ class Grammar:
         varies = box.name == "delta" and bool(box.sub) and "".join(b.name for b in box.sub or ()) in "xyzt"
         word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
         if word or (varies and kind == "letter") or (box.name == "d" and box.upright and box.primes):
-            raise self._open(
-                box, f"{box.name} acts on what follows", way=rf"write \cdot, or \operatorname{{{box.name}}}(…)"
-            )
+            way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
+            raise self._open(box, f"{box.name} acts on what follows", way=way)
         if after is not None and kind == "bracket" and _plain(after.name) in _ROUND:
             applied = self._applied(box, after)
             if applied is not None:
@@ -304,9 +285,7 @@ class Grammar:
         if settled or after is None or kind not in ("letter", "bracket", "group", "partial"):
             return None
         if name == "d":
-            raise FormulaError(
-                "d stands before a letter", r"write \cdot for a product, \frac{d}{dt} or an integral for a differential"
-            )
+            raise FormulaError("d stands before a letter", r"write \cdot for a product, or a derivative or an integral")
         return self._difference(row, place) if name in ("Delta", "delta") and not box.sup else None
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -455,9 +434,7 @@ class Grammar:
         if above == ["-", "1"] and name in _INVERSE:
             return Call(_INVERSE[name], inner), behind
         if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
-            raise self._open(
-                box, f"{box.name} has an upper index or a power", way="write brackets around what is raised"
-            )
+            raise self._open(box, f"{box.name} has a mark or a power", way="write brackets around what is raised")
         made = Call(name.lower() if name == "Tr" else name, inner)
         if name == "log10" or (name == "log" and box.sub):
             base = self.expression(box.sub) if box.sub else number(10)
@@ -491,13 +468,10 @@ class Grammar:
     def _reach(self, row: list[Box], start: int) -> int:
         """Return where the argument of a function without brackets ends: 2θ, ωt, kx, nπ, one sign, before a velocity."""
         end, kinds = start, ("number", "letter", "fraction", "root", "group")
-        while (
-            end < len(row)
-            and row[end].kind in kinds
-            and not self._moves(row[end])
-            and (end == start or not row[end].spaced)
-        ):
+        while end < len(row) and row[end].kind in kinds and not self._moves(row[end]):
             end += 1
+            if end < len(row) and row[end].spaced:
+                break
         run, after = row[start:end], row[end] if end < len(row) else None
         names, letters = [each.name for each in run], [each for each in run if each.kind == "letter"]
         ends = after is None or after.spaced or after.kind in ("operator", "function", "big") or self._moves(after)
@@ -667,9 +641,7 @@ class Grammar:
             return [self.letter(below[0]), self.expression(below[2:]), *ends]
         if not box.sup and letters and all(b.kind in ("letter", "comma") for b in below):
             if len({b.name for b in letters}) < len(letters):
-                raise FormulaError(
-                    "whether a word or indices stand below the sum is open", "write commas between indices"
-                )
+                raise FormulaError("whether indices stand below the sum is open", "write commas between them")
             first, *others = map(self.letter, letters)
             return [first, Letter("all"), Letter("all"), *others] if others else [first]
         if not box.sup and relations and not any(b.kind == "comma" for b in below):
@@ -723,9 +695,7 @@ class Grammar:
             return self.expression(row) if row else number(1)
         left = self.expression(row[:-1])
         if not (is_vector(left) and is_vector(variable) and row[-1].name in ("cdot", "times")):
-            raise FormulaError(
-                "the differential is multiplied by what is no vector", "declare the vectors in [notation]"
-            )
+            raise FormulaError("the differential is multiplied by no vector", "declare the vectors in [notation]")
         return Call("dot" if row[-1].name == "cdot" else "cross", (left, Call("differential", (variable,))))
 
     def _variable(self, marks: list[Box]) -> Node:
@@ -874,9 +844,8 @@ def _paired(row: list[Box]) -> list[Box]:
     places = [k for k, box in enumerate(row) if box.kind == "bar"]
     if len(places) == 1 and row[places[0]].sub and places[0]:
         last, bar = places[0], row[places[0]]
-        start = (
-            last - 2 if row[last - 1].kind == "bracket" and last > 1 and row[last - 2].kind == "letter" else last - 1
-        )
+        called = last > 1 and (row[last - 2].kind, row[last - 1].kind) == ("letter", "bracket")
+        start = last - 1 - called
         made = Box("bracket", ".", row[start].at, bar.end, [row[start:last]], sub=bar.sub, sup=bar.sup, closing="|")
         return [*row[:start], made, *row[last + 1 :]]
     if len(places) % 2:
@@ -886,14 +855,8 @@ def _paired(row: list[Box]) -> list[Box]:
     for a, b in zip(places[::2], places[1::2], strict=True):
         inner, between = row[a + 1 : b], row[last:a]
         nested = last and between and all(x.kind not in ("operator", "relation") for x in between)
-        if (
-            nested
-            or row[a].sup
-            or row[a].sub
-            or not inner
-            or inner[-1].kind == "operator"
-            or row[a].name != row[b].name
-        ):
+        odd = not inner or inner[-1].kind == "operator" or row[a].name != row[b].name
+        if nested or odd or row[a].sup or row[a].sub:
             raise FormulaError("how the bars belong together is open", r"write \left| and \right|")
         sign, shut = r"\|" if row[a].name == "||" else "|", row[b]
         bars = Box("bracket", sign, row[a].at, shut.end, [inner], sub=shut.sub, sup=shut.sup, closing=sign)

@@ -130,9 +130,8 @@ def is_matrix(node: Node) -> bool:
         return is_matrix(node.args[0])
     if node.name == "matmul":
         return is_matrix(node.args[-1]) or node.args[-1] == Call("transpose", node.args[-1:])
-    return node.name in ("matrix", "transpose", "inverse") or (
-        node.name == "product" and any(map(is_matrix, node.args))
-    )
+    product = node.name == "product" and any(map(is_matrix, node.args))
+    return product or node.name in ("matrix", "transpose", "inverse")
 
 
 def divisors(node: Node) -> Iterator[Node]:
@@ -249,9 +248,8 @@ def sympy_expression(node: Node, opaque: Opaque) -> Any:
 def _value(node: Call, opaque: Opaque) -> Any:
     """Return the value of arithmetic, of a known function, of vectors and of matrices that are written out; else None."""
     if node.name == "matrix":
-        return sp.Matrix(
-            [[sympy_expression(each, opaque) for each in row.args] for row in node.args if isinstance(row, Call)]
-        )
+        rows = (row.args for row in node.args if isinstance(row, Call))
+        return sp.Matrix([[sympy_expression(each, opaque) for each in row] for row in rows])
     if node.name not in _VALUES and node.name not in KNOWN:
         return None
     if node.name in _OF_MATRICES and any(isinstance(each, Letter) and each.matrix for each in walk(node)):
