@@ -216,12 +216,17 @@ def _text(expander: Expander, token: Token) -> bool:
 
 
 def _quantity(expander: Expander, token: Token) -> bool:
-    r"""\num[…]{3.2e5}, \unit[…]{…} of siunitx."""
+    r"""\num[…]{3.2e5}, \unit[…]{…}, \ang[…]{30} of siunitx; minutes and seconds of an angle, \ang{;6;}, are not read."""
     if "siunitx" not in expander.loaded:
         return False
     expander.optional()
     text = expander.name()
-    expander.push(tokenize((packages.number_print if token.text == r"\num" else packages.unit_print)(text), token.at))
+    if token.text == r"\ang" and ";" in text:
+        expander.push(tokenize(f"{{{text}}}", token.at))
+        return False
+    unit = token.text in (r"\unit", r"\si")
+    shown = packages.unit_print(text) if unit else packages.number_print(text) + r"^\circ " * (token.text == r"\ang")
+    expander.push(tokenize(shown, token.at))
     return True
 
 
@@ -281,7 +286,7 @@ DEFINITIONS: dict[str, Primitive] = {
     **_commands("usepackage RequirePackage", _use),
     **_commands("input include subfile @input", _input),
 }
-_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text) | _commands("num unit si", _quantity)
+_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text) | _commands("num unit si ang", _quantity)
 PRIMITIVES: dict[str, Primitive] = {
     **DEFINITIONS,
     **_REPLACEABLE,

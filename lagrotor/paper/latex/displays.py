@@ -173,16 +173,19 @@ class _Walker:
             self.expander.define(r"\theequation", printed)
         elif token.text.replace(r"\end", r"\begin") in _BEGINS:
             self._stray(token, f"{token.text} ends nothing that has begun")
-        elif token.kind == "script" and self.body and self.expander.scopes:
-            name = self.expander.scopes[-1][0]
+        elif token.kind == "script" and self.body and (self.expander.scopes or token.text == "^"):
+            name = self.expander.scopes[-1][0] if self.expander.scopes else ""
             if name != "{" and not _NO_DISPLAY.search(name):
                 self._pass_over(name, token.at)
 
     def _pass_over(self, name: str, at: int) -> None:
         """Note an environment that is not known and holds a formula, once for each name."""
-        said = rf"\begin{{{name}}} is not known, and its formula is passed over: write equation, or define it by"
+        said = rf"\begin{{{name}}} is not known, and a formula that it displays is passed over: write equation, or define it by"
+        said += rf" \newenvironment{{{name}}}"
+        if not name:
+            said = r"^ stands outside a formula: define the command that begins this formula by \newcommand"
         if not any(said in note for note in self.expander.notes):
-            self.expander.notes.append(rf"{self.expander.place(at)}: {said} \newenvironment{{{name}}}")
+            self.expander.notes.append(f"{self.expander.place(at)}: {said}")
             self.expander.doubt = self.expander.doubt or "a part of the source is left out"
 
     def _stray(self, token: Token, fault: str) -> None:

@@ -154,6 +154,8 @@ class Expander(TokenStream):
     def _body(self, macro: Macro, token: Token) -> list[Token]:
         """Return the body of a macro with its arguments; tokens of the body have the place of the macro."""
         values: list[Iterable[Token]] = []
+        if macro.head and macro.head[0].kind in "u=":
+            self.skip_spaces()
         for kind, mark, default in macro.head:
             value: list[Token] | None = None
             if kind == "=":

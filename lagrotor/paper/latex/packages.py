@@ -62,7 +62,6 @@ TABLE = {
     "siunitx": r"""
         \SI omom \num{#2}\,\unit{#4}
         \qty omm \num{#2}\,\unit{#3}
-        \ang om #2^\circ
         """,
     "commath": r"""
         \dif,\Dif - \mathrm{d}

@@ -34,6 +34,7 @@ def expanded(text: str) -> str:
         (r"\def\x#1#2{#2#1}\x ab \x{c}{d}", "ba dc"),
         (r"\def\pair(#1,#2){#1+#2}\pair(a,{b,c})", "a+{b,c}"),
         (r"\def\x#1;{(#1)}\x a_{b;}c; d", "(a_{b;}c) d"),
+        (r"\def\x#1 #2.{#1+#2}\x ab c. d", "ab+c d"),
         (r"\def\x#1;{(#1)}{\x a} b; c", "{(a)} b; c"),  # the group ends first: its brace is no part of the argument
         ("\\def\\x#1;{(#1)}\\x a\n\nb; c", "(a)\n\nb; c"),
         (r"\def\x#1\y{(#1)}\x a\par b\y c", r"(a)\par b\y c"),
@@ -151,6 +152,8 @@ def test_commands_of_physics_are_read_or_refused_in_words(formula: str, said: st
         (r"\SI{2}{m/s^2}", r"2\,\mathrm{m/s^2}"),
         (r"\SI{2}{\parsec}", r"2\,\mathrm{\parsec}"),
         (r"\num{-2,5}", "-2.5"),
+        (r"\sin\ang{30}", r"\sin30^\circ"),
+        (r"\ang{;;43}", r"\ang{;;43}"),
     ],
 )
 def test_units_of_siunitx_are_letters(formula: str, latex: str) -> None:
