@@ -6,7 +6,7 @@ Nothing is interpreted here; every token is in one box.
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import groupby, pairwise
 from keyword import iskeyword
 from string import ascii_letters
 from typing import Any
@@ -445,10 +445,17 @@ class _Reader:
 
 
 def _without_spaces(row: list[Box]) -> list[Box]:
-    """Return a row without its thin spaces, each of which is said of the box behind it."""
-    for before, box in pairwise(row):
-        box.spaced |= before.kind == "thin"
-    return [box for box in row if box.kind != "thin"]
+    """Return a row without its thin spaces, each of which is said of the box behind it; three in a row part formulas."""
+    parts, after_thin = list[Box](), False
+    for thin, run in groupby(row, key=lambda box: box.kind == "thin"):
+        boxes = list(run)
+        if thin and len(boxes) > 2:
+            parts.append(replace(boxes[0], kind="wide"))
+        elif not thin:
+            boxes[0].spaced |= after_thin
+            parts += boxes
+        after_thin = thin
+    return parts
 
 
 def _joins(before: Box, made: Box, style: str) -> bool:

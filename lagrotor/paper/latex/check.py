@@ -478,7 +478,9 @@ class _Checker:
         return frozenset(
             s.sides[0].node.name
             for s in statements
-            if isinstance(s.sides[0].node, Letter) and {*s.relations[:1]} & {*relations} and s.sides[-1].node == number(0)
+            if isinstance(s.sides[0].node, Letter)
+            and {*s.relations[:1]} & {*relations}
+            and s.sides[-1].node == number(0)
         )
 
     @cached_property

@@ -27,7 +27,7 @@ from lagrotor.paper.latex.boxes import (
     stem_of,
     strip,
 )
-from lagrotor.paper.latex.notation import Notation, has_kind
+from lagrotor.paper.latex.notation import Notation, has_kind, is_evident_argument
 from lagrotor.paper.latex.tree import (
     CONDITIONS,
     Call,
@@ -309,7 +309,7 @@ class Grammar:
             return Call("order", (self.expression(content),))
         if self._kind(box, "real", "positive", "complex"):
             return None
-        if self._kind(box, "functions"):
+        if self._kind(box, "functions") and (not self._kind(box, "proposed") or is_evident_argument(box, bracket)):
             return self._call(box, bracket)
         time = [(b.kind, b.name, b.sup, b.sub, b.primes) for b in content] == [("letter", "t", None, None, 0)]
         if bracket.name == "(" and time and "t" not in self.bound:
@@ -318,7 +318,7 @@ class Grammar:
         late = any([b.name for b in part] == ["t"] for part in parted(content, "operator"))  # x(t - \tau)
         derived = [b.kind for b in content] == ["fraction"] and bool(bracket.sup or is_derivative(content[0]))
         listed = any(b.kind in ("comma", "relation") for b in content)
-        if (adds or derived) and not (late or listed) and name not in _NO_FACTORS:
+        if (adds or derived) and not (late or listed) and name not in _NO_FACTORS and not self._kind(box, "proposed"):
             return None
         raise self._open(box, f"{self._text(box)} before {bracket.name} is a function or a factor", "functions", "real")
 
@@ -428,6 +428,8 @@ class Grammar:
     def _function(self, row: list[Box], place: int) -> tuple[Node, int]:
         box, name = row[place], FUNCTIONS.get(row[place].name, row[place].name)
         inner, behind = self._argument(row, place)
+        if behind < len(row) and row[behind].kind == "bracket" and [b.name for b in row[behind].parts[0]] == ["t"]:
+            raise FormulaError(f"where the argument of {box.name} ends is open", "write it in brackets")
         above = [b.name for b in box.sup or ()]
         if box.sub is not None and name != "log":
             raise FormulaError(f"{box.name} has an index", "write what it means")

@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Any
 
 from lagrotor.errors import InputError
-from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, is_derivative, is_printed_as_vector, stem_of
+from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, is_printed_as_vector, stem_of
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,8 @@ class Notation:
     """The declared kinds of a paper's letters; every other letter is a real number.
 
     numbers: e where it is Euler's number, i and j where they are the imaginary unit. real: letters that are real numbers although
-    a proposal says otherwise.
+    a proposal says otherwise. proposed: functions that the sweep proposes and the author has not declared; they are read only
+    before an evident argument.
     """
 
     functions: frozenset[str] = frozenset()
@@ -31,10 +32,11 @@ class Notation:
     numbers: frozenset[str] = frozenset()
     real: frozenset[str] = frozenset()
     decimal_comma: bool = False
+    proposed: frozenset[str] = frozenset()
 
 
 # Keys of the table that hold letters; kinds of which a letter can have one only.
-KINDS = tuple(each.name for each in fields(Notation) if each.name != "decimal_comma")
+KINDS = tuple(each.name for each in fields(Notation) if each.name not in ("decimal_comma", "proposed"))
 _EXCLUSIVE = (
     ("real", "functions", "vectors", "matrices", "operators", "indices", "complex", "numbers"),
     ("vectors", "matrices", "operators", "indices", "positive", "numbers"),
@@ -98,7 +100,7 @@ def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notatio
     settled = frozenset[str]().union(*known.values())
     free = [each for each in proposals if each.letter not in settled]
     more: dict[str, Any] = {kind: known[kind] | {each.letter for each in free if each.kind == kind} for kind in KINDS}
-    return replace(notation, **more)
+    return replace(notation, proposed=more["functions"] - known["functions"], **more)
 
 
 def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
@@ -178,15 +180,19 @@ def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
         transposed = [each.name for each in power] in (["T"], ["top"], ["intercal"])
         acts = box.name.isupper() and after.kind == "letter" and is_printed_as_vector(after)
         yield ("matrices" if box.name.isupper() and (transposed or acts) else "vectors"), stem_of(box)
-    if after.kind == "bracket" and after.name == "(" and box.name not in ("O", "d") and _is_argument(after):
+    if box.name not in ("O", "d") and is_evident_argument(box, after):
         yield "functions", stem_of(box)
 
 
-def _is_argument(bracket: Box) -> bool:
-    """Whether a bracket holds what only an argument is: one letter other than t, a list, a product; no sum and no number."""
+def is_evident_argument(box: Box, bracket: Box) -> bool:
+    """Whether what stands behind a letter is an argument and no factor: one letter other than t, or a list.
+
+    A number may stand for a letter, and a prime makes a sum an argument. A power of the letter or of the bracket makes a product.
+    """
+    if bracket.kind != "bracket" or bracket.name != "(" or bracket.sup or (box.sup and box.sup[0].kind == "number"):
+        return False
     content = bracket.parts[0]
-    names = {each.name for each in content if each.kind == "letter"}
-    adds = any(each.kind in ("operator", "relation") and each.name not in ("/", "cdot") for each in content[1:])
-    derivative = any(is_derivative(each) for each in content)
-    only_time = len(content) == 1 and names == {"t"}
-    return bool(names) and not (adds or derivative or only_time) and content[0].kind in ("letter", "number")
+    if any(each.kind == "relation" for each in content):
+        return False
+    single = len(content) == 1 and content[0].kind == "letter" and content[0].name != "t"
+    return single or any(each.kind == "comma" for each in content)
