@@ -101,7 +101,9 @@ def judge_text(
     texts = tuple(_put_in(text, assumed) for text in texts)
     whole = sorted({name for text in texts for node in text.nodes for name in _lengths(node)})
     letters |= {name: sp.Symbol(name, integer=True, positive=True) for name in whole}
-    opaque = Opaque(rates=rates_of(node for text in (*texts, *assumed) for node in text.nodes), refuses=True)
+    rates = rates_of(node for text in (*texts, *assumed) for node in text.nodes)
+    rates = {letters.get(a.name, a): letters.get(b.name, b) for a, b in rates.items()}
+    opaque = Opaque(rates=rates, refuses=True, letters=letters)
     premises = [_relation(text, letters, opaque) for text in assumed if not _is_put_in(text, assumed, texts)]
     about = read(small, letters, "small") if small else None
     relations: list[Relation] = []
@@ -138,23 +140,23 @@ def _values(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> list[tup
     called = {each.name for each in parts if isinstance(each, Call)}
     if both := next((each.name for each in parts if isinstance(each, Letter) and each.name in called), None):
         raise InputError(f"judge: {both} stands with its argument and without it: write the argument everywhere")
-    values = [_value(node, letters, opaque) for node in text.nodes]
+    values = [_value(node, opaque) for node in text.nodes]
     shapes = [value.shape for value in values if isinstance(value, sp.MatrixBase)]
     values = [sp.zeros(*shapes[0]) if shapes and value == 0 else value for value in values]
     if len({getattr(value, "shape", ()) for value in values}) > 1:
         raise InputError(f"judge: {text}: the sides are a number and a vector, or of different sizes")
-    over = ([sp.Pow(_value(each, letters, opaque), -1, evaluate=False) for each in divisors(n)] for n in text.nodes)
+    over = ([sp.Pow(_value(each, opaque), -1, evaluate=False) for each in divisors(n)] for n in text.nodes)
     return [(value, sp.Tuple(*each)) for value, each in zip(values, over, strict=True)]
 
 
-def _value(node: Node, letters: Mapping[str, Any], opaque: Opaque) -> Any:
+def _value(node: Node, opaque: Opaque) -> Any:
     try:
         value = sympy_expression(node, opaque)
     except InputError as error:
         raise InputError(f"judge: {error}") from None
     except (TypeError, ValueError, AttributeError, NotImplementedError, RecursionError) as error:
         raise InputError(f"judge: {text_of(node)} has no value: {error}") from None
-    return value.xreplace({sp.Symbol(name, real=True): letter for name, letter in letters.items()})
+    return value
 
 
 def _definitions(assumed: Iterable[_Text]) -> dict[Node, Node]:

@@ -190,3 +190,18 @@ def test_constants_and_natural_numbers_are_said() -> None:
         "the other letters are constant in derivatives and integrals",
     )
     assert "n is a natural number" in judge_text(r"\sum_{k=1}^{n} k = \frac{n(n+1)}{2}").readings[1]
+
+
+@pytest.mark.parametrize("positive", [(), ("x",)])
+def test_a_function_of_a_function_is_not_evaluated_while_it_is_read(positive: tuple[str, ...]) -> None:
+    equation = r"\cos(x\operatorname{arcosh}(1 + 10^{-8})) = %s"
+    assert judge_text(equation % "1", positive=positive).verdict.verdict == "refuted"
+    same = r"\cos(\operatorname{arcosh}(1 + 10^{-8})\,x)"
+    assert judge_text(equation % same, positive=positive).verdict.verdict == "holds"
+
+
+def test_positive_letters_are_positive_in_sums_and_rates() -> None:
+    for equation in (r"\frac{d}{dt}\sqrt{x^2} = \dot x", r"\sum_{i=1}^2\sqrt{x_i^2} = x_1 + x_2"):
+        letters = ["x"] if "dt" in equation else ["x_1", "x_2"]
+        assert judge_text(equation, positive=letters).verdict.verdict == "holds"
+        assert judge_text(equation).verdict.verdict != "holds"

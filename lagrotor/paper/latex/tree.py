@@ -3,7 +3,7 @@
 import operator
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
 from itertools import pairwise
@@ -191,6 +191,7 @@ class Opaque:
     taken, the other letters held fixed, and `fixing` says whether any were. positive: letters that are; `assuming` says whether
     others were taken as positive, so that an integral has a value. refuses: whether a part that stands for itself is refused
     in words; then a letter before its argument is a function of sympy, and sums and integrals are left to the decision.
+    letters: symbols with other assumptions than to be real.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
@@ -199,6 +200,7 @@ class Opaque:
     positive: frozenset[str] = frozenset()
     assuming: bool = False
     refuses: bool = False
+    letters: Mapping[str, sp.Symbol] = field(default_factory=dict)
 
     def symbol(self, node: Node) -> Any:
         """Return the symbol that stands for a part; of a vector, its components. Raises InputError where none may."""
@@ -240,7 +242,7 @@ def sympy_expression(node: Node, opaque: Opaque) -> Any:
             return _CONSTANTS[node.name]
         if node.vector:
             return sp.Matrix(sp.symbols(f"{node.name}_1:4", real=True))
-        return sp.Symbol(node.name, real=True)
+        return opaque.letters.get(node.name, sp.Symbol(node.name, real=True))
     value = _bound(node, opaque) if node.name in _BINDING else _value(node, opaque)
     return opaque.symbol(node) if value is None else value
 
@@ -332,7 +334,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
     if not isinstance(node.args[1], Letter) or node.args[1].vector or isinstance(inner, sp.MatrixBase):
         return None
     name, ends = node.args[1].name, [sympy_expression(each, opaque) for each in node.args[2:]]
-    variable = sp.Symbol(name, real=True)
+    variable = opaque.letters.get(name, sp.Symbol(name, real=True))
     if has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner)):
         return None
     if node.name == "at":
@@ -363,22 +365,20 @@ def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque:
     if len(ends) != 2 or ends[0].is_Integer is not True:
         return None
     if ends[1].is_Integer and ends[1] - ends[0] <= _MOST_ADDED:
-        terms = [_indexed(inner, name, k) for k in range(int(ends[0]), int(ends[1]) + 1)]
+        numbers = range(int(ends[0]), int(ends[1]) + 1)
+        terms = [sympy_expression(_indexed(node.args[0], name, k), opaque) for k in numbers]
         return (sp.Add if node.name == "Sum" else sp.Mul)(*terms)
     free = not any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
     return sp.Sum(inner, (variable, *ends)) if opaque.refuses and free and node.name == "Sum" else None
 
 
-def _indexed(inner: Any, name: str, k: int) -> Any:
+def _indexed(node: Node, name: str, k: int) -> Node:
     """Return a term of a sum, the index and the letters that bear it replaced: x_i by x_2."""
-    names = {
-        symbol: [str(k) if part == name else part for part in symbol.name.split("_")[1:]]
-        for symbol in inner.free_symbols
-    }
-    put = {
-        s: sp.Symbol("_".join((s.name.split("_")[0], *parts)), real=True) for s, parts in names.items() if "_" in s.name
-    }
-    return inner.xreplace(put | {sp.Symbol(name, real=True): sp.Integer(k)})
+    if isinstance(node, Letter):
+        stem, *index = node.name.split("_")
+        named = replace(node, name="_".join((stem, *(str(k) if part == name else part for part in index))))
+        return number(k) if node.name == name else named
+    return Call(node.name, tuple(_indexed(each, name, k) for each in node.args)) if isinstance(node, Call) else node
 
 
 def _apart(derivative: Call, inner: sp.Expr) -> bool:
