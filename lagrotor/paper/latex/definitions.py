@@ -221,6 +221,9 @@ def _quantity(expander: Expander, token: Token) -> bool:
         return False
     expander.optional()
     text = expander.name()
+    if not expander.in_formula:
+        expander.push(plain(text, token.at))
+        return True
     if token.text == r"\ang" and ";" in text:
         expander.push(tokenize(f"{{{text}}}", token.at))
         return False
