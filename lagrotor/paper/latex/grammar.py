@@ -258,6 +258,8 @@ class Grammar:
                 return applied, place + 2
         node: Node = self.letter(box)
         if box.primes and self._kind(box, "functions"):
+            if self._kind(box, "proposed"):
+                raise self._open(box, f"{self._text(box)} is a derivative or another letter", "functions", "real")
             node = self.letter(replace(box, primes=0))
             if is_vector(node):
                 raise self._open(box, f"{self._text(box)} is a derivative or another vector", "vectors")
