@@ -1,7 +1,5 @@
 """Whether two printed sides agree: at points in floating point, then exactly; with a bound on the work."""
 
-import cmath
-import math
 from collections.abc import Callable
 from itertools import islice
 from random import Random
@@ -25,13 +23,6 @@ TOO_LARGE = "the difference is too large"
 LARGEST = 1e300  # numbers that are compared
 # Points at which two sides are evaluated until both are real, and the share of its terms below which a sum is rounding.
 _MOST_POINTS, _UNCANCELLED = 16, 1e-6
-_IN_FLOATS = {
-    **{getattr(sp, name): getattr(cmath, name) for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")},
-    **{getattr(sp, name): getattr(cmath, name) for name in ("asin", "acos", "atan", "asinh", "acosh", "atanh")},
-    sp.Abs: abs,
-    sp.cot: lambda z: 1 / cmath.tan(z),
-    sp.coth: lambda z: 1 / cmath.tanh(z),
-}
 
 _step: Calls | None = None  # the calls that are left to the step that is being decided
 
@@ -84,59 +75,19 @@ def nearly_equal(a: Any, b: Any) -> bool:
 
 
 def may_agree(a: Any, b: Any) -> bool:
-    """Return whether no point is known at which two expressions are real and differ: only then is the exact decision tried.
-
-    Where neither is real at any point, they are compared as complex numbers.
-    """
+    """Return whether no point is known at which two expressions are real and differ: only then is the exact decision tried."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
         return True
     symbols = sorted(a.free_symbols | b.free_symbols, key=str)
-    random, differ = Random(len(symbols)), False
+    random = Random(len(symbols))
     for trial in range(_MOST_POINTS):
         point = {s: sp.Rational(2 * n + 4 * trial + 3, 5 * n + 7) for n, s in enumerate(symbols)}
         if trial > 2:  # of any sign and size: a root of a negative number may be real there
             point = {s: sp.Rational(random.randrange(-99, 100, 2), random.choice((7, 80))) for s in symbols}
-        numbers = {s: float(value) for s, value in point.items()}
-        values = _float(a, numbers), _float(b, numbers)
-        if complex in map(type, values):
-            if None not in values:
-                if nearly_equal(*values):
-                    return True
-                differ = True
-            continue
-        if None in values:
-            values = value_at(a, point), value_at(b, point)
-            if not all(value.is_real and value.is_finite for value in values):
-                continue
-        return nearly_equal(*values)
-    return not differ
-
-
-def _float(e: Any, point: dict[sp.Symbol, float]) -> Any:
-    """Return the value in floats, a complex number where it is not real; None where digits cancel or floats overflow."""
-    try:
-        value = _evaluated(e, point)
-        return value if abs(value) < LARGEST else None
-    except (ArithmeticError, ValueError, TypeError, KeyError):
-        return None
-
-
-def _evaluated(e: Any, point: dict[sp.Symbol, float]) -> Any:
-    if not e.args:
-        return point[e] if e.is_Symbol else _real_or_complex(complex(e))
-    values = [_evaluated(part, point) for part in e.args]
-    if e.is_Add:
-        total = sum(values)
-        if abs(total) < _UNCANCELLED * max(map(abs, values)):
-            raise ArithmeticError
-        return total
-    if e.is_Mul:
-        return math.prod(values)
-    return values[0] ** values[1] if e.is_Pow else _real_or_complex(_IN_FLOATS[type(e)](values[0]))
-
-
-def _real_or_complex(value: complex) -> complex:
-    return value if value.imag else value.real
+        values = value_at(a, point), value_at(b, point)
+        if all(value.is_real and value.is_finite for value in values):
+            return nearly_equal(*values)
+    return True
 
 
 def is_large(*sides: Any) -> bool:
