@@ -37,6 +37,7 @@ _RELATIONS = re.compile(
 )
 _NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX does not go on in a formula behind these
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
+_PARAGRAPH = 4000  # characters of a paragraph before a display that belong to it
 _REFERENCES = (r"\eqref", r"\refeq", r"\ref", r"\cref", r"\Cref", r"\autoref")
 # Environments that number formulas in a way of their own, and those that hold = and _ in drawings and code.
 _REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases")
@@ -123,7 +124,7 @@ class _Walker:
         self.body = not self.whole
         self.section, self.starred, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0  # the last number, and how many displays without one came since
-        self.outer: list[tuple[int, Macro | None]] = []  # subequations: the value of the counter, and its print
+        self.outer: list[tuple[int, Macro | None, str]] = []  # subequations: the counter's value and print, the number
         self.cited: list[str] = []  # labels named since the last display
         self.words = ""  # of the paragraph, since the last display
         self.neighbours: list[str] = []  # displays to which the next words belong
@@ -169,7 +170,7 @@ class _Walker:
         elif token.text == "$":
             self._inline(token, "$")
         elif token.text == r"\end{subequations}" and self.outer:
-            self.counters.values["equation"], printed = self.outer.pop()
+            self.counters.values["equation"], printed, _ = self.outer.pop()
             self.expander.define(r"\theequation", printed)
         elif token.text.replace(r"\end", r"\begin") in _BEGINS:
             self._stray(token, f"{token.text} ends nothing that has begun")
@@ -212,7 +213,7 @@ class _Walker:
         elif name == "label":
             label = expander.name()
             if self.outer:
-                self.source.labels[label] = self.aux.get(label, latex_of(expander.macros[r"\theparentequation"].body))
+                self.source.labels[label] = self.aux.get(label, self.outer[-1][2])
         elif name == "appendix":
             self.counters.begin_appendix(expander, expander.star())
         elif name in ("frontmatter", "mainmatter", "backmatter"):
@@ -248,8 +249,9 @@ class _Walker:
         """Number by letters within the next number."""
         counters, expander = self.counters, self.expander
         counters.step("equation")
-        self.outer.append((counters.values["equation"], expander.macros.get(r"\theequation")))
-        expander.define(r"\theparentequation", Macro.of(counters.printed(expander, "equation")))
+        number = counters.printed(expander, "equation")
+        self.outer.append((counters.values["equation"], expander.macros.get(r"\theequation"), number))
+        expander.define(r"\theparentequation", Macro.of(number))
         expander.define(r"\theequation", Macro.of(r"\theparentequation\alph{equation}"))
         counters.values["equation"] = 0
 
@@ -257,8 +259,9 @@ class _Walker:
         """Give the words of a paragraph to the display before them and to the one behind."""
         first, *others = EMPTY_LINE.split(text)
         for display in self.neighbours:
-            self.source.words[display] += first
-        self.words = others[-1] if others else self.words + first
+            if len(self.source.words[display]) < 2 * _PARAGRAPH:
+                self.source.words[display] += first
+        self.words = (others[-1] if others else self.words + first)[-_PARAGRAPH:]
         self.neighbours = [] if others else self.neighbours
 
     def _section(self, level: str, heading: str, star: bool) -> None:

@@ -9,7 +9,7 @@ from lagrotor.errors import InputError
 from lagrotor.files import read_text
 from lagrotor.paper.latex.tokens import BRACES, Token, latex_of, plain, tokens_of
 
-_MOST_FILES = 500
+_MOST_FILES, _LONGEST_NAME = 500, 80
 # TeX passes over NUL; another control character is no part of a formula, nor of a file that stores one.
 _CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
 EMPTY_LINE = re.compile(r"\n\s*\n\s*")
@@ -57,7 +57,7 @@ class TokenStream:
 
         A file outside the folder of the source is not read: a note says so.
         """
-        if self.file is None:
+        if self.file is None or len(name) > _LONGEST_NAME:
             return None
         root = self.file.resolve().parent
         folders = (self.file.parent, (self._open_files() or self._reading)[-1][0].parent)
@@ -73,7 +73,9 @@ class TokenStream:
         if (path := self.file_beside(name, (".tex", ""))) is not None:
             self.take_in(read_text(path, "latin-1"), path)
         elif self.file is not None and ".sty:" not in self.place(at):
-            self.notes.append(f"{self.place(at)}: {name} is missing: put it into the folder of the source")
+            self.notes.append(
+                f"{self.place(at)}: {name[:_LONGEST_NAME]} is missing: put it into the folder of the source"
+            )
 
     def tokens_apart(self, path: Path) -> Iterator[Token]:
         """Yield the tokens of a file as they stand; the stream goes on behind them as it was."""

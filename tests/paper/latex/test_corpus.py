@@ -173,6 +173,7 @@ def test_numbers_that_cannot_be_known_are_said_and_taken_from_the_aux(start: str
         (r"\begin{subequations}\begin{align} a &= b \end{align}\label{l}\end{subequations}", {"l": "1"}),
         (r"\begin{subequations}\begin{align} a &= b \label{l}\end{align}\end{subequations}", {"l": "1a"}),
         (r"\section{S}\label{s}", {}),
+        (r"{\begin{subequations}}\label{l}", {"l": "1"}),
     ],
 )
 def test_a_label_has_the_number_of_its_equation(body: str, labels: dict[str, str]) -> None:

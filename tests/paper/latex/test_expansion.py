@@ -204,7 +204,11 @@ def test_files_are_sought_in_the_folder_of_the_source_and_nowhere_else(tmp_path:
     (folder / "part" / "two.tex").write_text(r"\[ b = 2 \]", encoding="utf-8")
     (folder / "of its own.tex").write_text(r"\[ c = 3 \]", encoding="utf-8")
     file = folder / "paper.tex"
-    body = r"\import{part/}{one}\input{two}\include{../secret}\input link \input{/etc/hostname}\input{"
+    body = (
+        r"\import{part/}{one}\input{two}\include{../secret}\input link \input{/etc/hostname}\input{"
+        + 9 * "long " * 9
+        + r"}\input{"
+    )
     file.write_text(
         rf'\documentclass{{article}}\begin{{document}}{body}"of its own.tex"}}\end{{document}}', encoding="utf-8"
     )
