@@ -25,6 +25,7 @@ TABLE = {
         \rbrack - ]
         \IEEEeqnarraymulticol mmm #3
         \import mm \input{#1#2}
+        \AtBeginDocument m #1
         \@power m \IfValueT{#1}{^{#1}}
         \@quotient mmmm \IfValueTF{#4}{\frac{#1\@power{#2} #3}{#1 #4\@power{#2}}}{\frac{#1\@power{#2} }{#1 #3\@power{#2}}}
         \@bracket mmm \IfValueT{#2}{\left#1 #2 \right#3}

@@ -47,6 +47,7 @@ def expanded(text: str) -> str:
         (r"\let\ifdraft\iftrue\ifdraft a\ifdraft b\else c\fi d\else e\fi f", "abdf"),
         (r"\newif\foo \foo a\fi", r"\foo a"),  # no condition: LaTeX refuses it
         (r"\edef\x{a}\x", r"\x"),
+        (r"\def\x{a}\AtBeginDocument{\def\x{b}}\x", "b"),
         (r"\let\x\relax\x a", "a"),
         (r"\def\x{\@ifstar\y\z}\def\y#1{(#1)}\def\z#1{[#1]}\x*ab \x {c}", "(a)b[c]"),
         (r"\def\x{\@ifnextchar[\y{\y[z]}}\def\y[#1]{(#1)}\x[a]b \x c", "(a)b(z)c"),
