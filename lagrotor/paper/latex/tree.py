@@ -80,6 +80,19 @@ def number(value: int | str) -> Number:
     return Number(Fraction(value))
 
 
+def rational_value(node: Node) -> Fraction | None:
+    """Return the number that a node prints, such as 2, -1 or 3/2; None where it prints another thing."""
+    if isinstance(node, Number):
+        return node.value
+    parts = [rational_value(part) for part in node.args] if isinstance(node, Call) else []
+    match (node.name, *parts):
+        case ("negative", Fraction() as value):
+            return -value
+        case ("quotient", Fraction() as above, Fraction() as below) if below:
+            return above / below
+    return None
+
+
 def walk(node: Node) -> Iterator[Node]:
     """The node and all that it holds."""
     waiting = [node]
