@@ -316,7 +316,7 @@ class _Checker:
             return MAYBE, ""
         differ = f"the members differ by {_difference(a, b)}"
         if not others and letters:
-            if (value := constant_value(a)) is not None and decided(a, value) == "zero":
+            if (value := constant_value(a)) is not None:
                 return "", f"the left member is {value} for all values of its letters"
             slip = change_to_agree(b, left, letters, self._value) if a.has(sp.Function) else None
             return ("", f"{differ}; {slip}") if slip and "sign" in slip else (MAYBE, "")
