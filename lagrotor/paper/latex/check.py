@@ -13,7 +13,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from itertools import chain, pairwise
+from itertools import pairwise
 from typing import Any
 
 import sympy as sp
@@ -39,13 +39,11 @@ from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.sentence import ASSUMPTION, CONDITION, IDENTITY, REASON, said_of
 from lagrotor.paper.latex.slips import change_to_agree, constant_value
 from lagrotor.paper.latex.statements import PrintedStatement, Side
-from lagrotor.paper.latex.substitution import WANTED, PrintedMeaning, SectionMeanings, put_rounds, rounds
+from lagrotor.paper.latex.substitution import BINDING, PrintedMeaning, SectionMeanings, put_for, put_rounds, rounds
 from lagrotor.paper.latex.tree import (
-    KNOWN,
     Call,
     Letter,
     Node,
-    Number,
     Opaque,
     has_opaque,
     is_vector,
@@ -72,10 +70,9 @@ WORDS = "the words beside it state a condition or a reason"
 BEFORE = "an equation before relates its letters"
 MAYBE = "it may be a condition"
 ALL_REAL = Notation()
-_VERDICTS = tuple[str, str, list[PrintedMeaning]]
+_VERDICT = tuple[str, str]
 _RELATION = re.compile(r"=|[<>]|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong|leq?|geq?)\b")
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
-_BINDING = ("Sum", "Product", "Integral", "limit", "at")
 _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 
 
@@ -151,13 +148,16 @@ def check_source(source: Source, declared: Notation = ALL_REAL, progress: Callab
 
 @dataclass(frozen=True)
 class _Way:
-    """Two members with premises put in round by round; `value` evaluates any node in the same way."""
+    """Two members, as expressions, with premises put in round by round."""
 
+    put: list[dict[Node, PrintedMeaning]]
+    opaque: Opaque
     left: Any
     right: Any
-    put: list[dict[Node, PrintedMeaning]]
-    value: Callable[[Node], Any]
-    opaque: Opaque
+
+    def value(self, node: Node) -> Any:
+        """Return any node as an expression with the premises put in."""
+        return expression_of(put_rounds(node, self.put), self.opaque)
 
     @property
     def used(self) -> list[PrintedMeaning]:
@@ -171,28 +171,12 @@ class _Way:
         names += ["the other letters fixed in derivatives and integrals"] * self.opaque.fixing
         return ", ".join([*names, *["positive letters"] * self.opaque.assuming]) or "derivatives taken"
 
-    @property
-    def takes_a_sign(self) -> bool:
-        """Whether a sign was taken that is not printed: of a root, of letters."""
-        return self.opaque.assuming or any(each.is_a_root for each in self.used)
-
-    def takes_root_of(self, letters: frozenset[str]) -> bool:
-        """Return whether the positive root was taken for one of these letters, whose square is given."""
-        return any(
-            each.is_a_root and isinstance(each.meaning, Letter) and each.meaning.name in letters for each in self.used
-        )
-
-    def differs(self, a: Any, b: Any) -> bool:
-        """Return whether the premises change two members, which can then be compared."""
-        known = self.left is not None and self.right is not None and (self.left, self.right) != (a, b)
-        return known and not is_large(self.left, self.right)
-
 
 class _Checker:
     def __init__(self, source: Source, readings: list[tuple[Displayed, Reading]], notation: Notation) -> None:
         self.source, self.readings, self.notation = source, readings, notation
         self.opaque = Opaque()
-        self.given, self.sections_read = SectionMeanings(), set[str]()
+        self.given, self.sections_read = SectionMeanings(negative=self._compared_with_zero(("<", "<="))), set[str]()
         self.labelled: defaultdict[str, list[Displayed]] = defaultdict(list)
         self.place = 0
         self.statements = [(each, s) for each, reading in readings for s in reading.statements]
@@ -239,12 +223,14 @@ class _Checker:
             claimed = order if step == len(sides) - 1 and step > 1 else None
             claimed = claimed or (order_before if step == 2 else None)
             if claimed:
-                verdict = bounded(self._order, left.node, right.node, claimed, too_large=(NOT_JUDGED, TOO_LARGE, []))
-            elif relation not in ("=", ":=") or (step == 1 and not self._is_judged_alone(left.node, right.node)):
+                verdict = bounded(self._order, left.node, right.node, claimed, too_large=(NOT_JUDGED, TOO_LARGE))
+            elif relation not in ("=", ":=") or (
+                step == 1 and not (isinstance(left.node, Call) or self._is_worked_out(left.node, right.node, printed))
+            ):
                 continue
             else:
                 verdict = bounded(
-                    self._step, left.node, right.node, printed, step == 1, too_large=(NOT_JUDGED, TOO_LARGE, [])
+                    self._step, left.node, right.node, printed, step == 1, too_large=(NOT_JUDGED, TOO_LARGE)
                 )
             if step > 1 or verdict[0] != NOT_JUDGED:
                 yield self._finding(each, step, (left, right), verdict[0], verdict[1])
@@ -259,46 +245,36 @@ class _Checker:
         shifted = [replace(side, at=max(side.at - len(each.lead) - 1, 0)) for side in statement.sides[1:]]
         return replace(statement, sides=(first, last, *shifted), relations=("=", *statement.relations))
 
-    def _is_judged_alone(self, left: Node, right: Node) -> bool:
-        """Return whether the first step of a chain may follow from its letters or from the equations that it cites."""
-        of_functions = any(isinstance(each, Call) and each.name in KNOWN for each in walk(left))
-        if len(self._cited) > 1 and any(each.name in self._cited for each in self.given.known.get(left, ())):
-            return True
-        dotted = _DOTTED.fullmatch(left.name) if isinstance(left, Letter) else None
-        if dotted and any(_DOTTED.sub(r"\1", name) == dotted[1] for name in letters_of(right)):
-            return False  # an equation of motion
-        speaks = bool(letters_of(right)) or (of_functions and isinstance(right, Number) and right.value != 0)
-        return (bool(dotted) or isinstance(left, Call)) and not isinstance(right, Letter) and speaks
-
-    def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool) -> _VERDICTS:
-        """Return the verdict on a step, the reason, and the premises that were put in."""
+    def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool) -> _VERDICT:
+        """Return the verdict on a step, and the reason."""
         self.opaque.assuming = False
         a, b = self._value(left), self._value(right)
         assuming = self.opaque.assuming
         if a is None or b is None:
-            return NOT_JUDGED, UNCOMPARABLE, []
+            return NOT_JUDGED, UNCOMPARABLE
         if a != b and is_large(a, b):
-            return NOT_JUDGED, TOO_LARGE, []
+            return NOT_JUDGED, TOO_LARGE
         answer = decided(a, b) if may_agree(a, b) else "nonzero"
         if answer == "zero":
-            return HOLDS, "an identity where its roots are real" if radicands(a, b) else "an identity", []
-        ways = [way for way in self._ways(left, right, printed) if way.differs(a, b)]
+            return HOLDS, "an identity where its roots are real" if radicands(a, b) else "an identity"
+        ways = [*self._ways(left, right, a, b, printed)]
         if answer == "undecided" and agree_for_positive(a, b):
-            return HOLDS, "for positive letters", []
+            return HOLDS, "for positive letters"
         for agreeing, condition in ((agree, ""), (agree_for_positive, ", positive letters")):
             for way in ways:
-                if agreeing(way.left, way.right) and not way.takes_root_of(self._negative):
-                    return HOLDS, f"with {way.name}{condition}", way.used
+                if agreeing(way.left, way.right):
+                    return HOLDS, f"with {way.name}{condition}"
         if answer == "undecided":
-            return NOT_JUDGED, OUTSIDE, []
+            return NOT_JUDGED, OUTSIDE
         reason, why = self._refuted(left, right, a, b, first, bool(ways))
         if not reason and not assuming and decided(a, b) == "nonzero":
-            return REFUTED, why, []
-        for way in ways if not first or self._follows(left, printed) else ():
+            return REFUTED, why
+        for way in ways if not first or self._is_worked_out(left, right, printed) else ():
             slip = self._slip_with(left, right, way) if self._are_sure(way.used, printed) else ""
-            if slip and not ("sign" in slip and way.takes_a_sign):
-                return REFUTED, f"with {way.name} the two members differ; {slip}", way.used
-        return NOT_JUDGED, reason or OUTSIDE, []
+            takes_a_sign = way.opaque.assuming or any(each.is_a_root for each in way.used)
+            if slip and not ("sign" in slip and takes_a_sign):
+                return REFUTED, f"with {way.name} the two members differ; {slip}"
+        return NOT_JUDGED, reason or OUTSIDE
 
     def _refuted(self, left: Node, right: Node, a: Any, b: Any, first: bool, premises: bool) -> tuple[str, str]:
         """Return the reason for which a difference that is not zero refutes nothing, or "" and how the members differ.
@@ -320,7 +296,7 @@ class _Checker:
                 return "", f"the left member is {value} for all values of its letters"
             slip = change_to_agree(b, left, letters, self._value) if a.has(sp.Function) else None
             return ("", f"{differ}; {slip}") if slip and "sign" in slip else (MAYBE, "")
-        if self._related(letters, a, b):
+        if self._related(letters):
             return BEFORE, ""
         if slip := self._slip(left, right, a, b, first):
             return "", f"{differ}; {slip}"
@@ -342,40 +318,35 @@ class _Checker:
         letters, others = (set(letters_of(put_rounds(side, way.put))) for side in (left, right))
         if None in (way.left, way.right) or not others or not _comparable(way.left, way.right):
             return None
-        if not _but_for_dots(others, letters) or self._related(letters | others, way.left, way.right):
+        if not _but_for_dots(others, letters) or self._related(letters | others, way.used):
             return None
         return change_to_agree(way.left, right, letters | set(letters_of(right)), way.value)
 
     def _value(self, node: Node) -> Any:
         return expression_of(node, self.opaque)
 
-    def _ways(self, left: Node, right: Node, printed: PrintedStatement) -> Iterator[_Way]:
-        """The two members with derivatives taken and premises put in: for letters of the one, of the other, of both."""
+    def _ways(self, left: Node, right: Node, a: Any, b: Any, printed: PrintedStatement) -> Iterator[_Way]:
+        """Yield the members a and b, derivatives taken and premises put in: for letters of the left one alone, of both."""
         section = self.readings[self.place][0].section
 
         def premises(parts: Iterable[Node]) -> Iterator[PrintedMeaning]:
             return self.given.of(parts, self.place, section, printed)
 
-        tried: list[list[dict[Node, PrintedMeaning]]] = []
-        for wanted in WANTED:
-            put = rounds(left, right, premises, wanted)
-            if put in tried:
-                continue
-            tried.append(put)
+        of_left, of_both = (rounds(left, right, premises, left_alone) for left_alone in (True, False))
+        for put in [of_left] if of_left == of_both else [of_left, of_both]:
             opaque = Opaque(self.opaque.names, self.rates, positive=self._positive)
+            sides = [expression_of(put_rounds(node, put), opaque) for node in (left, right)]
+            if None not in sides and sides != [a, b] and not is_large(*sides):
+                yield _Way(put, opaque, *sides)
 
-            def value(node: Node, put: list[dict[Node, PrintedMeaning]] = put, opaque: Opaque = opaque) -> Any:
-                return expression_of(put_rounds(node, put), opaque)
-
-            sides = value(left), value(right)
-            yield _Way(*sides, put, value, opaque)
-
-    def _follows(self, left: Node, printed: PrintedStatement) -> bool:
-        """Return whether the left member of a first step is worked out from what is given, so that it is no condition."""
-        derived = isinstance(left, Call) and left.name in ("Derivative", "Integral", "at_constant", "rate")
-        cited = len(self._cited) > 1 and isinstance(left, Letter)
-        moving = isinstance(left, Letter) and bool(_DOTTED.fullmatch(left.name))
-        return derived or cited or moving or self.given.is_called(left, printed)
+    def _is_worked_out(self, left: Node, right: Node, printed: PrintedStatement) -> bool:
+        """Return whether the left member of a first step is worked out from the text, so that the step is no condition."""
+        if not isinstance(left, Letter):
+            derived = isinstance(left, Call) and left.name in ("Derivative", "Integral", "at_constant", "rate")
+            return derived or self.given.is_called(left, printed)
+        if dotted := _DOTTED.fullmatch(left.name):  # an equation of motion has the letter itself
+            return all(_DOTTED.sub(r"\1", name) != dotted[1] for name in letters_of(right))
+        return len(self._cited) > 1 and any(each.name in self._cited for each in self.given.known.get(left, ()))
 
     def _are_sure(self, used: list[PrintedMeaning], printed: PrintedStatement) -> bool:
         """Return whether premises are cited, or all that the section gives, and no word tells of another case."""
@@ -397,19 +368,24 @@ class _Checker:
         """Return the words of a kind beside the equation in place."""
         return said_of(self.source.words.get(self.readings[self.place][0].id, ""), what, [*premises])
 
-    def _related(self, letters: set[str], a: Any, b: Any) -> bool:
-        """Return whether the text or an equation before speaks of these letters only, so that two members may agree."""
-        for _, latex, reading in chain(((each, each.latex, r) for each, r in self.readings[: self.place]), self._text):
-            if not reading.whole:
-                named = {name.split("_")[0] for name in letters_printed(latex)}
-                if named and named <= {letter.split("_")[0] for letter in letters}:
-                    return True
-            elif any(
-                letters_of_statement(s) <= letters and {*s.relations} - _BOUNDS and self._may_explain(s, a, b)
-                for s in reading.statements
-            ):
+    def _related(self, letters: set[str], premises: Iterable[PrintedMeaning] = ()) -> bool:
+        """Return whether an equation of these letters only stands in the text or before, so that two members may agree."""
+        stems = {letter.split("_")[0] for letter in letters}
+        known = [each.statement for each in premises]
+        for latex, reading in self._before(self.place):
+            if not reading.whole and (names := letters_printed(latex)) and names <= stems:
+                return True
+            if any(s not in known and self._explains(s, letters) for s in reading.statements):
                 return True
         return False
+
+    def _explains(self, statement: PrintedStatement, letters: set[str]) -> bool:
+        """Return whether a statement relates no other letters than these: no bound, and no identity."""
+        nodes = [side.node for side in statement.sides]
+        if not {name for node in nodes for name in letters_of(node)} <= letters or {*statement.relations} <= _BOUNDS:
+            return False
+        pairs = pairwise(map(self._value, nodes))
+        return statement.kind != "equation" or not all(None not in pair and agree(*pair) for pair in pairs)
 
     def _speaks_of(self, difference: Any) -> bool:
         """Return whether the text or an equation before has a letter of a difference."""
@@ -417,49 +393,33 @@ class _Checker:
         start = self.place
         while start and self.readings[start][0].lead:  # the first row of the chain
             start -= 1
-        formulas = chain((each.latex for each, _ in self.readings[:start]), (latex for _, latex, _ in self._text))
-        return any(stems & {name.split("_")[0] for name in letters_printed(latex)} for latex in formulas)
+        return any(stems & letters_printed(latex) for latex, _ in self._before(start))
 
-    def _may_explain(self, statement: PrintedStatement, a: Any, b: Any) -> bool:
-        """Return whether two members agree, or may agree, where a statement holds; it is solved for each letter in turn."""
-        sides = [self._value(side.node) for side in statement.sides]
-        if None in sides or statement.kind != "equation" or any(isinstance(e, sp.MatrixBase) for e in (*sides, a, b)):
-            return True
-        for left, right in pairwise(sides):
-            if agree(left, right) or not _hidden(left) | _hidden(right) <= _hidden(a) | _hidden(b):
-                continue  # an identity, or a function that neither member has
-            shared = sorted((left - right).free_symbols & (a - b).free_symbols, key=str)
-            slopes = {
-                s: slope for s in shared if s not in (slope := (left - right).diff(s)).free_symbols and slope != 0
-            }
-            if shared and not slopes:
-                return True
-            for s, slope in slopes.items():
-                one, other = (e.subs(s, s - (left - right) / slope) for e in (a, b))
-                if agree(one, other) and not agree(one, sp.S.Zero):
-                    return True
-        return False
+    def _before(self, place: int) -> Iterator[tuple[str, Reading]]:
+        """Yield the displays before a place, and the relations of the text."""
+        yield from ((each.latex, reading) for each, reading in self.readings[:place])
+        yield from ((latex, reading) for _, latex, reading in self._text)
 
-    def _order(self, left: Node, right: Node, order: tuple[str, int]) -> _VERDICTS:
+    def _order(self, left: Node, right: Node, order: tuple[str, int]) -> _VERDICT:
         """Return the verdict on a step that is claimed through an order of a small letter."""
         name, power = order
         small = sp.Symbol(name, real=True)
         try:
             a, b = sympy_expression(left, self.opaque), sympy_expression(right, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
-                return NOT_JUDGED, LETTERS, []
+                return NOT_JUDGED, LETTERS
             rates = re.compile(rf"{re.escape(name)}_d+ot")  # the rates of a small quantity are as small
             scaled = {s: small * s for s in a.free_symbols | b.free_symbols if rates.fullmatch(s.name)}
             term = counted(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
         except WorkError:
             raise
         except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
-            return NOT_JUDGED, OUTSIDE, []
+            return NOT_JUDGED, OUTSIDE
         if term.order is None:
-            return HOLDS, f"through order {power - 1} in {name}", []
+            return HOLDS, f"through order {power - 1} in {name}"
         if has_opaque(a, b):
-            return NOT_JUDGED, FUNCTIONS, []
-        return REFUTED, f"the members differ at order {term.order} in {name}; O({name}**{power}) is claimed", []
+            return NOT_JUDGED, FUNCTIONS
+        return REFUTED, f"the members differ at order {term.order} in {name}; O({name}**{power}) is claimed"
 
     # ---- the text
 
@@ -487,11 +447,6 @@ class _Checker:
     def _positive(self) -> frozenset[str]:
         """The letters that the author declares, or the text says, to be positive."""
         return self.notation.positive | self._compared_with_zero((">",))
-
-    @cached_property
-    def _negative(self) -> frozenset[str]:
-        """The letters that the text says to be negative."""
-        return self._compared_with_zero(("<", "<="))
 
     def _take_text(self, section: str) -> None:
         """Take over the equations in the text of a section, at its first display."""
@@ -522,9 +477,9 @@ class _Checker:
     def _differ(self, one: PrintedStatement, other: PrintedStatement) -> bool:
         """Return whether two definitions differ, as they are and with those before put in."""
         left, right = one.sides[1].node, other.sides[1].node
-        ways = ((way.left, way.right) for way in self._ways(left, right, other))
-        pairs = chain([(self._value(left), self._value(right))], ways)
-        return all(None not in pair and decided(*pair) == "nonzero" for pair in pairs)
+        a, b = self._value(left), self._value(right)
+        ways = [(a, b), *((way.left, way.right) for way in self._ways(left, right, a, b, other))]
+        return all(None not in pair and decided(*pair) == "nonzero" for pair in ways)
 
 
 def _open_indices(statement: PrintedStatement) -> Iterator[str]:
@@ -537,23 +492,15 @@ def _open_indices(statement: PrintedStatement) -> Iterator[str]:
     for index in dict.fromkeys(n.args[1].name for n in sums if isinstance(n.args[1], Letter)):
         inside = {name for n in sums if n.args[1] == Letter(index) for name in letters_of(n.args[0])}
         names = {name for name in inside if index in name.split("_")[1:]} | {index}
-        outside = [names & set(_outside(side.node, index)) for side in statement.sides]
+        outside = [names & set(letters_of(_without_bound(side.node, index))) for side in statement.sides]
         if not all(outside) and (side := next((s for s, n in zip(statement.sides, outside, strict=True) if n), None)):
             yield f"{index} stands outside the sum over it in {text_of(side.node)}"
 
 
-def _outside(node: Node, index: str) -> Iterator[str]:
-    """The letters of a node that stand outside its sums over an index."""
-    if isinstance(node, Letter):
-        yield node.name
-    elif isinstance(node, Call) and not (node.name in _BINDING and any(index in letters_of(e) for e in node.args[1:])):
-        for part in node.args:
-            yield from _outside(part, index)
-
-
-def letters_of_statement(statement: PrintedStatement) -> set[str]:
-    """Return the letters of all sides."""
-    return {name for side in statement.sides for name in letters_of(side.node)}
+def _without_bound(node: Node, index: str) -> Node:
+    """Return a node with zero for its sums, products and integrals over an index."""
+    calls = (each for each in walk(node) if isinstance(each, Call) and each.name in BINDING)
+    return put_for(node, {each: number(0) for each in calls if any(index in letters_of(e) for e in each.args[1:])})
 
 
 def _difference(a: Any, b: Any) -> str:

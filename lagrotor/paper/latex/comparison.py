@@ -62,7 +62,7 @@ def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
     try:
         value = counted(sp.N, entry.xreplace(point), 15)
         return value if abs(complex(value)) < LARGEST else sp.nan
-    except (ArithmeticError, ValueError, TypeError):
+    except (ArithmeticError, AttributeError, ValueError, TypeError):
         return sp.nan
 
 

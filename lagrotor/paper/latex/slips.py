@@ -67,7 +67,7 @@ def _term_to_agree(
         for place, term in enumerate(node.args if isinstance(node, Call) and node.name == "sum" else ()):
             without = value_at(value(put(_with(node, place, Number(Fraction(0))))), point)
             ratio = _ratio(number - without, whole - without, _DIGIT)
-            if ratio is None or abs(ratio.numerator) > _DIGIT:
+            if ratio is None or not 0 < abs(ratio.numerator) <= _DIGIT:
                 continue
             other = value(put(_with(node, place, _times(ratio, term))))
             if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
@@ -135,7 +135,7 @@ def _times(factor: Fraction, node: Node) -> Node:
 
 def _ratio(value: Any, other: Any, bound: int) -> Fraction | None:
     """Return the quotient of two numbers as a fraction of a denominator up to a bound; None where it is none."""
-    if not (value.is_real and other.is_real and value and other and abs(value / other) < LARGEST):
+    if not (value.is_real and other.is_real and other and abs(value / other) < LARGEST):
         return None
     fraction = Fraction(float(value / other)).limit_denominator(bound)
     return fraction if nearly_equal(value, sp.Rational(str(fraction)) * other) else None

@@ -198,7 +198,6 @@ WITH_PREMISES = [
         "", r"E = \left(1 + \frac{\partial f}{\partial x}\right)^2 = 1 + 2\frac{\partial f}{\partial x}"
         r" + \left(\frac{\partial f}{\partial x}\right)^2", r"2\frac", r"\frac",
     ),
-    (r"At $x = 0$, \[ x\ddot x + y = 0 \]", "E = (b + y)^2 x = x b^2 + 2 b y x + x y^2", "+ 2 b", "- 2 b"),
 ]  # fmt: skip
 
 
