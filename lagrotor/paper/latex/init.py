@@ -7,8 +7,11 @@ equation whose print has changed is marked, and its reading is to be confirmed a
 import json
 import re
 import shutil
+import tomllib
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import takewhile
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -19,7 +22,7 @@ from lagrotor.paper.catalogue import reading_digest
 from lagrotor.paper.latex.displays import Displayed, Source
 from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.notation import declared_notation
-from lagrotor.paper.latex.printed import Print, paper_notation, read_print
+from lagrotor.paper.latex.readings import Print, paper_notation, read_print
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.title_page import toml
 
@@ -112,19 +115,20 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     sections = _write_about(folder, source, again)
     _write_symbols(folder, prints, again)
     vectors = _vectors(source.equations, prints, old.get("letters", {}))
-    text = _catalogue(_HEAD.format(name=path.name), rows, vectors, _comments(folder / "equations.toml"))
+    before = _comments(read_text(folder / "equations.toml")) if again else {}
+    text = _catalogue(rows, vectors, before | {"": [_HEAD.format(name=path.name)]})
     write_text(folder / "equations.toml", text)  # last: the other files are about these equations
     if not again:
         about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=path.name))
         write_text(folder / "README.md", about)
-    before = {row["id"]: row.get("number") for row in old.get("equation", [])}
+    numbers = {row["id"]: row.get("number") for row in old.get("equation", [])}
     moved = tuple(
         f"{row['id']} is ({row['number']})"
         for row in rows
-        if row.get("number") not in (None, row["id"], before.get(row["id"], row.get("number")))
+        if row.get("number") not in (None, row["id"], numbers.get(row["id"], row.get("number")))
     )
     notes = (*faults, *source.notes, *sections)
-    read = sum(each.read for each in prints)
+    read = sum(each.stop is None for each in prints)
     return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone), moved)
 
 
@@ -214,43 +218,34 @@ def _vectors(
     return letters
 
 
-def _comments(file: Path) -> dict[str, list[str]]:
-    """Id → the comments above and within its equation; none where there is no file yet."""
-    found: dict[str, list[str]] = {}
-    text = read_text(file) if file.is_file() else ""
-    above: list[str] = []  # what stands behind a blank line belongs to the equation that follows
-    identifier, blank = "", True
-    for line in text[len(_head(text)) :].splitlines():
+def _comments(text: str) -> dict[str, list[str]]:
+    """Return id → the comments above and within its equation; under "" those that the file begins with."""
+    ids = iter(row["id"] for row in tomllib.loads(text).get("equation", ()))
+    lines = text.splitlines()
+    head = list(takewhile(lambda line: line.startswith("#"), lines))
+    comments, above, identifier = defaultdict(list, {"": head}), list[str](), ""
+    for line in lines[len(head) :]:
         if line.startswith("#"):
-            (above if blank or not identifier else found[identifier]).append(line)
-        elif match := re.match(r'id = "(.*)"$', line):
-            identifier = match[1]
-            found[identifier], above = above, []
-        elif line.startswith("[[equation.line]]") and identifier:
-            found[identifier] += above
+            above.append(line)
+        elif line.strip() and not line.startswith("[letters"):
+            identifier = str(next(ids, "")) if line.startswith("[[equation]]") else identifier
+            comments[identifier] += above
             above = []
-        blank = not line.strip() or (blank and line.startswith("#"))
-    if identifier:
-        found[identifier] += above
-    return found
+    comments[identifier] += above
+    return comments
 
 
 def _catalogue(
-    head: str, rows: list[dict[str, Any]], letters: Mapping[str, Mapping[str, str]], comments: Mapping[str, list[str]]
+    rows: list[dict[str, Any]], letters: Mapping[str, Mapping[str, str]], comments: Mapping[str, list[str]]
 ) -> str:
-    blocks = [head] if head else []
-    for section, given in letters.items():
-        blocks.append(
-            "\n".join([f"[letters.{_text(section)}]", *(f"{kind} = {_text(names)}" for kind, names in given.items())])
-        )
-    blocks += ["\n".join([*comments.get(str(row["id"]), ()), *_equation(row)]) for row in rows]
-    return "\n\n".join(blocks) + "\n"
-
-
-def _head(text: str) -> str:
-    """The comments that a file begins with."""
-    match = re.match(r"(?:#[^\n]*\n)*", text)
-    return match[0] if match else ""
+    """Return the text of equations.toml."""
+    blocks = [comments.get("", [])]
+    blocks += [
+        [f"[letters.{_text(section)}]", *(f"{kind} = {_text(names)}" for kind, names in kinds.items())]
+        for section, kinds in letters.items()
+    ]
+    blocks += [[*comments.get(str(row["id"]), ()), *_equation(row)] for row in rows]
+    return "\n\n".join("\n".join(block) for block in blocks if block) + "\n"
 
 
 def _equation(row: Mapping[str, Any]) -> Iterator[str]:
@@ -306,7 +301,7 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
         row.pop("changed", None)
         row |= {"read": "confirmed", "print": reading_digest(row["latex"], lines)}
         row["line"] = lines
-    text = _catalogue(_head(read_text(file)).rstrip(), list(rows.values()), given.get("letters", {}), _comments(file))
+    text = _catalogue(list(rows.values()), given.get("letters", {}), _comments(read_text(file)))
     write_text(file, text)
     return wanted
 

@@ -10,9 +10,82 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
-from lagrotor.paper.latex.formula import with_progress
-from lagrotor.paper.latex.notation import KINDS, Notation, declared_notation, propose
-from lagrotor.paper.latex.printed import paper_notation, read_print
+from lagrotor.paper.latex.formula import read_formula, with_progress
+from lagrotor.paper.latex.notation import KINDS, Notation, declared_notation, propose, with_proposals
+from lagrotor.paper.latex.statements import PrintedStatement, Side
+from lagrotor.paper.latex.tokens import NESTING, Token, latex_of, tokenize
+from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant, text_of, walk
+
+
+@dataclass(frozen=True)
+class Print:
+    """The reading of an equation as data.
+
+    lines: for the catalogue. aside: statements that no line can hold, as text. letters, vectors: names of scalars and vectors.
+    stop: (token, the way out) where it is not read.
+    """
+
+    lines: tuple[Mapping[str, Any], ...] = ()
+    aside: tuple[str, ...] = ()
+    letters: tuple[str, ...] = ()
+    vectors: tuple[str, ...] = ()
+    stop: tuple[str, str] | None = None
+
+
+def paper_notation(formulas: Iterable[str], table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
+    """Return the kinds of a paper's letters: those that its [notation] declares, and the proposals of one sweep."""
+    return with_proposals(declared_notation(table, where), propose(formulas))
+
+
+def read_print(latex: str, notation: Notation, lead: str = "") -> Print:
+    """Return the printed lines of an equation as data."""
+    reading = read_formula(latex, notation, lead)
+    if not reading.whole:
+        return Print(stop=reading.stop)
+    rows = [(each, _line(each)) for each in reading.statements]
+    sides = (side.node for each, line in rows if line is not None for side in each.sides if in_catalogue(side.node))
+    letters = {
+        each: None for side in sides for each in walk(side) if isinstance(each, Letter) and not is_constant(each)
+    }
+    return Print(
+        tuple(line for _, line in rows if line is not None),
+        tuple(statement_text(each) for each, line in rows if line is None),
+        tuple(dict.fromkeys(each.name for each in letters if not each.vector)),
+        tuple(dict.fromkeys(each.name for each in letters if each.vector)),
+    )
+
+
+def _line(statement: PrintedStatement) -> dict[str, Any] | None:
+    """Return the quantity, the members, and the order that is claimed; None for what no line of the catalogue can hold."""
+    sides = statement.sides
+    known = [in_catalogue(side.node) for side in sides]
+    first = next((place for place, each in enumerate(known) if place and each), 0)
+    if statement.kind != "equation" or not first or not all(known[first:]):
+        return None
+    names, members = sides[:first], sides[first:]  # p = ∂L/∂q̇ before the members: the subject of the line
+    if isinstance(sides[0].node, Number) and all(known):
+        names, members = sides[1:2], (sides[0], *sides[2:])
+    line = {"quantity": " = ".join(map(_latex, names)), "members": [text_of(side.node) for side in members]}
+    small, power = statement.order or ("", 0)
+    return line | {"order": power - 1, "small": small} if small else line
+
+
+def _latex(side: Side) -> str:
+    """Return a side in LaTeX without the columns and rows of its display."""
+    tokens, depth = list[Token](), 0
+    for token in tokenize(side.latex):
+        depth += NESTING.get(token.text, 0)
+        if depth or token.text not in ("&", r"\\"):
+            tokens.append(token)
+    return " ".join(latex_of(tokens).split())
+
+
+def statement_text(statement: PrintedStatement) -> str:
+    """Return a statement as one line of text."""
+    first, *others = (text_of(side.node) for side in statement.sides)
+    order = "" if statement.order is None else f" + O({statement.order[0]}**{statement.order[1]})"
+    rest = (f" {relation} {text}" for relation, text in zip(statement.relations, others, strict=False))
+    return "".join([first, *rest, order])
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ from lagrotor.mechanics.lagrangian import (
 from lagrotor.mechanics.systems import System
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.latex.formula import read_formula
-from lagrotor.paper.latex.printed import paper_notation
+from lagrotor.paper.latex.readings import paper_notation
 from lagrotor.paper.latex.tree import Node, text_of
 from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Premise

@@ -14,7 +14,7 @@ from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.numbers import aux_numbers
-from lagrotor.paper.latex.printed import statement_text
+from lagrotor.paper.latex.readings import statement_text
 
 CORPUS: list[dict[str, Any]] = tomllib.loads(Path(__file__).with_name("corpus.toml").read_text(encoding="utf-8"))[
     "source"

@@ -11,7 +11,7 @@ from lagrotor.paper.latex.displays import read_latex
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.macros import Expander
 from lagrotor.paper.latex.markup import markdown_as_latex, read_source
-from lagrotor.paper.latex.printed import statement_text
+from lagrotor.paper.latex.readings import statement_text
 from lagrotor.paper.latex.token_stream import TokenStream
 from lagrotor.paper.latex.tokens import latex_of
 
