@@ -180,29 +180,25 @@ def _known(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, i
 
 
 def _row(each: Displayed, print_: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
-    title = each.label or f"displayed equation {each.id}"
-    row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section, "title": title}
-    lines = [dict(line) for line in print_.lines]
-    row |= {"label": each.label, "latex": each.latex, "lead": each.lead, "aside": list(print_.aside)}
-    row["read"] = "unconfirmed" if lines else ""
+    """Return the row of an equation, with the entries of the old row; its id is added to `changed` if its print has changed."""
+    row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section}
+    row |= {"title": each.label or f"displayed equation {each.id}", "label": each.label, "latex": each.latex}
+    row |= {"lead": each.lead, "aside": list(print_.aside), "read": "unconfirmed" if print_.lines else ""}
+    row["line"] = [dict(line) for line in print_.lines]
     if known is not None:
-        same = known.get("latex") == each.latex
         stay = ("id",) if known.get("title") == known.get("label") else ("id", "title")
-        skip = (*row, "line", "changed", "print", "guesses", "subject")
+        skip = (*row, "changed", "print", "guesses", "subject")
         row |= {key: value for key, value in known.items() if key not in skip or key in stay}
         old = known.get("line", ())  # the author's additions to a line, such as an order, stay if it is read alike
-        lines = [dict(next((before for before in old if before | line == before), line)) for line in lines]
-        if same and known.get("read") != "unconfirmed" and known.get("line"):
-            row |= {key: value for key, value in known.items() if key in ("read", "print", "aside", "reading")}
-            row["read"] = known.get("read", "")
-            lines = [dict(line) for line in known["line"]]
-        elif not same:
+        row["line"] = [next((dict(line) for line in old if line | new == line), new) for new in row["line"]]
+        if known.get("latex") != each.latex:
             row["changed"] = str(known.get("latex"))
             changed.append(row["id"])
-        elif known.get("changed"):
-            row["changed"] = known["changed"]
-    if lines:
-        row["line"] = lines
+        elif old and known.get("read") != "unconfirmed":
+            row["read"] = ""
+            row |= {key: value for key, value in known.items() if key in ("read", "print", "aside", "reading", "line")}
+        else:
+            row["changed"] = known.get("changed")
     return {key: value for key, value in row.items() if value not in ("", [], None)}
 
 
@@ -279,30 +275,26 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
         for name in (row.get("label"), f"({row.get('number')})"):
             if row.get("read") != "gone":
                 names.setdefault(str(name), []).append(identifier)
-    wanted = []
+    wanted = list[str]()
     for each in ids:
-        said = [each] if each in rows else names.get(each, [each])
-        if len(said) > 1:
-            raise InputError(f"{each} is more than one equation: name one by its id, {', '.join(said[:8])}")
-        wanted += said
-    for identifier in wanted:
-        if identifier not in rows:
-            raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
-        if rows[identifier].get("read") == "gone":
-            raise InputError(f"equation {identifier} is no longer in the source: there is no print to confirm it by")
-        if not rows[identifier].get("line"):
+        identifier, *others = [each] if each in rows else names.get(each, [each])
+        row = rows.get(identifier)
+        if others:
             raise InputError(
-                f"equation {identifier} has no line to confirm: `lagrotor readings {folder}` says where its reading stopped, or "
-                "what was kept aside"
+                f"{each} is more than one equation: name one by its id, {identifier}, {', '.join(others[:7])}"
             )
-    for identifier in wanted:
-        row = rows[identifier]
-        lines = row.pop("line")
+        if row is None:
+            raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
+        if row.get("read") == "gone":
+            raise InputError(f"equation {identifier} is no longer in the source: there is no print to confirm it by")
+        if not row.get("line"):
+            why = f"`lagrotor readings {folder}` says where its reading stopped, or what was kept aside"
+            raise InputError(f"equation {identifier} has no line to confirm: {why}")
+        wanted.append(identifier)
+    for row in (rows[identifier] for identifier in wanted):
         row.pop("changed", None)
-        row |= {"read": "confirmed", "print": reading_digest(row["latex"], lines)}
-        row["line"] = lines
-    text = _catalogue(list(rows.values()), given.get("letters", {}), _comments(read_text(file)))
-    write_text(file, text)
+        row |= {"read": "confirmed", "print": reading_digest(row["latex"], row["line"])}
+    write_text(file, _catalogue(list(rows.values()), given.get("letters", {}), _comments(read_text(file))))
     return wanted
 
 
