@@ -53,7 +53,7 @@ from lagrotor.mechanics.systems import System
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.readings import paper_notation
-from lagrotor.paper.latex.tree import Node, text_of
+from lagrotor.paper.latex.tree import text_of
 from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Premise
 
@@ -92,29 +92,26 @@ class StatedSystem:
             If the equation has no role, or its print cannot be judged by this system.
         """
         if identifier not in self.derives:
-            raise InputError(
-                f"{self.place}: derives: equation {identifier} has no role: {', '.join(self.derives)} have one"
-            )
+            raise self._error(f"equation {identifier} has no role: {', '.join(self.derives)} have one")
         role = _ROLE.fullmatch(_one_line(self.derives[identifier]))
         if role is None:
-            raise InputError(f"{self.place}: derives: {self.derives[identifier]!r} is not known: write {_ROLES}")
-        if not self.paper.equation(identifier).line:
-            says = "has no printed line: write it as an [[equation.line]] in equations.toml, or leave it out here"
-            raise self._refusal(identifier, says)
+            raise self._error(f"{self.derives[identifier]!r} is not known: write {_ROLES}")
         self._check_letters(identifier)
         said = role.groupdict(default="")
+        if said["form"]:
+            return self._frequency(identifier, said["form"], int(said["which"] or 1), said["at"])
         if said["whole"] == "integral":
             return self._conserved(identifier)
         if said["whole"]:
             return self.L if said["whole"] == "L" else shortest(energy(self.L, self.c))
-        if said["kind"]:
-            system = self._small(said["about"]) if said["small"] else self
-            place = system._place_of(said["kind"], said["name"])
-            if said["kind"] == "motion":
-                return shortest(system._as_printed(identifier))
-            rows = momenta(system.L, self.c) if said["kind"] == "momentum" else system.accelerations
-            return shortest(rows[place])
-        return self._frequency(identifier, said["form"], int(said["which"] or 1), said["at"])
+        names = [q.name for q in self.c.q]
+        if said["name"] not in names:
+            raise self._error(f"{said['kind']} {said['name'] or '?'}: the coordinates are {', '.join(names)}")
+        system = self._small(said["about"]) if said["small"] else self
+        if said["kind"] == "motion":
+            return shortest(system._as_printed(identifier))
+        rows = momenta(system.L, self.c) if said["kind"] == "momentum" else system.accelerations
+        return shortest(rows[names.index(said["name"])])
 
     @cached_property
     def premises(self) -> tuple[Premise, ...]:
@@ -139,14 +136,8 @@ class StatedSystem:
         solution = linear_solve(equations.jacobian(unknown), -equations.subs(dict.fromkeys(unknown, 0)), singular)
         return sp.Matrix(solution[: len(self.c.q)])
 
-    def _refusal(self, identifier: str, says: str) -> InputError:
-        return InputError(f"{self.place}: derives: equation {identifier} {says}")
-
-    def _place_of(self, kind: str, name: str) -> int:
-        names = [q.name for q in self.c.q]
-        if name not in names:
-            raise InputError(f"{self.place}: derives: {kind} {name or '?'}: the coordinates are {', '.join(names)}")
-        return names.index(name)
+    def _error(self, says: str) -> InputError:
+        return InputError(f"{self.place}: derives: {says}")
 
     @cached_property
     def _known(self) -> set[sp.Basic]:
@@ -155,20 +146,22 @@ class StatedSystem:
         return {t, *self.c.q, *self.c.v, *self.c.a}.union(*(e.free_symbols for e in expressions))
 
     def _check_letters(self, identifier: str) -> None:
-        """Raise InputError if a printed member has a letter that the system does not have."""
+        """Raise InputError if an equation has no line, or a printed member has a letter that the system does not have."""
+        if not self.paper.equation(identifier).line:
+            says = "has no printed line: write it as an [[equation.line]] in equations.toml, or leave it out here"
+            raise self._error(f"equation {identifier} {says}")
         for line in self.paper.lines(identifier):
             letters = set[sp.Basic]().union(*(e.free_symbols for e in line.members))
-            if strangers := sorted(str(s) for s in letters - self._known - {line.small}):
-                raise self._refusal(
-                    identifier,
-                    f"is printed with {strangers[0]}, of which the system says nothing: define it, as in "
-                    f'where = ["{strangers[0]} = …"], or leave the equation out here',
+            for name in sorted(str(s) for s in letters - self._known - {line.small}):
+                says = (
+                    f'is printed with {name}, of which the system says nothing: define it, as in where = ["{name} = …"]'
                 )
+                raise self._error(f"equation {identifier} {says}, or leave the equation out here")
 
     def _small(self, about: str) -> "StatedSystem":
         """Return the system with L through second order and the forces through first about an equilibrium."""
         if self.constraints:
-            raise InputError(f"{self.place}: derives: small motion needs coordinates without constraints")
+            raise self._error("small motion needs coordinates without constraints")
         small = sp.Dummy()
         equilibrium = self._point(about) | dict.fromkeys(self.c.v, sp.S.Zero)
         near = {x: x0 + small * (x - x0) for x, x0 in equilibrium.items()}
@@ -179,13 +172,11 @@ class StatedSystem:
 
         system = replace(self, L=through(2, self.L), forces=tuple(through(1, each) for each in self.forces))
         if any(each.has(sp.Derivative, sp.Subs, sp.nan, sp.zoo, sp.oo) for each in (system.L, *system.forces)):
-            raise InputError(f"{self.place}: derives: L or a force has no series at {about or 'zero'}")
+            raise self._error(f"L or a force has no series at {about or 'zero'}")
         vars(system)["_known"] = self._known  # a print may have letters of the terms that are left out
         undriven = (each for each in system.accelerations.xreplace(equilibrium) if not each.has(t))
         if any(not _is_zero(each) for each in undriven):
-            raise InputError(
-                f"{self.place}: derives: {about or 'zero'} is no equilibrium: an acceleration is not zero there"
-            )
+            raise self._error(f"{about or 'zero'} is no equilibrium: an acceleration is not zero there")
         return system
 
     def _point(self, text: str) -> dict[sp.Symbol, sp.Expr]:
@@ -218,9 +209,8 @@ class StatedSystem:
         F = self.paper.lines(identifier)[0].members[0]
         letters = {s: value for s, value in self._moving.items() if F.has(s)}
         if not letters and not F.has(*self.c.q, *self.c.v):
-            raise self._refusal(
-                identifier, f"prints {F}, which depends on no coordinate or velocity: leave it out here"
-            )
+            says = f"prints {F}, which depends on no coordinate or velocity: leave it out here"
+            raise self._error(f"equation {identifier} {says}")
         rate = self._rate(F)
         if letters and _is_zero(rate):  # then the definitions are the premises of the verdict
             rate = sum((letter - value for letter, value in letters.items()), sp.S.Zero)
@@ -230,66 +220,61 @@ class StatedSystem:
     def _as_printed(self, identifier: str) -> sp.Expr:
         """Return the right side of a printed equation of motion, plus left − right along the motion."""
         (line, *more), left = self.paper.lines(identifier), self._left_side(identifier)
-        if left is None or more:
-            says = "has no single left side in the coordinates and the letters of the system: print one equation"
-            raise self._refusal(identifier, f"{says}, define its letters in where, or leave it out here")
-        if not any(each.has(*self.c.a) for each in line.members):
-            return self._along(left)
-        if len(line.members) > 1:
-            raise self._refusal(identifier, "has an acceleration in one of several members: print one equation")
-        return line.members[0] + self._along(left - line.members[0])
+        moving = any(each.has(*self.c.a) for each in line.members)
+        if left is None or more or (moving and len(line.members) > 1):
+            says = (
+                "has no single left side in the coordinates and the letters of the system, or accelerations in a chain"
+            )
+            helps = "print one equation, define its letters in where, or leave it out here"
+            raise self._error(f"equation {identifier} {says}: {helps}")
+        return line.members[0] + self._along(left - line.members[0]) if moving else self._along(left)
 
     def _left_side(self, identifier: str) -> sp.Expr | None:
-        """Return the left side of a print; None where it has letters of its own, or two left sides that differ."""
+        """Return what stands before the first member of a print; None where it has other letters, or sides that differ."""
 
         def partial(f: sp.Expr, by: sp.Symbol, order: int = 1) -> sp.Expr:
             if by == t:
                 return reduce(lambda e, _: self._rate(e), range(int(order)), f)
-            if isinstance(f, sp.Symbol) and f.name in _LAGRANGIANS and f not in self._known:
-                f = self.L
-            return sp.diff(f, by, int(order))
+            is_L = isinstance(f, sp.Symbol) and f.name in _LAGRANGIANS and f not in self._known
+            return sp.diff(self.L if is_L else f, by, int(order))
 
+        entries = self.paper.equations
+        notation = paper_notation((e.latex for e in entries.values()), self.paper.about.notation, self.place)
+        reading = read_formula(entries[identifier].line[0]["quantity"], notation)
         names = {name: sp.Symbol(name) for name in _LAGRANGIANS} | {"t": t, "rate": self._rate, "Derivative": partial}
         names |= {name: symbol for name, symbol in self.names.items() if symbol in self._known}
+        texts = [text_of(side.node) for statement in reading.statements for side in statement.sides]
         try:
-            left, *others = (read(text_of(node), names, self.place) for node in self._left_nodes(identifier))
-        except InputError:
+            left, *others = (read(text, names, self.place) for text in texts)
+        except (InputError, ValueError):
             return None
         same = all(_is_zero(self._along(left - each)) for each in others)
         return left if same and left.free_symbols <= self._known else None
 
-    def _left_nodes(self, identifier: str) -> tuple[Node, ...]:
-        """Return the sides of a print before its first member: p_θ, d/dt ∂L/∂θ̇."""
-        entries = self.paper.equations
-        notation = paper_notation((e.latex for e in entries.values()), self.paper.about.notation, self.place)
-        reading = read_formula(entries[identifier].line[0]["quantity"], notation)
-        return tuple(side.node for statement in reading.statements for side in statement.sides)
-
     def _frequency(self, identifier: str, form: str, which: int, point: str) -> sp.Expr:
         """Return ω of a small oscillation about an equilibrium, ω², or its period; the mode's rate is i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
-            raise InputError(f"{self.place}: derives: with friction small motion has no frequency: leave it out here")
+            raise self._error("with friction small motion has no frequency: leave it out here")
         system = System(self.c, self.L, constraints=self.constraints, forces=self.forces)
         modes = system.linearise(self._point(point)).modes()
-        squares = list(dict.fromkeys(sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0))
+        squares = sorted({sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0}, key=sp.default_sort_key)
         if not 0 < which <= len(squares):
-            raise InputError(f"{self.place}: derives: there is no {form} {which}: the system has {len(squares)}")
-        squares.sort(key=sp.default_sort_key)
+            raise self._error(f"there is no {form} {which}: the system has {len(squares)}")
         values = {
             f"{kind} {n}": value
             for n, square in enumerate(squares, 1)
-            for kind, value in (
-                ("frequency", sp.sqrt(square)),
-                ("frequency^2", square),
-                ("period", 2 * sp.pi * sp.sqrt(1 / square)),
-                ("frequency in turns", sp.sqrt(square) / (2 * sp.pi)),
-            )
+            for kind, value in {
+                "frequency": sp.sqrt(square),
+                "frequency^2": square,
+                "period": 2 * sp.pi * sp.sqrt(1 / square),
+                "frequency in turns": sp.sqrt(square) / (2 * sp.pi),
+            }.items()
         }
         derived = values.pop(f"{form} {which}")
         for member in (e.xreplace(self.where) for line in self.paper.lines(identifier) for e in line.members):
             others = (name for name, value in values.items() if _is_zero(member**2 - value**2))
             if not _is_zero(member**2 - derived**2) and (other := next(others, "")):
-                raise self._refusal(identifier, f"prints {member}, which is {other} and not {form} {which}")
+                raise self._error(f"equation {identifier} prints {member}, which is {other} and not {form} {which}")
         return derived
 
 
