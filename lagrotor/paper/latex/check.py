@@ -41,9 +41,11 @@ from lagrotor.paper.latex.slips import change_to_agree, constant_value
 from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.substitution import BINDING, PrintedMeaning, SectionMeanings, put_for, put_rounds, rounds
 from lagrotor.paper.latex.tree import (
+    KNOWN,
     Call,
     Letter,
     Node,
+    Number,
     Opaque,
     has_opaque,
     is_vector,
@@ -225,7 +227,7 @@ class _Checker:
             if claimed:
                 verdict = bounded(self._order, left.node, right.node, claimed, too_large=(NOT_JUDGED, TOO_LARGE))
             elif relation not in ("=", ":=") or (
-                step == 1 and not (isinstance(left.node, Call) or self._is_worked_out(left.node, right.node, printed))
+                step == 1 and not self._is_judged_alone(left.node, right.node, printed)
             ):
                 continue
             else:
@@ -244,6 +246,12 @@ class _Checker:
         first = replace(statement.sides[0], at=0)
         shifted = [replace(side, at=max(side.at - len(each.lead) - 1, 0)) for side in statement.sides[1:]]
         return replace(statement, sides=(first, last, *shifted), relations=("=", *statement.relations))
+
+    def _is_judged_alone(self, left: Node, right: Node, printed: PrintedStatement) -> bool:
+        """Return whether the first step of a chain may be an identity, or may be worked out from the text."""
+        numeric = isinstance(right, Number) and right.value != 0 and any(each.name in KNOWN for each in _calls(left))
+        speaks = numeric or (letters_of(right) and not isinstance(right, Letter))
+        return bool(speaks) and (isinstance(left, Call) or self._is_worked_out(left, right, printed))
 
     def _step(self, left: Node, right: Node, printed: PrintedStatement, first: bool) -> _VERDICT:
         """Return the verdict on a step, and the reason."""
@@ -292,10 +300,8 @@ class _Checker:
             return MAYBE, ""
         differ = f"the members differ by {_difference(a, b)}"
         if not others and letters:
-            if (value := constant_value(a)) is not None:
-                return "", f"the left member is {value} for all values of its letters"
-            slip = change_to_agree(b, left, letters, self._value) if a.has(sp.Function) else None
-            return ("", f"{differ}; {slip}") if slip and "sign" in slip else (MAYBE, "")
+            value = constant_value(a)
+            return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its letters")
         if self._related(letters):
             return BEFORE, ""
         if slip := self._slip(left, right, a, b, first):
@@ -326,14 +332,18 @@ class _Checker:
         return expression_of(node, self.opaque)
 
     def _ways(self, left: Node, right: Node, a: Any, b: Any, printed: PrintedStatement) -> Iterator[_Way]:
-        """Yield the members a and b, derivatives taken and premises put in: for letters of the left one alone, of both."""
+        """Yield the members a and b, derivatives taken and premises put in: for letters of either one alone, of both."""
         section = self.readings[self.place][0].section
 
         def premises(parts: Iterable[Node]) -> Iterator[PrintedMeaning]:
             return self.given.of(parts, self.place, section, printed)
 
-        of_left, of_both = (rounds(left, right, premises, left_alone) for left_alone in (True, False))
-        for put in [of_left] if of_left == of_both else [of_left, of_both]:
+        tried: list[list[dict[Node, PrintedMeaning]]] = []
+        for fixed in (1, 0, None):
+            put = rounds((left, right), premises, fixed)
+            if put in tried:
+                continue
+            tried.append(put)
             opaque = Opaque(self.opaque.names, self.rates, positive=self._positive)
             sides = [expression_of(put_rounds(node, put), opaque) for node in (left, right)]
             if None not in sides and sides != [a, b] and not is_large(*sides):
@@ -488,7 +498,7 @@ def _open_indices(statement: PrintedStatement) -> Iterator[str]:
     An index is the letter itself, or a subscript of a letter that also stands inside the sum: E_k = Σ_k v_k has a label.
     Products and integrals over the same letter bind it as well.
     """
-    sums = [n for side in statement.sides for n in walk(side.node) if isinstance(n, Call) and n.name == "Sum"]
+    sums = [n for side in statement.sides for n in _calls(side.node) if n.name == "Sum"]
     for index in dict.fromkeys(n.args[1].name for n in sums if isinstance(n.args[1], Letter)):
         inside = {name for n in sums if n.args[1] == Letter(index) for name in letters_of(n.args[0])}
         names = {name for name in inside if index in name.split("_")[1:]} | {index}
@@ -497,9 +507,13 @@ def _open_indices(statement: PrintedStatement) -> Iterator[str]:
             yield f"{index} stands outside the sum over it in {text_of(side.node)}"
 
 
+def _calls(node: Node) -> Iterator[Call]:
+    return (each for each in walk(node) if isinstance(each, Call))
+
+
 def _without_bound(node: Node, index: str) -> Node:
     """Return a node with zero for its sums, products and integrals over an index."""
-    calls = (each for each in walk(node) if isinstance(each, Call) and each.name in BINDING)
+    calls = (each for each in _calls(node) if each.name in BINDING)
     return put_for(node, {each: number(0) for each in calls if any(index in letters_of(e) for e in each.args[1:])})
 
 

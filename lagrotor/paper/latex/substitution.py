@@ -1,7 +1,7 @@
 """What the text gives before a step: letters and unknown functions by what stands for them, to be put into the two sides."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -201,26 +201,26 @@ def put_rounds(node: Node, put: Iterable[dict[Node, PrintedMeaning]]) -> Node:
 
 
 def rounds(
-    left: Node, right: Node, premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]], left_alone: bool
+    sides: Sequence[Node], premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]], fixed: int | None
 ) -> list[dict[Node, PrintedMeaning]]:
     """Return what is put into two sides, round by round.
 
     Parameters
     ----------
-    left, right : Node
-        The sides.
+    sides : sequence of Node
+        The two sides.
     premises : callable
         Called with parts of the sides; returns the premise for each of them that has one.
-    left_alone : bool
-        Whether parts of the right side are left as they are: x = f(y) and y = g(x) put into both would exchange them.
+    fixed : int, optional
+        The side whose letters stay: x = f(y) and y = g(x) put into both sides would exchange x and y.
     """
     put: list[dict[Node, PrintedMeaning]] = []
     above: defaultdict[Node, set[Node]] = defaultdict(
         set
     )  # part → the parts in whose values it stands: x by y by x has no end
     for _ in range(_MOST_ROUNDS):
-        on_left, on_right = (dict.fromkeys(_free(side)) for side in (left, right))
-        parts = [each for each in on_left if each not in on_right] if left_alone else on_left | on_right
+        stay = set() if fixed is None else {*_free(sides[fixed])}
+        parts = dict.fromkeys(part for side in sides for part in _free(side) if part not in stay)
         new = {each.meaning: each for each in premises(parts) if each.meaning not in above[each.meaning]}
         if not new:
             break
@@ -228,5 +228,5 @@ def rounds(
             for part in walk(each.value):
                 above[part] |= {meaning, *above[meaning]}
         put.append(new)
-        left, right = (put_rounds(side, [new]) for side in (left, right))
+        sides = [put_rounds(side, [new]) for side in sides]
     return put
