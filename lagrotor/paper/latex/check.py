@@ -71,6 +71,7 @@ LETTERS = "the right member has letters that the left one has not"
 WORDS = "the words beside it state a condition or a reason"
 BEFORE = "an equation before relates its letters"
 MAYBE = "it may be a condition"
+ROUNDED = "a decimal number may be rounded"
 ALL_REAL = Notation()
 _VERDICT = tuple[str, str]
 _RELATION = re.compile(r"=|[<>]|\\(?:equiv|approx|simeq|sim|to|ll|gg|rightarrow|propto|cong|leq?|geq?)\b")
@@ -294,6 +295,9 @@ class _Checker:
             return FUNCTIONS, ""
         if others - letters and not (isinstance(a, sp.Add) and _but_for_dots(others, letters)):
             return LETTERS, ""
+        numbers = (each.value for side in (left, right) for each in walk(side) if isinstance(each, Number))
+        if any(value.denominator not in (1, 2, 4) for value in numbers):
+            return ROUNDED, ""
         if self._says(ASSUMPTION) or self._says(CONDITION):
             return WORDS, ""
         if first and not (a.has(sp.Function) and b.has(sp.Function) and self._says(IDENTITY)):

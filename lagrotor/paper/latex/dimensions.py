@@ -184,6 +184,8 @@ def other_dimensions(
     for section, sides, each in rows:
         chapter = section.split(".")[0]
         if (why := chapters[chapter].add(sides)) is not None and each is not None:
+            letter = next((side.name for side in sides if isinstance(side, Letter)), "")
+            why += f", unless {letter} has another meaning here" if letter else ""
             broken.append((chapter, each, {name for side in sides for name in letters_of(side)}, why))
     counts = Counter((chapter, name) for chapter, _, names, _ in broken for name in names)
     for chapter, each, names, why in broken:

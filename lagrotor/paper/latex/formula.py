@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import TypeVar
 
@@ -68,12 +69,13 @@ def _alone(row: Iterable[Box]) -> Iterator[str]:
             yield from _alone(held)
 
 
-def letters_printed(latex: str) -> set[str]:
+@lru_cache(maxsize=10_000)
+def letters_printed(latex: str) -> frozenset[str]:
     """Return the letters of a formula, whether it is read or not; none where it falls into no parts."""
     try:
-        return {stem_of(box) for box in all_boxes(boxes(latex)) if box.kind == "letter"}
+        return frozenset(stem_of(box) for box in all_boxes(boxes(latex)) if box.kind == "letter")
     except (FormulaError, RecursionError):
-        return set()
+        return frozenset()
 
 
 def with_progress(what: str, rows: Sequence[_T], progress: Callable[[str], None] | None) -> Iterator[_T]:

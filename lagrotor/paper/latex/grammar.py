@@ -56,7 +56,8 @@ _ANGLES = ("theta", "phi", "varphi", "psi", "vartheta", "chi", "alpha", "beta", 
 _LAST = ("t", "tau", "x", "y", "z", "s")  # in which the argument of a sine without brackets ends
 _LABELS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _TRANSPOSES = ("T", "top", "intercal")
-_NO_FACTORS = ("delta", "Delta", "Gamma", "zeta")  # letters that are functions before a bracket
+# Letters that may be functions before a sum in brackets.
+_NO_FACTORS = ("delta", "Delta", "Gamma", "zeta", "f", "F", "U", "V", "phi", "psi", "Phi", "Psi")
 _NAMES = {
     "lbrace": r"\{",
     "rbrace": r"\}",
@@ -220,6 +221,8 @@ class Grammar:
         dots = [mark.endswith("dot") for mark in box.marks]
         if dots != sorted(dots):
             raise FormulaError(f"a mark stands over the dot of {box.name}", "give the rate a letter")
+        if "hat" in box.marks and box.name.isupper() and not self._kind(box, *_SETTLED):
+            raise self._open(box, f"{stem_of(box)} is an operator or a letter", "operators", "vectors", "real")
         matrix = self._kind(box, "matrices")
         vector = matrix or self._kind(box, "vectors")
         if is_printed_as_vector(box) and not vector:
@@ -284,16 +287,19 @@ class Grammar:
             raise self._open(box, "pi is the number or a quantity", way="give the quantity an index")
         if name == "pi" and not settled:
             return self.power(Letter("pi"), box), place + 1
-        if settled or after is None or kind not in ("letter", "bracket", "group", "partial"):
+        if settled or after is None or kind in ("operator", "comma", "dots", "percent"):
             return None
-        if name == "d":
+        if name in ("Delta", "delta"):
+            return None if box.sup else self._difference(row, place)
+        if name == "d" and kind in ("letter", "bracket", "group", "partial"):
             raise FormulaError("d stands before a letter", r"write \cdot for a product, or a derivative or an integral")
-        return self._difference(row, place) if name in ("Delta", "delta") and not box.sup else None
+        return None
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
         r"""Read \Delta x as one letter."""
         box, after = row[place : place + 2]
-        if after.kind != "letter" or stem_of(box) in self.alone:
+        damping = box.name == "delta" and ((place and row[place - 1].kind == "number") or name_of(after) == "t")
+        if after.kind != "letter" or stem_of(box) in self.alone or damping:
             raise self._open(box, f"\\{box.name} is a factor or acts on what follows", "functions", "real")
         letter = self.letter(after)
         letter = replace(letter, name=f"{box.name}_{letter.name}")
@@ -316,7 +322,8 @@ class Grammar:
         time = [(b.kind, b.name, b.sup, b.sub, b.primes) for b in content] == [("letter", "t", None, None, 0)]
         if bracket.name == "(" and time and "t" not in self.bound:
             return self.power(self.power(self.letter(box), box), bracket)
-        adds = any(b.kind == "operator" and b.name in ("+", "-") for b in content[1:])
+        bars = bool(content) and content[0].name in ("|", "||")  # V(|x - y|)
+        adds = not bars and any(b.kind == "operator" and b.name in ("+", "-") for b in content[1:])
         late = any([b.name for b in part] == ["t"] for part in parted(content, "operator"))  # x(t - \tau)
         derived = [b.kind for b in content] == ["fraction"] and bool(bracket.sup or is_derivative(content[0]))
         listed = any(b.kind in ("comma", "relation") for b in content)
@@ -382,8 +389,8 @@ class Grammar:
             raise FormulaError("whether a number in brackets is a power is open", "write a power without them")
         if box.kind != "letter":
             return
-        if [b.name for b in row] == ["0"]:
-            raise FormulaError("whether 0 is an upper index or a power is open", "write the index below")
+        if [b.name for b in row] in (["0"], ["e"]):
+            raise FormulaError(f"whether {text} is an upper index or a power is open", "write the index below")
         unsettled = [b for b in letters if not self._kind(b, "positive", "complex", "real")]
         lowered = {"mu", "nu", *(self.indices - self.alone)}
         upper = any(b.name in lowered or self._kind(b, "indices") for b in unsettled)
@@ -482,7 +489,7 @@ class Grammar:
         angle = bool(run) and names[0] in _ANGLES and not run[0].sub
         if len(run) == 1 and (ends or (angle and after is not None and after.kind == "bracket")):
             return end
-        plain = run and len(letters) + (run[0].kind in ("number", "fraction")) == len(run) > 1 and names[0] not in _LAST
+        plain = run and len(letters) + (run[0].kind == "number") == len(run) > 1 and names[0] not in _LAST
         known = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
         if ends and plain and known and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
             return end

@@ -308,8 +308,8 @@ PASSAGES = {
         r"E = -\frac{d\Phi}{dz} = \frac{Q z}{(R^2 + z^2)^{3/2}}", "{3/2}", "{1/2}",
     ),
     "a factor before two brackets": (
-        r"The stream function is $\psi = U\left(r - \frac{a^2}{r}\right)\sin\theta$. The velocity is",
-        r"v = \frac1r\frac{\partial\psi}{\partial\theta} = U\left(1 - \frac{a^2}{r^2}\right)\cos\theta", "{r^2}", "{r^3}",
+        r"The stream function is $\psi = W\left(r - \frac{a^2}{r}\right)\sin\theta$. The velocity is",
+        r"v = \frac1r\frac{\partial\psi}{\partial\theta} = W\left(1 - \frac{a^2}{r^2}\right)\cos\theta", "{r^2}", "{r^3}",
     ),
     "a power of a bracket": (
         r"Along the adiabat $T = b\left(\frac{c}{V}\right)^{\gamma - 1}$, so that",
@@ -524,9 +524,9 @@ def test_a_step_that_takes_too_much_work_is_not_judged_and_says_so(monkeypatch: 
 
 
 def test_a_declared_kind_changes_the_reading() -> None:
-    source = read_latex(r"\begin{document}\[ E = f(x + 1) - f x = f \]\end{document}")
+    source = read_latex(r"\begin{document}\[ E = c(x + 1) - c x = c \]\end{document}")
     assert [each.verdict for each in check_source(source).findings] == [HOLDS], "letters are real numbers"
-    assert HOLDS not in [each.verdict for each in check_source(source, declared_notation({"functions": "f"})).findings]
+    assert HOLDS not in [each.verdict for each in check_source(source, declared_notation({"functions": "c"})).findings]
 
 
 def test_the_command_counts_steps_names_reasons_and_shows_both_members(
@@ -561,9 +561,9 @@ def test_a_finding_in_a_part_has_its_file_and_line(tmp_path: Path, capsys: pytes
 
 
 def test_notation_beside_the_source_is_declared(tmp_path: Path) -> None:
-    file = written(tmp_path, r"\[ E = f(x + 1) - f x = 2f \]")
+    file = written(tmp_path, r"\[ E = c(x + 1) - c x = 2c \]")
     assert main(["check", str(file)]) == 1
-    (tmp_path / "paper.toml").write_text('[notation]\nfunctions = "f"\n', encoding="utf-8")
+    (tmp_path / "paper.toml").write_text('[notation]\nfunctions = "c"\n', encoding="utf-8")
     assert main(["check", str(file)]) == 0
 
 

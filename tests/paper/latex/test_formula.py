@@ -339,7 +339,7 @@ def test_what_is_not_declared_is_refused_with_its_token(latex: str) -> None:
 
 # A print, a table, the reading in it, and where the reading stops without it.
 DECLARED = [
-    (r"E = V(x + h)", {"functions": "V"}, "E = V(x + h)", "E = V*(x + h)"),
+    (r"E = V(x + h)", {"functions": "V"}, "E = V(x + h)", "stopped: whether V before ("),
     (r"E = K(1) + K(2)", {"functions": "K"}, "E = K(1) + K(2)", "stopped: whether K before ("),
     (r"F = -V'(r)", {"functions": "V"}, "F = -Derivative(V(r), r)", "stopped: whether V' before ("),
     (r"F = -V'", {"functions": "V"}, "F = -prime(V)", "F = -Vprime"),
