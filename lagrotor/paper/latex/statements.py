@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
 from lagrotor.paper.latex.grammar import Grammar, is_unit
-from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, number
+from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, letters_of, number
 
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather|or)\b")
@@ -207,9 +207,31 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     kinds = {is_vector(side.node) for side in read if not is_printed_zero(side.node) and side.node != Call("dots", ())}
     if len(kinds) > 1 and not {*relations} & {*_SETS}:
         raise FormulaError("a vector is equal to a number", "declare the vectors in [notation], or mark them alike")
+    if summed := set().union(*(_repeated(side.node) for side in read)):
+        missing = summed - set.intersection(*(_indices(side.node) for side in read))
+        if missing and len(read) > 1:
+            raise FormulaError(f"whether {min(missing)} is summed over is open", r"write \sum, or give it another index")
     order, kept = without_order(read[-1].node)
     read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
+
+
+def _indices(node: Node) -> set[str]:
+    """Return i, j, k, μ and ν where they are indices of the letters of a node, outside the sums over them."""
+    if isinstance(node, Call):
+        bound = set(letters_of(Call("", node.args[1:]))) if node.name in ("Sum", "Product") else set[str]()
+        return set[str]().union(*map(_indices, node.args)) - bound
+    parts = node.name.split("_")[1:] if isinstance(node, Letter) else []
+    return {each for part in parts for each in ([part] if part in ("mu", "nu") else part if {*part} <= {*"ijk"} else "")}
+
+
+def _repeated(node: Node) -> set[str]:
+    """Return the indices that two factors of a product share and no sum binds: they may stand for a sum."""
+    if not isinstance(node, Call):
+        return set()
+    shared = [_indices(each) for each in node.args] if node.name in ("product", "dot") else []
+    twice = {index for place, one in enumerate(shared) for other in shared[:place] for index in one & other}
+    return twice.union(*map(_repeated, node.args)) & _indices(node)
 
 
 def _check_side(side: list[Box]) -> None:

@@ -452,4 +452,5 @@ def _too_large(node: Call, parts: list[Any]) -> bool:
         return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)
     if node.name == "power" and isinstance(parts[0], sp.MatrixBase):
         return not (isinstance(parts[1], sp.Integer) and 0 < parts[1] < 10)
-    return node.name == "factorial" and isinstance(parts[0], sp.Integer) and parts[0] > _MOST_BITS // 10
+    numbers = node.name in ("factorial", "binomial") and all(isinstance(part, sp.Rational) for part in parts)
+    return numbers and any(abs(part) > _MOST_BITS // 10 for part in parts)
