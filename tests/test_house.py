@@ -3,7 +3,6 @@
 import ast
 import re
 import tomllib
-from collections import Counter
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -209,11 +208,6 @@ def test_scripts_and_tests_import_through_the_face_of_a_room(folder: str) -> Non
 def test_an_import_past_the_face_would_be_seen(tmp_path: Path) -> None:
     (tmp_path / "script.py").write_text("from lagrotor.paper.proof import prove\n")
     assert past_the_face(tmp_path / "script.py") == ["script.py: prove from lagrotor.paper.proof"]
-
-
-def test_names_of_modules_are_single() -> None:
-    names = Counter(path.stem for path in MODULES.values() if not path.stem.startswith("__"))
-    assert [name for name, count in names.items() if count > 1] == []
 
 
 # The programs of a model have the same names in each: derived in `models/programs`, kept for use by the model's own module.

@@ -29,8 +29,8 @@ from lagrotor.paper import Glossary, Paper, Premise, judge
 from lagrotor.paper.certificates.certificate import PREAMBLE
 from lagrotor.paper.certificates.checked_by_coq import CERTIFICATE_LIST, foreign_word, read_certificates
 from lagrotor.paper.latex.check import check_source
+from lagrotor.paper.latex.init import begin_paper, confirm
 from lagrotor.paper.latex.markup import read_source
-from lagrotor.paper.latex.start import begin_paper, confirm
 from lagrotor.paper.latex.stated_system import write_derivation
 from lagrotor.paper.papers import opened
 from lagrotor.report.job import kept as kept_products
@@ -520,8 +520,8 @@ READERS = {
     "paper/record.py": "recorded.toml",
     "paper/scripts.py": "program",
     "paper/latex/markup.py": "notebook",
-    "paper/latex/source_files.py": "LaTeX",
-    "paper/latex/start.py": "LaTeX",
+    "paper/latex/numbers.py": "LaTeX",
+    "paper/latex/init.py": "LaTeX",
     "paper/latex/token_stream.py": "LaTeX",
     "paper/theorems.py": "theorem",
     "paper/title_page.py": "paper.toml",

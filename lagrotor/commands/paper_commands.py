@@ -1,4 +1,4 @@
-"""The commands about a paper: judge, init, readings, derive, check, reproduce, audit, certify, claims, figure.
+"""The commands about a paper: judge, init, notation, readings, derive, check, reproduce, audit, certify, claims, figure.
 
 Exit status 1 when a verdict is not as recorded, or a check finds something wrong.
 
@@ -28,7 +28,7 @@ def add_paper_commands(command: Command) -> None:
 
 
 def _add_reading_commands(command: Command) -> None:
-    """judge, init, readings, derive, check."""
+    """judge, init, notation, readings, derive, check."""
     added = command("judge", judge_command, "judge one equation", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"')
     added.description = (
         "Judge one equation, written as in Python or in LaTeX: whether it holds, where, under which premises; the proof\n"
@@ -52,6 +52,18 @@ def _add_reading_commands(command: Command) -> None:
     added.add_argument("--from", type=Path, metavar="FILE", dest="source", help=source)
 
     added = command(
+        "notation", notation_command, "declare the kinds of letters", "lagrotor notation my-paper --confirm f r"
+    )
+    added.description = (
+        "Show the letters that are declared or proposed as functions, vectors, matrices, indices or numbers, each with a\n"
+        "formula where this is seen. Every other letter is a real number."
+    )
+    added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
+    added.add_argument("--confirm", nargs="+", default=[], metavar="LETTER", help="declare these as proposed")
+    added.add_argument("--real", nargs="+", default=[], metavar="LETTER", help="declare these as real numbers")
+    added.add_argument("--json", action="store_true", help="print a JSON list, one object a letter")
+
+    added = command(
         "readings", readings_command, "compare readings with the print", "lagrotor readings my-paper --confirm 3 5a"
     )
     added.description = "How each equation was read, beside its print; what you confirm can be judged."
@@ -67,12 +79,12 @@ def _add_reading_commands(command: Command) -> None:
 
     added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
     added.description = (
-        "Check a source without any derivation: what is not ended, each step of a chain, equations against those before, units.\n"
+        "Check a source without any derivation: each step of a chain, equations against those they cite, dimensions, indices.\n"
         "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
     )
     added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex, .md or .ipynb file")
-    added.add_argument("--json", action="store_true", help="print a JSON list of {equation, step, line, verdict, why}")
-    added.add_argument("--all", action="store_true", help="show what agrees, and what was not read, too")
+    added.add_argument("--json", action="store_true", help="print a JSON object: findings, steps, reasons")
+    added.add_argument("--all", action="store_true", help="show the steps that hold and those that are not judged, too")
 
 
 def _add_testing_commands(command: Command) -> None:
@@ -150,7 +162,7 @@ def judge_command(given: argparse.Namespace) -> int:
 
 
 def init_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.latex.start import begin_paper
+    from lagrotor.paper.latex.init import begin_paper
 
     made = begin_paper(given.folder, given.source)
     equations = _some(made.equations, "equation")
@@ -164,16 +176,43 @@ def init_command(given: argparse.Namespace) -> int:
     if made.moved:
         print(f"ids stay while numbers move: {', '.join(made.moved)}")
     if given.source:
+        print(f"see the kinds of its letters: lagrotor notation {made.folder}")
         print(f"compare the readings with the print: lagrotor readings {made.folder}")
     print(f"go on with {made.folder / 'README.md'}, and with: lagrotor audit --paper {made.folder}")
+    return 0
+
+
+def notation_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.catalogue import Catalogue
+    from lagrotor.paper.latex.init import declare
+    from lagrotor.paper.latex.readings import letter_kinds
+
+    rows = letter_kinds(Catalogue(given.folder))
+    proposals = {each.letter: each.kind for each in rows if not each.declared}
+    if unknown := [letter for letter in given.confirm if letter not in proposals]:
+        raise InputError(
+            f"notation: nothing is proposed for {unknown[0]}: the proposals are for {', '.join(proposals) or 'no letter'}"
+        )
+    if given.confirm or given.real:
+        declare(
+            given.folder, {letter: proposals[letter] for letter in given.confirm} | dict.fromkeys(given.real, "real")
+        )
+        rows = letter_kinds(Catalogue(given.folder))
+    if given.json:
+        print(json.dumps([asdict(each) for each in rows], indent=1, ensure_ascii=False))
+        return 0
+    shown = [(each.letter, each.kind, "declared" if each.declared else "proposed", each.evidence) for each in rows]
+    print(table(("letter", "kind", "", "seen in"), shown) if rows else "every letter is a real number")
+    if any(not each.declared for each in rows):
+        say(f"declare a proposal: lagrotor notation {given.folder} --confirm LETTER …, or --real LETTER …", 0)
     return 0
 
 
 def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
     from lagrotor.paper.latex.formula import EVERY
+    from lagrotor.paper.latex.init import confirm
     from lagrotor.paper.latex.readings import as_printed, readings
-    from lagrotor.paper.latex.start import confirm
     from lagrotor.paper.readable import from_latex, readable
 
     paper = Catalogue(given.folder)
@@ -193,8 +232,6 @@ def readings_command(given: argparse.Namespace) -> int:
             sides = as_printed(text, each.print).split(" = ")
             shown = " = ".join(from_latex(side) if "\\" in side else readable(side) for side in sides)
             print(wrap(f"    read     {shown}", 13))
-        for guess in each.guesses:
-            print(wrap(f"    guessed  {guess}", 13))
         if each.stopped:
             print(wrap(f"    stopped  {each.stopped}: {each.helps}", 13))
     counts = Counter(each.status for each in found)
@@ -216,47 +253,52 @@ def derive_command(given: argparse.Namespace) -> int:
 
 
 def check_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.latex.check import FAULT, FOUND, WRONG, check_source
+    from lagrotor.paper.latex.check import FAULT, FOUND, HOLDS, NOT_JUDGED, REFUTED, WRONG, Check, check_source
     from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.markup import read_source
-    from lagrotor.paper.latex.usage import declared_notation
+    from lagrotor.paper.latex.notation import Notation, declared_notation
     from lagrotor.paper.readable import readable
     from lagrotor.paper.title_page import toml
 
-    found, displayed = [], 0
+    rows, displayed = [], 0
     for file in given.sources:
         source = read_source(file)
         displayed += len(source.equations)
         for note in source.notes or ([] if source.equations else ["it has no displayed equation"]):
             say(f"{file}: {note}", 0)
-        beside = Path(file).parent / "paper.toml"
-        said = declared_notation(toml(beside).get("notation", {}), str(beside)) if beside.is_file() else None
+        about = Path(file).parent / "paper.toml"
+        notation = declared_notation(toml(about).get("notation", {}), str(about)) if about.is_file() else Notation()
         with progress(2 * -(-len(source.equations) // EVERY)) as begins:
-            rows = check_source(source, said, begins)
-        found += [(file, file.parent / each.file if each.file else file, each) for each in rows]
+            check = check_source(source, notation, begins)
+        rows += [(file.parent / each.file if each.file else file, each) for each in check.findings]
+    whole = Check(tuple(each for _, each in rows))
     if given.json:
         several = len(given.sources) > 1
-        data = [each.as_data() | ({"file": str(file)} if several or each.file else {}) for _, file, each in found]
+        shown = [(file, each) for file, each in rows if given.all or each.verdict in FOUND]
+        found = [each.as_data() | ({"file": str(file)} if several or each.file else {}) for file, each in shown]
+        data = {"findings": found, "steps": whole.counts, "reasons": whole.reasons}
         print(json.dumps(data, indent=1, ensure_ascii=False))
     else:
-        unknown = Counter((source, each.why) for source, _, each in found if " is not known: " in each.why)
-        for source, file, each in found:
-            displays = unknown[source, each.why]
-            if (given.all and displays >= 0) or each.verdict in FOUND:
+        for file, each in rows:
+            if given.all or each.verdict in FOUND:
                 step = f", step {each.step}" if each.step else ""
                 of = "" if each.verdict == FAULT else f"({each.equation}){step}: {each.verdict}: "
-                more = f"; so in {_some(displays, 'display')}" if displays > 1 else ""
-                print(wrap(f"{file}:{each.line}: {of}{readable(each.why) if of else each.why}{more}", 4))
-                if displays:  # what nothing defines is said where it is first
-                    unknown[source, each.why] = -1
-        counts = Counter(each.verdict for *_, each in found)
-        nothing = (
-            f"{_some(displayed, 'displayed equation')}, no step, order or unit to check: lagrotor init FOLDER --from FILE makes "
-            "a paper of them, to be judged"
+                print(wrap(f"{file}:{each.line}: {of}{readable(each.why) if of else each.why}", 4))
+                if each.verdict == REFUTED:
+                    print(wrap("    {} = {}".format(*map(readable, each.members)), 6))
+        counts = whole.counts
+        verbs = (
+            (HOLDS, "holds", "hold"),
+            (REFUTED, "is refuted", "are refuted"),
+            (NOT_JUDGED, "is not judged", "are not judged"),
         )
-        rest = "" if given.all or counts.keys() <= {*FOUND} else "; to see all: --all"
-        say((", ".join(f"{n} {verdict}" for verdict, n in counts.items()) or nothing) + rest, 0)
-    return 1 if any(each.verdict in WRONG for *_, each in found) else 0
+        said = [f"{counts[verdict]} {one if counts[verdict] == 1 else more}" for verdict, one, more in verbs]
+        said[0] = f"{_some(counts[HOLDS], 'step')}{said[0].removeprefix(str(counts[HOLDS]))}"
+        say(f"{_some(displayed, 'displayed equation')}: {', '.join(said)}", 0)
+        if whole.reasons:
+            reasons = "; ".join(f"{reason} ({count})" for reason, count in whole.reasons.items())
+            say(f"not judged because {reasons}{'' if given.all else '; all of them: --all'}", 0)
+    return 1 if any(each.verdict in WRONG for _, each in rows) else 0
 
 
 def _some(count: int, what: str) -> str:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from lagrotor.paper.claim_tests import Result as Result
     from lagrotor.paper.judgement import Judgement as Judgement
     from lagrotor.paper.judgement import judge_text as judge_text
+    from lagrotor.paper.latex.stated_system import stated as stated
     from lagrotor.paper.ledger import decide as decide
     from lagrotor.paper.ledger import judge as judge
     from lagrotor.paper.papers import Paper as Paper

@@ -29,14 +29,12 @@ _LINE = ("quantity", "members", "order", "small", "read_off", "scene", "names")
 class Equation:
     """One printed equation: `latex` as the source prints it, `number` the paper's own where it gives one.
 
-    line: its printed lines as written in the catalogue. reading: how they were read, where that is not plain. read: of lines
-    that were read from a source, "unconfirmed" or "confirmed", then with `print`, a hash of what was confirmed; "gone" where the
-    source no longer has it. label, lead: its name in the source, and the left side of the row that it continues. subject: what
-    its chapter is about, where letters may be no numbers. guesses: what custom settled in reading it; aside: what was read and
-    is compared with nothing. changed: its print before the source changed. letters: what the text around the equation says of
-    its letters. refers: letter → id of the equation that defines it, whose derived side stands for it. measured: the equation
-    is a number read off a run.
-    place: the paper's own heading over it, where `section` names a wider one.
+    line: its printed lines as written in the catalogue. reading: a remark on how they were read. read: of lines that were read
+    from a source, "unconfirmed" or "confirmed", then with `print`, a hash of the confirmed lines; "gone" where the source no
+    longer has it. label, lead: its name in the source, and the left side of the row that it continues. aside: statements that
+    were read and are compared with nothing. changed: its print before the source changed. letters: meanings that the text
+    around the equation gives its letters. refers: letter → id of the equation that defines it, whose derived side stands for
+    it. measured: the equation is a number read off a run. place: the paper's own heading over it, where `section` is wider.
     """
 
     id: str
@@ -54,8 +52,6 @@ class Equation:
     print: str = ""
     label: str = ""
     lead: str = ""
-    subject: str = ""
-    guesses: tuple[str, ...] = ()
     aside: tuple[str, ...] = ()
     changed: str = ""
 

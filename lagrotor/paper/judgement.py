@@ -14,8 +14,10 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.paper.latex.formula import read_formula
-from lagrotor.paper.latex.tree import text_of
-from lagrotor.paper.latex.usage import notation_of
+from lagrotor.paper.latex.notation import Notation, propose, with_proposals
+from lagrotor.paper.latex.statements import PrintedStatement, without_order
+from lagrotor.paper.latex.substitution import put_for
+from lagrotor.paper.latex.tree import Call, Letter, Node, Opaque, divisors, rates_of, sympy_expression, text_of, walk
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.letters import FUNCTIONS, read, read_side
 from lagrotor.paper.premises import Premise, premises_of
@@ -31,6 +33,8 @@ _OPEN = (
     ),
     (re.compile(r"\bexp\([^()]*\b[iI]\b"), "i is the imaginary unit is open: write 1j"),
 )
+# Operations that act on an expression, and not on the letter that stands for it.
+_ACTING = ("Derivative", "rate", "Integral", "Sum")
 _TYPED = {"==": "=", "≥": ">=", "≤": "<=", "≠": "!="}
 
 
@@ -47,11 +51,12 @@ class Judgement:
 
 @dataclass(frozen=True)
 class _Text:
-    """sides and the signs between them, as the reader of expressions takes them; order: (small letter, power) of its O(…)."""
+    """Sides and the signs between them as text; order: (small letter, power) of its O(…); nodes: the sides, read from LaTeX."""
 
     sides: tuple[str, ...]
     signs: tuple[str, ...]
     order: tuple[str, int] | None = None
+    nodes: tuple[Node, ...] = ()
 
     def __str__(self) -> str:
         rest = f" + O({self.order[0]}**{self.order[1]})" if self.order else ""
@@ -90,17 +95,23 @@ def judge_text(
     letters = letters_in(
         (*filter(None, [small]), *(side for text in (*texts, *assumed) for side in text.sides)), positive
     )
-    premises = [_relation(text, letters) for text in assumed]
+    texts = tuple(_put_in(text, assumed) for text in texts)
+    whole = sorted({name for text in texts for node in text.nodes for name in _lengths(node)})
+    letters |= {name: sp.Symbol(name, integer=True, positive=True) for name in whole}
+    rates = rates_of(node for text in (*texts, *assumed) for node in text.nodes)
+    rates = {letters.get(a.name, a): letters.get(b.name, b) for a, b in rates.items()}
+    opaque = Opaque(rates=rates, refuses=True, letters=letters)
+    premises = [_relation(text, letters, opaque) for text in assumed if not _is_put_in(text, assumed, texts)]
     about = read(small, letters, "small") if small else None
     relations: list[Relation] = []
     prints: list[Any] = [about]
     poles, cancelled = set[sp.Expr](), set[sp.Expr]()
     for text in texts:
-        sides = [read_side(side, letters, "judge") for side in text.sides]
+        sides = _values(text, letters, opaque)
         first, *rest = (value for value, _ in sides)
         relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
         for value, written in sides:
-            prints.append(written)
+            prints += [value, written]
             poles, cancelled = poles | _poles(written), cancelled | (_poles(written) - _poles(value))
     statement = Statement("", tuple(relations), premises_of(premises), title="; ".join(map(str, texts)))
     check_premises(prints, statement.premises)
@@ -109,7 +120,66 @@ def judge_text(
     kept_apart = {sp.expand(sign * (a - b)) for a, b in _strict(verdict.premises) for sign in (1, -1)}
     unseen = sorted((cancelled if verdict.domain else poles) - kept_apart, key=sp.default_sort_key)
     domain = tuple(dict.fromkeys((*verdict.domain, *(sp.Ne(e, 0) for e in unseen))))
-    return Judgement(replace(verdict, domain=domain), tuple(map(str, (*texts, *assumed))))
+    fixed = ["the other letters are constant in derivatives and integrals"] if opaque.fixing else []
+    natural = [f"{name} is a natural number, the last index of a sum" for name in whole]
+    return Judgement(replace(verdict, domain=domain), (*map(str, (*texts, *assumed)), *natural, *fixed))
+
+
+def _lengths(node: Node) -> Iterator[str]:
+    """Yield the letters that are the last index of a sum."""
+    for each in walk(node):
+        if isinstance(each, Call) and each.name == "Sum" and isinstance(each.args[-1], Letter) and len(each.args) == 4:
+            yield each.args[-1].name
+
+
+def _values(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> list[tuple[Any, Any]]:
+    """Return each side as it is decided and as it is written; of LaTeX straight from the tree, without its text."""
+    if not text.nodes:
+        return [read_side(side, letters, "judge") for side in text.sides]
+    parts = [each for node in text.nodes for each in walk(node)]
+    called = {each.name for each in parts if isinstance(each, Call)}
+    if both := next((each.name for each in parts if isinstance(each, Letter) and each.name in called), None):
+        raise InputError(f"judge: {both} stands with its argument and without it: write the argument everywhere")
+    values = [_value(node, opaque) for node in text.nodes]
+    shapes = [value.shape for value in values if isinstance(value, sp.MatrixBase)]
+    values = [sp.zeros(*shapes[0]) if shapes and value == 0 else value for value in values]
+    if len({getattr(value, "shape", ()) for value in values}) > 1:
+        raise InputError(f"judge: {text}: the sides are a number and a vector, or of different sizes")
+    over = ([sp.Pow(_value(each, opaque), -1, evaluate=False) for each in divisors(n)] for n in text.nodes)
+    return [(value, sp.Tuple(*each)) for value, each in zip(values, over, strict=True)]
+
+
+def _value(node: Node, opaque: Opaque) -> Any:
+    try:
+        value = sympy_expression(node, opaque)
+    except InputError as error:
+        raise InputError(f"judge: {error}") from None
+    except (TypeError, ValueError, AttributeError, NotImplementedError, RecursionError) as error:
+        raise InputError(f"judge: {text_of(node)} has no value: {error}") from None
+    return value
+
+
+def _definitions(assumed: Iterable[_Text]) -> dict[Node, Node]:
+    """Return what premises in LaTeX give for a letter or for a function of it."""
+    pairs = (text.nodes for text in assumed if text.signs == ("=",) and text.nodes)
+    return {a: b for a, b in pairs if isinstance(a, Letter) or (isinstance(a, Call) and text_of(a).isidentifier())}
+
+
+def _put_in(text: _Text, assumed: Iterable[_Text]) -> _Text:
+    """Return an equation with the premises put in for what it differentiates or integrates."""
+    acting = [n.args[0] for node in text.nodes for n in walk(node) if isinstance(n, Call) and n.name in _ACTING]
+    held = {part for node in acting for part in walk(node)}
+    wanted = {part: value for part, value in _definitions(assumed).items() if part in held}
+    if not wanted:
+        return text
+    nodes = tuple(put_for(node, wanted) for node in text.nodes)
+    return replace(text, nodes=nodes, sides=tuple(map(text_of, nodes)))
+
+
+def _is_put_in(text: _Text, assumed: Iterable[_Text], texts: Iterable[_Text]) -> bool:
+    """Whether a premise was put in, so that no equation has its letter any more."""
+    first = text.nodes[0] if text.nodes else None
+    return first in _definitions(assumed) and not any(first in walk(node) for each in texts for node in each.nodes)
 
 
 def _poles(e: Any) -> set[sp.Expr]:
@@ -138,7 +208,7 @@ _CALL = re.compile(r"(?<![\\\w])([A-Za-z]\w+)\(")  # of a function, by a name of
 
 def _statements(text: str, where: str) -> Iterator[_Text]:
     typed = [name for name in _CALL.findall(text) if name in FUNCTIONS]
-    latex = re.search(r"[\\{}]", text)
+    latex = re.search(r"[\\{}]|!(?!=)", text)
     if typed and latex:
         raise InputError(
             f"{where}: {text!r} has {typed[0]}(…) as in Python beside LaTeX, which reads it as the letters "
@@ -153,15 +223,22 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
         parts = [part.strip() for part in _SIGN.split(text)]
         yield _Text(tuple(parts[::2]), tuple(_TYPED.get(sign, sign) for sign in parts[1::2]))
         return
-    reading = read_formula(text, notation_of([text]))
+    reading = read_formula(text, with_proposals(Notation(), propose([text])))
     if reading.stop is not None:
         what, way = reading.stop
         raise InputError(f"{where}: {text!r}: {what}: {way}")
     for each in reading.statements:
-        sides = tuple(text_of(side.node) for side in each.sides)
         if not set(each.relations) <= _RELATIONS.keys():
             raise InputError(f"{where}: {text!r} has {', '.join(each.relations)}: write =, !=, >=, >, <= or <")
-        yield _Text(sides, each.relations, each.order)
+        yield _of_statement(each)
+
+
+def _of_statement(statement: PrintedStatement) -> _Text:
+    """Return a statement with the O(…) that a side of it has."""
+    orders, nodes = zip(*(without_order(side.node) for side in statement.sides), strict=True)
+    found = [order for order in (*orders, statement.order) if order is not None]
+    lowest = min(found, key=lambda order: order[1], default=None)
+    return _Text(tuple(map(text_of, nodes)), statement.relations, lowest, nodes)
 
 
 def _check_says_something(text: _Text, texts: Iterable[_Text]) -> None:
@@ -194,6 +271,8 @@ def letters_in(sides: Iterable[str], positive: Iterable[str] = ()) -> dict[str, 
     return letters
 
 
-def _relation(text: _Text, letters: Mapping[str, Any]) -> Any:
-    left, right = (read(side, letters, "given") for side in text.sides)
+def _relation(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> Any:
+    (left, _), (right, _) = _values(text, letters, opaque)
+    if isinstance(left, sp.MatrixBase):
+        raise InputError(f"given: {text} is of vectors: write it for each component")
     return {left: right} if text.signs[0] == "=" else _RELATIONS[text.signs[0]](left, right)

@@ -171,3 +171,102 @@ def test_a_limit_is_undecided_for_its_own_reason() -> None:
 def test_no_more_digits_are_shown_than_are_certain() -> None:
     said = repr(judge_text("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 2/3"))
     assert said.endswith("left − right is 3: left 4, right 0.66667")
+
+
+# Equations in LaTeX with calculus, vectors and matrices, each with a twin that is false.
+CALCULUS = [
+    (r"\int_0^1 x\,dx = \frac12", r"\frac12", r"\frac13"),
+    (r"\int_0^a x^2\,dx = \frac{a^3}{3}", "{3}", "{2}"),
+    (r"\frac{d}{dx} x^2 = 2x", "2x", "x"),
+    (r"\frac{\partial}{\partial x}(x^2 y) = 2xy", "2xy", "2y"),
+    (r"\dv[2]{x}\sin(kx) = -k^2\sin(kx)", "-k", "k"),
+    (r"\left.\frac{d}{dx}x^3\right|_{x=2} = 12", "12", "6"),
+    (r"\frac{d}{dt}(\frac12 m\dot x^2) = m\dot x\ddot x", r"\ddot x", ""),
+    (r"\frac{d}{dt}V(x) = V'(x)\dot x", "V'", "2V'"),
+    (r"\frac{d}{dt}(\frac12 m\dot{\mathbf r}\cdot\dot{\mathbf r}) = m\dot{\mathbf r}\cdot\ddot{\mathbf r}", "= m", "= 2m"),
+    (r"\sum_{k=1}^{4} k = 10", "10", "11"),
+    (r"\sum_{k=1}^{n} k = \frac{n(n+1)}{2}", "1)}", "2)}"),
+    (r"\sum_{i=1}^3 m_i = m_1 + m_2 + m_3", "+ m_3", ""),
+    (r"\prod_{k=1}^{3} k = 6", "6", "5"),
+    (r"\binom{5}{2} = 10", "10", "9"),
+    (r"\binom{n}{k} = \frac{n!}{k!(n-k)!}", "(n-k)", "(n+k)"),
+    ("n! = n(n-1)!", "n(", "("),
+    (r"\|\mathbf v\|^2 = \mathbf v\cdot\mathbf v", "^2", ""),
+    (r"\vec a\cdot(\vec b\times\vec c) = \vec c\cdot(\vec a\times\vec b)", r"\vec a\times\vec b)", r"\vec b\times\vec a)"),
+    (r"\mathbf a\times\mathbf a = 0", r"\times\mathbf a", r"\times\mathbf b"),
+    (
+        r"\begin{pmatrix} 1 & 2\\ 3 & 4\end{pmatrix}\begin{pmatrix} x\\ y\end{pmatrix}"
+        r" = \begin{pmatrix} x + 2y\\ 3x + 4y\end{pmatrix}", "4y", "3y",
+    ),
+    (
+        r"\begin{pmatrix} a & b\\ c & d\end{pmatrix}^{-1}"
+        r" = \frac{1}{ad - bc}\begin{pmatrix} d & -b\\ -c & a\end{pmatrix}", "-b", "b",
+    ),
+    (r"\begin{pmatrix} a & b\\ c & d\end{pmatrix}^T = \begin{pmatrix} a & c\\ b & d\end{pmatrix}", "c & d", "d & c"),
+    (r"\det\begin{pmatrix} a & b\\ c & d\end{pmatrix} = ad - bc", "ad -", "ad +"),
+    (r"\begin{vmatrix} a & b\\ c & d\end{vmatrix} = ad - bc", "ad -", "ad +"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("equation", "part", "other"), CALCULUS)
+def test_calculus_in_latex_is_decided_straight_from_its_tree(equation: str, part: str, other: str) -> None:
+    assert judge_text(equation).verdict.verdict == "holds"
+    false = equation[::-1].replace(part[::-1], other[::-1], 1)[::-1]  # the last place
+    assert judge_text(false).verdict.verdict == "refuted"
+
+
+def test_a_premise_is_put_in_for_what_is_differentiated() -> None:
+    equation = r"\frac{d}{dt}\frac{\partial L}{\partial\dot q} - \frac{\partial L}{\partial q} = m\ddot q + kq"
+    for sign, verdict in (("-", "holds"), ("+", "refuted")):
+        assert judge_text(equation, [rf"L = \frac12 m\dot q^2 {sign} \frac12 k q^2"]).verdict.verdict == verdict
+    with pytest.raises(InputError, match="give it by a premise"):
+        judge_text(equation)
+
+
+@pytest.mark.parametrize(
+    ("equation", "words"),
+    [
+        (r"\lim_{x\to 0}\frac{\sin x}{x} = 1", "limits are not decided"),
+        (r"\int x\,dx = x^2/2", "between two limits"),
+        (r"d(uv) = u\,dv + v\,du", "d stands before a letter"),
+        (r"\sum_{i=1}^n m_i = M + 1", "the first and the last index as numbers"),
+        (r"\frac{dE}{dx} = 0", "write the expression that is differentiated"),
+        (r"\nabla\cdot\vec E = 0", "write its components"),
+        (r"\mathbf A\mathbf B\mathbf x = 0", "write the entries of the matrices"),
+        (r"x = \pm a", "write two statements"),
+        (r"|a\rangle = b", "is not opened"),
+        (r"\begin{pmatrix} 1 & 0\\ 0 & 1\end{pmatrix} = 1", "a vector is equal to a number"),
+        (r"\frac{d}{dx}(x V) = V(x)", "stands with its argument and without it"),
+        (r"y = i\omega", 'numbers = "i"'),
+    ],
+)
+def test_what_is_not_decided_is_refused_in_words(equation: str, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        judge_text(equation)
+
+
+def test_an_order_in_any_member_is_the_order_of_the_chain() -> None:
+    chain = r"1 - \cos\theta = 2\sin^2\frac\theta2 = \frac{\theta^2}{2} + O(\theta^4) = \frac{\theta^2}{%s}"
+    assert [judge_text(chain % n).verdict.verdict for n in (2, 4)] == ["holds-to-order", "refuted"]
+
+
+def test_constants_and_natural_numbers_are_said() -> None:
+    assert judge_text(r"\frac{d}{dx}(ax) = a").readings[1:] == (
+        "the other letters are constant in derivatives and integrals",
+    )
+    assert "n is a natural number" in judge_text(r"\sum_{k=1}^{n} k = \frac{n(n+1)}{2}").readings[1]
+
+
+@pytest.mark.parametrize("positive", [(), ("x",)])
+def test_a_function_of_a_function_is_not_evaluated_while_it_is_read(positive: tuple[str, ...]) -> None:
+    equation = r"\cos(x\operatorname{arcosh}(1 + 10^{-8})) = %s"
+    assert judge_text(equation % "1", positive=positive).verdict.verdict == "refuted"
+    same = r"\cos(\operatorname{arcosh}(1 + 10^{-8})\,x)"
+    assert judge_text(equation % same, positive=positive).verdict.verdict == "holds"
+
+
+def test_positive_letters_are_positive_in_sums_and_rates() -> None:
+    for equation in (r"\frac{d}{dt}\sqrt{x^2} = \dot x", r"\sum_{i=1}^2\sqrt{x_i^2} = x_1 + x_2"):
+        letters = ["x"] if "dt" in equation else ["x_1", "x_2"]
+        assert judge_text(equation, positive=letters).verdict.verdict == "holds"
+        assert judge_text(equation).verdict.verdict != "holds"

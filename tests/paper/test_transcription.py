@@ -25,8 +25,8 @@ from lagrotor.pair.notation import (
 )
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.latex.formula import read_formula
+from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.tree import text_of
-from lagrotor.paper.latex.usage import declared_notation, notation_of
 from lagrotor.paper.letters import read
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
@@ -46,8 +46,7 @@ PLAIN: dict[str, sp.Expr] = {
 }
 
 
-# I(t) is the inertia as it turns, in section 3; here it is a number.
-NOTATION = notation_of((e.latex for e in PAPER.equations.values()), declared_notation({"letters": "I phi theta"}))
+NOTATION = with_proposals(Notation(), propose(e.latex for e in PAPER.equations.values() if e.section == "5"))
 
 
 def reading(entry: Equation) -> list[sp.Expr]:

@@ -17,7 +17,7 @@ from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
 from lagrotor.numerics.pulse import Window, windows_since
-from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units, reporting
+from lagrotor.numerics.segment import Cause, Integrate, Segment, StopError, Stretch, by_units, reporting
 from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Values = Mapping[Any, Any]
@@ -158,8 +158,10 @@ def smooth_motion(
                 rest = min(float(times[-1]) - begin - at, _AHEAD * turn)
                 at, end, more = _some_steps_on(program.rate(parameters, begin), at, end, rest)
                 singular, spent = words(end), spent + more
-            where = (at, singular, "singular") if singular else (stop.at, stop.reason, stop.cause)
-            raise StopError(begin + where[0], where[1], reached, spent, where[2]) from None
+            if not singular:
+                at = stop.at
+            cause: Cause = "singular" if singular else stop.cause
+            raise StopError(begin + at, singular or stop.reason, reached, spent, cause) from None
 
     return motion
 

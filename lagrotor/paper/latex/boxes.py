@@ -4,12 +4,15 @@ Nothing is interpreted here; every token is in one box.
 """
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby, pairwise
+from keyword import iskeyword
 from string import ascii_letters
-from typing import NoReturn
+from typing import Any
 
 from lagrotor.paper.latex.tokens import BRACES, Token, tokenize
+from lagrotor.paper.letters import FUNCTIONS as CALLED
 
 _GREEK_NAMES = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega "
@@ -24,99 +27,71 @@ _UNICODE_NAMES = (
 )
 _UNICODE = dict(zip("αβγδεζηθικλμνξπρστυφχψωΓΔΘΛΞΠΣΦΨΩϕϑ", _UNICODE_NAMES.split(), strict=True))
 ACCENTS = {
-    "dot": "dot", "ddot": "ddot", "dddot": "dddot", "ddddot": "ddddot", "hat": "hat", "widehat": "hat", "bar": "bar",
-    "overline": "bar", "tilde": "tilde", "widetilde": "tilde", "vec": "vec", "overrightarrow": "vec", "underline": "under",
-    "check": "check", "breve": "breve", "acute": "acute", "grave": "grave", "mathring": "ring", "utilde": "under",
-    "overleftrightarrow": "tensor", "uvec": "hat",
+    **{name: name for name in ("dot", "ddot", "dddot", "ddddot", "hat", "bar", "tilde", "vec", "check", "breve", "acute")},
+    **{"widehat": "hat", "overline": "bar", "widetilde": "tilde", "overrightarrow": "vec", "underline": "under"},
+    **{"grave": "grave", "mathring": "ring"},
 }  # fmt: skip
 STYLES = {
-    "mathrm": "", "mathbf": "bold", "boldsymbol": "bold", "mathcal": "cal", "mathscr": "scr", "mathfrak": "frak",
-    "mathbb": "bb", "mathit": "", "mathsf": "sf", "mathtt": "tt", "mathnormal": "", "symbf": "bold", "mathds": "bb", "rm": "",
-    "bf": "bold", "it": "", "cal": "cal", "bfseries": "bold", "text": "", "textbf": "bold", "operatorname": "", "mathbbm": "bb",
-    "bold": "bold", "symbfit": "bold", "symbfup": "bold", "symcal": "cal", "symscr": "scr", "symbb": "bb", "symfrak": "frak",
+    **dict.fromkeys(("mathbf", "boldsymbol", "symbf", "bf", "bfseries", "textbf", "bm", "pmb", "bold", "vb"), "bold"),
+    **dict.fromkeys(("mathrm", "mathit", "mathnormal", "rm", "it", "text", "textrm", "mbox", "operatorname"), ""),
+    **{"mathcal": "cal", "mathscr": "scr", "mathfrak": "frak", "mathbb": "bb", "mathsf": "sf", "mathtt": "tt", "cal": "cal"},
 }  # fmt: skip
-_SWITCHES = ("rm", "bf", "it", "cal", "bfseries")
+_TEXT, _SWITCHES = ("text", "textrm", "mbox"), ("rm", "bf", "it", "cal", "bfseries")
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "coth", "sech", "csch", "exp")},
     **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arcsinh": "asinh", "arccosh": "acosh", "arctanh": "atanh"},
     **{"arsinh": "asinh", "arcosh": "acosh", "artanh": "atanh", "asin": "asin", "acos": "acos", "atan": "atan"},
-    **{"ln": "log", "log": "log", "lg": "log10", "sgn": "sign", "sign": "sign", "csch": "csch", "tg": "tan", "ctg": "cot"},
-    **{"arctg": "atan", "sh": "sinh", "ch": "cosh", "th": "tanh", "cosec": "csc"},
-    **{name: name for name in ("det", "tr", "Tr", "diag", "rank", "dim", "arg", "Re", "Im", "max", "min", "sup", "inf")},
-    **{name: name for name in ("ker", "deg", "gcd")},
+    **{"ln": "log", "log": "log", "lg": "log10", "sgn": "sign", "sign": "sign"},
+    **{name: name for name in ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")},
 }  # fmt: skip
-BIG = {
-    "sum": "Sum", "prod": "Product", "int": "Integral", "oint": "Integral", "iint": "Integral", "iiint": "Integral",
-    "lim": "limit", "oiint": "Integral", "intop": "Integral", "bigcup": "", "bigcap": "", "bigoplus": "", "bigotimes": "",
-    "limsup": "", "liminf": "", "coprod": "",
-}  # fmt: skip
+BIG = {"sum": "Sum", "prod": "Product", **dict.fromkeys(("int", "oint", "iint", "iiint"), "Integral"), "lim": "limit"}
 RELATIONS = {
-    "=": "=", "<": "<", ">": ">", "approx": "~", "simeq": "~", "sim": "~",
-    "cong": "~", "approxeq": "~", "equiv": ":=", "neq": "!=",
-    "ne": "!=", "le": "<=", "leq": "<=", "leqslant": "<=", "ge": ">=", "geq": ">=", "geqslant": ">=", "ll": "<<", "gg": ">>",
-    "propto": "propto", "to": "->", "rightarrow": "->", "longrightarrow": "->", "mapsto": "->", "in": "in", "lesssim": "<~",
-    "gtrsim": ">~", "doteq": "~", "triangleq": ":=", "coloneqq": ":=", "leftarrow": "<-", "notin": "not in", "subset": "subset",
-    "subseteq": "subset", "longmapsto": "->", "leftrightarrow": "<->", "perp": "perp", "parallel": "parallel", "not": "!=",
-    "mid": "mid", "longleftrightarrow": "<->",
-    "asymp": "~", "prec": "prec", "succ": "succ", "ni": "ni", "rightleftharpoons": "<->", "thickapprox": "~", "thicksim": "~",
-    "lll": "<<", "ggg": ">>", "supset": "supset", "nearrow": "nearrow", "searrow": "searrow", "hookrightarrow": "->",
-    "gets": "<-",
-    "colon": ":",
+    "=": "=", "<": "<", ">": ">", "neq": "!=", "ne": "!=", "ll": "<<", "gg": ">>", "lesssim": "<~", "gtrsim": ">~",
+    **dict.fromkeys(("approx", "simeq", "sim", "cong", "doteq"), "~"), "propto": "propto", "in": "in",
+    **dict.fromkeys(("equiv", "triangleq", "coloneqq"), ":="),
+    **dict.fromkeys(("le", "leq", "leqslant"), "<="), **dict.fromkeys(("ge", "geq", "geqslant"), ">="),
+    **dict.fromkeys(("to", "rightarrow", "longrightarrow", "mapsto"), "->"), "perp": "perp", "parallel": "parallel",
 }  # fmt: skip
-ARROWS = {"Rightarrow", "implies", "iff", "Leftrightarrow", "Longrightarrow", "Longleftrightarrow", "therefore", "because",
-          "impliedby", "Leftarrow", "leadsto", "land", "lor"}  # fmt: skip
-_WIDE = ("quad", "qquad")
+_ARROWS = "Rightarrow implies iff Leftrightarrow Longrightarrow Longleftrightarrow therefore because forall"
 _THIN = (",", ";", ":", " ", ">", "thinspace", "medspace", "thickspace", "enspace", "enskip", "\n", "nobreakspace")
-_NOTHING = (
-    "!", "displaystyle", "textstyle", "scriptstyle", "scriptscriptstyle", "limits", "nolimits", "negthinspace", "nobreak",
-    "allowbreak", "strut", "null", "/", "mathop", "mathrel", "mathbin", "mathord", "mathopen", "mathclose", "mathpunct",
-    "mathinner", "relax", "hfill", "hfil", "hskip", "kern", "mkern", "notag", "nonumber", "leavevmode", "noindent", "centering",
-    "small", "footnotesize", "large", "Large", "normalsize", "tiny", "scriptsize", "ignorespaces",
-    "upshape", "rmfamily", "normalfont", "par", "qedhere", "protect", "break", "penalty", "raggedright",
-    "begingroup", "endgroup",
-)  # fmt: skip
-_DOTS = ("dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotso", "dotsm", "hdots")
+_PASSED = (
+    "! / displaystyle textstyle scriptstyle limits nolimits negthinspace nobreak allowbreak strut null relax hfill notag "
+    "nonumber noindent centering small footnotesize qedhere"
+)
+_NOTHING = frozenset(_PASSED.split())
 _OPERATORS = {
-    "+": "+", "-": "-", "−": "-", "*": "*", "/": "/", "cdot": "cdot", "times": "times", "pm": "pm", "mp": "mp", "div": "/",
-    "ast": "*",
-    "bullet": "bullet", "wedge": "wedge", "otimes": "otimes", "oplus": "oplus", "circ": "circ", "star": "star", "·": "cdot",
-    "×": "times",
-    "odot": "odot", "cup": "cup", "cap": "cap", "setminus": "setminus", "cdotp": "cdot", "centerdot": "cdot", "ltimes": "ltimes",
+    "+": "+", "-": "-", "−": "-", "*": "*", "/": "/", "·": "cdot", "×": "times", "div": "/", "ast": "*",
+    **{name: name for name in ("cdot", "times", "pm", "mp", "wedge", "otimes", "oplus", "circ", "star", "bullet")},
 }  # fmt: skip
+_DOTS = ("dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotso", "dotsm", "hdots")
 _INFIX = {r"\over": "fraction", r"\choose": "binomial"}
-_SIZES = re.compile(r"[bB]igg?[lrm]?|middle")
+_SIZES = re.compile(r"\\(?:[bB]igg?[lrm]?|middle)")
 _OPEN = {"(": ")", "[": "]", r"\{": r"\}", r"\langle": r"\rangle", r"\lfloor": r"\rfloor", r"\lceil": r"\rceil",
-         r"\lvert": r"\rvert", r"\lVert": r"\rVert", r"\lbrace": r"\rbrace", r"\lbrack": r"\rbrack", "⟨": "⟩"}  # fmt: skip
-_CLOSE = set(_OPEN.values())
-_MATRICES = ("matrix", "pmatrix", "bmatrix", "Bmatrix", "vmatrix", "Vmatrix", "smallmatrix", "array", "psmallmatrix",
-             "bsmallmatrix", "pmatrix*", "bmatrix*")  # fmt: skip
-ROWS = ("aligned", "split", "gathered", "alignedat", "multlined", "align", "align*", "gather", "gather*", "eqnarray*", "eqnarray",
-        "IEEEeqnarraybox", "equation", "equation*")  # fmt: skip
+         r"\lvert": r"\rvert", r"\lVert": r"\rVert", r"\lbrace": r"\rbrace", r"\lbrack": r"\rbrack"}  # fmt: skip
+_CLOSE = {*_OPEN.values(), r"\right"}
+_MATRICES = ("matrix", "pmatrix", "bmatrix", "vmatrix", "smallmatrix", "array")
 _PAIRS = ("aligned", "alignedat", "align", "align*", "split")
-_CASES = ("cases", "dcases", "cases*", "dcases*", "rcases", "numcases")
+_ROWS = (*_PAIRS, "gathered", "multlined", "gather", "gather*", "eqnarray*", "eqnarray", "equation", "equation*")
+_CASES = ("cases", "dcases")
+_ROW_ENDS = ("&", r"\\", r"\end", r"\hline", r"\cr")
 _MOST = 200  # brackets within brackets
 
 
 class FormulaError(Exception):
-    """Where the reading stops: the place in the LaTeX, what stands there, and what would help."""
+    """Where the reading stops: what stands there, and what would help."""
 
-    def __init__(self, at: int, what: str, help_: str) -> None:
+    def __init__(self, what: str, help_: str) -> None:
         super().__init__(what)
-        self.at, self.what, self.help = at, what, help_
-
-
-def left_open(box: "Box", what: str, help_: str) -> FormulaError:
-    """The stop at a box of which the print does not say whether it is this."""
-    return FormulaError(box.at, f"whether {what} is open", help_)
+        self.what, self.help = what, help_
 
 
 @dataclass(slots=True)
 class Box:
     """One thing as it is printed, from `at` to `end` in the LaTeX.
 
-    kind: letter number operator relation bracket fraction root function big matrix cases rows accent text wide thin comma dots
-    arrow bar group partial nabla infinity.  name: the letter's or the command's; style, marks: of a letter; parts: what is in
-    it; sub, sup: its scripts; primes.
+    kind: letter number operator relation bracket fraction binomial root function big matrix cases rows accent text wide comma
+    dots arrow bar group partial nabla infinity unit percent. name: of the letter or the command; style, marks, upright: of a
+    letter; parts: the rows in it; sub, sup: its scripts; closing: of a bracket; spaced: whether a thin space stands before it.
     """
 
     kind: str
@@ -131,43 +106,40 @@ class Box:
     primes: int = 0
     closing: str = ""
     upright: bool = False
+    spaced: bool = False
 
 
 def boxes(latex: str) -> list[Box]:
-    """The boxes of a formula. Raises FormulaError at a token that has no place."""
+    """Return the boxes of a formula. Raises FormulaError at a token that has no place."""
     reader = _Reader(latex)
     found = reader.sequence(())
-    if reader.place < len(reader.items):
-        reader.stop("is not opened", "write the bracket that it closes")
-    return found
-
-
-def _items(latex: str) -> list[Token]:
-    """Tokens, runs of text as single characters."""
-    found: list[Token] = []
-    for token in tokenize(latex):
-        if token.kind == "text":
-            found += [Token("text", c, at) for at, c in enumerate(token.text, token.at) if not c.isspace()]
-        else:
-            found.append(token)
+    if reader.ahead:
+        raise FormulaError(f"{reader.ahead} is not opened", "write the bracket that it closes")
     return found
 
 
 class _Reader:
     def __init__(self, latex: str) -> None:
-        self.latex, self.items, self.place, self.depth = latex, _items(latex), 0, 0
-        self.angles = 0  # angle brackets that are open, in which a bar parts a bra from a ket
+        self.latex, self.place, self.depth = latex, 0, 0
+        self.items: list[Token] = []
+        for token in tokenize(latex):
+            single = [Token("text", c, at) for at, c in enumerate(token.text, token.at) if not c.isspace()]
+            self.items += single if token.kind == "text" else [token]
+        self.items.append(Token("end", "", len(latex)))
 
-    def stop(self, what: str, help_: str) -> NoReturn:
-        item = self.items[min(self.place, len(self.items) - 1)]
-        raise FormulaError(item.at, f"{item.text} {what}", help_)
+    @property
+    def ahead(self) -> str:
+        """The text of the token that comes next; empty at the end."""
+        return self.items[self.place].text
 
-    def peek(self) -> Token | None:
-        return self.items[self.place] if self.place < len(self.items) else None
+    @property
+    def opens(self) -> bool:
+        """Whether a brace comes next."""
+        return self.items[self.place].kind == "open"
 
     def take(self) -> Token:
         item = self.items[self.place]
-        self.place += 1
+        self.place += item.kind != "end"
         return item
 
     @property
@@ -176,458 +148,314 @@ class _Reader:
         last = self.items[self.place - 1]
         return last.at + len(last.text)
 
+    def made(self, kind: str, name: str, item: Token, *parts: list[Box], **more: Any) -> Box:
+        """Return a box that ends with the last token."""
+        return Box(kind, name, item.at, self.end, list(parts), **more)
+
     def argument(self, style: str = "") -> list[Box]:
-        """What is in braces, or the next single thing."""
-        item = self.peek()
-        if item is None:
-            self.place -= 1
-            self.stop("has no argument", "write it in braces")
-        if item.kind == "open":
+        """Return the boxes in braces, or the next single thing."""
+        if not self.ahead:
+            raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write it in braces")
+        if self.opens:
             return self.group(style)
-        if item.text.isdecimal():
-            self.take()
-            return [Box("number", item.text, item.at, item.at + 1)]
-        return self.single(style)
+        if not self.ahead.isdecimal():
+            return self.single(style)
+        item = self.take()
+        return [self.made("number", item.text, item)]
 
     def group(self, style: str = "") -> list[Box]:
         opened = self.take()
         found = self.sequence(("}",), style)
-        if self.peek() is None:
-            raise FormulaError(opened.at, "{ is not closed", "write the brace that closes it")
+        if not self.ahead:
+            raise FormulaError("{ is not closed", "write the brace that closes it")
         self.take()
-        if len(found) == 1 and self.latex.startswith(
-            tuple(_INFIX), found[0].at
-        ):  # {a \over b} is printed with its braces
-            found[0].at, found[0].end = opened.at, self.end
+        if found:  # its ends have their braces
+            found[0].at, found[-1].end = opened.at, self.end
         return found
 
     def plain(self) -> str:
-        """An argument in braces as it stands."""
-        item = self.peek()
-        if item is None or item.kind != "open":
-            return self.take().text if item else ""
-        return self.enclosed("}")
+        """Return an argument in braces as it stands."""
+        return self.enclosed("}") if self.opens else self.take().text
 
-    def bracketed(self) -> str | None:
-        """An optional argument as it stands."""
-        item = self.peek()
-        return self.enclosed("]") if item is not None and item.text == "[" else None
+    def bracketed(self) -> str:
+        """Return an optional argument as it stands."""
+        return self.enclosed("]") if self.ahead == "[" else ""
 
     def enclosed(self, closing: str) -> str:
-        """What stands between the sign that comes next and the one that closes it."""
+        """Return the text between the sign that comes next and the one that closes it."""
         start, depth = self.take().at + 1, 0
-        while (item := self.peek()) is not None:
-            self.take()
+        while self.ahead:
+            item = self.take()
             if item.text == closing and depth == 0:
                 return self.latex[start : item.at]
             depth += BRACES.get(item.kind, 0)
         return self.latex[start:]
 
     def sequence(self, ends: tuple[str, ...], style: str = "") -> list[Box]:
-        """Boxes until one of the ends comes next."""
+        """Return the boxes until one of the ends comes next."""
         self.depth += 1
         if self.depth > _MOST:
-            self.stop("is too deep", "write fewer brackets within brackets")
+            raise FormulaError(f"{self.ahead} is too deep", "write fewer brackets within brackets")
         found: list[Box] = []
-        while (item := self.peek()) is not None and item.text not in ends:
-            if (made := _alone(item, style)) is not None:
-                self.place += 1
-                found.append(made)
-                continue
-            if item.kind == "close" or item.text == r"\right" or (item.text in _CLOSE and item.text not in "]"):
+        while self.ahead and self.ahead not in ends:
+            item = self.items[self.place]
+            if item.kind == "close" or (item.text in _CLOSE and item.text != "]"):
                 break
             if item.kind == "command" and item.text[1:] in _SWITCHES:
+                style = STYLES[self.take().text[1:]] or "upright"
+            elif item.text in _INFIX:
                 self.take()
-                style = STYLES[item.text[1:]] or "upright"
-                continue
-            if item.text in _INFIX:
-                self.take()
-                under = self.sequence(ends, style)
-                self.depth -= 1
-                return [Box(_INFIX[item.text], "", item.at, self.end, [found, under])]
-            if item.kind == "script":
+                found = [self.made(_INFIX[item.text], "", item, _without_spaces(found), self.sequence(ends, style))]
+            elif item.kind == "script":
                 self.script(found)
             elif item.text in ("'", "’", "′"):
                 self.take()
-                self.prime(found, item)
+                self.prime(found, 1)
             elif self.latex.startswith("{,}", item.at) and found and found[-1].kind == "number":
-                self.comma_in_number(found)
+                self.comma_in_number(found[-1])
             else:
                 self.extend(found, style)
-                if len(found) > 2 and _multiplies(*found[-3:]):
-                    found[-2] = replace(found[-2], kind="operator", name="cdot")
         self.depth -= 1
-        return found
+        return _without_spaces(found)
 
     def extend(self, found: list[Box], style: str) -> None:
-        first = self.peek()
-        braced = first is not None and first.kind == "open"
-        made = self.single(style)
-        before = found[-1] if found else None
-        if before is not None and len(made) == 1 and before.end == made[0].at and _joins(before, made[0], style):
-            before.name += made[0].name
-            before.end = made[0].end
+        """Add the next thing to a row; more boxes than one with a script are a group."""
+        braced, made = self.opens, self.single(style)
+        if found and len(made) == 1 and found[-1].end == made[0].at and _joins(found[-1], made[0], style):
+            found[-1].name += made[0].name
+            found[-1].end = made[0].end
             return
-        following = self.peek()
-        if following is not None and following.kind == "script" and made:
-            own = any(box.sub is not None or box.sup is not None or box.primes for box in made)
-            if len(made) > 1 or (braced and own):
-                made = [Box("group", "", made[0].at, self.end, [made])]
+        scripted = any(box.sub is not None or box.sup is not None or box.primes for box in made)
+        if self.items[self.place].kind == "script" and (len(made) > 1 or (braced and scripted)):
+            made = [Box("group", "", made[0].at, self.end, [made])]
         found += made
 
-    def comma_in_number(self, found: list[Box]) -> None:
+    def comma_in_number(self, number: Box) -> None:
         self.place += 3
-        found[-1].name += "{,}"
+        if not self.ahead.isdecimal():
+            raise FormulaError("{,} is no part of a number", "write digits behind the comma")
+        number.name += "{,}"
+        while self.ahead.isdecimal():
+            number.name += self.take().text
+        number.end = self.end
+
+    def prime(self, found: list[Box], count: int) -> None:
+        if not found or found[-1].kind != "letter":
+            raise FormulaError("' stands behind a sign that is no letter", "write the derivative, or give it a letter")
+        found[-1].primes += count
         found[-1].end = self.end
-        item = self.peek()
-        if item is None or not item.text.isdecimal():
-            self.place -= 1
-            self.stop("is no part of a number", "write digits behind the comma")
-        while (item := self.peek()) is not None and item.text.isdecimal():
-            found[-1].name += self.take().text
-            found[-1].end = self.end
-
-    def prime(self, found: list[Box], item: Token) -> None:
-        if not found:
-            raise FormulaError(item.at, "' has nothing before it", "write the letter that it belongs to")
-        self.primed(found[-1], item, 1)
-        found[-1].end = item.at + 1
-
-    @staticmethod
-    def primed(target: Box, item: Token, count: int) -> None:
-        """Give primes to a letter; behind anything else they mean what only the author knows."""
-        if target.kind != "letter":
-            why = "a prime stands behind what is no letter"
-            raise FormulaError(item.at, why, "write the derivative, or give it a letter")
-        target.primes += count
 
     def script(self, found: list[Box]) -> None:
-        item = self.take()
-        _as_letters(found)
-        target = found[-1] if found else None
-        if (
-            target is not None
-            and item.text == "^"
-            and (
-                target.kind == "unit" or (target.kind == "text" and _is_unit(target.name))  # \text{W/m}^2
-            )
-        ):
-            above = self.argument()
-            if all(b.kind == "number" or b.name == "-" for b in above):
-                found[-1] = replace(
-                    target, kind="unit", name=f"{target.name}^{{{''.join(b.name for b in above)}}}", end=self.end
-                )
-                return
-            raise FormulaError(item.at, "a unit has a power that is no number", "write it in braces, \\mathrm{m^2}")
+        item, target = self.take(), found[-1] if found else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow", "unit"):
-            why = f"{item.text} has nothing before it"
-            raise FormulaError(item.at, why, "write the letter that the script belongs to")
-        content = [
-            replace(box, kind="letter", name=self.latex[box.at + 1 : box.end])
-            if box.kind == "relation" and self.latex[box.at : box.end] in (r"\perp", r"\parallel")
-            else box
-            for box in self.argument()
-        ]
-        while content and content[0].kind == "thin":  # \mathrm{d}^{\,3}
-            content = content[1:]
-        if item.text == "^":
-            if content and all(b.kind == "letter" and b.name == "prime" for b in content):
-                self.primed(target, item, len(content))
-            elif target.sup is not None:
-                raise FormulaError(item.at, "two powers follow each other", "write braces around the first")
-            else:
-                target.sup = content
-        elif target.sub is not None:
-            raise FormulaError(item.at, "two indices follow each other", "write them in one pair of braces")
+            raise FormulaError(f"{item.text} has nothing before it", "write the letter that the script belongs to")
+        content = self.argument()
+        if item.text == "^" and content and all(b.kind == "letter" and b.name == "prime" for b in content):
+            self.prime(found, len(content))
+        elif (target.sup if item.text == "^" else target.sub) is not None:
+            raise FormulaError(f"{item.text} follows another {item.text}", "write one pair of braces")
+        elif item.text == "^":
+            target.sup = content
         else:
             target.sub = content
         target.end = self.end
 
     def single(self, style: str) -> list[Box]:
-        """The next thing without its scripts; a group in braces gives all it holds."""
-        item = self.take()
-        text = item.text
-        if (made := _alone(item, style) or _letter(item, style)) is not None:
-            return [made]
-        if item.kind == "open":
-            self.place -= 1
+        """Return the next thing without its scripts; a group in braces gives all that stands in it."""
+        if self.opens:
             return self.group(style)
-        if text in ("|", r"\vert"):
-            ket = not self.angles and self.first_ahead((text, r"\langle", r"\rangle", "=")) == r"\rangle"
-            return [self.ket(item) if ket else Box("bar", "|", item.at, self.end)]
+        item = self.take()
+        text, sign = item.text, _SIGNS.get(item.text)
+        if sign is not None:
+            return [self.made(*sign, item)]
+        if text in _LETTERS:
+            upright = style == "upright"
+            return [self.made("letter", _LETTERS[text], item, style="" if upright else style, upright=upright)]
         if item.kind == "command":
             return self.command(item, style)
         if item.kind == "align":
             return []
-        if item.kind in ("math", "param", "stray", "raw"):
-            self.place -= 1
-            self.stop("cannot stand in a formula", "leave it out")
-        if text == "." and (after := self.peek()) is not None and after.text == ".":
-            while (after := self.peek()) is not None and after.text == ".":
+        if text == "." and self.ahead == ".":
+            while self.ahead == ".":
                 self.take()
-            return [Box("dots", "dots", item.at, self.end)]
-        if text.isdecimal() or (text == "." and (after := self.peek()) is not None and after.text.isdecimal()):
+            return [self.made("dots", "dots", item)]
+        if text.isdecimal() or (text == "." and self.ahead.isdecimal() and self.items[self.place].at == self.end):
             return [self.number(item)]
         if text in _OPEN:
             return [self.bracket(text, item, style)]
-        if text == ":" and (after := self.peek()) is not None and after.text == "=":
+        if text == ":" and self.ahead == "=":
             self.take()
-            return [Box("relation", ":=", item.at, self.end)]
-        if text in _BESIDE:
-            return [Box(*_BESIDE[text], item.at, self.end)]
-        self.place -= 1
-        self.stop("is not known", "write it in LaTeX")
+            return [self.made("relation", ":=", item)]
+        if text in (":", "."):
+            return [self.made("operator" if text == ":" else "comma", text, item)]
+        raise FormulaError(f"{text} is not known", "write it in LaTeX")
 
     def number(self, item: Token) -> Box:
         digits = item.text
-        while (after := self.peek()) is not None:
-            further = self.items[self.place + 1] if self.place + 1 < len(self.items) else None
-            point = after.text == "." and "." not in digits and further is not None and further.text.isdecimal()
-            if point or (after.text.isdecimal() and after.at == self.end):
-                digits += self.take().text
-            else:
+        while self.ahead:
+            point = self.ahead == "." and "." not in digits and self.items[self.place + 1].text.isdecimal()
+            if not point and not (self.ahead.isdecimal() and self.items[self.place].at == self.end):
                 break
-        return Box("number", digits, item.at, self.end)
+            digits += self.take().text
+        return self.made("number", digits, item)
 
     def command(self, item: Token, style: str) -> list[Box]:
         name = item.text[1:]
         if name in _NOTHING:
-            return self.nothing(name)
+            return []
         if name in ACCENTS:
-            return [self.accent(name, item, style)]
-        if name in RELATIONS:
-            return [self.relation(name, item)]
+            return [self.accent(ACCENTS[name], item, style)]
         if item.text in _OPEN:
             return [self.bracket(item.text, item, style)]
-        if name == "left" or _SIZES.fullmatch(name):
-            return self.sized(item, name, style)
-        if (special := _FORMS.get(name.rstrip("*"))) is not None:
-            return special(self, item, style)
+        if _SIZES.fullmatch(item.text):  # the bracket comes next
+            bar = self.ahead in (r"\|", r"\Vert", "|", r"\vert")
+            return self.single(style) if bar else []
+        form = _FORMS.get(name.rstrip("*"))
+        if form is not None:
+            return form(self, item, style)
         if name in STYLES:
             return self.styled(name, item)
-        self.place -= 1
-        self.stop("is not known", "write what it stands for, or define it by \\newcommand")
+        raise FormulaError(f"{item.text} is not known", r"write what it stands for, or define it by \newcommand")
 
-    def nothing(self, name: str) -> list[Box]:
-        """Take a command that prints nothing, with its length where it has one."""
-        if name in ("hskip", "kern", "mkern"):
-            while (after := self.peek()) is not None and (after.text in ".-" or after.text.isdecimal()):
-                self.take()
-            for _ in range(2):
-                if (after := self.peek()) is not None and after.text.isalpha():
-                    self.take()
-        return []
-
-    def relation(self, name: str, item: Token) -> Box:
-        if name != "not":
-            return Box("relation", RELATIONS[name], item.at, self.end)
-        denied = RELATIONS.get(self.take().text.lstrip("\\"), "")
-        if not denied:
-            raise FormulaError(item.at, r"\not strikes out what is no relation", r"write \nmid, \neq or \slashed")
-        return Box("relation", "!=" if denied == "=" else f"not {denied}", item.at, self.end)
-
-    def accent(self, name: str, item: Token, style: str) -> Box:
+    def accent(self, mark: str, item: Token, style: str) -> Box:
         content = self.argument(style)
-        mark = ACCENTS[name]
-        if len(content) == 1 and content[0].kind == "nabla" and mark == "vec":
-            return content[0]
-        if len(content) == 1 and content[0].kind == "letter" and content[0].sup is None and not content[0].primes:
-            box = content[0]
-            box.marks += (mark,)
-            box.at, box.end = item.at, self.end
-            return box
-        return Box("accent", mark, item.at, self.end, [content])
+        only = content[0] if len(content) == 1 else None
+        nabla = only is not None and only.kind == "nabla" and mark == "vec"
+        if only is None or not (nabla or (only.kind == "letter" and only.sup is None and not only.primes)):
+            return self.made("accent", mark, item, content)
+        only.marks += () if nabla else (mark,)
+        only.at, only.end = item.at, self.end
+        return only
 
     def styled(self, name: str, item: Token) -> list[Box]:
-        r"""\mathbf{r}, \mathrm{kin}, \text{and}: letters one by one, or a word."""
-        style = STYLES[name]
-        if name == "operatorname" and (after := self.peek()) is not None and after.text == "*":
-            self.take()
-        word = (
-            self.plain_ahead()
-            if name in ("text", "textbf", "mathrm", "operatorname", "mathit", "mathsf", "mathtt")
-            else None
-        )
-        if word is not None:
-            stripped = word.strip()
-            bold = name == "textbf" and len(stripped) == 1  # m\textbf{a}
-            if name in ("text", "textbf") and word != "d" and stripped not in FUNCTIONS and not bold:
-                self.plain()
-                return [Box("text", stripped, item.at, self.end)] if stripped else [Box("thin", "", item.at, self.end)]
-            if re.fullmatch(r"[A-Za-z]{2,}", stripped):
-                self.plain()
-                if stripped in FUNCTIONS or name == "operatorname":
-                    return [Box("function", stripped, item.at, self.end)]
-                if stripped[0] == "d" and len(stripped) == 2 and name == "mathrm":
-                    d = Box("letter", "d", item.at, item.at + 1, upright=True)
-                    return [d, Box("letter", stripped[1], item.at + 1, self.end)]
-                return [Box("letter", stripped, item.at, self.end, upright=True)]
-            unit = stripped.replace(r"\Omega", "Ohm") if stripped != r"\Omega" else ""
-            if name == "mathrm" and _is_unit(unit):
-                self.plain()
-                return [Box("unit", unit, item.at, self.end)]
+        r"""Read \mathbf{r}, \mathrm{kin} and \text{and}: letters one by one, or a word."""
+        style, start = STYLES[name], self.place
+        worded = self.opens and name in (*_TEXT, "mathrm", "operatorname", "mathit", "mathsf", "mathtt")
+        word = self.plain().strip() if worded else "-"
+        if name == "operatorname" or (len(word) > 1 and word in FUNCTIONS):
+            return [self.made("function", word, item)]
+        if worded and name in _TEXT and word != "d":
+            return [self.made("text" if word else "thin", word, item)]
+        if len(word) == 2 and word[0] == "d" and word.isalpha() and name == "mathrm":
+            return [self.made("letter", letter, item, upright=letter == "d") for letter in word]
+        if len(word) > 1 and word.isascii() and word.isalpha():
+            return [self.made("letter", word, item, upright=True)]
+        if name == "mathrm" and _UNIT.fullmatch(word):
+            return [self.made("unit", word, item)]
+        self.place = start
         content = self.argument(style or "upright")
         for box in content:
-            if box.kind == "letter" and style:
-                box.style = style
-            elif box.kind == "letter":
-                box.upright = True
-            elif box.kind == "number" and box.name == "1" and style:  # the unit matrix
-                box.kind, box.name, box.style = "letter", "one", style
+            if box.kind == "number" and style and box.name != "0":
+                raise FormulaError(f"{item.text}{{{box.name}}} is not read", "give the unit matrix a letter")
+            if box.kind == "letter":
+                box.style, box.upright = style or box.style, box.upright or not style
+        if content:
+            content[0].at, content[-1].end = item.at, self.end
         return content
-
-    def plain_ahead(self) -> str | None:
-        """The argument in braces that comes next, as it stands, without taking it."""
-        place = self.place
-        item = self.peek()
-        if item is None or item.kind != "open":
-            return None
-        word = self.plain()
-        self.place = place
-        return word
-
-    def sized(self, item: Token, name: str, style: str) -> list[Box]:
-        r"""\left( … \right), \bigl(, \middle|."""
-        after = self.peek()
-        if after is None:
-            self.place -= 1
-            self.stop("has no bracket", "write one")
-        if name != "left":
-            if after.text in ("|", r"\|", r"\vert", r"\Vert"):
-                self.take()
-                double = after.text in (r"\|", r"\Vert")
-                return [Box("bar", "||" if double else "|", item.at, self.end)]
-            return []  # a bracket of another size: the bracket comes next
-        opening = self.take().text
-        parts: list[list[Box]] = [self.sequence((r"\right",), style)]
-        if self.peek() is None:
-            raise FormulaError(item.at, r"\left is not closed", r"write \right with its bracket")
-        self.take()
-        if self.peek() is None:
-            raise FormulaError(item.at, r"\right has no bracket", "write one, or a full stop")
-        closing = self.take().text
-        return [Box("bracket", opening, item.at, self.end, parts, closing=closing)]
-
-    def first_ahead(self, wanted: tuple[str, ...]) -> str:
-        """The first of these that comes, in the same braces."""
-        depth = 0
-        for item in self.items[self.place :]:
-            depth += BRACES.get(item.kind, 0)
-            if depth < 0 or (depth == 0 and item.text in wanted):
-                return item.text
-        return ""
-
-    def ends_at_bar(self) -> bool:
-        """Whether a sign and another bar follow the next bar: <a| + |b> is no product."""
-        bar = next(k for k in range(self.place, len(self.items)) if self.items[k].text == "|")
-        return [each.text for each in self.items[bar + 1 : bar + 3]] in (["+", "|"], ["-", "|"], ["=", "|"])
-
-    def ket(self, item: Token) -> Box:
-        content = self.sequence((r"\rangle",))
-        if (after := self.peek()) is None or after.text != r"\rangle":
-            raise FormulaError(item.at, "a ket is not closed", r"write \rangle where it ends")
-        self.take()
-        return Box("bracket", "|", item.at, self.end, [content], closing=r"\rangle")
 
     def bracket(self, opening: str, item: Token, style: str = "") -> Box:
         closing = _OPEN[opening]
-        is_bra = opening == r"\langle" and self.first_ahead(("|", r"\langle", r"\rangle")) == "|"
-        if is_bra and (self.first_ahead((r"\langle", r"\rangle")) != r"\rangle" or self.ends_at_bar()):
-            closing = "|"
-        self.angles += closing == r"\rangle"
         content = self.sequence((closing,), style)
-        self.angles -= closing == r"\rangle"
-        after = self.peek()
-        if after is not None and after.text.startswith("\\") and _SIZES.fullmatch(after.text[1:]):
+        if _SIZES.fullmatch(self.ahead):
             self.take()
-            after = self.peek()
-        if after is None or after.text != closing:
-            raise FormulaError(item.at, f"{opening} is not closed by {closing}", f"write {closing} where it ends")
+        if self.ahead != closing:
+            raise FormulaError(f"{opening} is not closed by {closing}", f"write {closing} where it ends")
         self.take()
-        return Box("bracket", opening, item.at, self.end, [content], closing=closing)
+        return self.made("bracket", opening, item, content, closing=closing)
 
     # ---- commands with a form of their own
 
+    def _left(self, item: Token, style: str) -> list[Box]:
+        opening, content = self.take().text, self.sequence((r"\right",), style)
+        if not self.take().text or not self.ahead:
+            raise FormulaError(r"\left is not closed", r"write \right with its bracket")
+        closing = self.take().text
+        return [self.made("bracket", opening, item, content, closing=closing)]
+
     def _frac(self, item: Token, style: str) -> list[Box]:
         style = "" if style == "upright" else style
-        over, under = self.argument(style), self.argument(style)
         kind = "binomial" if item.text.endswith("binom") else "fraction"
-        return [Box(kind, "", item.at, self.end, [over, under])]
+        over, under = self.argument(style), self.argument(style)
+        return [self.made(kind, "", item, over, under)]
+
+    def _derivative(self, item: Token, style: str) -> list[Box]:
+        r"""Read \dv[2]{x}{t}, \pdv{L}{q} and \dv{t} as fractions."""
+        degree, parts = self.bracketed(), [self.argument(style)]
+        if self.opens:
+            parts.append(self.argument(style))
+        under, order = parts[-1], boxes(degree) if degree else None
+        if len(under) != 1 or under[0].sup is not None:
+            raise FormulaError(f"{item.text} is by more than a letter", r"write \frac{d f}{d x}")
+        kind, name = ("letter", "d") if item.text == r"\dv" else ("partial", "partial")
+        above, below = (self.made(kind, name, item, upright=True, sup=sup) for sup in (order, None))
+        over = [above, *(parts[0] if parts[1:] else [])]
+        return [self.made("fraction", "", item, over, [below, replace(under[0], sup=order)])]
+
+    def _enclosed(self, item: Token, style: str) -> list[Box]:
+        r"""Read \abs{x} and \norm{x}."""
+        sign = "|" if item.text == r"\abs" else r"\|"
+        content = self.argument(style)
+        return [self.made("bracket", sign, item, content, closing=sign)]
 
     def _sqrt(self, item: Token, style: str) -> list[Box]:
-        degree = self.bracketed()
-        content = self.argument("" if style == "upright" else style)
-        parts = [content] + ([boxes(degree)] if degree else [])
-        return [Box("root", "", item.at, self.end, parts)]
+        degree, content = self.bracketed(), self.argument("" if style == "upright" else style)
+        return [self.made("root", "", item, content, *([boxes(degree)] if degree else []))]
 
     def _begin(self, item: Token, style: str) -> list[Box]:
         name = self.plain()
-        if name in _MATRICES or name in ROWS or name in _CASES:
-            self.bracketed()
-            if name in ("array", "alignedat", "alignat", "IEEEeqnarraybox") and "|" in self.plain() and name == "array":
-                raise FormulaError(item.at, "a line stands in the matrix", "write its blocks by themselves")
-            kind = "cases" if name in _CASES else "rows" if name in ROWS else "matrix"
-            rows = self.rows(name, item)
-            return [Box(kind, name, item.at, self.end, [[Box("row", "", item.at, self.end, row) for row in rows]])]
-        raise FormulaError(item.at, rf"\begin{{{name}}} is not known", "write the formula without this environment")
-
-    def rows(self, name: str, item: Token) -> list[list[list[Box]]]:
-        """Rows of cells until the environment ends."""
+        if name not in (*_MATRICES, *_ROWS, *_CASES):
+            raise FormulaError(rf"\begin{{{name}}} is not known", "write the formula without this environment")
+        self.bracketed()
+        if name in ("array", "alignedat") and "|" in self.plain():
+            raise FormulaError("a line stands in the matrix", "write its blocks by themselves")
         rows: list[list[list[Box]]] = [[[]]]
-        while True:
-            rows[-1][-1] += self.sequence(("&", r"\\", r"\end", r"\hline", r"\cr"))
-            after = self.peek()
-            if after is None or after.text not in ("&", r"\\", r"\end", r"\hline", r"\cr"):
-                raise FormulaError(item.at, rf"\begin{{{name}}} is not closed", rf"write \end{{{name}}}")
-            self.take()
-            if after.text == "&":
-                if name in _PAIRS and len(rows[-1]) % 2 == 0:  # every second & begins another equation
-                    rows[-1][-1].append(Box("wide", "", after.at, after.at + 1))
+        sign = ""
+        while sign != r"\end":
+            rows[-1][-1] += self.sequence(_ROW_ENDS)
+            if self.ahead not in _ROW_ENDS:
+                raise FormulaError(rf"\begin{{{name}}} is not closed", rf"write \end{{{name}}}")
+            sign = self.take().text
+            if sign == "&":
+                second = name in _PAIRS and len(rows[-1]) % 2 == 0  # every second & begins another equation
+                rows[-1][-1] += [self.made("wide", "", self.items[self.place - 1])] if second else []
                 rows[-1].append([])
-            elif after.text in (r"\\", r"\cr"):
+            elif sign in (r"\\", r"\cr"):
                 self.bracketed()
                 rows.append([[]])
-            elif after.text == r"\end":
-                self.plain()
-                return [row for row in rows if any(row)]
-
-    def _overset(self, item: Token, style: str) -> list[Box]:
-        label = self.plain()
-        base = self.argument(style)
-        for box in base:
-            box.marks = (label,) if label not in ("!", r"\mathrm{def}", r"\text{def}", "def") else ()
-        if any(box.kind not in ("relation", "arrow") for box in base):
-            why = f"{item.text} sets a mark on what is no relation"
-            raise FormulaError(item.at, why, "give it a letter of its own")
-        return base
+        self.plain()
+        kind = "cases" if name in _CASES else "rows" if name in _ROWS else "matrix"
+        return [self.made(kind, name, item, [self.made("row", "", item, *row) for row in rows if any(row)])]
 
     def _underbrace(self, item: Token, style: str) -> list[Box]:
         content = self.argument(style)
-        after = self.peek()
-        if after is not None and after.kind == "script":
+        if self.items[self.place].kind == "script":
             self.take()
-            self.plain() if (following := self.peek()) is not None and following.kind == "open" else self.take()
-        if content and content[0].kind == "operator":  # the sign joins it to what stands before
-            return content
-        return [Box("group", "", item.at, self.end, [content])]
-
-    def _xrightarrow(self, item: Token, style: str) -> list[Box]:
-        self.bracketed()
-        self.plain()
-        return [Box("relation", "->", item.at, self.end)]
-
-    def _unread(self, item: Token, style: str) -> list[Box]:
-        way_out = "write the condition in one line" if item.text == r"\substack" else "keep it aside"
-        raise FormulaError(item.at, f"{item.text} is not read", way_out)
+            self.plain()
+        joined = bool(content) and content[0].kind == "operator"  # the sign joins it to what stands before
+        return content if joined else [self.made("group", "brace", item, content)]
 
     def _passed_over(self, item: Token, style: str) -> list[Box]:
         self.plain()
-        return [Box("thin", "", item.at, self.end)] if item.text == r"\hspace" else []
+        return [self.made("thin", "", item)] if item.text == r"\hspace" else []
 
     def _line_end(self, item: Token, style: str) -> list[Box]:
-        """A line of a display that has one line only: TeX passes over it."""
+        """Read the end of a line in a display that has one line only."""
         self.bracketed()
-        return [Box("wide", "", item.at, self.end)]
+        return [self.made("wide", "", item)]
+
+
+def _without_spaces(row: list[Box]) -> list[Box]:
+    """Return a row without its thin spaces, each of which is said of the box behind it; three in a row part formulas."""
+    parts, after_thin = list[Box](), False
+    for thin, run in groupby(row, key=lambda box: box.kind == "thin"):
+        boxes = list(run)
+        if thin and len(boxes) > 2:
+            parts.append(replace(boxes[0], kind="wide"))
+        elif not thin:
+            boxes[0].spaced |= after_thin
+            parts += boxes
+        after_thin = thin
+    return parts
 
 
 def _joins(before: Box, made: Box, style: str) -> bool:
@@ -636,98 +464,152 @@ def _joins(before: Box, made: Box, style: str) -> bool:
     return style == "upright" and letters and before.sub is None and before.sup is None and not before.marks
 
 
-def is_printed_as_vector(box: Box) -> bool:
-    """Whether a letter is printed as a vector: bold or with an arrow."""
-    return box.style == "bold" or "vec" in box.marks or "under" in box.marks
-
-
-def _multiplies(left: Box, stop: Box, right: Box) -> bool:
-    r"""Whether a full stop stands between two vectors or \nabla without a space: \nabla.\vec u."""
-    between = (stop.kind, stop.name) == ("comma", ".") and left.end == stop.at and stop.end == right.at
-    return between and all(b.kind == "nabla" or is_printed_as_vector(b) for b in (left, right))
-
-
-def _as_letters(row: list[Box]) -> None:
-    r"""The words at the end of a row as upright letters, \text{J kg}^{-1}: a script belongs to the last of them."""
-    if not row or row[-1].kind != "text" or not re.fullmatch(r"[A-Za-z]+(?:[ ~][A-Za-z]+)*", row[-1].name):
-        return
-    box = row.pop()
-    words = re.split(r"[ ~]", box.name)
-    for word in words[:-1]:
-        row += [Box("letter", word, box.at, box.end, upright=True), Box("thin", "", box.end, box.end)]
-    row.append(Box("letter", words[-1], box.at, box.end, upright=True))
-
-
-def _is_unit(word: str) -> bool:
-    """Whether upright letters are a unit of several parts, such as m/s^2."""
-    parts = re.search(r"[A-Za-z].*[A-Za-z/^]|\\[,.%]|[/]|%", word) and not word.startswith("{")
-    return bool(
-        parts
-        and re.fullmatch(r"[A-Za-z\d\s/^{}.,\\\-~·%]+(?:/\([A-Za-z\d\s^{}.,\\\-~·]+\))?", word)
-        and not re.search(r"\\[A-Za-z]", word)
-    )
-
-
-def _alone(item: Token, style: str) -> Box | None:
-    """The box that a token is whatever stands beside it; None where others may belong to it."""
-    text = item.text
-    if (sign := _SIGNS.get(text)) is not None:
-        return Box(*sign, item.at, item.at + len(text))
-    return None if style == "upright" and len(text) == 1 else _letter(item, style)
-
-
-def _letter(item: Token, style: str) -> Box | None:
-    """The letter that a token is; None where it is none."""
-    name = _LETTERS.get(item.text)
-    if name is None:
-        return None
-    end, upright = item.at + len(item.text), style == "upright"
-    return Box("letter", name, item.at, end, style="" if upright else style, upright=upright)
-
-
-_SIMPLE = {
-    "partial": "partial", "nabla": "nabla", "infty": "infinity", "%": "percent", "forall": "arrow",
-    "exists": "arrow", "square": "square", "Box": "square", "uparrow": "letter",
-    "downarrow": "letter", "triangle": "letter", "degree": "degree", "emptyset": "letter",
-}  # fmt: skip
-
-
+# A unit of several parts, m/s^2.
+_UNIT = re.compile(r"(?=.*[A-Za-z].*[A-Za-z/^]|%)[A-Za-z\d\s/^{}.\-~·%]+")
 # Characters and commands that are a letter, with its name; those that are another box whatever stands beside them: (kind, name).
 _LETTERS = {letter: letter for letter in ascii_letters} | _UNICODE
 _LETTERS |= {command: re.sub(r"var(?=[A-Z])", "", command[1:]) for command in GREEK}  # \varDelta is an italic \Delta
-_LETTERS |= {rf"\{name}": name for name in ("prime", "dagger", "top", "intercal", "hslash", "complement")}
-_UPRIGHT_GREEK = ("Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Phi", "Psi", "Omega")
+_LETTERS |= {rf"\{'Up' if name[0].isupper() else 'up'}{name.lower()}": name for name in _GREEK_NAMES.split()}
+_LETTERS |= {rf"\{name}": name for name in ("prime", "dagger", "top", "intercal")} | {r"\dag": "dagger"}
 _COMMANDS: dict[str, tuple[str, str]] = {
-    **dict.fromkeys(_WIDE, ("wide", "")),
+    **dict.fromkeys(("quad", "qquad"), ("wide", "")),
     **dict.fromkeys(_THIN, ("thin", "")),
     **{name: ("operator", sign) for name, sign in _OPERATORS.items() if name.isalpha()},
-    **{name: ("arrow", name) for name in ARROWS},
+    **{name: ("relation", sign) for name, sign in RELATIONS.items() if name.isalpha()},
+    **{name: ("arrow", name) for name in _ARROWS.split()},
     **{name: ("dots", name) for name in _DOTS},
     **{name: ("big", name) for name in BIG},
     **{name: ("function", name) for name in FUNCTIONS},
-    **{name: (kind, name) for name, kind in _SIMPLE.items()},
-    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "dag": ("letter", "dagger")},
-    **{f"Up{name.lower()}": ("letter", name) for name in _UPRIGHT_GREEK},
+    **{
+        "partial": ("partial", ""),
+        "nabla": ("nabla", ""),
+        "infty": ("infinity", "infty"),
+        "degree": ("degree", "degree"),
+    },
+    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "vert": ("bar", "|"), "%": ("percent", "%")},
 }
 _SIGNS: dict[str, tuple[str, str]] = {
     **{text: ("operator", name) for text, name in _OPERATORS.items() if len(text) == 1},
     **{text: ("relation", name) for text, name in RELATIONS.items() if not text.isalpha()},
-    **{",": ("comma", ","), ";": ("comma", ";"), "!": ("operator", "!"), "~": ("thin", "")},
-    **{"∂": ("partial", ""), "∇": ("nabla", ""), "∞": ("infinity", "")},
+    **{",": ("comma", ","), ";": ("comma", ";"), "!": ("operator", "!"), "~": ("thin", ""), "|": ("bar", "|")},
+    **{"∂": ("partial", ""), "∇": ("nabla", ""), "∞": ("infinity", "infty")},
     **{rf"\{name}": sign for name, sign in _COMMANDS.items()},
 }
-_BESIDE = {":": ("operator", ":"), ".": ("comma", ".")}  # what they are depends on what follows
-Form = Callable[[_Reader, Token, str], list[Box]]
-_FORMS: dict[str, Form] = {
-    **dict.fromkeys(
-        ("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac", "binom", "dbinom", "tbinom"), _Reader._frac
-    ),
-    "sqrt": _Reader._sqrt,
-    "begin": _Reader._begin,
-    **dict.fromkeys(("overset", "stackrel", "underset"), _Reader._overset),
+_FRACTIONS = ("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac", "binom", "dbinom", "tbinom")
+_FORMS: dict[str, Callable[[_Reader, Token, str], list[Box]]] = {
+    **dict.fromkeys(_FRACTIONS, _Reader._frac),
+    **dict.fromkeys(("dv", "pdv"), _Reader._derivative),
+    **dict.fromkeys(("abs", "norm"), _Reader._enclosed),
     **dict.fromkeys(("underbrace", "overbrace"), _Reader._underbrace),
-    **dict.fromkeys(("xrightarrow", "xleftarrow"), _Reader._xrightarrow),
-    **dict.fromkeys(("substack", "pmod"), _Reader._unread),
     **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._passed_over),
-    "\\": _Reader._line_end,
+    **{"left": _Reader._left, "sqrt": _Reader._sqrt, "begin": _Reader._begin, "\\": _Reader._line_end},
+    "dd": lambda reader, item, style: [reader.made("letter", "d", item, upright=True)],
 }
+
+
+# ---- rows of boxes
+
+
+def is_printed_as_vector(box: Box) -> bool:
+    """Whether a letter is printed as a vector: bold, with an arrow or with a line below."""
+    return box.style == "bold" or "vec" in box.marks or "under" in box.marks
+
+
+def strip(row: list[Box]) -> list[Box]:
+    """Return a row without spaces and punctuation at its ends."""
+    start, end = 0, len(row)
+    while start < end and row[start].kind == "wide":
+        start += 1
+    while end > start and row[end - 1].kind in ("wide", "comma"):
+        end -= 1
+    return row[start:end]
+
+
+def parted(row: list[Box], *kinds: str) -> list[list[Box]]:
+    """Return the parts of a row between the boxes of these kinds; a full stop parts nothing."""
+    ends = [-1, *(k for k, box in enumerate(row) if box.kind in kinds and box.name != "."), len(row)]
+    return [row[first + 1 : last] for first, last in pairwise(ends)]
+
+
+def all_boxes(row: Iterable[Box]) -> Iterator[Box]:
+    """Yield the boxes of a row and all that they hold."""
+    for box in row:
+        yield box
+        for held in (*box.parts, box.sub or (), box.sup or ()):
+            yield from all_boxes(held)
+
+
+def is_mark(box: Box, mark: str) -> bool:
+    """Whether a box is the d or the ∂ of a derivative."""
+    if mark == "partial":
+        return box.kind == "partial" and box.sub is None
+    return box.kind == "letter" and box.name == mark and not (box.marks or box.sub or box.primes or box.style)
+
+
+def is_derivative(box: Box) -> str:
+    """Return d or partial where a fraction is a derivative; nothing where it is none."""
+    if box.kind == "fraction":
+        over, under = box.parts
+        for mark in ("d", "partial") if over and len(under) > 1 and under[1].kind == "letter" else ():
+            if is_mark(over[0], mark) and is_mark(under[0], mark):
+                return mark
+    return ""
+
+
+# ---- names of letters
+
+
+def stem_of(box: Box) -> str:
+    """Return the name of a letter with its font and marks, without index, dots and primes."""
+    return {"lambda": "lamda"}.get(box.name, box.name) + box.style + "".join(_marks(box))
+
+
+def _marks(box: Box) -> list[str]:
+    return sorted((mark for mark in box.marks if not mark.endswith("dot")), key=lambda mark: mark != "vec")
+
+
+def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
+    r"""Return the name of a letter in Python: theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__max for T^{\max}."""
+    rates = sum(len(mark) - len("ot") for mark in box.marks if mark.endswith("dot"))
+    name = stem_of(box) + "prime" * box.primes + "".join(f"__{part}" for part in raised)
+    name += "".join(f"_{part}" for part in index) + (f"_{'d' * rates}ot" if rates else "")
+    taken = name in CALLED or iskeyword(name) or (name == "hbar" and box.name == "h")  # a mean h is no ħ
+    return f"{name}_" if taken else name
+
+
+def index_of(box: Box) -> list[str]:
+    """Return the parts of an index, such as ["1"], ["cm"] or ["i", "j"]. Raises FormulaError for other signs in it."""
+    found: list[str] = []
+    alone = True  # a comma or a Greek letter ends a run of letters
+    for part in box.sub or ():
+        if part.kind == "comma" and part.name != ".":
+            alone = True
+            continue
+        inner = _index(part)
+        greek = part.kind == "letter" and len(part.name) > 1 and not part.upright
+        if alone or greek or len(inner) != 1 or not found:
+            found += inner
+        else:
+            found[-1] += inner[0]
+        alone = greek
+    return found
+
+
+def _index(part: Box) -> list[str]:
+    """Return the words of one box of an index."""
+    if part.kind == "letter" and part.sup is None:
+        return [part.name + part.style + "prime" * part.primes + "".join(part.marks), *index_of(part)]
+    plain = part.sup is None and part.sub is None
+    if part.kind == "number" and plain and "," not in part.name:
+        return [part.name.replace(".", "p")]
+    name = "".join(c for c in part.name if c.isalnum())
+    if part.kind in ("text", "function") and plain and 0 < len(name) <= 24 and not re.search(r"\\|d?dot", part.name):
+        return [name]
+    if part.kind in ("operator", "infinity", "relation") and part.name in _INDEX_SIGNS:
+        return [_INDEX_SIGNS[part.name]]
+    if part.kind in ("group", "fraction") and plain:  # i + 1/2
+        return ["over".join("".join(word for each in held for word in _index(each)) for held in part.parts)]
+    raise FormulaError("an index is not letters and numbers", "give the letter another index")
+
+
+_INDEX_SIGNS = {"+": "plus", "-": "minus", "*": "star", "/": "over", "infty": "inf", "=": "eq", "->": "to"}

@@ -1,162 +1,307 @@
-r"""Definitions of commands: \newcommand, \def, \let, \NewDocumentCommand, \DeclarePairedDelimiter …"""
+r"""Commands of LaTeX that define others, choose between branches and take in files."""
 
-from collections.abc import Iterable
-from dataclasses import replace
-from itertools import chain, pairwise
+import re
 
-from lagrotor.paper.latex.expansion import Expander, Primitive
-from lagrotor.paper.latex.groups import Macro, numbered
+from lagrotor.paper.latex import packages
+from lagrotor.paper.latex.macros import CHOICES, Expander, Macro, Parameter, Primitive, head_of
 from lagrotor.paper.latex.tokens import Token, latex_of, plain, tokenize
 
 HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
+# Environments of displayed formulas: LaTeX's and amsmath's.
+DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath", "IEEEeqnarray")
+_COUNTING = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\numberwithin", r"\@addtoreset", r"\counterwithin")
+_COMMANDS = (*HEADINGS, r"\appendix")  # which may stand as environments, \begin{appendix}
 
 
-def _defined(expander: Expander, token: Token) -> bool:
+def _define(expander: Expander, name: str, macro: Macro, token: Token, everywhere: bool = False) -> None:
+    """Define a name, unless its meaning is fixed here: headings, definitions, counters and files."""
+    if name in expander.primitives and name not in _REPLACEABLE:
+        expander.notes.append(f"{expander.place(token.at)}: {name} is defined anew: its standard meaning is taken")
+    elif name.startswith("\\") and name not in HEADINGS:
+        expander.define(name, macro, everywhere)
+
+
+def _newcommand(expander: Expander, token: Token) -> None:
     expander.star()
-    expander.skip_spaces()
-    named = expander.argument()
-    count = expander.optional()
-    default = expander.optional() if count is not None else None
-    body = expander.argument()
-    name = next((t.text for t in named if t.kind == "command"), "")
-    known = (expander.macros, expander.packages, expander.primitives, HEADINGS)
-    if not name or (token.text == r"\providecommand" and any(name in each for each in known)):
-        return True
-    if _is_kept(expander, name, body):
-        return True
-    expander.macros[name] = Macro(tuple(body), numbered(count), None if default is None else tuple(default))
-    return True
+    name, head, body = expander.name(), _head(expander), expander.argument()
+    if token.text != r"\providecommand" or name not in (*expander.macros, *expander.primitives):
+        _define(expander, name, Macro(tuple(body), head), token)
 
 
-def _document_command(expander: Expander, token: Token) -> bool:
-    named, spec, body = expander.argument(), latex_of(expander.argument()), expander.argument()
-    if named:
-        expander.macros[named[0].text] = Macro(tuple(body), spec=spec.strip() or " ")
-    return True
+def _head(expander: Expander) -> tuple[Parameter, ...]:
+    """Take [number of arguments][default of the first]."""
+    digits = latex_of(expander.optional() or ()).strip()
+    head = [Parameter("m")] * (int(digits) if digits.isdecimal() and int(digits) < 10 else 0)
+    if head and (default := expander.optional()) is not None:
+        head[0] = Parameter("o", default=tuple(default))
+    return tuple(head)
 
 
-def _def(expander: Expander, token: Token) -> bool:
-    target = next_name(expander)
-    head: list[Token] = []
+def _document_command(expander: Expander, token: Token) -> None:
+    name, spec, body = expander.name(), latex_of(expander.argument()), expander.argument()
+    _define(expander, name, Macro(tuple(body), head_of(spec)), token)
+
+
+def _def(expander: Expander, token: Token) -> None:
+    target = _next_name(expander)
+    marks: list[Token] = []
     while (part := expander.next()) is not None and part.kind != "open":
-        head.append(part)
+        marks.append(part)
     body = expander.group(token.at)
-    by_lines = any(a.text == b.text == "^" for a, b in pairwise(head))  # ^^M: it reads lines as they stand
-    if target is not None and target.kind == "command" and not by_lines and not _is_kept(expander, target.text, body):
-        if token.text in (r"\edef", r"\xdef"):  # a command that is not known yet cannot stand for itself
-            body = [part for part in expander.expand(body) if part.text != target.text]
-        macro = Macro(tuple(body), tuple(head))
-        if token.text in (r"\gdef", r"\xdef"):
-            expander.macros.define_globally(target.text, macro)
-        else:
-            expander.macros[target.text] = macro
-    return True
+    head: list[Parameter] = []
+    for place, mark in enumerate(marks):
+        after = marks[place + 1] if place + 1 < len(marks) else mark
+        if mark.kind == "param":
+            head.append(Parameter("m") if after.kind == "param" else Parameter("u", after))
+        elif mark.text.strip() and not (place and marks[place - 1].kind == "param"):
+            head.append(Parameter("=", mark))
+    # \edef expands its body at once, and no macro of a formula reads powers as marks: such a name has no meaning
+    if token.text in (r"\edef", r"\xdef") or any(mark.kind == "script" for mark in marks):
+        expander.define(target.text, None, everywhere=True)
+    else:
+        _define(expander, target.text, Macro(tuple(body), tuple(head)), token, token.text == r"\gdef")
 
 
-def _let(expander: Expander, token: Token) -> bool:
-    target, source = next_name(expander), next_name(expander)
-    if source is not None and source.text.startswith("="):
+def _let(expander: Expander, token: Token) -> None:
+    target, source = _next_name(expander), _next_name(expander)
+    if source.text.startswith("="):
         expander.push(plain(source.text[1:].lstrip(), source.at))
-        source = next_name(expander)
-    if source is not None and source.kind == "text" and len(source.text) > 1:
-        expander.push([Token("text", source.text[1:], source.at + 1)])
-        source = Token("text", source.text[0], source.at)
-    if target is not None and source is not None and target.kind == "command":
-        known = expander.macros.get(source.text)
-        if known is not None:
-            expander.macros[target.text] = known
-        elif source.kind == "command" and source.text in expander.packages:
-            expander.macros.pop(target.text, None)
-            expander.own[target.text] = expander.packages[source.text]
-        elif source.text != target.text:
-            kind = "primitive" if source.kind == "command" else source.kind
-            expander.macros[target.text] = Macro((Token(kind, source.text, source.at),))
-    return True
+        source = _next_name(expander)
+    if source.kind == "text":
+        expander.push(plain(source.text[1:], source.at + 1))
+        source = Token("text", source.text[:1], source.at)
+    same = source._replace(kind="primitive" if source.kind == "command" else source.kind)
+    if target.text != source.text:
+        macro = expander.macros.get(source.text) or Macro((same,))
+        _define(expander, target.text, macro, token, token.text == r"\glet")
 
 
-def _extended(expander: Expander, token: Token) -> bool:
-    r"""\g@addto@macro\appendix{…}, \apptocmd{\appendix}{…}{}{}, \pretocmd: more behind or before what a command does."""
-    named, added = expander.argument(), expander.argument()
-    if token.text.endswith("tocmd"):
-        expander.argument(), expander.argument()
-    if named and named[0].kind == "command":
-        known = expander.macros.get(named[0].text) or Macro((Token("primitive", named[0].text, token.at),))
-        parts = (added, known.body) if token.text.startswith(r"\pre") else (known.body, added)
-        expander.macros.define_globally(named[0].text, replace(known, body=tuple(chain(*parts))))
-    return True
+def _global(expander: Expander, token: Token) -> None:
+    r"""\global\def is \gdef."""
+    after = _next_name(expander)
+    name = {r"\def": r"\gdef", r"\edef": r"\xdef", r"\let": r"\glet"}.get(after.text, after.text)
+    expander.push((Token(after.kind, name, after.at),))
 
 
-def _named(expander: Expander, token: Token) -> bool:
-    expander.push([token])
-    made = next_name(expander)
-    expander.push([made] if made else [])
-    return True
-
-
-def next_name(expander: Expander) -> Token | None:
-    r"""The command that is defined next, \csname … \endcsname too."""
+def _next_name(expander: Expander) -> Token:
+    """Take the next token, without space before it."""
     expander.skip_spaces()
-    while (token := expander.next()) is not None and token.text == r"\expandafter":
-        expander.skip_spaces()
-    if token is None or token.text != r"\csname":
-        return token
-    name: list[Token] = []
-    while (part := expander.next()) is not None and part.text != r"\endcsname":
-        name.append(part)
-    return Token("command", "\\" + latex_of(expander.expand(name)).strip(), token.at)
+    return expander.next() or Token("text", "", 0)
 
 
-def _is_kept(expander: Expander, name: str, body: list[Token]) -> bool:
-    """Whether a class says by LaTeX's inner commands how a command looks whose meaning is known here, or reads ahead."""
-    known = name in HEADINGS or name in expander.primitives
-    return any(
-        t.text in (r"\@setfontsize", r"\futurelet", r"\not@math@alphabet")
-        or (known and ("@" in t.text or t.text == r"\secdef") and t.kind == "command")
-        for t in body
-    )
-
-
-def _operator(expander: Expander, token: Token) -> bool:
+def _operator(expander: Expander, token: Token) -> None:
     star = "*" if expander.star() else ""
-    named, body = expander.argument(), expander.argument()
-    if named:
-        made = [Token("command", r"\operatorname", 0), *plain(star, 0), Token("open", "{", 0)]
-        expander.macros[named[0].text] = Macro((*made, *body, Token("close", "}", 0)))
+    name, body = expander.name(), latex_of(expander.argument())
+    _define(expander, name, Macro.of(rf"\operatorname{star}{{{body}}}"), token)
+
+
+def _pair(expander: Expander, token: Token) -> None:
+    r"""\DeclarePairedDelimiter{\abs}{|}{|}: * and [\big] may come before the argument."""
+    name, left, right = expander.name(), expander.name(), expander.name()
+    _define(expander, name, Macro.of(rf"\left{left}#3\right{right}", "som"), token)
+
+
+def _new_environment(expander: Expander, token: Token) -> None:
+    r"""\newenvironment{x} defines \x and \endx, as LaTeX does."""
+    expander.star()
+    name, head = expander.name(), _head(expander)
+    begin, end = expander.argument(), expander.argument()
+    expander.define(rf"\{name}", Macro(tuple(begin), head))
+    expander.define(rf"\end{name}", Macro(tuple(end)))
+
+
+def _new_theorem(expander: Expander, token: Token) -> None:
+    r"""\newtheorem{name}[equation]{Title}: an environment that steps the counter of equations."""
+    expander.star()
+    name, shared = expander.name(), expander.optional()
+    if latex_of(shared or ()).strip() == "equation":
+        expander.define(rf"\{name}", Macro.of(r"\stepcounter{equation}"))
+        expander.define(rf"\end{name}", Macro(()))
+
+
+def _begin(expander: Expander, token: Token) -> None:
+    name = expander.name()
+    if name != "document":
+        expander.begin_group(name)
+    command = _is_command(expander, token, name)
+    begin = Token("command", rf"\{name}", token.at) if command else Token("begin", rf"\begin{{{name}}}", token.at)
+    expander.push((begin,))
+
+
+def _end(expander: Expander, token: Token) -> None:
+    name = expander.name()
+    end = Token("end", rf"\end{{{name}}}", token.at)
+    if _is_command(expander, token, name):
+        end = Token("command", rf"\end{name}" if rf"\end{name}" in expander.macros else r"\relax", token.at)
+    expander.push((end, Token("scope", name, token.at)))
+
+
+def _is_command(expander: Expander, token: Token, name: str) -> bool:
+    r"""Return True if \begin{x} is the command \x."""
+    macros = expander.macros if token.kind == "command" else ()
+    return (rf"\{name}" in macros and rf"\end{name}" in macros) or rf"\{name}" in _COMMANDS
+
+
+def _display(expander: Expander, token: Token) -> None:
+    r"""\align and \endalign are \begin{align} and \end{align}, whatever the source has defined these to be."""
+    name = token.text[1:]
+    verb, name = (r"\end", name[3:]) if name.startswith("end") else (r"\begin", name)
+    expander.push((Token("primitive", verb, token.at), *tokenize(f"{{{name}}}", token.at)))
+
+
+def _condition(expander: Expander, token: Token) -> None:
+    holds = token.text == r"\iftrue" or (token.text == r"\ifmmode" and expander.in_formula)
+    if holds or expander.skip((r"\else", r"\fi"), token) == r"\else":
+        expander.branches += 1
+
+
+def _else(expander: Expander, token: Token) -> bool:
+    if not expander.branches:
+        return not expander.in_formula
+    expander.branches -= 1
+    if token.text == r"\else":
+        expander.skip((r"\fi",), token)
     return True
 
 
-def _pair(expander: Expander, token: Token) -> bool:
-    r"""\DeclarePairedDelimiter{\abs}{|}{|}; \DeclarePairedDelimiterX{\ip}[2]{<}{>}{#1,#2}."""
-    named = expander.argument()
-    head = numbered(expander.optional(), 1)
-    left, right = expander.argument(), expander.argument()
-    body = expander.argument() if token.text.endswith("X") else [Token("param", "#1", 0)]
-    inside = [each for each in body if each.text != r"\delimsize"]
-    made = Macro((*tokenize(r"\left"), *left, *inside, *tokenize(r"\right"), *right), head)
+def _new_if(expander: Expander, token: Token) -> None:
+    r"""\newif\ifx defines \ifx to be \iffalse, and \xtrue and \xfalse to change that."""
+    name = _next_name(expander).text
+    if name.startswith(r"\if"):
+        expander.define(name, Macro((Token("primitive", r"\iffalse", token.at),)))
+        for value in ("true", "false"):
+            expander.define(rf"\{name[3:]}{value}", Macro.of(rf"\let{name}\if{value}"))
 
-    def paired(expander: Expander) -> Iterable[Token]:
-        if not expander.star():
-            expander.optional()
-        return expander.body(made, token)
 
-    if named:
-        expander.macros.pop(named[0].text, None)
-        expander.own[named[0].text] = paired
+def _choice(expander: Expander, token: Token) -> bool:
+    r"""\ifthenelse{…}{…}{…} and others that have their branches in braces: none is decided."""
+    if not expander.in_formula:
+        expander.star()
+        expander.leave_out(token, CHOICES[token.text])
+    return not expander.in_formula
+
+
+def _if_next(expander: Expander, token: Token) -> None:
+    r"""\@ifnextchar[{…}{…} and \@ifstar{…}{…}: the next sign says which of the two."""
+    sign = "*" if token.text == r"\@ifstar" else expander.name()
+    branches = expander.argument(), expander.argument()
+    spaces = expander.skip_spaces()
+    comes = expander.begins(sign)
+    if comes and token.text == r"\@ifstar":
+        expander.star()
+    elif not comes:
+        expander.push(plain(spaces, token.at))
+    expander.push(branches[not comes])
+
+
+def _if_value(expander: Expander, token: Token) -> None:
+    r"""\IfValueTF, \IfNoValueT, \IfBooleanTF: of an argument of \NewDocumentCommand."""
+    tested = expander.name()
+    holds = tested == "*" if "Boolean" in token.text else (tested == r"\NoValue") == ("NoValue" in token.text)
+    ending = "TF" if token.text.endswith("TF") else token.text[-1]
+    branches = {letter: expander.argument() for letter in ending}
+    expander.push(branches.get("T" if holds else "F", ()))
+
+
+def _text(expander: Expander, token: Token) -> bool:
+    r"""\mbox{\boldmath $u$} is \boldsymbol{u}, \text{$u$} is {u}; other words stay."""
+    if not expander.begins("{"):
+        return False
+    inside = expander.argument()
+    formula = re.fullmatch(r"\{?\s*(\\boldmath)?\s*\{?\s*\$([^$]*)\$\s*\}*", latex_of(inside).strip())
+    words = (Token("open", "{", token.at), *inside, Token("close", "}", token.at))
+    shown = ("\\boldsymbol{" if formula[1] else "{") + formula[2] + "}" if formula else ""
+    expander.push(tokenize(shown, token.at) if formula else (Token("word", r"\text", token.at), *words))
     return True
 
 
-_COMMANDS = r"\newcommand \renewcommand \providecommand \DeclareRobustCommand \newrobustcmd \renewrobustcmd"
-_DOCUMENT_COMMANDS = (
-    r"\NewDocumentCommand \RenewDocumentCommand \ProvideDocumentCommand \DeclareDocumentCommand "
-    r"\NewExpandableDocumentCommand"
-)
+def _quantity(expander: Expander, token: Token) -> bool:
+    r"""\num[…]{3.2e5}, \unit[…]{…}, \ang[…]{30} of siunitx; minutes and seconds of an angle, \ang{;6;}, are not read."""
+    if "siunitx" not in expander.loaded:
+        return False
+    expander.optional()
+    text = expander.name()
+    if not expander.in_formula:
+        expander.push(plain(text, token.at))
+        return True
+    if token.text == r"\ang" and ";" in text:
+        expander.push(tokenize(f"{{{text}}}", token.at))
+        return False
+    unit = token.text in (r"\unit", r"\si")
+    shown = packages.unit_print(text) if unit else packages.number_print(text) + r"^\circ " * (token.text == r"\ang")
+    expander.push(tokenize(shown, token.at))
+    return True
+
+
+def _use(expander: Expander, token: Token) -> None:
+    r"""\usepackage: the commands known here; of a package beside the source, its definitions, and nothing in it is expanded."""
+    expander.optional()
+    for name in map(str.strip, expander.name().split(",")):
+        known = name in packages.TABLE or name in packages.DISTRIBUTED or name in expander.loaded
+        expander.load(name)
+        path = None if known else expander.file_beside(name, (".sty",))
+        for each in expander.tokens_apart(path) if path else ():
+            inside = expander.group(each.at) if each.kind == "open" else (each,)
+            if any(part.text in _COUNTING for part in inside):
+                expander.doubt = f"{name}.sty may number equations in a way of its own"
+            if each.text in DEFINITIONS:
+                DEFINITIONS[each.text](expander, each)
+            elif each.kind == "command" and expander.is_condition(each):
+                expander.leave_out(each)
+
+
+def _input(expander: Expander, token: Token) -> None:
+    expander.skip_spaces()
+    after = expander.peek()
+    if token.text == r"\input" and after is not None and after.kind == "text":
+        name = after.text.split()[0]
+        expander.take(name)
+    else:
+        name = expander.name()
+    expander.read_file(name, token.at)
+
+
+def _end_input(expander: Expander, token: Token) -> None:
+    expander.end_file(token.at)
+
+
+def _with_argument(expander: Expander, token: Token) -> None:
+    r"""Leave out the argument of \titleformat, \tikzset …"""
+    expander.star()
+    expander.argument()
+
+
+def _commands(names: str, primitive: Primitive) -> dict[str, Primitive]:
+    return dict.fromkeys((rf"\{name}" for name in names.split()), primitive)
+
+
 DEFINITIONS: dict[str, Primitive] = {
-    **dict.fromkeys(_COMMANDS.split(), _defined),
-    **dict.fromkeys((r"\def", r"\gdef", r"\edef", r"\xdef"), _def),
-    **dict.fromkeys(_DOCUMENT_COMMANDS.split(), _document_command),
-    **dict.fromkeys((r"\DeclarePairedDelimiter", r"\DeclarePairedDelimiterX"), _pair),
-    **dict.fromkeys((r"\g@addto@macro", r"\appto", r"\gappto", r"\apptocmd", r"\preto", r"\pretocmd"), _extended),
-    r"\csname": _named,
-    r"\let": _let,
-    r"\DeclareMathOperator": _operator,
+    **_commands("newcommand renewcommand providecommand DeclareRobustCommand newrobustcmd", _newcommand),
+    **_commands("NewDocumentCommand RenewDocumentCommand DeclareDocumentCommand", _document_command),
+    **_commands("def gdef edef xdef", _def),
+    **_commands("let glet", _let),
+    **_commands("global", _global),
+    **_commands("newenvironment renewenvironment", _new_environment),
+    **_commands("newtheorem", _new_theorem),
+    **_commands("newif", _new_if),
+    **_commands("DeclareMathOperator", _operator),
+    **_commands("DeclarePairedDelimiter", _pair),
+    **_commands("usepackage RequirePackage", _use),
+    **_commands("input include subfile @input", _input),
+}
+_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text) | _commands("num unit si ang", _quantity)
+PRIMITIVES: dict[str, Primitive] = {
+    **DEFINITIONS,
+    **_REPLACEABLE,
+    **_commands(" ".join(f"{name} end{name}" for name in (*DISPLAYS, "subequations")), _display),
+    **_commands("begin", _begin),
+    **_commands("end", _end),
+    **_commands("iftrue iffalse ifmmode", _condition),
+    **_commands("else fi", _else),
+    **dict.fromkeys(CHOICES, _choice),
+    **_commands("@ifstar @ifnextchar", _if_next),
+    **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
+    **_commands("long protected outer relax protect expandafter makeatletter makeatother xspace", lambda *_: None),
+    **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _with_argument),
+    **_commands("endinput", _end_input),
 }

@@ -1,30 +1,26 @@
-r"""The reading of a formula: every token is accounted for, or there is none, and it says where it stopped and what would help.
+"""The reading of a formula: every token is accounted for, or the reading names the token where it stopped and what would help."""
 
-What the print leaves open and custom settles, the reading takes by custom and says so (`guesses`); what custom does not settle
-is not read.
-"""
-
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
 from typing import TypeVar
 
-from lagrotor.paper.latex.boxes import Box, FormulaError
-from lagrotor.paper.latex.open_meanings import mark_open_meanings
-from lagrotor.paper.latex.read_expression import Grammar
-from lagrotor.paper.latex.read_statements import PrintedStatement, read_statements
-from lagrotor.paper.latex.rows import all_boxes
-from lagrotor.paper.latex.usage import Notation
+from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, stem_of
+from lagrotor.paper.latex.grammar import Grammar
+from lagrotor.paper.latex.notation import Notation
+from lagrotor.paper.latex.statements import PrintedStatement, read_statements
 
-EVERY = 500  # equations whose reading is said together
+EVERY = 500  # equations between two messages of progress
 _T = TypeVar("_T")
+_NOTHING = Notation()
 
 
 @dataclass(frozen=True)
 class Reading:
-    """The statements of a formula; none where it is not read. stop: (token, what would help); guesses: what custom settled."""
+    """The statements of a formula; none where it is not read. stop: (token, the entry or the words that would allow it)."""
 
     statements: tuple[PrintedStatement, ...] = ()
-    guesses: tuple[str, ...] = ()
     stop: tuple[str, str] | None = None
 
     @property
@@ -33,38 +29,57 @@ class Reading:
         return self.stop is None and bool(self.statements)
 
 
-def _lowered(row: list[Box]) -> Iterator[str]:
-    """The letters that stand in an index, in a mark, in a ket or by themselves on a side: no factors."""
-    for box in all_boxes(row):
-        raised = box.sup or [] if box.name != "e" else []
-        held = [*(box.sub or []), *raised] if box.kind != "partial" else []
-        if box.kind == "bracket" and {box.name, box.closing} & {"|", r"\langle", r"\rangle", "<", ">"}:
-            held += box.parts[0]
-        if box.kind == "binomial":
-            held += [each for part in box.parts for each in part]
-        yield from (each.name for each in held if each.kind == "letter")
+def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> Reading:
+    """Return the reading of a displayed formula.
 
-
-def read_formula(latex: str, notation: Notation | None = None, lead: str = "", subject: str = "") -> Reading:
-    """The reading of a displayed formula; lead: the left side of the row before, which it continues; subject: of the text."""
+    Parameters
+    ----------
+    latex : str
+        The formula, macros expanded.
+    notation : Notation
+        The declared kinds of the letters.
+    lead : str
+        The left side of the row before, which the formula continues.
+    """
     source = f"{lead} {latex}" if lead else latex
-    reader = Grammar(source, notation or Notation())
     try:
-        row = reader.notation.boxes(source)
-        reader.row, reader.lowered = row, frozenset(_lowered(row))
+        row = boxes(source)
+        lowered = frozenset(b.name for box in all_boxes(row) for b in box.sub or () if b.kind == "letter")
+        reader = Grammar(source, notation, frozenset(_alone(row)), lowered)
         statements = tuple(read_statements(reader, row))
-        mark_open_meanings(reader, row, subject)
     except FormulaError as stop:
         return Reading(stop=(stop.what, stop.help))
     except RecursionError:
         return Reading(stop=("the formula is nested too deeply", "write it in parts"))
     if not statements:
         return Reading(stop=("there is no formula", "keep it aside"))
-    return Reading(statements, tuple(dict.fromkeys(reader.guesses)))
+    return Reading(statements)
+
+
+def _alone(row: Iterable[Box]) -> Iterator[str]:
+    """Yield the letters that stand in no index, and a Δ that no letter follows."""
+    for box, after in pairwise([*row, None]):
+        if (
+            box is not None
+            and box.kind == "letter"
+            and not (after and after.kind == "letter" and box.name in ("Delta", "delta"))
+        ):
+            yield stem_of(box)
+        for held in box.parts if box else ():
+            yield from _alone(held)
+
+
+@lru_cache(maxsize=10_000)
+def letters_printed(latex: str) -> frozenset[str]:
+    """Return the letters of a formula, whether it is read or not; none where it falls into no parts."""
+    try:
+        return frozenset(stem_of(box) for box in all_boxes(boxes(latex)) if box.kind == "letter")
+    except (FormulaError, RecursionError):
+        return frozenset()
 
 
 def with_progress(what: str, rows: Sequence[_T], progress: Callable[[str], None] | None) -> Iterator[_T]:
-    """The rows; before each `EVERY` of them it is said what is done with them. Fewer go by without a word."""
+    """Yield the rows; before each `EVERY` of them `progress` is called with what is done. Fewer go by without a word."""
     for place, row in enumerate(rows):
         if progress and place % EVERY == 0 and len(rows) > EVERY:
             progress(f"{what} equations {place + 1:,} to {min(place + EVERY, len(rows)):,}")

@@ -9,19 +9,91 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
-from lagrotor.paper.latex.formula import with_progress
-from lagrotor.paper.latex.printed import paper_notation, read_print
-from lagrotor.paper.latex.usage import Notation
+from lagrotor.paper.latex.formula import read_formula, with_progress
+from lagrotor.paper.latex.notation import KINDS, Notation, declared_notation, propose, with_proposals
+from lagrotor.paper.latex.statements import PrintedStatement, Side
+from lagrotor.paper.latex.tokens import NESTING, Token, latex_of, tokenize
+from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant, text_of, walk
+
+
+@dataclass(frozen=True)
+class Print:
+    """The reading of an equation as data.
+
+    lines: for the catalogue. aside: statements that no line can hold, as text. letters, vectors: names of scalars and vectors.
+    stop: (token, the way out) where it is not read.
+    """
+
+    lines: tuple[Mapping[str, Any], ...] = ()
+    aside: tuple[str, ...] = ()
+    letters: tuple[str, ...] = ()
+    vectors: tuple[str, ...] = ()
+    stop: tuple[str, str] | None = None
+
+
+def paper_notation(formulas: Iterable[str], table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
+    """Return the kinds of a paper's letters: those that its [notation] declares, and the proposals of one sweep."""
+    return with_proposals(declared_notation(table, where), propose(formulas))
+
+
+def read_print(latex: str, notation: Notation, lead: str = "") -> Print:
+    """Return the printed lines of an equation as data."""
+    reading = read_formula(latex, notation, lead)
+    if not reading.whole:
+        return Print(stop=reading.stop)
+    rows = [(each, _line(each)) for each in reading.statements]
+    sides = (side.node for each, line in rows if line is not None for side in each.sides if in_catalogue(side.node))
+    letters = {
+        each: None for side in sides for each in walk(side) if isinstance(each, Letter) and not is_constant(each)
+    }
+    return Print(
+        tuple(line for _, line in rows if line is not None),
+        tuple(statement_text(each) for each, line in rows if line is None),
+        tuple(dict.fromkeys(each.name for each in letters if not each.vector)),
+        tuple(dict.fromkeys(each.name for each in letters if each.vector)),
+    )
+
+
+def _line(statement: PrintedStatement) -> dict[str, Any] | None:
+    """Return the quantity, the members, and the order that is claimed; None for what no line of the catalogue can hold."""
+    sides = statement.sides
+    known = [in_catalogue(side.node) for side in sides]
+    first = next((place for place, each in enumerate(known) if place and each), 0)
+    if statement.kind != "equation" or not first or not all(known[first:]):
+        return None
+    names, members = sides[:first], sides[first:]  # p = ∂L/∂q̇ before the members: the subject of the line
+    if isinstance(sides[0].node, Number) and all(known):
+        names, members = sides[1:2], (sides[0], *sides[2:])
+    line = {"quantity": " = ".join(map(_latex, names)), "members": [text_of(side.node) for side in members]}
+    small, power = statement.order or ("", 0)
+    return line | {"order": power - 1, "small": small} if small else line
+
+
+def _latex(side: Side) -> str:
+    """Return a side in LaTeX without the columns and rows of its display."""
+    tokens, depth = list[Token](), 0
+    for token in tokenize(side.latex):
+        depth += NESTING.get(token.text, 0)
+        if depth or token.text not in ("&", r"\\"):
+            tokens.append(token)
+    return " ".join(latex_of(tokens).split())
+
+
+def statement_text(statement: PrintedStatement) -> str:
+    """Return a statement as one line of text."""
+    first, *others = (text_of(side.node) for side in statement.sides)
+    order = "" if statement.order is None else f" + O({statement.order[0]}**{statement.order[1]})"
+    rest = (f" {relation} {text}" for relation, text in zip(statement.relations, others, strict=False))
+    return "".join([first, *rest, order])
 
 
 @dataclass(frozen=True)
 class EquationReading:
-    """How one equation was read.
+    """The reading of one equation.
 
     status: confirmed, unconfirmed, by hand, changed (the print has changed since), gone (the source no longer has it), aside
-    (read, and nothing in it is compared), not read. said: its lines and what is kept aside, as text. guesses: what custom
-    settled; stopped, helps: where a reading stopped and what would help. number: the printed one, where it is another than the
-    id, which stays.
+    (read, and nothing in it is compared), not read. said: its lines, and statements that are kept aside, as text. stopped,
+    helps: the token where a reading stopped, and the way out. number: the printed one, where it is another than the id.
     """
 
     id: str
@@ -29,20 +101,29 @@ class EquationReading:
     print: str
     status: str
     said: tuple[str, ...] = ()
-    guesses: tuple[str, ...] = ()
     stopped: str = ""
     helps: str = ""
     number: str = ""
 
     def as_data(self) -> dict[str, Any]:
-        """As an object of JSON."""
+        """Return the reading as an object of JSON."""
         return asdict(self)
 
 
 def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) -> Iterator[EquationReading]:
-    """The reading of every equation, in the paper's order. Raises InputError for a [notation] that means nothing.
+    """Read every equation, in the paper's order.
 
-    progress: called with what is done next, before each `EVERY` equations.
+    Parameters
+    ----------
+    paper : Catalogue
+        The paper.
+    progress : callable, optional
+        Called with a sentence before each `EVERY` equations.
+
+    Raises
+    ------
+    InputError
+        If the table [notation] cannot be read.
     """
     equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
@@ -52,25 +133,38 @@ def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) ->
 
 
 def _reading(entry: Equation, notation: Notation) -> EquationReading:
-    said = _said(entry.line)
+    shown = EquationReading(entry.id, entry.title, entry.latex, "gone", _said(entry.line))
     if entry.read == "gone":
-        return EquationReading(entry.id, entry.title, entry.latex, "gone", said)
+        return shown
     if entry.line:
         status = "by hand" if not entry.read else "confirmed" if entry.is_confirmed else "unconfirmed"
         status = "changed" if entry.changed and status == "unconfirmed" else status
-        guesses = entry.guesses
-        if guesses and status == "unconfirmed":  # what [notation] says since then
-            made = read_print(entry.latex, notation, entry.lead, entry.subject)
-            now = _said(made.lines)
-            guesses = made.guesses if now == said else (*guesses, "[notation] reads it otherwise now: repeat init")
-        return EquationReading(entry.id, entry.title, entry.latex, status, (*said, *entry.aside), guesses)
-    made = read_print(entry.latex, notation, entry.lead, entry.subject)
-    if made.stop is not None:
-        stopped, helps = made.stop
-        return EquationReading(entry.id, entry.title, entry.latex, "not read", stopped=stopped, helps=helps)
-    if made.lines:
-        return EquationReading(entry.id, entry.title, entry.latex, "unread so far", _said(made.lines), made.guesses)
-    return EquationReading(entry.id, entry.title, entry.latex, "aside", made.aside, made.guesses)
+        return replace(shown, status=status, said=(*shown.said, *entry.aside))
+    print_ = read_print(entry.latex, notation, entry.lead)
+    if print_.stop is not None:
+        return replace(shown, status="not read", stopped=print_.stop[0], helps=print_.stop[1])
+    if print_.lines:  # [notation] has changed since init
+        return replace(shown, status="unread so far", said=_said(print_.lines))
+    return replace(shown, status="aside", said=print_.aside)
+
+
+@dataclass(frozen=True)
+class LetterKind:
+    """The kind of one letter: declared in [notation], or proposed by the formula `evidence`."""
+
+    letter: str
+    kind: str
+    declared: bool
+    evidence: str = ""
+
+
+def letter_kinds(paper: Catalogue) -> list[LetterKind]:
+    """Return the letters of a paper that are no plain real numbers, the declared ones first."""
+    table = declared_notation(paper.about.notation, str(paper.folder / "paper.toml"))
+    kinds = [LetterKind(letter, kind, True) for kind in KINDS for letter in sorted(getattr(table, kind))]
+    known = {each.letter for each in kinds}
+    proposals = propose(entry.latex for entry in paper.equations.values())
+    return kinds + [LetterKind(p.letter, p.kind, False, p.evidence) for p in proposals if p.letter not in known]
 
 
 def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:

@@ -1,210 +1,154 @@
 """Slips of an author: one sign, factor, power, index or function of a side changed, so that it agrees with another."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from fractions import Fraction
 from functools import partial
-from itertools import chain, islice
+from itertools import islice
 from typing import Any
 
 import sympy as sp
 
-from lagrotor.paper.latex.compared import LARGEST, decided, nearly_equal, value_at
-from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, has_opaque, letters_of, text_of, walk
+from lagrotor.paper.latex.comparison import LARGEST, decided, nearly_equal, value_at
+from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, has_opaque, rational_value, text_of
 
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
-_TWICE = ((Fraction(2), "doubled"), (Fraction(1, 2), "halved"))
+_TWICE = ((Fraction(2), "{} doubled"), (Fraction(1, 2), "{} halved"))
+_FACTORS = ((Fraction(-1), "the sign of {} changed"), *_TWICE)
 _MOST_SLIPS = 120  # changes that are tried
+_DIGIT, _FEW_DIGITS = 9, 100  # bounds of the denominators of factors
 
 
 def change_to_agree(
-    fixed: Any,
-    changing: Node,
-    names: set[str],
-    value: Callable[[Node], Any],
-    by_identity: bool = False,
-    factors: Collection[Node] = (),
+    fixed: Any, changing: Node, names: Collection[str], value: Callable[[Node], Any], by_identity: bool = False
 ) -> str | None:
-    """The one change of a side with which it is the other, `fixed`; value: of a side as an expression.
+    """Return the one change of a side with which it agrees with another, in words; None where there is none.
 
-    factors: one of them may be missing, or one too many.
-    by_identity: by more than to the same print, as cos x = sin x, and not by putting θ₁ for θ₂: both may be conditions.
+    Parameters
+    ----------
+    fixed : sympy.Expr or sympy.Matrix
+        The other side.
+    changing : Node
+        The side that is changed.
+    names : collection of str
+        Letters that may stand for each other if they differ in their index.
+    value : callable
+        Called with a changed side; returns its expression, or None.
+    by_identity : bool
+        Whether the sides are said to be equal for all values. A change that makes them the same print, as in cos x = sin x,
+        or that puts another index, is none then: both may be conditions.
     """
-    given = value(changing)
-    letters = (sp.Symbol(name, real=True) for name in names)
-    symbols = sorted({*fixed.free_symbols, *given.free_symbols, *letters}, key=str)
-    point = {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}
+    expression = value(changing)
+    point = point_of(fixed, expression)
     number = value_at(fixed, point)
-    ratio = _ratio(fixed, given, point)
     bare = by_identity or has_opaque(fixed)  # {f, f} = −{f, f} = 0 and tan x = cot x may be conditions
-    if ratio is not None and not (bare and fixed == sp.Rational(str(ratio)) * given):
-        return f"with the factor {ratio} of the whole they agree"
-    whole = () if bare else _whole(changing)
-    missing = () if by_identity else _with_factors(changing, factors)
-    for mutant, said in islice(chain(whole, slips(changing, () if by_identity else names), missing), _MOST_SLIPS):
-        other = value(mutant)
+    ratio = _ratio(number, value_at(expression, point), _FEW_DIGITS)
+    scaled = sp.Rational(str(ratio or 0)) * expression
+    if ratio is not None and decided(fixed, scaled) == "zero":
+        if ratio == -1 and not bare:
+            return "with the sign of the whole changed they agree"
+        if ratio > 0 and not (bare and fixed == scaled):
+            return f"with the factor {ratio} of the whole they agree"
+    for changed, said in islice(slips(changing, () if by_identity else names), _MOST_SLIPS):
+        other = value(changed)
         if other is None or (by_identity and fixed == other):
             continue
         if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
             return f"with {said} they agree"
-    return None if by_identity else _term_to_agree(fixed, changing, value, number, point)
+    return None if by_identity else _term_to_agree(fixed, changing, value, point)
 
 
 def _term_to_agree(
-    fixed: Any, changing: Node, value: Callable[[Node], Any], number: Any, point: dict[sp.Symbol, sp.Rational]
+    fixed: Any, changing: Node, value: Callable[[Node], Any], point: dict[sp.Symbol, sp.Rational]
 ) -> str | None:
-    """The number of one digit by which one term of a sum is multiplied, so that the two agree."""
-    whole = value_at(value(changing), point)
-    for with_term, term in _terms(changing):
-        without = value_at(value(with_term(Number(Fraction(0)))), point)
-        try:
-            ratio = Fraction(float((number - without) / (whole - without))).limit_denominator(9)
-        except (TypeError, ValueError, ArithmeticError):
-            continue
-        mutant = with_term(_times(ratio, term))
-        near = 0 < abs(ratio.numerator) < 10 and ratio != 1 and nearly_equal(number, value_at(value(mutant), point))
-        if near and decided(fixed, value(mutant)) == "zero":
-            return f"with {text_of(term)} times {ratio} they agree"
+    """Return the factor of one digit of one term with which the sides agree, in words."""
+    number, whole = (value_at(each, point) for each in (fixed, value(changing)))
+    for node, put in _parts(changing):
+        for place, term in enumerate(node.args if isinstance(node, Call) and node.name == "sum" else ()):
+            without = value_at(value(put(_with(node, place, Number(Fraction(0))))), point)
+            ratio = _ratio(number - without, whole - without, _DIGIT)
+            if ratio is None or not 0 < abs(ratio.numerator) <= _DIGIT:
+                continue
+            other = value(put(_with(node, place, _times(ratio, term))))
+            if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
+                return f"with {text_of(term)} times {ratio} they agree"
     return None
-
-
-def _terms(node: Node) -> Iterator[tuple[Callable[[Node], Node], Node]]:
-    """The terms of the sums in a node, each with what the node is for another in its place."""
-    if not isinstance(node, Call):
-        return
-    for place, part in enumerate(node.args):
-        inside = partial(_with, node, place)
-        if node.name == "sum":
-            yield inside, part
-        yield from ((lambda new, a=inside, b=deeper: a(b(new)), term) for deeper, term in _terms(part))
 
 
 def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]:
-    """The node with one sign, factor 2, power, index or function changed, and what was changed; names: letters about."""
+    """Yield the node with one part changed as authors do, and the change in words; names: letters about."""
+    for part, put in _parts(node):
+        yield from ((put(changed), said) for changed, said in _changes(part, names))
+
+
+def _parts(node: Node, put: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, Callable[[Node], Node]]]:
+    """Yield each part of a node with the function that puts another in its place."""
+    yield node, put
+    if isinstance(node, Call):
+        for place, part in enumerate(node.args):
+            yield from _parts(part, partial(_put_within, put, node, place))
+
+
+def _put_within(put: Callable[[Node], Node], node: Node, place: int, new: Node) -> Node:
+    return put(_with(node, place, new))
+
+
+def _with(node: Node, place: int, part: Node) -> Node:
+    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :])) if isinstance(node, Call) else part
+
+
+def _changes(node: Node, names: Collection[str]) -> Iterator[tuple[Node, str]]:
+    """Yield a node with another index, power, function or argument, or with another factor of a term."""
     if isinstance(node, Letter) and not node.vector:
+        stem = node.name.split("_")[0]
         for name in sorted(names):
-            if name != node.name and name.split("_")[0] == node.name.split("_")[0]:
+            if name != node.name and name.split("_")[0] == stem:
                 yield Letter(name), f"{name} for {node.name}"
-        yield Call("power", (node, Number(Fraction(2)))), f"{node.name} squared"
-    if not isinstance(node, Call):
-        return
-    if node.name in KNOWN:
-        yield from _of_function(node)
-    if node.name == "sum":
+    base, power, more = _powers(node)
+    for each in (power + difference for difference in more):
+        if each:  # cos² nπ is 1 for whole n
+            yield Call("power", (base, Number(each))), f"the power {each} of {text_of(base)}"
+    if isinstance(node, Call) and node.name in KNOWN:
+        if other := _TAKEN_FOR.get(node.name):
+            yield Call(other, node.args), f"{other} for {node.name}"
+        for factor, said in _TWICE:
+            yield Call(node.name, (_times(factor, node.args[0]),)), f"the argument of {said.format(text_of(node))}"
+    if isinstance(node, Call) and node.name == "sum":
         for place, term in enumerate(node.args):
-            other = term.args[0] if isinstance(term, Call) and term.name == "negative" else Call("negative", (term,))
-            yield _with(node, place, other), f"the sign of {text_of(term)} changed"
-            yield from (
-                (_with(node, place, _times(factor, term)), f"{text_of(term)} {said}") for factor, said in _TWICE
-            )
-    yield from _of_power(node)
-    for place, part in enumerate(node.args):
-        for changed, said in slips(part, names):
-            yield _with(node, place, changed), said
+            for factor, said in _FACTORS:
+                yield _with(node, place, _times(factor, term)), said.format(text_of(term))
 
 
-def _of_power(node: Call) -> Iterator[tuple[Node, str]]:
-    """Another power by one or two, of a root by a half more, and exp of the opposite."""
-    if node.name == "power" and (power := _rational(node.args[1])) is not None:
-        for more, said in ((1, "one"), (-1, "one"), (2, "two"), (-2, "two")):
-            if power + more:  # cos² nπ is 1 for whole n
-                yield _with(node, 1, Number(power + more)), f"the power of {text_of(node)} changed by {said}"
-    if node.name == "sqrt":
-        for power in (Fraction(3, 2), Fraction(1)):
-            yield (
-                Call("power", (*node.args, Number(power))),
-                f"the power {power} for the root of {text_of(node.args[0])}",
-            )
-    if node.name == "exp":
-        yield _with(node, 0, Call("negative", node.args)), f"the sign in {text_of(node)} changed"
-
-
-def _with_factors(node: Node, factors: Collection[Node]) -> Iterator[tuple[Node, str]]:
-    """The node with a term of a sum multiplied by a factor, or divided by it."""
-    if not isinstance(node, Call):
-        return
-    for place, term in enumerate(node.args) if node.name == "sum" else ():
-        for factor in factors:
-            yield _with(node, place, Call("product", (term, factor))), f"{text_of(term)} times {text_of(factor)}"
-            yield _with(node, place, Call("quotient", (term, factor))), f"{text_of(term)} by {text_of(factor)}"
-    for place, part in enumerate(node.args):
-        for changed, said in _with_factors(part, factors):
-            yield _with(node, place, changed), said
-
-
-def functions_of(nodes: Iterable[Node]) -> list[Node]:
-    """Sines, exponentials … in nodes, and what is taken for them: of what may be missing no one sets them to 1."""
-    calls = [
-        each
-        for node in nodes
-        for each in walk(node)
-        if isinstance(each, Call) and each.name in KNOWN and letters_of(each)
-    ]
-    others = [Call(_TAKEN_FOR[each.name], each.args) for each in calls if each.name in _TAKEN_FOR]
-    return list(dict.fromkeys([*calls, *others]))
-
-
-def _of_function(node: Call) -> Iterator[tuple[Node, str]]:
-    """Another function for sine or cosine, its square, and twice or half the argument of any function."""
-    if node.name in _TAKEN_FOR:
-        yield Call(_TAKEN_FOR[node.name], node.args), f"{_TAKEN_FOR[node.name]} for {node.name}"
-        yield Call("power", (node, Number(Fraction(2)))), f"{text_of(node)} squared"
-    for factor, said in _TWICE:
-        yield Call(node.name, (_times(factor, node.args[0]),)), f"the argument of {text_of(node)} {said}"
-
-
-def _rational(node: Node) -> Fraction | None:
-    """The number that a power is: 2, −1, 3/2."""
-    if isinstance(node, Number):
-        return node.value
-    parts = [_rational(part) for part in node.args] if isinstance(node, Call) else []
-    match (node.name, *parts):
-        case ("negative", Fraction() as value):
-            return -value
-        case ("quotient", Fraction() as above, Fraction() as below) if below:
-            return above / below
-    return None
+def _powers(node: Node) -> tuple[Node, Fraction, tuple[Fraction | int, ...]]:
+    """Return the base and the power that a node is, and the differences of powers that are tried."""
+    if isinstance(node, Call) and node.name == "power" and (power := rational_value(node.args[1])) is not None:
+        return node.args[0], power, (1, -1, 2, -2)
+    if isinstance(node, Call) and node.name == "sqrt":
+        return node.args[0], Fraction(1, 2), (1, Fraction(1, 2))
+    single = node.name in _TAKEN_FOR if isinstance(node, Call) else isinstance(node, Letter) and not node.vector
+    return node, Fraction(1), (1,) if single else ()
 
 
 def _times(factor: Fraction, node: Node) -> Node:
     return Call("product", (Number(factor), node))
 
 
-def _whole(node: Node) -> Iterator[tuple[Node, str]]:
-    """The node with its sign changed, or turned over."""
-    if not (isinstance(node, Call) and node.name == "sum"):
-        yield Call("negative", (node,)), "the sign of the whole changed"
-    yield Call("quotient", (Number(Fraction(1)), node)), "the whole turned over"
-    yield Call("sqrt", (node,)), "the root of the whole"
-    yield Call("power", (node, Number(Fraction(2)))), "the whole squared"
-
-
-def _ratio(a: Any, b: Any, point: dict[sp.Symbol, sp.Rational]) -> Fraction | None:
-    """The number of few digits by which b is multiplied to be a."""
-    if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
+def _ratio(value: Any, other: Any, bound: int) -> Fraction | None:
+    """Return the quotient of two numbers as a fraction of a denominator up to a bound; None where it is none."""
+    if not (value.is_real and other.is_real and other and abs(value / other) < LARGEST):
         return None
-    value, other = value_at(a, point), value_at(b, point)
-    if not (value.is_real and other.is_real and value and other):
-        return None
-    if abs(value / other) > LARGEST:
-        return None
-    ratio = Fraction(float(value / other)).limit_denominator(100)
-    exact = sp.Rational(ratio.numerator, ratio.denominator)
-    return ratio if ratio > 0 and nearly_equal(value, exact * other) and decided(a, exact * b) == "zero" else None
+    fraction = Fraction(float(value / other)).limit_denominator(bound)
+    return fraction if nearly_equal(value, sp.Rational(str(fraction)) * other) else None
 
 
 def constant_value(a: Any) -> sp.Rational | None:
-    """The number that an expression may be, whatever its letters are."""
-    if isinstance(a, sp.MatrixBase):
-        return None
-    values = {}
-    for shift in (3, 7):
-        point = {s: sp.Rational(2 * n + shift, 2 * n + 5) for n, s in enumerate(sorted(a.free_symbols, key=str))}
-        values[shift] = value_at(a, point)
-    if not all(value.is_real for value in values.values()) or not nearly_equal(*values.values()):
-        return None
-    return sp.Rational(str(Fraction(float(values[3])).limit_denominator(100)))
+    """Return the number that an expression is for all values of its letters; None where it is none."""
+    ratio = None if isinstance(a, sp.MatrixBase) else _ratio(value_at(a, point_of(a)), sp.S.One, _FEW_DIGITS)
+    constant = None if ratio is None else sp.Rational(str(ratio))
+    return constant if constant is not None and decided(a, constant) == "zero" else None
 
 
-def _with(node: Call, place: int, part: Node) -> Call:
-    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :]))
+def point_of(*sides: Any) -> dict[sp.Symbol, sp.Rational]:
+    """Return a value for each letter of some sides."""
+    symbols = sorted(set().union(*(side.free_symbols for side in sides)), key=str)
+    return {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}

@@ -1,25 +1,24 @@
-"""A derivation stated as text: coordinates, a Lagrangian and constraints in `paper.toml`, and what each equation is of it.
+r"""A derivation stated as text: coordinates, a Lagrangian and constraints in `paper.toml`, and the role of each equation.
 
     [system]
     coordinates = "theta"
     L = "m*R**2*theta_dot**2/2 + m*g*R*cos(theta)"
-    constraints = []                        # each is zero
+    constraints = []                        # each expression is zero
     forces = []                             # on each coordinate, besides those of L: friction, "-c*theta_dot"
-    where = ["omega_0**2 = g/R"]            # what the text says of letters that L does not have
+    where = ["omega_0 = sqrt(g/R)"]         # definitions of letters that L does not have
 
-    [system.derives]                        # id → what the printed quantity is
+    [system.derives]                        # equation id → the quantity that the equation prints
     "1" = "L"
     "2" = "acceleration theta"              # θ̈ from the equations of motion, multipliers eliminated
     "3" = "energy"                          # q̇ ∂L/∂q̇ − L
     "4" = "momentum theta"                  # ∂L/∂θ̇
-    "5" = "frequency at theta = 0"          # ω of small oscillations, of several: frequency 2 at …; frequency^2: ω²; period: 2π/ω
-    "6" = "motion theta"                    # d/dt ∂L/∂θ̇ − ∂L/∂θ = Q, or what follows from the equations of motion
-    "7" = "integral"                        # F with dF/dt = 0 along every motion, as energies and momenta have
+    "5" = "frequency at theta = 0"          # ω of small oscillations; of several: frequency 2 at …; frequency^2: ω²; period: 2π/ω
+    "6" = "motion theta"                    # any equation that follows from the equations of motion
+    "7" = "integral"                        # F with dF/dt = 0 along every motion
     "8" = "small motion theta at theta = 0" # motion, acceleration or momentum through first order about an equilibrium
 
-The constraints, their rates and what `where` says are premises of every verdict, and named in those that need them. A letter of a
-print of which nothing is said is refused: what it stands for decides whether the print is right. What is said by the coordinates,
-ell = m r² φ̇, changes with them; what an even power alone is said of has no sign, and a print that needs it is refused.
+The constraints, their rates and the definitions are premises of every verdict. A verdict names those that it needs. A
+print with a letter that neither the system nor a definition has is refused: its value decides whether the print is right.
 
 The text is parsed by the reader of expressions; nothing in it runs. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
 §§1.4, 2.4, 2.6, 2.7, 6.2.
@@ -27,7 +26,7 @@ The text is parsed by the reader of expressions; nothing in it runs. Goldstein, 
 
 import json
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from pathlib import Path
@@ -53,75 +52,119 @@ from lagrotor.mechanics.lagrangian import (
 from lagrotor.mechanics.systems import System
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.latex.formula import read_formula
-from lagrotor.paper.latex.printed import paper_notation
-from lagrotor.paper.latex.tree import Node, in_catalogue, letters_of, text_of
+from lagrotor.paper.latex.readings import paper_notation
+from lagrotor.paper.latex.tree import text_of
 from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Premise
 
 _KEYS = ("coordinates", "L", "constraints", "forces", "where", "derives")
-_KIND = re.compile(
+_ROLE = re.compile(
     r"(?P<whole>L|energy|integral)|(?P<small>small +)?(?P<kind>momentum|acceleration|motion)(?: +(?P<name>(?!at\b)[A-Za-z_]\w*))?"
     r"(?(small)(?: +at +(?P<about>.*))?)|(?P<form>frequency|frequency\^2|period)(?: +(?P<which>\d+))?(?: +at +(?P<at>.*))?"
 )
-_LAGRANGIANS = ("L", "Lcal", "Lscr")  # as L is named in a print, where it is no letter of the system
+_ROLES = (
+    "L, energy, integral, momentum q, acceleration q, motion q, small motion q at q = 0, frequency at q = 0, "
+    "frequency^2 or period"
+)
+_LAGRANGIANS = ("L", "Lcal", "Lscr")  # names of L in a print, where they are no letters of the system
 
 
 @dataclass(frozen=True)
 class StatedSystem:
-    """What `paper.toml` states; `derived["2"]` is what it gives for equation 2."""
+    """The system of a paper's `paper.toml`; `system["2"]` is the derived expression for equation 2."""
 
     c: Coordinates
     L: sp.Expr
     constraints: tuple[sp.Expr, ...]
     forces: tuple[sp.Expr, ...]
-    where: tuple[sp.Eq, ...]
+    where: Mapping[sp.Symbol, sp.Expr]
     derives: Mapping[str, str]
     names: Mapping[str, Any]
     place: str
     paper: Catalogue
 
     def __getitem__(self, identifier: str) -> sp.Expr:
-        if identifier not in self.derives:
-            raise InputError(
-                f"{self.place}: derives: equation {identifier} is not there: it has {', '.join(self.derives)}"
-            )
-        said = self.derives[identifier]
-        match = _KIND.fullmatch(_one_line(said))
-        if match is None:
-            raise InputError(
-                f"{self.place}: derives: {said!r} is not known: L, energy, integral, momentum q, acceleration q, "
-                "motion q, small motion q at q = 0, frequency at q = 0, or period"
-            )
-        if not self.paper.equation(identifier).line:
-            says = " has no printed line, its print was kept aside: write it as an [[equation.line]] in equations.toml"
-            raise self._refusal(identifier, f"{says}, or leave it out here")
-        self._check_letters(identifier)
-        derived = self._derived(identifier, match)
-        self._check_signs(identifier, derived)
-        self._check_said(identifier, derived)
-        return derived
+        """Return the derived expression to which the printed members of an equation are compared.
 
-    def _derived(self, identifier: str, match: re.Match[str]) -> sp.Expr:
-        said = match.groupdict(default="")
+        Raises
+        ------
+        InputError
+            If the equation has no role, or its print cannot be judged by this system.
+        """
+        if identifier not in self.derives:
+            raise self._error(f"equation {identifier} has no role: {', '.join(self.derives)} have one")
+        role = _ROLE.fullmatch(_one_line(self.derives[identifier]))
+        if role is None:
+            raise self._error(f"{self.derives[identifier]!r} is not known: write {_ROLES}")
+        self._check_letters(identifier)
+        said = role.groupdict(default="")
+        if said["form"]:
+            return self._frequency(identifier, said["form"], int(said["which"] or 1), said["at"])
         if said["whole"] == "integral":
             return self._conserved(identifier)
         if said["whole"]:
             return self.L if said["whole"] == "L" else shortest(energy(self.L, self.c))
-        if kind := said["kind"]:
-            system = self._small(said["about"]) if said["small"] else self
-            derived = system._of_coordinate(kind, said["name"])
-            return shortest(system._as_printed(identifier, derived) if kind == "motion" else derived)
-        return self._frequency(identifier, said["form"], int(said["which"] or 1), said["at"])
+        names = [q.name for q in self.c.q]
+        if said["name"] not in names:
+            raise self._error(f"{said['kind']} {said['name'] or '?'}: the coordinates are {', '.join(names)}")
+        system = self._small(said["about"]) if said["small"] else self
+        if said["kind"] == "motion":
+            return shortest(system._as_printed(identifier))
+        rows = momenta(system.L, self.c) if said["kind"] == "momentum" else system.accelerations
+        return shortest(rows[names.index(said["name"])])
+
+    @cached_property
+    def premises(self) -> tuple[Premise, ...]:
+        """The premises of every print: the constraints with their rates, and the definitions of letters."""
+        rates = [sp.Eq(e, 0) for g in self.constraints for e in (g, total_derivative(g, self.c))]
+        definitions = (sp.Eq(letter, self._along(value), evaluate=False) for letter, value in self.where.items())
+        return (
+            *([Premise("the constraints hold", where=tuple(rates))] if rates else []),
+            *(Premise("as the text says", where=(each,), defines=True) for each in definitions),
+        )
+
+    @cached_property
+    def accelerations(self) -> sp.Matrix:
+        """The accelerations a of M a + h = Gᵀ λ with the constraints differentiated twice, the multipliers λ eliminated."""
+        multipliers = sp.symbols(f"multiplier_1:{len(self.constraints) + 1}")
+        rows = euler_lagrange(self.L, self.c) - sp.Matrix(self.forces)
+        for multiplier, constraint in zip(multipliers, self.constraints, strict=True):
+            rows -= multiplier * gradient(constraint, self.c.q)
+        second = [total_derivative(total_derivative(each, self.c), self.c) for each in self.constraints]
+        equations, unknown = sp.Matrix([*rows, *second]), sp.Matrix([*self.c.a, *multipliers])
+        singular = f"{self.place}: its equations of motion are singular"
+        solution = linear_solve(equations.jacobian(unknown), -equations.subs(dict.fromkeys(unknown, 0)), singular)
+        return sp.Matrix(solution[: len(self.c.q)])
+
+    def _error(self, says: str) -> InputError:
+        return InputError(f"{self.place}: derives: {says}")
+
+    @cached_property
+    def _known(self) -> set[sp.Basic]:
+        """The letters of the system, of its coordinates and their rates, of the definitions, and the time."""
+        expressions = (self.L, *self.constraints, *self.forces, *self.where.values(), *self.where)
+        return {t, *self.c.q, *self.c.v, *self.c.a}.union(*(e.free_symbols for e in expressions))
+
+    def _check_letters(self, identifier: str) -> None:
+        """Raise InputError if an equation has no line, or a printed member has a letter that the system does not have."""
+        if not self.paper.equation(identifier).line:
+            says = "has no printed line: write it as an [[equation.line]] in equations.toml, or leave it out here"
+            raise self._error(f"equation {identifier} {says}")
+        for line in self.paper.lines(identifier):
+            letters = set[sp.Basic]().union(*(e.free_symbols for e in line.members))
+            for name in sorted(str(s) for s in letters - self._known - {line.small}):
+                says = (
+                    f'is printed with {name}, of which the system says nothing: define it, as in where = ["{name} = …"]'
+                )
+                raise self._error(f"equation {identifier} {says}, or leave the equation out here")
 
     def _small(self, about: str) -> "StatedSystem":
-        """The system with L through second order and the forces through first in q − q₀ and q̇, about an equilibrium q₀."""
+        """Return the system with L through second order and the forces through first about an equilibrium."""
         if self.constraints:
-            raise InputError(
-                f"{self.place}: derives: small motion is of coordinates without constraints: state it in such"
-            )
-        still, small = self._equilibrium(about), sp.Dummy()
-        rest = still | dict.fromkeys(self.c.v, sp.S.Zero)
-        near = {x: x0 + small * (x - x0) for x, x0 in rest.items()}
+            raise self._error("small motion needs coordinates without constraints")
+        small = sp.Dummy()
+        equilibrium = self._point(about) | dict.fromkeys(self.c.v, sp.S.Zero)
+        near = {x: x0 + small * (x - x0) for x, x0 in equilibrium.items()}
 
         def through(order: int, e: sp.Expr) -> sp.Expr:
             e = e.xreplace(near)
@@ -129,269 +172,110 @@ class StatedSystem:
 
         system = replace(self, L=through(2, self.L), forces=tuple(through(1, each) for each in self.forces))
         if any(each.has(sp.Derivative, sp.Subs, sp.nan, sp.zoo, sp.oo) for each in (system.L, *system.forces)):
-            raise InputError(f"{self.place}: derives: L or a force has no series at {about or 'zero'}")
-        vars(system)["_fixed"] = self._fixed  # a print may have letters of the terms that are left out
-        moved = [
-            each for each in system.accelerations.xreplace(rest) if not each.has(t) and not _is_zero(each)
-        ]  # undriven
-        if moved:
-            raise InputError(
-                f"{self.place}: derives: {about or 'zero'} is no equilibrium: there it has the acceleration {moved[0]}"
-            )
+            raise self._error(f"L or a force has no series at {about or 'zero'}")
+        vars(system)["_known"] = self._known  # a print may have letters of the terms that are left out
+        undriven = (each for each in system.accelerations.xreplace(equilibrium) if not each.has(t))
+        if any(not _is_zero(each) for each in undriven):
+            raise self._error(f"{about or 'zero'} is no equilibrium: an acceleration is not zero there")
         return system
 
-    def _equilibrium(self, point: str) -> dict[sp.Symbol, sp.Expr]:
-        """The coordinates of `at theta = 0, x = a`; those that are not named are zero."""
-        at: dict[sp.Symbol, sp.Expr] = {}
-        for each in filter(None, (part.strip() for part in point.split(","))):
+    def _point(self, text: str) -> dict[sp.Symbol, sp.Expr]:
+        """Return the coordinates of `theta = 0, x = a`; those without a value are zero."""
+        values = dict.fromkeys(self.c.q, sp.S.Zero)
+        for each in filter(None, (part.strip() for part in text.split(","))):
             name, _, value = each.partition("=")
-            at[read(name.strip(), self.names, self.place)] = read(value.strip() or "0", self.names, self.place)
-        return dict.fromkeys(self.c.q, sp.S.Zero) | at
+            values[read(name.strip(), self.names, self.place)] = read(value.strip() or "0", self.names, self.place)
+        return values
 
-    @cached_property
-    def premises(self) -> tuple[Premise, ...]:
-        """What every print may use: the constraints, which hold at all times, and what is said of letters."""
-        kept = [sp.Eq(e, 0) for g in self.constraints for e in (g, total_derivative(g, self.c))]
-        said = (each.func(*map(self._along, each.args), evaluate=False) for each in self.where)
-        return (
-            *([Premise("the constraints hold", where=tuple(kept))] if kept else []),
-            *(
-                Premise("as the text says", where=(each,), defines=not each.free_symbols <= self._fixed)
-                for each in said
-            ),
-        )
-
-    def _refusal(self, identifier: str, says: str) -> InputError:
-        return InputError(f"{self.place}: derives: {identifier}{says}")
-
-    def _check_letters(self, identifier: str) -> None:
-        """Raise InputError where a print has a letter of which the system says nothing."""
-        known = self._known
-        nodes = self._left_nodes(identifier)
-        names = {name for node in nodes for name in letters_of(node)}
-        printed = set[sp.Basic]()
-        if names & {s.name for s in (*self.c.q, *self.c.v, *self.c.a)} and all(map(in_catalogue, nodes)):
-            printed = {self.names.get(name, sp.Symbol(name)) for name in names}
-        for line in self.paper.lines(identifier):
-            letters = printed.union(*(e.free_symbols for e in line.members))
-            if strangers := sorted(str(s) for s in letters - known - {line.small}):
-                says = f" is printed with {strangers[0]}, of which the system says nothing: say what it is, as in"
-                raise self._refusal(
-                    identifier, f'{says} where = ["{strangers[0]} = …"], or leave the equation out here'
-                )
-
-    def _check_signs(self, identifier: str, derived: sp.Expr) -> None:
-        """Raise InputError where a print depends on the sign of a letter of which only an even power is said: r² = x² + y²."""
-        for letter in sorted(self._known - self._fixed - {t}, key=str):
-            turned = {letter: -letter}
-            said = [each.lhs - each.rhs for each in self.where if each.has(letter)]
-            if letter.is_nonnegative or any(e != e.xreplace(turned) for e in said):
-                continue
-            for line in self.paper.lines(identifier):
-                for e in (member - derived for member in line.members):
-                    if not any(_is_zero(e.xreplace(turned) - sign * e) for sign in (1, -1)):
-                        says = f" depends on the sign of {letter}, of which where says an even power only"
-                        raise self._refusal(
-                            identifier, f'{says}: write "{letter} = …", or positive=True for {letter} in symbols.py'
-                        )
-
-    def _check_said(self, identifier: str, derived: sp.Expr) -> None:
-        """Raise InputError where a print needs more of its letters than is said: a, where a + b alone is."""
-        said = [self._along(each.lhs - each.rhs) for each in self.where]
-        letters = sorted(set[sp.Basic]().union(*(e.free_symbols for e in said)) - self._fixed - {t}, key=str)
-        slopes = sp.Matrix([[e.diff(s) for s in letters] for e in said])
-        for e in (self._along(member - derived) for line in self.paper.lines(identifier) for member in line.members):
-            own = sp.Matrix([[e.diff(s) for s in letters]])
-            if any(own) and slopes.col_join(own).rank(iszerofunc=_is_zero) > slopes.rank(iszerofunc=_is_zero):
-                name = next(s for s in letters if e.has(s))
-                only = next(f"{each.lhs} = {each.rhs}" for each in self.where if each.has(name))
-                says = f" is printed with {name}, of which where says {only} only: say what {name} is, or leave the equation out"
-                raise self._refusal(identifier, says)
-
-    @cached_property
-    def _fixed(self) -> set[sp.Basic]:
-        """The letters of L, constraints and forces, which are constant, and of the coordinates and their rates."""
-        all_of = (self.L, *self.constraints, *self.forces, *self.c.q, *self.c.v, *self.c.a)
-        return set[sp.Basic]().union(*(e.free_symbols for e in all_of))
-
-    @cached_property
-    def _known(self) -> set[sp.Basic]:
-        """The letters of which the system says something, and the time."""
-        return self._fixed.union({t}, *(each.free_symbols for each in self.where))
-
-    @cached_property
-    def _letter_rates(self) -> Mapping[sp.Symbol, sp.Expr]:
-        """The rates of what `where` gives by coordinates: of ell in ell = m r² φ̇, of r in r² = x² + y²; other letters rest.
-
-        A rate that the relations do not give holds symbols of its own.
-        """
-        relations = [self._along(each.lhs - each.rhs) for each in self.where]
-        moving: set[sp.Basic] = {*self.c.q, *self.c.v, t}
-        while more := {s for e in relations if e.free_symbols & moving for s in e.free_symbols} - self._fixed - moving:
-            moving |= more
-        letters = sorted(moving - {*self.c.q, *self.c.v, t}, key=str)
-        unknown = sp.symbols(f"rate_1:{len(letters) + 1}", cls=sp.Dummy)
-        pairs = [*zip(letters, unknown, strict=True)]
-        rows = [total_derivative(e, self.c) + sum(e.diff(s) * rate for s, rate in pairs) for e in relations]
-        rows = [self._along(row) for row in rows if row != 0]
-        solutions = list(sp.linsolve(rows, unknown)) if pairs else [()]
-        return dict(zip(letters, solutions[0] if solutions else unknown, strict=True))
+    def _along(self, e: sp.Expr) -> sp.Expr:
+        """Return an expression with the accelerations of the motion put in."""
+        return shortest(e.xreplace(dict(zip(self.c.a, self.accelerations, strict=True))) if e.has(*self.c.a) else e)
 
     def _rate(self, e: sp.Expr) -> sp.Expr:
-        """de/dt along the motion. Raises InputError where it has a letter whose rate is not known."""
-        e = self._along(e)
-        rates = {s: rate for s, rate in self._letter_rates.items() if e.has(s)}
-        for letter, rate in rates.items():
-            if rate.atoms(sp.Dummy):
-                raise InputError(
-                    f'{self.place}: where does not say how {letter} changes: write "{letter} = …" in the coordinates'
-                )
-        return self._along(total_derivative(e, self.c) + sum(e.diff(s) * rate for s, rate in rates.items()))
+        """Return de/dt along the motion; letters that are defined by coordinates change with these."""
+        return self._along(total_derivative(self._along(e.xreplace(self._moving)), self.c))
+
+    @cached_property
+    def _moving(self) -> dict[sp.Symbol, sp.Expr]:
+        """The definitions of letters by coordinates, with earlier definitions put in."""
+        values: dict[sp.Symbol, sp.Expr] = {}
+        for letter, value in self.where.items():
+            if (value := value.xreplace(values)).has(*self.c.q, *self.c.v, *self.c.a):
+                values[letter] = value
+        return values
 
     def _conserved(self, identifier: str) -> sp.Expr:
-        """A printed F less what it has changed by after a short time: F itself where dF/dt = 0 along every motion."""
-        line = self.paper.lines(identifier)[0]
-        F = line.members[0] if line.members else sp.S.Zero
-        moving = {s for s in self._letter_rates if F.has(s)}
-        if not moving and not F.has(*self.c.q, *self.c.v):
-            raise self._refusal(identifier, f": {F} depends on no coordinate or velocity: leave it out here")
+        """Return a printed F less its change after a short time: F itself where dF/dt = 0 along every motion."""
+        F = self.paper.lines(identifier)[0].members[0]
+        letters = {s: value for s, value in self._moving.items() if F.has(s)}
+        if not letters and not F.has(*self.c.q, *self.c.v):
+            says = f"prints {F}, which depends on no coordinate or velocity: leave it out here"
+            raise self._error(f"equation {identifier} {says}")
         rate = self._rate(F)
-        if _is_zero(rate):  # by what is said of its letters, which is then a premise
-            rate = sum((each.lhs - each.rhs for each in self.where if each.free_symbols & moving), sp.S.Zero)
+        if letters and _is_zero(rate):  # then the definitions are the premises of the verdict
+            rate = sum((letter - value for letter, value in letters.items()), sp.S.Zero)
         time = next(name for name in ("tau", "short_time", "time_since") if name not in self.names)
         return F - sp.Symbol(time, positive=True) * rate
 
-    def _of_coordinate(self, kind: str, which: str) -> sp.Expr:
-        place = next((n for n, q in enumerate(self.c.q) if q.name == which), None)
-        if place is None:
-            known = ", ".join(map(str, self.c.q))
-            raise InputError(f"{self.place}: derives: {kind} {which or '?'}: the coordinates are {known}")
-        rows: dict[str, Callable[[], sp.Matrix]] = {
-            "momentum": lambda: momenta(self.L, self.c),
-            "motion": lambda: self._motion,
-            "acceleration": lambda: self.accelerations,
-        }
-        return rows[kind]()[place]
-
-    def _as_printed(self, identifier: str, motion: sp.Expr) -> sp.Expr:
-        """What a print left = right of an equation of motion has on its right: right itself where left − right is zero with the
-        accelerations of the motion put in. A name for it, Q = m a + …, has the motion itself on its right.
-        """
+    def _as_printed(self, identifier: str) -> sp.Expr:
+        """Return the right side of a printed equation of motion, plus left − right along the motion."""
         (line, *more), left = self.paper.lines(identifier), self._left_side(identifier)
-        right = line.members[-1]
-        if left is not None and not more:
-            if not any(each.has(*self.c.a) for each in line.members):
-                self._check_constraint(identifier, [left - each for each in line.members])
-                return self._along(left)
-            if len(line.members) == 1:
-                return right + self._along(left - right)
-        if all(_is_zero(each - motion) for each in line.members):
-            return motion
-        reason = "its left side is no single expression in the coordinates: say what its letters are in where"
-        if left is not None:
-            reason = "has an acceleration in one of several members: print one equation"
-        raise self._refusal(identifier, f" is printed as … = {right}, and {reason}, or leave it out here")
-
-    def _check_constraint(self, identifier: str, differences: Sequence[sp.Expr]) -> None:
-        """Raise InputError where a print is a constraint or its rate, which is stated and not derived."""
-        kept = [each.lhs for premise in self.premises[:1] if self.constraints for each in premise.where]
-        if any(not sp.cancel(e / each).has(*self.c.q, *self.c.v) for e in differences for each in kept if e != 0):
-            raise self._refusal(
-                identifier, " is a constraint itself, which is stated and not derived: leave it out here"
+        moving = any(each.has(*self.c.a) for each in line.members)
+        if left is None or more or (moving and len(line.members) > 1):
+            says = (
+                "has no single left side in the coordinates and the letters of the system, or accelerations in a chain"
             )
-
-    def _along(self, e: sp.Expr) -> sp.Expr:
-        """An expression with the accelerations of the motion put in."""
-        if not e.has(*self.c.a):
-            return shortest(e)
-        return shortest(e.xreplace(dict(zip(self.c.a, self.accelerations, strict=True))))
-
-    def _left_nodes(self, identifier: str) -> tuple[Node, ...]:
-        """The sides of a print before its first member: p_θ, d/dt ∂L/∂θ̇."""
-        entries = self.paper.equations
-        notation = paper_notation((e.latex for e in entries.values()), self.paper.about.notation, self.place)
-        reading = read_formula(entries[identifier].line[0]["quantity"], notation)
-        return tuple(side.node for statement in reading.statements for side in statement.sides)
+            helps = "print one equation, define its letters in where, or leave it out here"
+            raise self._error(f"equation {identifier} {says}: {helps}")
+        return line.members[0] + self._along(left - line.members[0]) if moving else self._along(left)
 
     def _left_side(self, identifier: str) -> sp.Expr | None:
-        """The left side of a print in the coordinates and letters that are said; None where it is none, or they are two."""
+        """Return what stands before the first member of a print; None where it has other letters, or sides that differ."""
 
         def partial(f: sp.Expr, by: sp.Symbol, order: int = 1) -> sp.Expr:
             if by == t:
                 return reduce(lambda e, _: self._rate(e), range(int(order)), f)
-            if isinstance(f, sp.Symbol) and f.name in _LAGRANGIANS and f not in self._known:
-                f = self.L
-            return sp.diff(f, by, int(order))
+            is_L = isinstance(f, sp.Symbol) and f.name in _LAGRANGIANS and f not in self._known
+            return sp.diff(self.L if is_L else f, by, int(order))
 
-        said = {name: sp.Symbol(name) for name in _LAGRANGIANS}
-        said |= {name: s for name, s in self.names.items() if s in self._known}
-        said |= {"t": t, "rate": self._rate, "Derivative": partial}
+        entries = self.paper.equations
+        notation = paper_notation((e.latex for e in entries.values()), self.paper.about.notation, self.place)
+        reading = read_formula(entries[identifier].line[0]["quantity"], notation)
+        names = {name: sp.Symbol(name) for name in _LAGRANGIANS} | {"t": t, "rate": self._rate, "Derivative": partial}
+        names |= {name: symbol for name, symbol in self.names.items() if symbol in self._known}
+        texts = [text_of(side.node) for statement in reading.statements for side in statement.sides]
         try:
-            left, *others = (read(text_of(node), said, self.place) for node in self._left_nodes(identifier))
-        except InputError:  # it has a letter of its own
+            left, *others = (read(text, names, self.place) for text in texts)
+        except (InputError, ValueError):
             return None
         same = all(_is_zero(self._along(left - each)) for each in others)
         return left if same and left.free_symbols <= self._known else None
 
-    @property
-    def _motion(self) -> sp.Matrix:
-        """d/dt ∂L/∂q̇ − ∂L/∂q − Q, without the forces of constraints."""
-        return euler_lagrange(self.L, self.c) - sp.Matrix(self.forces)
-
-    @cached_property
-    def accelerations(self) -> sp.Matrix:
-        """a of M a + h = Gᵀ λ with the constraints differentiated twice, the multipliers λ eliminated."""
-        motion = self._motion
-        multipliers = sp.symbols(f"multiplier_1:{len(self.constraints) + 1}")
-        for multiplier, constraint in zip(multipliers, self.constraints, strict=True):
-            motion -= multiplier * gradient(constraint, self.c.q)
-        kept = [total_derivative(total_derivative(each, self.c), self.c) for each in self.constraints]
-        rows, unknown = sp.Matrix([*motion, *kept]), sp.Matrix([*self.c.a, *multipliers])
-        matrix = rows.jacobian(unknown)
-        solved = linear_solve(
-            matrix, -rows.subs(dict.fromkeys(unknown, 0)), f"{self.place}: its equations of motion are singular"
-        )
-        return sp.Matrix(solved[: len(self.c.q)])
-
     def _frequency(self, identifier: str, form: str, which: int, point: str) -> sp.Expr:
-        """ω of a small oscillation about an equilibrium, ω², or its period: rate = i ω."""
+        """Return ω of a small oscillation about an equilibrium, ω², or its period; the mode's rate is i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
-            raise InputError(
-                f"{self.place}: derives: with friction small motion has no one frequency: leave frequencies out here"
-            )
+            raise self._error("with friction small motion has no frequency: leave it out here")
         system = System(self.c, self.L, constraints=self.constraints, forces=self.forces)
-        modes = system.linearise(self._equilibrium(point)).modes()
-        squares = list(dict.fromkeys(sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0))
+        modes = system.linearise(self._point(point)).modes()
+        squares = sorted({sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0}, key=sp.default_sort_key)
         if not 0 < which <= len(squares):
-            raise InputError(f"{self.place}: derives: there is no {form} {which}: the system has {len(squares)}")
-        squares.sort(key=sp.default_sort_key)
-        square = squares[which - 1]
-        derived = {"frequency": sp.sqrt(square), "frequency^2": square, "period": 2 * sp.pi * sp.sqrt(1 / square)}[form]
-        self._check_frequency(identifier, derived, squares, which, form)
+            raise self._error(f"there is no {form} {which}: the system has {len(squares)}")
+        values = {
+            f"{kind} {n}": value
+            for n, square in enumerate(squares, 1)
+            for kind, value in {
+                "frequency": sp.sqrt(square),
+                "frequency^2": square,
+                "period": 2 * sp.pi * sp.sqrt(1 / square),
+                "frequency in turns": sp.sqrt(square) / (2 * sp.pi),
+            }.items()
+        }
+        derived = values.pop(f"{form} {which}")
+        for member in (e.xreplace(self.where) for line in self.paper.lines(identifier) for e in line.members):
+            others = (name for name, value in values.items() if _is_zero(member**2 - value**2))
+            if not _is_zero(member**2 - derived**2) and (other := next(others, "")):
+                raise self._error(f"equation {identifier} prints {member}, which is {other} and not {form} {which}")
         return derived
-
-    def _check_frequency(
-        self, identifier: str, derived: sp.Expr, squares: Sequence[sp.Expr], which: int, form: str
-    ) -> None:
-        """Raise InputError where a print is another of ω, ω² and the period, or where its sign or its place in the row is."""
-        square, put = squares[which - 1], {each.lhs: each.rhs for each in self.where if each.lhs.is_Symbol}
-        for member in (e.xreplace(put) for line in self.paper.lines(identifier) for e in line.members):
-            if member == 0 or _is_zero(member - derived) or _is_zero(member + derived):
-                continue
-            power = {"frequency": member**2, "frequency^2": member, "period": (2 * sp.pi / member) ** 2}[form]
-            others = {f"{form} {n}, not {which}": power - each for n, each in enumerate(squares, 1) if n != which}
-            if form != "frequency^2":
-                says = f"{member}, which may be negative: write positive=True for its letters in symbols.py"
-                others |= {says: power - square}
-            if form == "frequency":
-                others |= {
-                    "a square: say frequency^2": member - square,
-                    "a period: say period": (2 * sp.pi / member) ** 2 - square,
-                    "turns by time, not radians: leave it out here": (2 * sp.pi * member) ** 2 - square,
-                }
-            for says, difference in others.items():
-                if _is_zero(difference):
-                    raise self._refusal(identifier, f" prints {says}")
 
 
 def _is_zero(e: sp.Expr) -> bool:
@@ -399,7 +283,13 @@ def _is_zero(e: sp.Expr) -> bool:
 
 
 def stated_system(paper: Catalogue) -> StatedSystem:
-    """The system of a paper's folder. Raises InputError where none is stated, or one that cannot be read."""
+    """Return the system that a paper's `paper.toml` states.
+
+    Raises
+    ------
+    InputError
+        If none is stated, or a key, an expression or a definition cannot be read.
+    """
     given, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
     if unknown := sorted(given.keys() - set(_KEYS)):
         raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
@@ -417,40 +307,36 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     forces = tuple(read(each, names, f"{where}: forces") for each in given.get("forces", ())) or (sp.S.Zero,) * len(c.q)
     if len(forces) != len(c.q):
         raise InputError(
-            f'{where}: forces: {len(forces)} are given for {len(c.q)} coordinates: give each its own, "0" where none is'
+            f'{where}: forces: {len(forces)} for {len(c.q)} coordinates: write one each, "0" where none acts'
         )
-    system = StatedSystem(
-        c,
-        read(given["L"], names, f"{where}: L"),
-        tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ())),
-        forces,
-        tuple(_relation(each, names, f"{where}: where") for each in given.get("where", ())),
-        given.get("derives", {}),
-        names,
-        where,
-        paper,
-    )
-    for each in system.where:
-        moves = each.has(*c.q, *c.v, *c.a)
-        if moves and (each.lhs in system._fixed - {*c.q, *c.v, *c.a} or each.free_symbols <= system._fixed):
+    L = read(given["L"], names, f"{where}: L")
+    constraints = tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ()))
+    fixed = set[sp.Basic]().union(*(e.free_symbols for e in (L, *constraints, *forces, *c.q, *c.v, *c.a)))
+    definitions = _definitions(given.get("where", ()), names, fixed, f"{where}: where")
+    return StatedSystem(c, L, constraints, forces, definitions, given.get("derives", {}), names, where, paper)
+
+
+def _definitions(
+    rows: tuple[str, ...], names: Mapping[str, Any], fixed: set[sp.Basic], where: str
+) -> dict[sp.Symbol, sp.Expr]:
+    """Return letter → expression; refuse another relation, a letter of L, and one that is defined twice."""
+    definitions: dict[sp.Symbol, sp.Expr] = {}
+    for row in rows:
+        left, equals, right = str(row).partition("=")
+        letter = names.get(left.strip())
+        if not equals or "=" in right or not isinstance(letter, sp.Symbol):
             raise InputError(
-                f"{where}: where: {each.lhs} = {each.rhs} is about the motion and letters of L alone, which are constant: write "
-                "it out in L, or state it in constraints"
+                f'{where}: {row!r} defines no letter of symbols.py: write one, as in "omega_0 = sqrt(g/l)"'
             )
-    return system
-
-
-def _relation(text: str, names: Mapping[str, Any], where: str) -> sp.Eq:
-    """left = right, of two expressions. Raises InputError for anything else."""
-    sides = str(text).split("=")
-    if len(sides) != 2:
-        raise InputError(f"{where}: {text!r} must be one equation: left = right")
-    left, right = (read(side.strip(), names, where) for side in sides)
-    return sp.Eq(left, right, evaluate=False)
+        if letter in fixed or letter in definitions:
+            says = "is defined twice" if letter in definitions else "is a letter of the system: write it out in L"
+            raise InputError(f"{where}: {row!r}: {letter} {says}")
+        definitions[letter] = read(right.strip(), names, where)
+    return definitions
 
 
 def stated(script: str) -> StatedSystem:
-    """The system of the paper whose folder holds `derivations/` with this script."""
+    """Return the system of the paper whose folder holds `derivations/` with this script, given as `__file__`."""
     return stated_system(Catalogue(Path(script).resolve().parent.parent))
 
 
@@ -460,8 +346,7 @@ _HEAD = """# %% [markdown]
 # Written by `lagrotor derive`; change paper.toml, not this.
 
 # %%
-from lagrotor.paper import verdict
-from lagrotor.paper.latex.stated_system import stated
+from lagrotor.paper import stated, verdict
 
 system = stated(__file__)
 """
@@ -474,75 +359,32 @@ verdict({id}, system[{id}]{premises})
 """
 
 
-_PROPOSAL = """
-# The Lagrangian of ({id}) and what seems to be derived from it. Without the marks `# ` this is a derivation without Python, which
-# `lagrotor derive` makes a script of: see README.md.
-# [system]
-# coordinates = "{names}"
-# L = {L}
-# forces = []  # on each coordinate, besides those of L, as in "-c*theta_dot"
-# where = []  # what the text says of letters that L does not have, as in "omega_0**2 = g/l"
-# [system.derives]
-"""
-
-
-def proposed_system(rows: Sequence[Mapping[str, Any]]) -> str:
-    """The table `[system]` of a paper that prints a Lagrangian, in comments; nothing where none of its equations is one.
-
-    rows: of equations.toml. A coordinate is what L has the rate of; the rest goes by the usual letters.
-    """
-    lines = [(row["id"], line) for row in rows for line in row.get("line", ())]
-    is_lagrangian = re.compile(r"(?:\\mathcal|\\mathscr)?\s*\{?\s*L\s*\}?\s*(?:\(.*\))?")
-    for identifier, line in lines:
-        member = next((each for each in line.get("members", ()) if "_dot" in each), "")
-        if not is_lagrangian.fullmatch(line["quantity"].strip()) or not member:
-            continue
-        names = sorted(set(re.findall(r"(\w+)_dot\b", member)), key=lambda name: member.index(f"{name}_dot"))
-        bent = {name for name in names if re.search(rf"\b(?:sin|cos)\([^()]*\b{name}\b", member)}
-        seems = [(i, "L" if each is line else _seems(each, names, bent)) for i, each in lines]
-        derives = [f"# {json.dumps(i)} = {json.dumps(said)}" for i, said in seems if said]
-        head = _PROPOSAL.format(id=identifier, names=" ".join(names), L=json.dumps(member))
-        return head + "".join(f"{row}\n" for row in dict.fromkeys(derives))
-    return ""
-
-
-def _seems(line: Mapping[str, Any], names: Sequence[str], bent: set[str]) -> str:
-    """What a printed line seems to be of a system with these coordinates; "" where it does not seem to be anything.
-
-    bent: those of which L has the sine or cosine: an equation of motion without one is of small motion.
-    """
-    quantity = re.sub(r"[\s{}\\]|mathcal|mathscr", "", line["quantity"])
-    members = " ".join(line.get("members", ()))
-    if quantity in ("E", "H", "h") and "_dot" in members:
-        return "energy"
-    momentum = re.search(r"(?:^p_|partialLpartialdot)(\w+)$", quantity)
-    if momentum and momentum[1] in names:
-        return f"momentum {momentum[1]}"
-    turning = {name for name in names if f"ddot{name}" in quantity or f"{name}_ddot" in members}
-    small = "small " if turning & bent and not re.search(r"sin|cos", quantity + members) else ""
-    if quantity.startswith("ddot") and quantity[4:] in names:
-        return f"{small}acceleration {quantity[4:]}"
-    return f"{small}motion {min(turning)}" if len(turning) == 1 else ""
-
-
 def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
 def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
-    """Write `derivations/s_system.py`, in which each equation of [system.derives] is stated that can be judged.
+    """Write `derivations/s_system.py`, which states each equation of [system.derives] that can be judged.
 
-    Also id → why of those that are left out. Raises what reading raises, and InputError where none can be judged.
+    Returns
+    -------
+    tuple of Path and dict
+        The script, and id → reason of the equations that are left out.
+
+    Raises
+    ------
+    InputError
+        If the system cannot be read, or none of its equations can be judged.
     """
     system, cells, refused = stated_system(paper), "", dict[str, str]()
     premises = ", premises=system.premises" if system.premises else ""
-    for i, said in system.derives.items():
+    for i, role in system.derives.items():
         try:
             _ = system[i]
         except (InputError, SingularError) as error:
             refused[i] = str(error)
         else:
-            cells += _CELL.format(title=_one_line(i), said=_one_line(said), id=json.dumps(i), premises=premises)
+            cells += _CELL.format(title=_one_line(i), said=_one_line(role), id=json.dumps(i), premises=premises)
     if refused and not cells:
         raise InputError("; ".join(dict.fromkeys(refused.values())))
     folder = paper.folder / "derivations"

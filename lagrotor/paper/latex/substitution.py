@@ -1,31 +1,31 @@
 """What the text gives before a step: letters and unknown functions by what stands for them, to be put into the two sides."""
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from lagrotor.paper.latex.boxes import GREEK
-from lagrotor.paper.latex.read_statements import PrintedStatement
+from lagrotor.paper.latex.statements import PrintedStatement
 from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, is_vector, letters_of, product_of, walk
 
 _MEMORY = 60  # displays back to which a step may refer
 _MOST_ROUNDS = 4  # of putting in: what stands for a letter may have letters that others stand for
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative", "norm", "dot", "cross", "column", "matrix")
-_BINDING = ("Derivative", "Integral", "Sum", "at", "limit")  # their second part is a letter that they use up
+# Operations whose second part is a letter that they use up.
+BINDING = ("Derivative", "Integral", "Sum", "Product", "at", "limit")
 
 
 @dataclass(frozen=True)
 class PrintedMeaning:
     """What stands for a letter or an unknown function, and the print that gives it.
 
-    name: the equation, (3), or the formula of the text; latex: of the two sides; place: of the display; -1: of the text.
+    name: the equation, (3), or the formula of the text; place: of the display; -1: of the text.
     """
 
     meaning: Node
     value: Node
     name: str
-    latex: str
     section: str
     place: int
     statement: PrintedStatement
@@ -40,10 +40,15 @@ class PrintedMeaning:
 
 @dataclass
 class SectionMeanings:
-    """The premises before a place, by what they give."""
+    """The premises before a place, by what they give; `unread`: sections and letters that an unread display may give.
+
+    negative: letters that are no positive root.
+    """
 
     known: defaultdict[Node, list[PrintedMeaning]] = field(default_factory=lambda: defaultdict(list))
     functions: defaultdict[str, list[PrintedMeaning]] = field(default_factory=lambda: defaultdict(list))
+    unread: set[tuple[str, str]] = field(default_factory=set)
+    negative: frozenset[str] = frozenset()
 
     def add(self, statement: PrintedStatement, name: str, section: str, place: int) -> None:
         """Take over what an equation gives: its left side by each other one, the last first."""
@@ -54,10 +59,10 @@ class SectionMeanings:
             worded = isinstance(side.node, Letter) and r"\text" in side.latex
             if worded or is_vector(first.node) != is_vector(side.node):
                 continue
-            latex = f"{first.latex} = {side.latex}"
             for meaning, value in _values(first.node, side.node):
-                if not _holds(value, meaning):
-                    made = PrintedMeaning(meaning, value, name, latex, section, place, statement)
+                is_negative = isinstance(meaning, Letter) and meaning.name in self.negative
+                if not _holds(value, meaning) and not (is_negative and value != side.node):
+                    made = PrintedMeaning(meaning, value, name, section, place, statement)
                     self.known[meaning].append(made)
                     if isinstance(meaning, Call) and _is_of_a_letter(meaning.name):
                         self.functions[meaning.name].append(made)
@@ -105,7 +110,10 @@ class SectionMeanings:
         """Whether no equation of its section but a statement itself gives anything else for the same."""
         near = [each for each in self._given(premise.meaning, but) if each.section == premise.section]
         own = {each.value for each in near if each.statement is premise.statement}
-        return all(each.value in own for each in near)
+        names = letters_of(premise.meaning)[:1]
+        return not any((premise.section, name.split("_")[0]) in self.unread for name in names) and all(
+            each.value in own for each in near
+        )
 
 
 def _values(left: Node, right: Node) -> Iterator[tuple[Node, Node]]:
@@ -165,7 +173,7 @@ def _free(node: Node, bound: tuple[Node, ...] = ()) -> Iterator[Node]:
     if node not in bound:
         yield node
     if isinstance(node, Call):
-        binding = node.name in _BINDING and len(node.args) > 1
+        binding = node.name in BINDING and len(node.args) > 1
         for place, part in enumerate(node.args):
             if not (binding and place == 1):
                 yield from _free(part, (*bound, node.args[1]) if binding and place == 0 else bound)
@@ -177,7 +185,7 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
         return values[node]
     if not isinstance(node, Call) or not values:
         return node
-    if node.name in _BINDING and len(node.args) > 1:
+    if node.name in BINDING and len(node.args) > 1:
         inner = {key: value for key, value in values.items() if key != node.args[1]}
         return Call(
             node.name, (put_for(node.args[0], inner), node.args[1], *(put_for(each, values) for each in node.args[2:]))
@@ -185,44 +193,40 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
     return Call(node.name, tuple(put_for(each, values) for each in node.args))
 
 
-def _stands_alone(part: Node, others: Collection[Node], sides: Iterable[Node]) -> bool:
-    """Whether a part stands anywhere but in the others that are put in: by ω² = g/l no root is put in for ω in ω² + k."""
-    wider = {each: Number(Fraction(0)) for each in others if each != part and _holds(each, part)}
-    return not wider or any(_holds(put_for(side, wider), part) for side in sides)
-
-
-def _without(parts: Collection[Node], others: Collection[Node]) -> list[Node]:
-    return [each for each in parts if each not in others]
-
-
-# The parts that are put in, of the left side and of the right: those of one alone, so that the letters of the other stay;
-# those that the two do not share; all. x = f(y) and y = g(x) put into the two sides at once would exchange them.
-WANTED: tuple[Callable[[Collection[Node], Collection[Node]], list[Node]], ...] = (
-    _without,
-    lambda left, right: _without(right, left),
-    lambda left, right: [*_without(left, right), *_without(right, left)],
-    lambda left, right: [*left, *_without(right, left)],
-)
+def put_rounds(node: Node, put: Iterable[dict[Node, PrintedMeaning]]) -> Node:
+    """Return the node with premises put in, round by round."""
+    for one in put:
+        node = put_for(node, {key: each.value for key, each in one.items()})
+    return node
 
 
 def rounds(
-    left: Node,
-    right: Node,
-    premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]],
-    wanted: Callable[[Collection[Node], Collection[Node]], list[Node]],
+    sides: Sequence[Node], premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]], fixed: int | None
 ) -> list[dict[Node, PrintedMeaning]]:
-    """What is put into two sides, round by round; nothing into what stands for it: x by y and y by x would go on without end."""
+    """Return what is put into two sides, round by round.
+
+    Parameters
+    ----------
+    sides : sequence of Node
+        The two sides.
+    premises : callable
+        Called with parts of the sides; returns the premise for each of them that has one.
+    fixed : int, optional
+        The side whose letters stay: x = f(y) and y = g(x) put into both sides would exchange x and y.
+    """
     put: list[dict[Node, PrintedMeaning]] = []
-    above: defaultdict[Node, set[Node]] = defaultdict(set)  # what a part came in with
+    above: defaultdict[Node, set[Node]] = defaultdict(
+        set
+    )  # part → the parts in whose values it stands: x by y by x has no end
     for _ in range(_MOST_ROUNDS):
-        parts = (dict.fromkeys(_free(side)) for side in (left, right))
-        new = {each.meaning: each for each in premises(wanted(*parts)) if each.meaning not in above[each.meaning]}
-        new = {part: each for part, each in new.items() if _stands_alone(part, new, (left, right))}
+        stay = set() if fixed is None else {*_free(sides[fixed])}
+        parts = dict.fromkeys(part for side in sides for part in _free(side) if part not in stay)
+        new = {each.meaning: each for each in premises(parts) if each.meaning not in above[each.meaning]}
         if not new:
             break
         for meaning, each in new.items():
             for part in walk(each.value):
                 above[part] |= {meaning, *above[meaning]}
         put.append(new)
-        left, right = (put_for(side, {key: each.value for key, each in new.items()}) for side in (left, right))
+        sides = [put_rounds(side, [new]) for side in sides]
     return put

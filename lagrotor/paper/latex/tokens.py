@@ -16,23 +16,18 @@ _TOKEN = re.compile(
     r"|(?P<text>[^\\{}$%&#^_]+)|(?P<stray>\\)",
     re.DOTALL,
 )
-_SHORT = re.compile(r"\\DefineShortVerb\*?\s*\{\\([^A-Za-z\s])\}")
-_NAMED = re.compile(
-    r"\\(?:re)?newcommand\*?\s*(?:\{\s*)?(\\[A-Za-z]+)\s*\}?\s*\{\s*\\(?:verb\*?|lstinline)(?:\[[^][\n]*\])?\s*\}"
-)
 
-
-def _blank(span: re.Match[str]) -> str:
-    return " " * len(span[0])
-
-
-# What a token adds to the depth of environments, by its text, and of braces, by its kind.
+# The change of depth that a token makes: of environments, by its text, and of braces, by its kind.
 NESTING = {r"\begin": 1, r"\end": -1}
 BRACES = {"open": 1, "close": -1}
 
 
 class Token(NamedTuple):
-    r"""One token: `kind` is command, open, close, math, align, script, param, text or raw; `at`: where it begins."""
+    r"""One token: `kind` is command, open, close, math, align, script, param, text or raw; `at`: its place.
+
+    An `Expander` adds begin and end, \begin{x} and \end{x} as one token; primitive, a command that no definition changes; and
+    scope, the end of the definitions of an environment.
+    """
 
     kind: str
     text: str
@@ -40,18 +35,12 @@ class Token(NamedTuple):
 
 
 def tokenize(text: str, base: int = 0) -> list[Token]:
-    """The tokens of a text, its comments left out; base: the place of its first character."""
+    """Return the tokens of a text without its comments; base: the place of its first character."""
     return list(tokens_of(text, base))
 
 
 def tokens_of(text: str, base: int = 0) -> Iterator[Token]:
-    """The tokens of a text one by one, as they are needed."""
-    if (short := _SHORT.search(text)) is not None:  # \DefineShortVerb{\|}: what is between two bars is no LaTeX
-        mark = re.escape(short[1])
-        text = re.sub(rf"(?<!\\)(?<!\\verb){mark}[^{mark}\n]*{mark}", _blank, text)
-    for verbatim in _NAMED.finditer(text):  # \newcommand{\code}{\lstinline[…]}: nor between two equal marks after it
-        shown = rf"{re.escape(verbatim[1])}([^A-Za-z\s*{{}}\[])[^\n]*?\1"
-        text = text[: verbatim.end()] + re.sub(shown, _blank, text[verbatim.end() :])
+    """Yield the tokens of a text one by one."""
     for match in _TOKEN.finditer(text):
         kind = match.lastgroup or "text"
         if kind in ("name", "mark"):
@@ -61,7 +50,7 @@ def tokens_of(text: str, base: int = 0) -> Iterator[Token]:
 
 
 def latex_of(tokens: Iterable[Token]) -> str:
-    """The tokens as LaTeX, with a space between a command and a letter that follows it."""
+    """Return the tokens as LaTeX, with a space between a command and a letter that follows it."""
     parts: list[str] = []
     word = False
     for token in tokens:
@@ -73,5 +62,5 @@ def latex_of(tokens: Iterable[Token]) -> str:
 
 
 def plain(text: str, at: int) -> list[Token]:
-    """A run of characters as a token; none where it is empty."""
+    """Return a run of characters as a list of one token; the list is empty if the text is."""
     return [Token("text", text, at)] if text else []

@@ -1,17 +1,19 @@
 """What a printed formula says: numbers, letters and calls; as text in the names of letters, and as a sympy expression."""
 
 import operator
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import sympy as sp
 
 from lagrotor.algebra.proving import evaluated
 from lagrotor.algebra.work import at_most
-from lagrotor.errors import WorkError
+from lagrotor.errors import InputError, WorkError
 from lagrotor.paper.letters import FUNCTIONS
 
 
@@ -24,10 +26,11 @@ class Number:
 
 @dataclass(frozen=True)
 class Letter:
-    r"""A letter with its index, marks and dots: theta_1_dot for \\dot\\theta_1; vector: it is printed as one."""
+    r"""A letter with its index, marks and dots, theta_1_dot for \dot\theta_1; a matrix is a vector, too."""
 
     name: str
     vector: bool = False
+    matrix: bool = False
 
 
 @dataclass(frozen=True)
@@ -47,15 +50,12 @@ class Call:
 
 Node: TypeAlias = Number | Letter | Call
 
-# Relations as calls, in the condition of a case or of a sum.
+# Relations as calls, in the condition of a sum.
 CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
 # Operations whose value is a vector or a matrix, and those that are one where their first argument is.
-_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "operator_gradient", "inverse", "grad", "rot")
-_CARRYING_NAMES = (
-    "sum negative quotient Derivative rate bar mean transpose Integral prime limit Sum differential laplacian plus_minus "
-    "minus_plus advection at called delta Delta at_constant"
-)
+_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "inverse", "transpose")
+_CARRYING_NAMES = "sum negative quotient Derivative rate prime Integral limit Sum differential laplacian at power"
 _CARRYING = frozenset(_CARRYING_NAMES.split())
 # What a line of the catalogue may call, but in another sense than a print.
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
@@ -64,6 +64,7 @@ _MOST_BITS = 20_000  # of a number that is evaluated
 # Operations of what is integrated in closed form, and the calls of functions that it may take.
 _MOST_INTEGRATED, _MOST_CALLS = 60, 3_000_000
 _MOST_ADDED = 40  # terms of a sum that is written out
+_DOTTED = re.compile(r"(\w+?)_(d*)ot")
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
 _KNOWN_NAMES = (
@@ -77,6 +78,19 @@ KNOWN = {name: getattr(sp, name) for name in _KNOWN_NAMES.split()}
 def number(value: int | str) -> Number:
     """A number from its digits."""
     return Number(Fraction(value))
+
+
+def rational_value(node: Node) -> Fraction | None:
+    """Return the number that a node prints, such as 2, -1 or 3/2; None where it prints another thing."""
+    if isinstance(node, Number):
+        return node.value
+    parts = [rational_value(part) for part in node.args] if isinstance(node, Call) else []
+    match (node.name, *parts):
+        case ("negative", Fraction() as value):
+            return -value
+        case ("quotient", Fraction() as above, Fraction() as below) if below:
+            return above / below
+    return None
 
 
 def walk(node: Node) -> Iterator[Node]:
@@ -107,21 +121,7 @@ def is_vector(node: Node) -> bool:
         return any(map(is_vector, node.args))
     if node.name in _CARRYING and not (node.name == "differential" and len(node.args) > 1):  # d^3 r
         return is_vector(node.args[0])
-    if node.name == "exp":
-        return is_matrix(node.args[0])
-    stem = node.name.split("_")[0].removesuffix("prime")
-    return node.name in _VECTORS or stem.endswith(("bold", "vec", "under"))
-
-
-def may_be_vector(node: Node) -> bool:
-    """Whether a factor of it is a letter with a hat, or the divergence of what is printed in bold."""
-    if not isinstance(node, Call):
-        return isinstance(node, Letter) and "hat" in node.name and node.name[0].islower()
-    if node.name == "divergence":
-        return isinstance(node.args[0], Letter) and "bold" in node.args[0].name
-    first = node.args[:1] if node.name in ("quotient", "negative", "Derivative", "rate") else ()
-    test = all if node.name == "sum" else any
-    return test(is_vector(n) or may_be_vector(n) for n in (node.args if node.name in ("product", "sum") else first))
+    return node.name in _VECTORS or node.name.split("_")[0].removesuffix("prime").endswith(("bold", "vec"))
 
 
 def is_printed_zero(node: Node) -> bool:
@@ -135,37 +135,27 @@ def product_of(factors: list[Node]) -> Node:
     return flat[0] if len(flat) == 1 else Call("product", tuple(flat))
 
 
-def is_numeric(node: Node) -> bool:
-    """Whether a node has no letters, or begins with a number."""
-    if isinstance(node, Call) and node.name == "product":
-        units = (isinstance(each, Letter) and each.name.startswith("unit_") for each in node.args[1:])
-        return (is_numeric(node.args[0]) and all(units)) or all(map(is_numeric, node.args))
-    return isinstance(node, Number) or (isinstance(node, Call) and all(map(is_numeric, node.args)))
-
-
 def is_matrix(node: Node) -> bool:
-    """Whether a node is a matrix: a bold capital, a matrix as it is written, a transposed one."""
+    """Whether a node is a matrix: a declared one, one that is written out, a transposed one, a product of such."""
     if not isinstance(node, Call):
-        return isinstance(node, Letter) and node.vector and node.name[0].isupper() and "bold" in node.name
-    if node.name in ("sum", "negative", "quotient", "exp"):
+        return isinstance(node, Letter) and node.matrix
+    if node.name in ("sum", "negative", "quotient", "power", "rate", "Derivative", "Sum"):
         return is_matrix(node.args[0])
-    own = node.name in ("matrix", "transpose", "inverse", "matmul")
-    return own or (node.name == "product" and any(map(is_matrix, node.args)))
+    if node.name == "matmul":
+        return is_matrix(node.args[-1]) or node.args[-1] == Call("transpose", node.args[-1:])
+    product = node.name == "product" and any(map(is_matrix, node.args))
+    return product or node.name in ("matrix", "transpose", "inverse")
 
 
-def is_scalar(node: Node) -> bool:
-    """Whether a node is arithmetic of letters that are no vectors, and not 0."""
-    plain = all(not isinstance(n, Call) or n.name in _ARITHMETIC for n in walk(node))
-    return plain and not is_printed_zero(node) and not any(isinstance(n, Letter) and n.vector for n in walk(node))
-
-
-def is_operator(node: Node) -> bool:
-    """Whether a node does not commute with what it is multiplied by: a ket, a bra, a derivative, an operator with a dagger."""
-    if isinstance(node, Call):
-        return node.name.split("_")[0] in ("ket", "bra", "operator") or (
-            node.name in ("power", "product", "matmul") and any(map(is_operator, node.args))
-        )
-    return isinstance(node, Letter) and "__dagger" in node.name
+def divisors(node: Node) -> Iterator[Node]:
+    """Yield what a node divides by, and what it takes a logarithm of, but within sums and integrals."""
+    if isinstance(node, Call) and node.name not in _BINDING:
+        if node.name == "quotient":
+            yield node.args[1]
+        elif node.name == "log" or (node.name == "power" and "-" in text_of(node.args[1])):
+            yield node.args[0]
+        for each in node.args:
+            yield from divisors(each)
 
 
 def in_catalogue(node: Node) -> bool:
@@ -212,7 +202,9 @@ class Opaque:
 
     rates: letters and components to their rates. Where they are known, derivatives and integrals of explicit expressions are
     taken, the other letters held fixed, and `fixing` says whether any were. positive: letters that are; `assuming` says whether
-    others were taken as positive, so that an integral has a value.
+    others were taken as positive, so that an integral has a value. refuses: whether a part that stands for itself is refused
+    in words; then a letter before its argument is a function of sympy, and sums and integrals are left to the decision.
+    letters: symbols with other assumptions than to be real.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
@@ -220,17 +212,42 @@ class Opaque:
     fixing: bool = False
     positive: frozenset[str] = frozenset()
     assuming: bool = False
+    refuses: bool = False
+    letters: Mapping[str, sp.Symbol] = field(default_factory=dict)
 
-    def symbol(self, node: Node) -> sp.Symbol | sp.MatrixBase:
-        """The symbol that stands for a part; of a vector, its components."""
+    def symbol(self, node: Node) -> Any:
+        """Return the symbol that stands for a part; of a vector, its components. Raises InputError where none may."""
         text = text_of(node)
+        if self.refuses and isinstance(node, Call):
+            if node.name not in _UNDECIDED and not any(map(is_vector, (node, *node.args))):
+                return sp.Function(node.name, real=True)(*(sympy_expression(each, self) for each in node.args))
+            raise InputError(f"{text} is not decided: {_UNDECIDED.get(node.name, 'write its components')}")
         if is_vector(node) and not is_matrix(node):
             return sp.Matrix(sp.symbols([f"[{text}]_{k}" for k in (1, 2, 3)], real=True))
         return self.names.setdefault(text, sp.Symbol(f"[{text}]", real=True))
 
 
-def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
-    """The node as a sympy expression of real letters; what is not arithmetic stands for itself."""
+# Calls without a value of sympy that is decided, and what would help.
+_OF_NABLA = "write its components"
+_UNDECIDED = {
+    "limit": "limits are not decided", "Integral": "write an integral of an explicit expression between two limits",
+    "Derivative": "write the expression that is differentiated, or give it by a premise, L = …",
+    "rate": "write the expression that is differentiated, or give it by a premise", "prime": "write the argument, V'(r)",
+    "Sum": "write the first and the last index as numbers, or without letters that bear the index",
+    "Product": "write the factors", "at": "write the value", "differential": "write a derivative or an integral",
+    "gradient": _OF_NABLA, "divergence": _OF_NABLA, "curl": _OF_NABLA, "laplacian": _OF_NABLA, "dots": "write what is left out",
+    "matmul": "write the entries of the matrices", "det": "write the entries of the matrix", "order": "write O(x^n) at the end",
+    "transpose": "write the entries of the matrix", "inverse": "write the entries of the matrix",
+    "tr": "write the entries of the matrix", "values": "write one statement each",
+    "arg": "write it by real letters", "Re": "write it by real letters", "Im": "write it by real letters",
+    "max": "write one of them", "min": "write one of them",
+    **dict.fromkeys(("sum", "product", "quotient", "power", "cross", "dot", "norm", "column", "matrix", "row"),
+                    "its parts are a vector and a number, or of different sizes, or too large"),
+}  # fmt: skip
+
+
+def sympy_expression(node: Node, opaque: Opaque) -> Any:
+    """Return the node as a sympy expression of real letters; a part that is not explicit stands for itself."""
     if isinstance(node, Number):
         return sp.Rational(node.value.numerator, node.value.denominator)
     if isinstance(node, Letter):
@@ -238,14 +255,45 @@ def sympy_expression(node: Node, opaque: Opaque) -> sp.Expr | sp.MatrixBase:
             return _CONSTANTS[node.name]
         if node.vector:
             return sp.Matrix(sp.symbols(f"{node.name}_1:4", real=True))
-        return sp.Symbol(node.name, real=True)
-    if not _transparent(node):
-        value = _evaluated(node, opaque)
-        return opaque.symbol(node) if value is None else value
+        return opaque.letters.get(node.name, sp.Symbol(node.name, real=True))
+    value = _bound(node, opaque) if node.name in _BINDING else _value(node, opaque)
+    return opaque.symbol(node) if value is None else value
+
+
+def _value(node: Call, opaque: Opaque) -> Any:
+    """Return the value of arithmetic, of a known function, of vectors and of matrices that are written out; else None."""
+    if node.name == "matrix":
+        rows = (row.args for row in node.args if isinstance(row, Call))
+        return sp.Matrix([[sympy_expression(each, opaque) for each in row] for row in rows])
+    if node.name not in _VALUES and node.name not in KNOWN:
+        return None
+    if node.name in _OF_MATRICES and any(isinstance(each, Letter) and each.matrix for each in walk(node)):
+        return None  # a matrix whose entries are not known
     parts = [sympy_expression(each, opaque) for each in node.args]
-    if _too_large(node, parts):
-        return opaque.symbol(node)
-    return _VALUES[node.name](*parts) if node.name in _VALUES else KNOWN[node.name](*parts)
+    sizes = [part.shape if isinstance(part, sp.MatrixBase) else () for part in parts]
+    if _too_large(node, parts) or not _fits(node.name, sizes):
+        return None
+    if node.name in KNOWN:
+        return KNOWN[node.name](*parts, evaluate=not any(part.has(sp.Function) for part in parts))
+    return _VALUES[node.name](*parts)
+
+
+def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
+    """Whether an operation is defined for parts of these sizes; () is the size of a number."""
+    if name == "sum":
+        return len(set(sizes)) == 1
+    if name == "product":
+        return len([size for size in sizes if size]) < 2
+    if name == "matmul":
+        inner = [size for size in sizes if size]
+        return all(a[1] == b[0] for a, b in pairwise(inner))
+    if name == "power":
+        return not sizes[1] and (not sizes[0] or sizes[0][0] == sizes[0][1])
+    if name in ("cross", "dot", "norm"):
+        return len(set(sizes)) == 1 and sizes[0][-1:] == (1,) and (name != "cross" or sizes[0][0] == 3)
+    if name in ("det", "inverse", "tr"):
+        return bool(sizes[0]) and sizes[0][0] == sizes[0][1] <= 4
+    return bool(sizes[0]) if name == "transpose" else name in ("negative", "quotient") or not any(sizes)
 
 
 def has_opaque(*values: Any) -> bool:
@@ -253,9 +301,20 @@ def has_opaque(*values: Any) -> bool:
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
+def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
+    """Return the letters with dots, and the components of vectors, with their rates."""
+    rates: dict[sp.Symbol, sp.Symbol] = {}
+    for letter in {each for node in nodes for each in walk(node)}:
+        if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
+            names = [dotted[1], *(f"{dotted[1]}_{'d' * n}ot" for n in range(1, len(dotted[2]) + 2))]
+            for end in ("_1", "_2", "_3") if letter.vector else ("",):
+                rates |= dict(pairwise(sp.Symbol(name + end, real=True) for name in names))
+    return rates
+
+
 @lru_cache(maxsize=1000)
 def _in_closed_form(integral: sp.Integral) -> sp.Expr:
-    """The value of an integral, which a section may have in many steps and with each premise; itself beyond its own bound."""
+    """Return the value of an integral, which a section may have in many steps; itself beyond its own bound."""
     try:
         return at_most(_MOST_CALLS, evaluated, integral)
     except WorkError:
@@ -263,18 +322,15 @@ def _in_closed_form(integral: sp.Integral) -> sp.Expr:
 
 
 def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
-    """The value of an integral: of the factor that its variable is in, with positive letters where signs decide on it."""
+    """Return the value of an integral, with positive letters where signs decide on it."""
     variable, low, high = integral.limits[0]
     outside, inner = integral.function.as_independent(variable, as_Add=False)
     if sp.count_ops(inner) > _MOST_INTEGRATED:
         return None
     powers = (each.exp for each in inner.atoms(sp.Pow) if each.has(variable))
     entire = not inner.has(sp.log, sp.tan) and all(exponent.is_Integer and exponent > 0 for exponent in powers)
-    if (
-        not {low, high} & {sp.oo, -sp.oo}
-        and entire
-        and (inner.free_symbols == {variable} or inner.is_polynomial(variable))
-    ):
+    finite = entire and not {low, high} & {sp.oo, -sp.oo}
+    if finite and (inner.free_symbols == {variable} or inner.is_polynomial(variable)):
         return outside * _in_closed_form(sp.Integral(inner, (variable, low, high)))
     signed = {s: sp.Symbol(s.name, positive=True) for s in sorted(integral.free_symbols, key=str)}
     inner, low, high = (each.xreplace(signed) for each in (inner, low, high))
@@ -283,71 +339,75 @@ def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
     return outside * sp.logcombine(value).xreplace({dummy: symbol for symbol, dummy in signed.items()})
 
 
-def _evaluated(node: Call, opaque: Opaque) -> Any:
-    """A determinant, a column, a sum of a few terms, the derivative or integral of an explicit expression; else None."""
-    if node.name == "det" and all(isinstance(row, Call) and row.name == "row" for row in node.args):
-        rows = [[sympy_expression(each, opaque) for each in row.args] for row in node.args if isinstance(row, Call)]
-        return sp.Matrix(rows).det() if len(rows) == len(rows[0]) <= 4 else None
-    if node.name == "column" and len(node.args) == 3 and not any(map(is_vector, node.args)):
-        return sp.Matrix([sympy_expression(each, opaque) for each in node.args])
-    if node.name == "rate" and opaque.rates is not None and isinstance(node.args[0], Call):
-        return _rate(sympy_expression(node.args[0], opaque), opaque)
-    if node.name == "at_constant":
-        return _at_constant(node, opaque)
-    if node.name not in ("Sum", "Derivative", "Integral", "at") or not isinstance(node.args[1], Letter):
+def _bound(node: Call, opaque: Opaque) -> Any:
+    """Return the value of a sum of a few terms, of the derivative or integral of an explicit expression; else None."""
+    inner = sympy_expression(node.args[0], opaque)
+    if node.name == "rate":
+        return None if isinstance(node.args[0], Letter) or opaque.rates is None else _rate(inner, opaque)
+    if not isinstance(node.args[1], Letter) or node.args[1].vector or isinstance(inner, sp.MatrixBase):
         return None
-    inner, name, rest = sympy_expression(node.args[0], opaque), node.args[1].name, node.args[2:]
-    variable = sp.Symbol(name, real=True)
-    if isinstance(inner, sp.MatrixBase) or (
-        has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner))
-    ):
+    name, ends = node.args[1].name, [sympy_expression(each, opaque) for each in node.args[2:]]
+    variable = opaque.letters.get(name, sp.Symbol(name, real=True))
+    if has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner)):
         return None
     if node.name == "at":
-        return None if len(rest) != 1 else inner.subs(variable, sympy_expression(rest[0], opaque))
-    if node.name == "Sum":
-        ends = [each.value for each in rest if isinstance(each, Number) and each.value.denominator == 1]
-        indexed = any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
-        if len(rest) != 2 or len(ends) != 2 or ends[1] - ends[0] > _MOST_ADDED or indexed:
-            return None
-        return sum((inner.subs(variable, k) for k in range(int(ends[0]), int(ends[1]) + 1)), sp.S.Zero)
+        return None if len(ends) != 1 else inner.subs(variable, ends[0])
+    if node.name in ("Sum", "Product"):
+        return _added(node, inner, variable, ends, opaque)
     others = inner.free_symbols - {variable}
-    if variable not in inner.free_symbols or (others and opaque.rates is None):
+    if (variable not in inner.free_symbols and (others or not opaque.refuses)) or (others and opaque.rates is None):
         return None
     if node.name == "Derivative":
-        order = rest[0].value if rest and isinstance(rest[0], Number) else Fraction(len(rest) + 1)
-        value = sp.diff(inner, variable, int(order)) if order.denominator == 1 and 0 < order < 20 else None
-    elif len(rest) != 2 or inner.has(sp.I):  # what is complex is not decided
+        order = ends[0] if ends else sp.S.One
+        value = sp.diff(inner, variable, int(order)) if order.is_Integer and 0 < order < 20 else None
+    elif len(ends) != 2 or inner.has(sp.I):  # what is complex is not decided
         return None
+    elif opaque.refuses:
+        return sp.Integral(inner, (variable, *ends))
     else:
-        value = _integrated(sp.Integral(inner, (variable, *(sympy_expression(each, opaque) for each in rest))), opaque)
+        value = _integrated(sp.Integral(inner, (variable, *ends)), opaque)
     opaque.fixing |= bool(others)
+    if opaque.refuses and value is not None and not value.has(sp.nan, sp.zoo):
+        return value
     return None if value is None or value.has(sp.Integral, sp.Derivative, sp.nan, sp.zoo) else value
 
 
+def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
+    """Return a sum or a product of a few terms; for a decision a sum of any length, but for letters that bear its index."""
+    name = variable.name
+    if len(ends) != 2 or ends[0].is_Integer is not True:
+        return None
+    if ends[1].is_Integer and ends[1] - ends[0] <= _MOST_ADDED:
+        numbers = range(int(ends[0]), int(ends[1]) + 1)
+        terms = [sympy_expression(_indexed(node.args[0], name, k), opaque) for k in numbers]
+        return (sp.Add if node.name == "Sum" else sp.Mul)(*terms)
+    free = not any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
+    return sp.Sum(inner, (variable, *ends)) if opaque.refuses and free and node.name == "Sum" else None
+
+
+def _indexed(node: Node, name: str, k: int) -> Node:
+    """Return a term of a sum, the index and the letters that bear it replaced: x_i by x_2."""
+    if isinstance(node, Letter):
+        stem, *index = node.name.split("_")
+        named = replace(node, name="_".join((stem, *(str(k) if part == name else part for part in index))))
+        return number(k) if node.name == name else named
+    return Call(node.name, tuple(_indexed(each, name, k) for each in node.args)) if isinstance(node, Call) else node
+
+
 def _apart(derivative: Call, inner: sp.Expr) -> bool:
-    """Whether what stands for itself are functions of other letters than the derivative's: V(r) beside a velocity."""
+    """Whether parts that stand for themselves are functions of other letters than the derivative's: V(r) and a velocity."""
     functions = {
         f"[{text_of(each)}]"
         for each in walk(derivative.args[0])
         if isinstance(each, Call)
-        and each.name not in ("Sum", "Derivative", "Integral", "at", "limit", "rate")
+        and each.name not in (*_BINDING, "limit")
         and not set(letters_of(derivative.args[1])) & set(letters_of(each))
     }
     return {symbol.name for symbol in inner.free_symbols if has_opaque(symbol)} <= functions
 
 
-def _at_constant(node: Call, opaque: Opaque) -> Any:
-    """(∂p/∂T)_V of an explicit expression in T and V; None where it is none, or V is not in it."""
-    derivative, *held = node.args
-    if not isinstance(derivative, Call) or derivative.name != "Derivative":
-        return None
-    names = {symbol.name for symbol in sympy_expression(derivative.args[0], opaque).free_symbols}
-    explicit = all(isinstance(each, Letter) and each.name in names for each in held)
-    return _evaluated(derivative, opaque) if explicit else None
-
-
 def _rate(inner: Any, opaque: Opaque) -> Any:
-    """The derivative by t along the rates of its letters, those without one held fixed; None where it has no rate."""
+    """Return the derivative by t along the rates of the letters, those without one held fixed; None where none has a rate."""
     time = sp.Symbol("t", real=True)
     rates = {**(opaque.rates or {}), time: sp.S.One}
     moving = sorted(inner.free_symbols & rates.keys(), key=str)
@@ -357,16 +417,32 @@ def _rate(inner: Any, opaque: Opaque) -> Any:
     return reduce(operator.add, [inner.diff(symbol) * rates[symbol] for symbol in moving])
 
 
+_BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
+_OF_MATRICES = ("matmul", "det", "inverse", "transpose", "tr", "power")
 _VALUES: dict[str, Any] = {
     "sum": lambda *parts: reduce(operator.add, parts),
     "product": lambda *parts: reduce(operator.mul, parts),
+    "matmul": lambda *parts: reduce(operator.mul, parts),
     "negative": operator.neg,
     "quotient": operator.truediv,
-    "power": operator.pow,
+    "power": lambda base, exponent: _raised(base, exponent),
     "cross": lambda u, v: u.cross(v),
     "dot": lambda u, v: u.dot(v),
     "norm": lambda u: sp.sqrt(u.dot(u)),
+    "column": lambda *entries: sp.Matrix(entries),
+    "transpose": lambda A: A.T,
+    "inverse": lambda A: A.adjugate() / A.det(),
+    "det": lambda A: A.det(),
+    "tr": lambda A: A.trace(),
+    "binomial": sp.binomial,
 }
+
+
+def _raised(base: Any, exponent: Any) -> Any:
+    """Return a power; sympy does not evaluate the root of a function."""
+    if isinstance(base, sp.Expr) and base.has(sp.Function) and not exponent.is_Integer:
+        return sp.Pow(base, exponent, evaluate=False)
+    return base**exponent
 
 
 def _too_large(node: Call, parts: list[Any]) -> bool:
@@ -374,31 +450,7 @@ def _too_large(node: Call, parts: list[Any]) -> bool:
     if node.name == "power" and all(isinstance(part, sp.Rational) for part in parts):
         base, exponent = parts
         return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)
-    return node.name == "factorial" and isinstance(parts[0], sp.Integer) and parts[0] > _MOST_BITS // 10
-
-
-def _transparent(node: Call) -> bool:
-    """Whether the parts of a call are looked into."""
-    vectors = [is_vector(each) for each in node.args]
-    if node.name == "sum":
-        return all(vectors) or not any(vectors)
-    if node.name == "product":
-        return sum(vectors) <= 1
-    if node.name in ("quotient", "power"):
-        return not vectors[1] and (node.name == "quotient" or not vectors[0])
-    if node.name in ("cross", "dot"):
-        return all(map(_column, node.args))
-    if node.name == "norm":
-        return _column(node.args[0])
-    return node.name == "negative" or (node.name in KNOWN and not any(vectors))
-
-
-def _column(node: Node) -> bool:
-    """Whether it is a vector of three components."""
-    if not isinstance(node, Call):
-        return isinstance(node, Letter) and node.vector
-    if node.name in ("negative", "quotient"):
-        return _column(node.args[0])
-    if node.name in ("sum", "cross"):
-        return all(map(_column, node.args))
-    return node.name == "product" and sum(map(is_vector, node.args)) == 1 and any(map(_column, node.args))
+    if node.name == "power" and isinstance(parts[0], sp.MatrixBase):
+        return not (isinstance(parts[1], sp.Integer) and 0 < parts[1] < 10)
+    numbers = node.name in ("factorial", "binomial") and all(isinstance(part, sp.Rational) for part in parts)
+    return numbers and any(abs(part) > _MOST_BITS // 10 for part in parts)

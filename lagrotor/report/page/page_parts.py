@@ -52,12 +52,11 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
 
 
 def reading_of(entry: Equation, report: Report) -> str:
-    """What was read of a source, typeset, whether it is confirmed, and what custom settled; nothing of other lines."""
+    """Return the reading of an equation of a source, typeset, and whether it is confirmed; nothing for other lines."""
     if not entry.read:
         return ""
     lines = "".join(map(typeset, typeset_lines(report.paper, entry.id)))
-    guesses = f" Guessed: {prose('; '.join(entry.guesses))}." if entry.guesses else ""
-    return f"<p>Its reading, {'confirmed' if entry.is_confirmed else 'not confirmed'}:{guesses}</p>{lines}"
+    return f"<p>Its reading, {'confirmed' if entry.is_confirmed else 'not confirmed'}:</p>{lines}"
 
 
 def erratum_entry(e: Erratum) -> str:

@@ -4,8 +4,7 @@
 # Written by `lagrotor derive`; change paper.toml, not this.
 
 # %%
-from lagrotor.paper import verdict
-from lagrotor.paper.latex.stated_system import stated
+from lagrotor.paper import stated, verdict
 
 system = stated(__file__)
 

@@ -10,10 +10,8 @@ import pytest
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.paper import Paper
-from lagrotor.paper.catalogue import Catalogue
+from lagrotor.paper.latex.init import begin_paper, confirm, declare
 from lagrotor.paper.latex.markup import read_source
-from lagrotor.paper.latex.readings import readings
-from lagrotor.paper.latex.start import begin_paper, confirm
 
 TEX = r"""\documentclass{article}
 \newcommand{\half}{\frac{1}{2}}
@@ -90,18 +88,6 @@ def test_readings_are_shown_with_orders_decimals_and_units(tmp_path: Path, capsy
     assert "g = 9.81·m·s^(−2)" in out and "O(x³)" in out and "1/2·x" in out
 
 
-def test_the_folders_of_texinputs_are_looked_into(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "style").mkdir()
-    (tmp_path / "style" / "mine.sty").write_text(r"\newcommand{\kin}{\frac12 m v^2}", encoding="utf-8")
-    (tmp_path / "text").mkdir()
-    file = tmp_path / "text" / "paper.tex"
-    head = r"\documentclass{article}\usepackage{mine}\begin{document}"
-    file.write_text(head + r"\[ T = \kin \]\end{document}", encoding="utf-8")
-    assert begin_paper(tmp_path / "without", file).read == 0
-    monkeypatch.setenv("TEXINPUTS", f".:{tmp_path / 'style'}//:")
-    assert begin_paper(tmp_path / "with", file).read == 1
-
-
 DOCUMENT = r"\documentclass{article}\begin{document}\section{One}"
 
 
@@ -125,10 +111,10 @@ def test_an_equation_before_others_without_labels_leaves_them_confirmed(tmp_path
     assert [(i, row["latex"], row["read"]) for i, row in found.items()] == [
         ("1'", "z = 0", "unconfirmed"),
         ("1", "a = 1", "confirmed"),
-        ("2", "b = 4", "unconfirmed"),
+        ("3'", "b = 4", "unconfirmed"),
         ("3", "c = 3", "confirmed"),
+        ("2", "b = 2", "gone"),
     ]
-    assert found["2"]["changed"] == "b = 2" and "changed" not in found["1'"]
 
 
 def test_a_print_that_another_label_has_is_not_taken_from_it(tmp_path: Path) -> None:
@@ -141,7 +127,7 @@ def test_a_print_that_another_label_has_is_not_taken_from_it(tmp_path: Path) -> 
     ]
 
 
-def test_titles_of_sections_move_with_them_and_those_of_the_author_stay(tmp_path: Path) -> None:
+def test_titles_of_sections_are_those_of_the_source_and_other_tables_stay(tmp_path: Path) -> None:
     made_again(tmp_path, displays("x = 1") + r"\section{Two}" + displays("y = 2"))
     about = tmp_path / "mine" / "paper.toml"
     text = about.read_text(encoding="utf-8").replace('"One"', '"Mine"').replace("[sections]", "[sections] # as printed")
@@ -152,12 +138,10 @@ def test_titles_of_sections_move_with_them_and_those_of_the_author_stay(tmp_path
     )
     notes = begin_paper(tmp_path / "mine", file).notes
     given = tomllib.loads(about.read_text(encoding="utf-8"))
-    assert list(given["sections"].items()) == [("1", "Mine"), ("2", "New"), ("3", "Two")]
-    assert '"3" = "Two"\n\n# [system]\n# L = "1"\n\n[system]' in about.read_text(encoding="utf-8"), (
-        "comments stay below"
-    )
+    assert list(given["sections"].items()) == [("1", "One"), ("2", "New"), ("3", "Two")]
+    assert '"3" = "Two"\n\n# [system]\n# L = "1"\n\n[system]' in about.read_text(encoding="utf-8")
     assert given["system"] == {"coordinates": ["q"]} and "# as printed" in about.read_text(encoding="utf-8")
-    assert notes == ('section 1 is "One", which paper.toml calls "Mine": it stays so',)
+    assert notes == ('section 1 was "Mine", which the source does not have',)
 
 
 def test_a_letter_is_declared_though_a_meaning_has_it_as_a_word(tmp_path: Path) -> None:
@@ -233,7 +217,7 @@ def test_a_label_that_two_displays_have_gives_neither_its_number(tmp_path: Path)
     source = tmp_path / "paper.tex"
     body = r"\begin{equation}\label{a} x = 1 \end{equation}\begin{equation}\label{a} y = 2 \end{equation}"
     source.write_text(rf"\documentclass{{article}}\begin{{document}}{body}\end{{document}}", encoding="utf-8")
-    source.with_suffix(".aux").write_text(r"\newlabel{a}{{2}{1}}", encoding="utf-8")
+    source.with_suffix(".aux").write_text(r"\newlabel{a}{{3}{1}}\newlabel{a}{{4}{1}}", encoding="utf-8")
     begin_paper(tmp_path / "mine", source)
     assert {row["latex"]: row["number"] for row in rows(tmp_path / "mine").values()} == {"x = 1": "1", "y = 2": "2"}
 
@@ -265,7 +249,7 @@ def test_what_is_interrupted_leaves_nothing(source: Path, tmp_path: Path, monkey
     """Half a folder was no paper, and none could be made there."""
     folder = tmp_path / "new"
     with monkeypatch.context() as patched:
-        patched.setattr("lagrotor.paper.latex.start._write_symbols", Mock(side_effect=KeyboardInterrupt))
+        patched.setattr("lagrotor.paper.latex.init._write_symbols", Mock(side_effect=KeyboardInterrupt))
         with pytest.raises(KeyboardInterrupt):
             begin_paper(folder, source)
     assert {each.name for each in tmp_path.iterdir()} == {"mine", "paper.tex"}
@@ -285,63 +269,36 @@ def test_a_notebook_of_the_older_format_is_read(tmp_path: Path) -> None:
         read_source(file)
 
 
-def test_what_the_author_says_in_notation_settles_the_mark(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_kinds_of_letters_are_proposed_and_declared_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     file, folder = tmp_path / "paper.tex", tmp_path / "mine"
-    file.write_text(TEX.replace(r"p = m v", r"p' = k(m + v)"), encoding="utf-8")
+    file.write_text(TEX.replace(r"p = m v", r"p = f(x) + g(y)"), encoding="utf-8")
     begin_paper(folder, file)
-    shown = []
-    for said in ("", '[notation]\nusual = "prime"\nletters = "k"\n', '[notation]\nusual = "prime"\nfunctions = "k"\n'):
-        about = (folder / "paper.toml").read_text(encoding="utf-8").partition("\n[notation]")[0]
-        (folder / "paper.toml").write_text(f"{about}\n{said}", encoding="utf-8")
-        assert main(["readings", str(folder)]) == 0
-        shown.append(" ".join(capsys.readouterr().out.split()))
-    first, second, third = shown
-    assert 'p with a prime is a name, and no derivative ([notation] usual = "prime")' in first
-    assert "k before ( is a factor" in first and "guessed" not in second
-    assert "reads it otherwise now: repeat init" in third
+    assert main(["notation", str(folder), "--confirm", "f", "--real", "g"]) == 0
+    shown = {tuple(line.split()[:3]) for line in capsys.readouterr().out.splitlines()}
+    assert {("f", "functions", "declared"), ("g", "real", "declared")} <= shown
+    assert any(row[1:] == ("vectors", "proposed") for row in shown)
+    about = (folder / "paper.toml").read_text(encoding="utf-8")
+    assert '[notation]\nfunctions = "f"\nreal = "g"\n' in about
+    begin_paper(folder, file)
+    assert rows(folder)["2"]["aside"] == ["p = f(x) + g*y"], "no line of the catalogue has an unknown function"
+    with pytest.raises(InputError, match="g stands in"):
+        declare(folder, {"g": "functions"})
+    assert main(["notation", str(folder), "--confirm", "q"]) == 2, "nothing is proposed for it"
 
 
-def test_delimiters_with_a_body_and_derivatives_of_commath_are_read(tmp_path: Path) -> None:
+def test_paired_delimiters_and_derivatives_of_commath_are_read(tmp_path: Path) -> None:
     (file := tmp_path / "paper.tex").write_text(
-        r"\documentclass{article}\usepackage{mathtools,commath}\DeclarePairedDelimiterX{\ip}[2]{(}{)}{#1 \delimsize| #2}"
+        r"\documentclass{article}\usepackage{mathtools,commath}\DeclarePairedDelimiter{\ip}{(}{)}"
         r"\DeclarePairedDelimiter\br{[}{]}\newrobustcmd{\q}[1]{\mathbf{#1}}\begin{document}"
-        r"\[ \ip{a}{b} + \ip*{a}{b} = \ip[\big]{a}{b} \br{x}\q{z} \] \[ \dpd[2]{f}{x}{y} + \od{g}{t} = \abs{a} \]\end{document}"
+        r"\[ \ip{a} + \ip*{a} = \ip[\big]{a} \br{x}\q{z} \] \[ \dpd[2]{f}{x}{y} + \od{g}{t} = \abs{a} \]\end{document}"
     )
-    pair = r"\left(a | b\right)"
+    pair = r"\left(a\right)"
     assert [each.latex for each in read_source(file).equations] == [
         rf"{pair} + {pair} = {pair} \left[x\right]\mathbf{{z}}",
         r"\frac{\partial^{2} f}{\partial x^{2}}{y} + \frac{\mathrm{d} g}{\mathrm{d} t} = \left| a \right|",
     ]
-
-
-@pytest.mark.parametrize(
-    ("said", "subject"),
-    [
-        ("The gas radon decays: radon enters a house, and radon leaves it.", ""),
-        ("Take a Radon measure, the Radon measure of a set, and Radon measures.", "measures"),
-        ("The sum of vectors is associative, that of forces is associative, and their product is associative.", ""),
-        ("由动量定理和能量定理可以证明粒子的速度不变。", ""),
-        ("由引理和定理可以证明此推论。", "proofs"),
-        ("取子群的陪集和同态。", "groups"),
-        ("An associative product with an identity element and two cosets of a subgroup.", "groups"),
-    ],
-)
-def test_words_that_texts_of_physics_use_too_tell_no_subject(said: str, subject: str, tmp_path: Path) -> None:
-    (tmp_path / "paper.tex").write_text(rf"{said} \[ a b = c \]", encoding="utf-8")
-    assert [each.subject for each in read_source(tmp_path / "paper.tex").equations] == [subject]
-
-
-def test_what_a_chapter_is_about_is_kept_beside_its_equations(tmp_path: Path) -> None:
-    text = r"Let \(H\) be a subgroup of a group, and take cosets of \(H\) and a homomorphism. \[ a b = c \]"
-    waves = text.replace("coset", "length").replace("subgroup", "part").replace("homomorphism", "velocity")
-    for name, said in (("groups", text), ("waves", waves)):
-        (tmp_path / f"{name}.tex").write_text(said, encoding="utf-8")
-        begin_paper(tmp_path / name, tmp_path / f"{name}.tex")
-    of_groups, of_waves = (next(readings(Catalogue(tmp_path / name))) for name in ("groups", "waves"))
-    assert rows(tmp_path / "groups")["0a"]["subject"] == "groups" and of_groups.guesses and not of_waves.guesses
-    file = tmp_path / "groups" / "paper.toml"
-    file.write_text(file.read_text(encoding="utf-8") + '\n[notation]\nusual = "groups"\n', encoding="utf-8")
-    assert not next(readings(Catalogue(tmp_path / "groups"))).guesses, "the author says that they are numbers"
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,6 @@
 """Whether two printed sides agree: at points in floating point, then exactly; with a bound on the work."""
 
-import cmath
-import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from itertools import islice
 from random import Random
 from typing import Any
@@ -21,41 +19,33 @@ _LIGHT = {"sum", "product", "quotient", "power", "negative", "sqrt", "rate", "De
 _LIGHT |= {"sin", "cos", "tan", "cot", "exp", "log", "sinh", "cosh", "tanh", "coth"}
 # The degree and the calls of functions, a few seconds, beyond which a step is not decided.
 _MOST_DEGREE, MOST_CALLS = 1000, 3_000_000
-LARGE = "undecided", "the difference is too large"
-LARGEST = 1e300  # of numbers that are compared
-# Points at which two sides are evaluated until both are real; what a sum must keep of its terms for floats to have it.
+TOO_LARGE = "the difference is too large"
+LARGEST = 1e300  # numbers that are compared
+# Points at which two sides are evaluated until both are real, and the share of its terms below which a sum is rounding.
 _MOST_POINTS, _UNCANCELLED = 16, 1e-6
-_IN_FLOATS = {
-    **{getattr(sp, name): getattr(cmath, name) for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")},
-    **{getattr(sp, name): getattr(cmath, name) for name in ("asin", "acos", "atan", "asinh", "acosh", "atanh")},
-    sp.Abs: abs,
-    sp.cot: lambda z: 1 / cmath.tan(z),
-    sp.coth: lambda z: 1 / cmath.tanh(z),
-}
+
+_step: Calls | None = None  # the calls that are left to the step that is being decided
 
 
-_step: Calls | None = None  # what is left to the step that is being decided
-
-
-def bounded(work: Callable[..., Any], *arguments: Any) -> Any:
-    """What it gives; that it is too large beyond the bound on the work of a step."""
+def bounded(work: Callable[..., Any], *arguments: Any, too_large: Any = None) -> Any:
+    """Return work(*arguments), or `too_large` beyond the bound on the work of a step."""
     global _step
     before, _step = _step, Calls(MOST_CALLS)
     try:
         return work(*arguments)
     except (WorkError, RecursionError):
-        return LARGE
+        return too_large
     finally:
         _step = before
 
 
 def counted(work: Callable[..., Any], *arguments: Any) -> Any:
-    """A part of a step whose work does not show in the size of what it is given."""
+    """Return work(*arguments), whose calls count for the step that is being decided."""
     return work(*arguments) if _step is None else at_most(_step, work, *arguments)
 
 
 def expression_of(node: Node, opaque: Opaque) -> Any:
-    """The node as a sympy expression; None where it has none."""
+    """Return the node as a sympy expression; None where it has none."""
     parts = list(islice(walk(node), _FEW + 1))
     calls = [each for each in parts if isinstance(each, Call)]
     times = (n.value for each in calls if each.name == "Derivative" for n in each.args[2:] if isinstance(n, Number))
@@ -67,16 +57,17 @@ def expression_of(node: Node, opaque: Opaque) -> Any:
 
 
 def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
-    """The value at a point; nan beyond what floats hold."""
+    """Return the value at a point; nan beyond the range of floats."""
     entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
     try:
         value = counted(sp.N, entry.xreplace(point), 15)
         return value if abs(complex(value)) < LARGEST else sp.nan
-    except (ArithmeticError, ValueError, TypeError):
+    except (ArithmeticError, AttributeError, ValueError, TypeError):
         return sp.nan
 
 
 def nearly_equal(a: Any, b: Any) -> bool:
+    """Return whether two numbers agree within rounding."""
     try:
         return bool(abs(a - b) <= 1e-9 * (abs(a) + abs(b)))
     except TypeError:
@@ -84,78 +75,39 @@ def nearly_equal(a: Any, b: Any) -> bool:
 
 
 def may_agree(a: Any, b: Any) -> bool:
-    """Whether no point is known where two expressions are real numbers that differ: only then is it worth deciding exactly.
-
-    Where neither is real at any point, they are compared as complex numbers.
-    """
+    """Return whether no point is known at which two expressions are real and differ: only then is the exact decision tried."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
         return True
     symbols = sorted(a.free_symbols | b.free_symbols, key=str)
-    random, differ = Random(len(symbols)), False
+    random = Random(len(symbols))
     for trial in range(_MOST_POINTS):
         point = {s: sp.Rational(2 * n + 4 * trial + 3, 5 * n + 7) for n, s in enumerate(symbols)}
-        if trial > 2:  # of any sign and size: a root of what is negative is real there
+        if trial > 2:  # of any sign and size: a root of a negative number may be real there
             point = {s: sp.Rational(random.randrange(-99, 100, 2), random.choice((7, 80))) for s in symbols}
-        numbers = {s: float(value) for s, value in point.items()}
-        values = _float(a, numbers), _float(b, numbers)
-        if complex in map(type, values):
-            if None not in values:
-                if nearly_equal(*values):
-                    return True
-                differ = True
-            continue
-        if None not in values:
-            return nearly_equal(*values)
         values = value_at(a, point), value_at(b, point)
         if all(value.is_real and value.is_finite for value in values):
             return nearly_equal(*values)
-    return not differ
-
-
-def _float(e: Any, point: dict[sp.Symbol, float]) -> Any:
-    """The value in floats, a complex number where it is not real; None where digits cancel or floats do not hold it."""
-    try:
-        value = _evaluated(e, point)
-        return value if abs(value) < LARGEST else None
-    except (ArithmeticError, ValueError, TypeError, KeyError):
-        return None
-
-
-def _evaluated(e: Any, point: dict[sp.Symbol, float]) -> Any:
-    if not e.args:
-        return point[e] if e.is_Symbol else _real_or_complex(complex(e))
-    values = [_evaluated(part, point) for part in e.args]
-    if e.is_Add:
-        total = sum(values)
-        if abs(total) < _UNCANCELLED * max(map(abs, values)):
-            raise ArithmeticError
-        return total
-    if e.is_Mul:
-        return math.prod(values)
-    return values[0] ** values[1] if e.is_Pow else _real_or_complex(_IN_FLOATS[type(e)](values[0]))
-
-
-def _real_or_complex(value: complex) -> complex:
-    return value if value.imag else value.real
+    return True
 
 
 def is_large(*sides: Any) -> bool:
-    """Whether a degree is beyond what sums of polynomials are multiplied out to."""
+    """Return whether a degree is beyond the products that are multiplied out."""
     entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
     return any(degree(e) > _MOST_DEGREE for e in entries)
 
 
 def agree(a: Any, b: Any) -> bool:
+    """Return whether two sides are proved equal."""
     return may_agree(a, b) and decided(a, b) == "zero"
 
 
 def decided(a: Any, b: Any) -> str:
-    """zero, nonzero or undecided; shape where one side is a vector and the other is not."""
+    """Return zero, nonzero or undecided; shape where one side is a vector and the other is not."""
     matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
-    if any(matrices) and not all(matrices):
-        return "zero" if not any(matrices) else "shape" if sp.S.Zero not in (a, b) else _all(a if matrices[0] else b)
     if all(matrices):
         return _all(a - b) if a.shape == b.shape else "shape"
+    if any(matrices):
+        return _all(a if matrices[0] else b) if sp.S.Zero in (a, b) else "shape"
     return _single(a, b)
 
 
@@ -170,24 +122,23 @@ def _single(a: Any, b: Any) -> str:
     if a == b and radicands(a):  # also where its roots are real nowhere
         return "zero"
     try:
-        found = counted(decide_equal, a, b, [sp.Gt(each, 0) for each in radicands(a, b)])
+        decision = counted(decide_equal, a, b, [sp.Gt(each, 0) for each in radicands(a, b)])
     except WorkError:
         raise
     except (LagrotorError, TypeError, ValueError, ArithmeticError):
         return "undecided"
-    return "undecided" if found.partly else found.answer
+    return "undecided" if decision.partly else decision.answer
 
 
 def radicands(*sides: Any) -> set[Any]:
-    """What roots are taken of. Sides are compared where it is positive: √(x/y) = 1/√(y/x), which at x = −1 are i and −i."""
+    """Return the bases of roots. Sides are compared where these are positive: √(x/y) = 1/√(y/x) has i and −i at x = −1."""
     roots = (each for side in sides for each in side.atoms(sp.Pow) if each.exp.is_Rational and not each.exp.is_Integer)
     return {each.base for each in roots if each.free_symbols}
 
 
-def agree_for_positive(a: Any, b: Any, negative: Collection[str] = ()) -> bool:
-    """Whether two sides with roots or magnitudes, as √(x²) = x, agree for positive letters; negative: those that are not."""
+def agree_for_positive(a: Any, b: Any) -> bool:
+    """Return whether two sides with roots or magnitudes, as √(x²) = x, agree where all letters are positive."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or not (radicands(a, b) or (a - b).has(sp.Abs)):
         return False
-    letters = a.free_symbols | b.free_symbols
-    positive = {each: sp.Symbol(each.name, positive=True) for each in letters}
-    return not any(each.name in negative for each in letters) and agree(a.subs(positive), b.subs(positive))
+    positive = {each: sp.Symbol(each.name, positive=True) for each in a.free_symbols | b.free_symbols}
+    return agree(a.subs(positive), b.subs(positive))

@@ -1,0 +1,888 @@
+r"""The reader of expressions: a row of boxes as a tree of sums, products, functions, derivatives and integrals.
+
+The reader takes nothing for granted that the print leaves open: a letter before a bracket is a function where the notation
+declares it, x(t) is the coordinate x, and a sum in brackets is a factor. Every other sign that may mean two things stops the
+reading with the entry of [notation], or the way of writing, that would settle it.
+"""
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+
+from lagrotor.paper.latex.boxes import (
+    BIG,
+    FUNCTIONS,
+    GREEK,
+    Box,
+    FormulaError,
+    all_boxes,
+    index_of,
+    is_derivative,
+    is_mark,
+    is_printed_as_vector,
+    name_of,
+    parted,
+    stem_of,
+    strip,
+)
+from lagrotor.paper.latex.notation import Notation, has_kind, is_evident_argument
+from lagrotor.paper.latex.tree import (
+    CONDITIONS,
+    Call,
+    Letter,
+    Node,
+    Number,
+    is_matrix,
+    is_printed_zero,
+    is_vector,
+    number,
+    product_of,
+)
+
+_UNIT_NAMES = (
+    "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr kHz MHz GHz kPa MPa GPa kN kJ "
+    "kW MW mV kV mA nF pF mH mT deg Ohm Nm µm"
+)
+UNITS = frozenset(_UNIT_NAMES.split())
+_UNIT_PARTS = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s·]")
+_NO_NAMES = "sin cos tan exp log ln det max min lim cot sinh cosh tanh const var"
+_WORDS = frozenset(_NO_NAMES.split())
+_MOST_DIGITS = 1000
+_INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
+_BRACKETED = ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")  # functions of what stands in brackets
+_ANGLES = ("theta", "phi", "varphi", "psi", "vartheta", "chi", "alpha", "beta", "gamma")
+_LAST = ("t", "tau", "x", "y", "z", "s")  # in which the argument of a sine without brackets ends
+_LABELS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
+_TRANSPOSES = ("T", "top", "intercal")
+# Letters that may be functions before a sum in brackets.
+_NO_FACTORS = ("delta", "Delta", "Gamma", "zeta", "f", "F", "U", "V", "phi", "psi", "Phi", "Psi")
+_NAMES = {
+    "lbrace": r"\{",
+    "rbrace": r"\}",
+    "vert": "|",
+    "lvert": "|",
+    "rvert": "|",
+    "lVert": r"\|",
+    "rVert": r"\|",
+    "Vert": r"\|",
+}
+_ROUND = ("(", "[", r"\{")
+_SETTLED = ("functions", "vectors", "matrices", "indices", "complex", "positive", "real")
+
+
+class Grammar:
+    """The reader of one formula in the notation of its paper.
+
+    bound: the indices of the sums that are open. alone: names of the letters that stand in no index; indices: of those that do.
+    """
+
+    def __init__(self, source: str, notation: Notation, alone: frozenset[str], indices: frozenset[str]) -> None:
+        self.source, self.notation, self.alone, self.indices = source, notation, alone, indices
+        self.bound: list[str] = []
+
+    def _open(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
+        """Return the stop at a letter, with the entries of [notation] that would settle what it is."""
+        entries = " or ".join(f'{kind} = "{stem_of(box)}"' for kind in kinds)
+        return FormulaError(f"whether {what} is open", f"write in paper.toml [notation] {entries}" if kinds else way)
+
+    def _text(self, first: Box, last: Box | None = None) -> str:
+        return self.source[first.at : (last or first).end]
+
+    def _kind(self, box: Box, *kinds: str) -> bool:
+        """Whether the notation declares a letter to be one of these kinds."""
+        return any(has_kind(self.notation, kind, box) for kind in kinds)
+
+    def _each(self, row: list[Box]) -> tuple[Node, ...]:
+        """Return what stands between the commas of a row."""
+        return tuple(map(self.expression, parted(row, "comma")))
+
+    # ---- sums and products
+
+    def expression(self, row: list[Box]) -> Node:
+        """Return the sum that a row of boxes is. Raises FormulaError where it is none."""
+        row = _paired(strip(row))
+        terms: list[tuple[str, list[Box]]] = [("+", [])]
+        integrals = 0
+        for place, box in enumerate(row):
+            integrals += _opens_integral(box) - (integrals > 0 and _closes_integral(row, place))
+            if box.kind == "operator" and box.name in ("pm", "mp"):
+                raise FormulaError(f"\\{box.name} stands for two signs", "write two statements, one for each sign")
+            if box.kind == "operator" and box.name in ("+", "-") and not integrals:
+                if not terms[-1][1] and place:
+                    raise FormulaError("two signs follow each other", "write brackets around the second")
+                terms = [*terms, (box.name, [])] if place else [(box.name, [])]
+            else:
+                terms[-1][1].append(box)
+        if not terms[-1][1]:
+            raise FormulaError("nothing follows the sign" if row else "nothing stands here", "write what is meant")
+        made = [Call("negative", (self.term(part),)) if sign == "-" else self.term(part) for sign, part in terms]
+        if len(made) == 1:
+            return made[0]
+        _check_sums([part for _, part in terms])
+        if len({(is_vector(each), is_matrix(each)) for each in made if not _is_any_kind(each)}) > 1:
+            raise FormulaError("a vector and a number are added", "declare the vectors in [notation]")
+        return Call("sum", tuple(made))
+
+    def term(self, row: list[Box]) -> Node:
+        """Return the product that a row of boxes is, its groups joined by signs."""
+        row = _folded(strip(row))
+        groups: list[tuple[str, list[Node], list[Box]]] = [("", [], [])]
+        place = 0
+        while place < len(row):
+            box, (sign, factors, part) = row[place], groups[-1]
+            if box.kind == "operator" and box.name in ("cdot", "times", "/", "*"):
+                if not factors:
+                    raise FormulaError(f"nothing stands before {box.name}", "write the first factor")
+                groups.append((box.name, [], []))
+                place += 1
+                continue
+            if factors and sign == "/":
+                raise FormulaError("what the slash divides by is open", r"write \frac or brackets")
+            _check_neighbours(row, place, part[-1] if part else None)
+            node, behind = self.factor(row, place)
+            factors.append(node)
+            part += row[place:behind]
+            place = behind
+        if not groups[-1][1]:
+            raise FormulaError("nothing follows the sign", "write the second factor")
+        made: Node | None = None
+        for sign, factors, part in groups:
+            if len(factors) > 1 and any(isinstance(each, Call) and each.name == "order" for each in factors):
+                raise FormulaError("whether O(…) beside a factor is an order is open", r"write \cdot for a product")
+            right = _product(factors)
+            made = right if made is None else self._joined(made, sign, right, part[0])
+        assert made is not None
+        return made
+
+    def _joined(self, made: Node, sign: str, right: Node, first: Box) -> Node:
+        """Return two factors joined by a sign; first: the box behind the sign."""
+        before = self.source[: first.at].rstrip()
+        if sign == "/":
+            return self._divided(made, right, first, before)
+        vectors = is_vector(made), is_vector(right)
+        if all(vectors) and not (is_matrix(made) or is_matrix(right)):
+            if sign == "*":
+                raise FormulaError("two vectors are multiplied by *", r"write \cdot or \times")
+            chain = sign == "times" and isinstance(made, Call) and made.name == "cross"
+            if chain and not re.search(r"[)\]]\s*\\times$", before):
+                raise FormulaError("which × comes first is open", "write brackets")
+            return Call("dot" if sign == "cdot" else "cross", (made, right))
+        if all(vectors):
+            if sign == "times":
+                raise FormulaError("× stands between matrices", "write them side by side")
+            return _product([made, right])
+        other = right if vectors[0] else made if vectors[1] else None
+        if sign == "cdot" and isinstance(other, Call) and other.name not in (*_SCALARS, *FUNCTIONS.values()):
+            raise FormulaError(f"whether {other.name} is a vector is open", "write it without the dot")
+        if sign == "times" and not (_is_numeric(made) or _is_numeric(right)):
+            way = r"declare the vectors in [notation], or write \cdot"
+            raise FormulaError("whether × is of vectors or of numbers is open", way)
+        return product_of([made, right])
+
+    def _divided(self, made: Node, right: Node, first: Box, before: str) -> Node:
+        if first.upright and first.name in UNITS:
+            raise FormulaError(f"whether upright {first.name} is a unit is open", r"write \mathrm{m/s}")
+        if is_vector(right):
+            raise FormulaError("a vector is divided by", "write its length")
+        last = made.args[-1] if isinstance(made, Call) and made.name == "product" else made
+        last = last.args[0] if isinstance(last, Call) and last.name == "power" else last
+        if isinstance(last, Call) and last.name in _OPEN_ENDED and before.rstrip(" /")[-1:] not in ")]}":
+            raise FormulaError("whether the slash is within the function is open", "write brackets")
+        return Call("quotient", (made, right))
+
+    def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
+        """Return one factor and the place behind it."""
+        box = row[place]
+        named = box.kind == "letter" and box.upright and len(box.name) > 1 and box.name in FUNCTIONS and not box.marks
+        read = Grammar._function if named else _FACTORS.get(box.kind)
+        if box.sub is not None and box.kind not in ("letter", "function", "big", "partial") and box.closing != "|":
+            raise FormulaError(f"an index stands at {self._text(box)}", "write it on a letter")
+        if box.kind in _SIMPLE:
+            node, behind = self.power(_SIMPLE[box.kind](self, box), box), place + 1
+        elif read is not None:
+            node, behind = read(self, row, place)
+        else:
+            way = "write one statement for each case" if box.kind == "cases" else "write what it stands for"
+            raise FormulaError(f"{self._text(box)} is not read here", way)
+        if behind < len(row) and row[behind].name == "!":
+            if box.kind == "function" or [b.name for b in row[behind + 1 : behind + 2]] == ["!"]:
+                raise FormulaError("what ! belongs to is open", "write brackets, or the product")
+            node, behind = Call("factorial", (node,)), behind + 1
+        return node, behind
+
+    # ---- letters
+
+    def letter(self, box: Box) -> Letter:
+        """Return the letter without its power. Raises FormulaError where its kind is not declared."""
+        if self._kind(box, "operators"):
+            raise FormulaError(f"{stem_of(box)} is an operator", "products with operators are not read")
+        dots = [mark.endswith("dot") for mark in box.marks]
+        if dots != sorted(dots):
+            raise FormulaError(f"a mark stands over the dot of {box.name}", "give the rate a letter")
+        if "hat" in box.marks and box.name.isupper() and not self._kind(box, *_SETTLED):
+            raise self._open(box, f"{stem_of(box)} is an operator or a letter", "operators", "vectors", "real")
+        matrix = self._kind(box, "matrices")
+        vector = matrix or self._kind(box, "vectors")
+        if is_printed_as_vector(box) and not vector:
+            raise self._open(box, f"{stem_of(box)} is a vector or a matrix", "vectors", "matrices")
+        return Letter(name_of(box, index_of(box), self._label(box)), vector, matrix)
+
+    def _label(self, box: Box) -> list[str]:
+        """Return what a superscript adds to the name of a letter; nothing where the superscript is a power."""
+        if not box.sup or len(box.sup) > 1 or box.kind != "letter":
+            return []
+        only = box.sup[0]
+        if only.kind == "operator" and only.name in _LABELS:
+            return [_LABELS[only.name]]
+        if only.kind == "bracket" and only.name == "(" and len(only.parts[0]) == 1 and not self._kind(box, "functions"):
+            inner = only.parts[0][0]
+            return [inner.name] if inner.kind in ("number", "letter") and not (inner.sup or inner.sub) else []
+        upright = only.upright and (len(only.name) > 1 or only.name not in (*_TRANSPOSES, "d", "e", "i"))
+        worded = only.kind == "text" and only.name.isalnum()
+        return [only.name] if worded or (only.kind == "letter" and upright) else []
+
+    def _letter(self, row: list[Box], place: int) -> tuple[Node, int]:
+        box, after = row[place], row[place + 1] if place + 1 < len(row) else None
+        kind = after.kind if after else ""
+        if not (box.marks or box.style or box.sub or box.primes):
+            made = self._sign(row, place, after)
+            if made is not None:
+                return made
+        varies = box.name == "delta" and bool(box.sub) and "".join(b.name for b in box.sub or ()) in "xyzt"
+        word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
+        if word or (varies and kind == "letter") or (box.name == "d" and box.upright and box.primes):
+            way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
+            raise self._open(box, f"{box.name} acts on what follows", way=way)
+        if after is not None and kind == "bracket" and _plain(after.name) in _ROUND:
+            applied = self._applied(box, after)
+            if applied is not None:
+                return applied, place + 2
+        node: Node = self.letter(box)
+        if box.primes and self._kind(box, "functions"):
+            if self._kind(box, "proposed"):
+                raise self._open(box, f"{self._text(box)} is a derivative or another letter", "functions", "real")
+            node = self.letter(replace(box, primes=0))
+            if is_vector(node):
+                raise self._open(box, f"{self._text(box)} is a derivative or another vector", "vectors")
+            for _ in range(box.primes):
+                node = Call("prime", (node,))
+        return self.power(node, box), place + 1
+
+    def _sign(self, row: list[Box], place: int, after: Box | None) -> tuple[Node, int] | None:
+        """Return a letter that is a sign, e, i, π, d and Δ; None where it is a letter like others."""
+        box, name, number_ = row[place], row[place].name, self._kind(row[place], "numbers")
+        settled, kind = self._kind(box, *_SETTLED), after.kind if after else ""
+        if name == "e" and (number_ or box.upright):
+            return Call("exp", (self.expression(box.sup) if box.sup else number(1),)), place + 1
+        if name == "e" and not settled and any(b.kind in ("letter", "infinity") for b in all_boxes(box.sup or ())):
+            raise self._open(box, "e is Euler's number", "numbers", "real")
+        if name in ("i", "j") and name not in self.bound:
+            if number_ or (box.upright and name == "i"):
+                return self.power(Letter("imaginary_unit"), box), place + 1
+            if name == "i" and not settled:
+                raise self._open(box, "i is the imaginary unit", "numbers", "indices", "real")
+        if name == "pi" and self._kind(box, "functions") and kind != "bracket":
+            raise self._open(box, "pi is the number or a quantity", way="give the quantity an index")
+        if name == "pi" and not settled:
+            return self.power(Letter("pi"), box), place + 1
+        if settled or after is None or kind in ("operator", "comma", "dots", "percent"):
+            return None
+        if name in ("Delta", "delta"):
+            return None if box.sup else self._difference(row, place)
+        if name == "d" and kind in ("letter", "bracket", "group", "partial"):
+            raise FormulaError("d stands before a letter", r"write \cdot for a product, or a derivative or an integral")
+        return None
+
+    def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
+        r"""Read \Delta x as one letter."""
+        box, after = row[place : place + 2]
+        damping = box.name == "delta" and ((place and row[place - 1].kind == "number") or name_of(after) == "t")
+        if after.kind != "letter" or stem_of(box) in self.alone or damping:
+            raise self._open(box, f"\\{box.name} is a factor or acts on what follows", "functions", "real")
+        letter = self.letter(after)
+        letter = replace(letter, name=f"{box.name}_{letter.name}")
+        behind = row[place + 2] if place + 2 < len(row) else None
+        if behind is None or behind.kind != "bracket":
+            return self.power(letter, after), place + 2
+        if [(b.name, b.sub) for b in behind.parts[0]] != [("t", None)] or behind.sup:
+            raise self._open(after, f"\\{box.name} {after.name} is a function or a factor", "functions")
+        return self.power(letter, after), place + 3
+
+    def _applied(self, box: Box, bracket: Box) -> Node | None:
+        """Return a letter as a function of the bracket behind it, x for x(t); None where it is a factor."""
+        content, name = bracket.parts[0], stem_of(box)
+        if name in ("O", "Ocal") and not (box.sub or box.sup):
+            return Call("order", (self.expression(content),))
+        if self._kind(box, "real", "positive", "complex"):
+            return None
+        if self._kind(box, "functions") and (not self._kind(box, "proposed") or is_evident_argument(box, bracket)):
+            return self._call(box, bracket)
+        time = [(b.kind, b.name, b.sup, b.sub, b.primes) for b in content] == [("letter", "t", None, None, 0)]
+        if bracket.name == "(" and time and "t" not in self.bound:
+            return self.power(self.power(self.letter(box), box), bracket)
+        bars = bool(content) and content[0].name in ("|", "||")  # V(|x - y|)
+        adds = not bars and any(b.kind == "operator" and b.name in ("+", "-") for b in content[1:])
+        late = any([b.name for b in part] == ["t"] for part in parted(content, "operator"))  # x(t - \tau)
+        derived = [b.kind for b in content] == ["fraction"] and bool(bracket.sup or is_derivative(content[0]))
+        listed = any(b.kind in ("comma", "relation") for b in content)
+        if (adds or derived) and not (late or listed) and name not in _NO_FACTORS and not self._kind(box, "proposed"):
+            return None
+        raise self._open(box, f"{self._text(box)} before {bracket.name} is a function or a factor", "functions", "real")
+
+    def _call(self, box: Box, bracket: Box) -> Node:
+        """Return a declared function of its arguments; of V'(r) the derivative."""
+        held, above = bracket.parts[0], box.sup or []
+        derived = any(b.kind == "partial" or is_derivative(b) for b in held) or any(map(self._moves, held[1:]))
+        itself = len(held) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in held)
+        if (derived or itself) and not any(b.kind == "comma" for b in held):
+            raise self._open(box, f"{stem_of(box)} is a factor here")
+        if [b.name for b in above] == ["-", "1"] or any(b.kind in ("bracket", "letter") for b in above):
+            way = "write brackets around what is raised, or another letter"
+            raise self._open(box, f"{self._text(box)} has a power", way=way)
+        if bracket.sub:
+            raise FormulaError("an index stands at a bracket", "write it on a letter")
+        named, arguments = self.letter(replace(box, primes=0)), self._each(held)
+        if named.vector and not named.name.split("_")[0].endswith(("bold", "vec")):
+            raise FormulaError(f"{named.name} is a vector and a function", "print it in bold")
+        if box.primes and len(arguments) == 1 and isinstance(arguments[0], Letter):
+            made = _derived(Call(named.name, arguments), arguments[0], box.primes)
+        else:
+            made = Call(name_of(box, index_of(box)) if box.primes else named.name, arguments)
+        return self.power(self.power(made, box), bracket)
+
+    # ---- powers
+
+    def power(self, node: Node, box: Box) -> Node:
+        """Return the node to the power that its box has."""
+        if box.sup is None or self._label(box):
+            return node
+        if not box.sup:
+            raise FormulaError("a power is empty", "write it")
+        only = box.sup[0].name if len(box.sup) == 1 and box.sup[0].kind == "letter" else ""
+        if only in _TRANSPOSES and (is_vector(node) or only != "T" or isinstance(node, Letter)):
+            if not is_vector(node):
+                raise self._open(box, f"{self._text(box)} is transposed or has a power", "matrices", "real")
+            return Call("transpose", (node,))
+        self._check_power(box, box.sup)
+        power = self.expression(box.sup)
+        if is_matrix(node):
+            if power == Call("negative", (number(1),)):
+                return Call("inverse", (node,))
+            if not isinstance(power, Number):
+                raise FormulaError("a matrix has a power that is no number", "write the product")
+        elif is_vector(node):
+            if power != number(2):
+                raise FormulaError("a vector has a power", "write its length")
+            return Call("dot", (node, node))
+        half = power == Call("quotient", (number(1), number(2)))
+        return Call("sqrt", (node,)) if half else Call("power", (node, power))
+
+    def _check_power(self, box: Box, row: list[Box]) -> None:
+        """Raise FormulaError for marks and upper indices that stand where a power does."""
+        text, letters = self._text(row[0], row[-1]), [b for b in row if b.kind == "letter"]
+        text = text[1:-1] if text[0] == "{" else text
+        if any(b.kind in ("text", "relation", "comma") or b.primes or b.name in ("dagger", "prime", "*") for b in row):
+            raise FormulaError(f"{text} stands where a power does", "write it as an index")
+        if row[0].kind == "bracket" and len(row) == 1:
+            raise FormulaError("whether a number in brackets is a power is open", "write a power without them")
+        if box.kind != "letter":
+            return
+        if [b.name for b in row] in (["0"], ["e"]):
+            raise FormulaError(f"whether {text} is an upper index or a power is open", "write the index below")
+        unsettled = [b for b in letters if not self._kind(b, "positive", "complex", "real")]
+        lowered = {"mu", "nu", *(self.indices - self.alone)}
+        upper = any(b.name in lowered or self._kind(b, "indices") for b in unsettled)
+        below = bool(unsettled) and any(b.kind == "letter" for b in box.sub or ())
+        if len(letters) == len(row) > 1 or upper or below:
+            raise self._open(letters[0], f"{text} is an upper index or a power", "real")
+
+    # ---- numbers
+
+    def _number(self, row: list[Box], place: int) -> tuple[Node, int]:
+        box, behind = row[place], place + 1
+        node: Node = Number(self._value(box.name))
+        after = row[behind] if behind < len(row) else box
+        if after.upright and after.name not in (*UNITS, *FUNCTIONS, "d", "e", "i"):
+            raise FormulaError(f"upright {after.name} behind a number is no known unit", "write it in italics")
+        if box.sup and [b.name for b in box.sup] in (["circ"], ["degree"], ["o"]):
+            if after.name in ("C", "F"):
+                raise FormulaError(f"a temperature in degrees {after.name} is not read", "write it in K")
+            return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
+        node = self.power(node, box)
+        if after.kind == "percent":
+            return Call("quotient", (node, number(100))), behind + 1
+        if after.kind == "unit" or (after.kind == "text" and is_unit(after.name)):
+            return product_of([node, _unit(after.name)]), behind + 1
+        factors = [node]
+        while behind < len(row) and row[behind].upright and row[behind].name in UNITS and row[behind].sub is None:
+            factors.append(self.power(Letter(f"unit_{row[behind].name}"), row[behind]))
+            behind += 1
+        return product_of(factors), behind
+
+    def _value(self, text: str) -> Fraction:
+        if len(text) > _MOST_DIGITS:
+            raise FormulaError(f"{text[:12]}…: a number has more than {_MOST_DIGITS} digits", "give it a letter")
+        whole, *groups = text.split("{,}")
+        thousands = whole != "0" and all(len(each.partition(".")[0]) == 3 for each in groups)
+        if not groups or (thousands and not self.notation.decimal_comma):
+            return Fraction(whole + "".join(groups))
+        if len(groups) > 1 or "." in text:
+            raise FormulaError(f"{text} is no number", "write a decimal point")
+        return Fraction(f"{whole}.{groups[0]}")
+
+    # ---- functions by name
+
+    def _function(self, row: list[Box], place: int) -> tuple[Node, int]:
+        box, name = row[place], FUNCTIONS.get(row[place].name, row[place].name)
+        inner, behind = self._argument(row, place)
+        if behind < len(row) and row[behind].kind == "bracket" and [b.name for b in row[behind].parts[0]] == ["t"]:
+            raise FormulaError(f"where the argument of {box.name} ends is open", "write it in brackets")
+        above = [b.name for b in box.sup or ()]
+        if box.sub is not None and name != "log":
+            raise FormulaError(f"{box.name} has an index", "write what it means")
+        if above == ["-", "1"] and name in _INVERSE:
+            return Call(_INVERSE[name], inner), behind
+        if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
+            raise self._open(box, f"{box.name} has a mark or a power", way="write brackets around what is raised")
+        made = Call(name.lower() if name == "Tr" else name, inner)
+        if name == "log10" or (name == "log" and box.sub):
+            base = self.expression(box.sub) if box.sub else number(10)
+            made = Call("quotient", (Call("log", inner), Call("log", (base,))))
+        return Call("power", (made, self.expression(box.sup))) if box.sup else made, behind
+
+    def _argument(self, row: list[Box], place: int) -> tuple[tuple[Node, ...], int]:
+        """Return the arguments of a function and the place behind them."""
+        box, start = row[place], place + 1
+        first = row[start] if start < len(row) else box
+        if first is box or first.kind in ("operator", "comma", "big"):
+            raise FormulaError(f"{box.name} has no argument", "write it in brackets")
+        raised = FormulaError("whether the power is of the argument or of the function is open", "write brackets")
+        if first.kind == "bracket" and _plain(first.name) in _ROUND:
+            if first.sub or first.sup:
+                raise raised
+            return self._each(first.parts[0]), start + 1
+        alone = first.kind == "letter" and all(b.kind == "operator" for b in row[start + 1 : start + 2])
+        if (first.kind == "matrix" and not first.sup) or (box.name in _BRACKETED and alone):
+            return (self.expression([first]),), start + 1
+        if box.name not in FUNCTIONS or box.name in _BRACKETED:
+            raise FormulaError(f"where the argument of {box.name} ends is open", "write it in brackets")
+        if first.kind in ("function", "bracket") and not first.sup:
+            node, behind = self.factor(row, start)
+            return (node,), behind
+        end = self._reach(row, start)
+        if any(each.sup is not None and not self._label(each) and each.name != "e" for each in row[start:end]):
+            raise raised
+        return (self.term(row[start:end]),), end
+
+    def _reach(self, row: list[Box], start: int) -> int:
+        """Return where the argument of a function without brackets ends: 2θ, ωt, kx, nπ, one sign, before a velocity."""
+        end, kinds = start, ("number", "letter", "fraction", "root", "group")
+        while end < len(row) and row[end].kind in kinds and not self._moves(row[end]):
+            end += 1
+            if end < len(row) and row[end].spaced:
+                break
+        run, after = row[start:end], row[end] if end < len(row) else None
+        names, letters = [each.name for each in run], [each for each in run if each.kind == "letter"]
+        ends = after is None or after.spaced or after.kind in ("operator", "function", "big") or self._moves(after)
+        angle = bool(run) and names[0] in _ANGLES and not run[0].sub
+        if len(run) == 1 and (ends or (angle and after is not None and after.kind == "bracket")):
+            return end
+        plain = run and len(letters) + (run[0].kind == "number") == len(run) > 1 and names[0] not in _LAST
+        known = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
+        if ends and plain and known and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
+            return end
+        raise FormulaError(f"where the argument of {row[start - 1].name} ends is open", "write it in brackets")
+
+    def _moves(self, box: Box) -> bool:
+        """Whether a box is a velocity or a vector, which ends the argument of a function."""
+        dotted = any(mark.endswith("dot") for mark in box.marks)
+        return bool(is_derivative(box)) or (box.kind == "letter" and (dotted or self._kind(box, "vectors")))
+
+    # ---- brackets, roots, matrices
+
+    def _bracket(self, box: Box) -> Node:
+        pair, content = (_plain(box.name), _plain(box.closing)), box.parts[0]
+        if pair == (".", "|"):
+            return self._at(box, content)
+        if pair in (("|", "|"), (r"\|", r"\|")):
+            inner = self.expression(content)
+            if is_matrix(inner):
+                raise FormulaError("whether the bars are a determinant or a length is open", r"write \det")
+            if pair[0] != "|" and not is_vector(inner):
+                raise FormulaError("‖…‖ is of no vector", 'write in paper.toml [notation] vectors = "…"')
+            return Call("norm" if is_vector(inner) else "Abs", (inner,))
+        if any(b.kind == "relation" for b in content):
+            raise FormulaError("a relation stands in brackets", "write it by itself")
+        parts = parted(content, "comma")
+        if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(parts) > 1 and box.name != "("):
+            way = "means, kets, commutators, Poisson brackets and intervals are not read"
+            raise FormulaError(f"{box.name} … {box.closing} is not read", way)
+        return self.expression(content) if len(parts) == 1 else Call("column", self._each(content))
+
+    def _at(self, box: Box, content: list[Box]) -> Node:
+        """Read an expression at a place, |_{x = 0}."""
+        where = parted(box.sub or [], "relation")
+        if len(where) != 2 or not all(where) or box.sup:
+            raise FormulaError("where it is evaluated is not an equation", "write |_{x = 0}")
+        return Call("at", (self.expression(content), *map(self.expression, where)))
+
+    def _group(self, box: Box) -> Node:
+        """Read what stands in braces that have a script, or above a brace."""
+        if any(b.kind == "operator" and b.name in ("+", "-") for b in box.parts[0][1:]):
+            raise FormulaError("whether brackets stand around a sum is open", "write brackets")
+        return self.expression(box.parts[0])
+
+    def _root(self, box: Box) -> Node:
+        inner, *degree = map(self.expression, box.parts)
+        return Call("power", (inner, Call("quotient", (number(1), degree[0])))) if degree else Call("sqrt", (inner,))
+
+    def _matrix(self, box: Box) -> Node:
+        lines = [tuple(map(self.expression, line.parts)) for line in box.parts[0]]
+        if len({len(line) for line in lines}) != 1:
+            raise FormulaError("the rows of a matrix have different lengths", "write every entry")
+        if len(lines[0]) == 1 and box.name != "vmatrix":
+            return Call("column", tuple(line[0] for line in lines))
+        made = Call("matrix", tuple(Call("row", line) for line in lines))
+        return Call("det", (made,)) if box.name == "vmatrix" else made
+
+    def condition(self, row: list[Box]) -> Node:
+        """Return a relation, or a chain of relations, as a node."""
+        signs = [b.name for b in row if b.kind == "relation"]
+        if not signs or not {*signs} <= CONDITIONS.keys():
+            raise FormulaError("a condition is no relation", "write one relation")
+        sides = map(self.expression, parted(row, "relation"))
+        each = [Call(CONDITIONS[sign], two) for sign, two in zip(signs, pairwise(sides), strict=True)]
+        return each[0] if len(each) == 1 else Call("And", tuple(each))
+
+    # ---- fractions and derivatives
+
+    def _fraction(self, row: list[Box], place: int) -> tuple[Node, int]:
+        box = row[place]
+        if mark := is_derivative(box):
+            return self._derivative(row, place, mark)
+        first, second = (part[0].name if part else "" for part in box.parts)
+        if first == second and first in ("d", "D", "partial", "delta") and len(box.parts[1]) > 1:
+            way = r"write \frac{\mathrm{d} f}{\mathrm{d} x}"
+            raise FormulaError(f"whether the fraction with {first} is a derivative is open", way)
+        over, under = map(self.expression, box.parts)
+        if is_vector(under):
+            raise FormulaError("a vector is divided by", "write its length")
+        return self.power(Call("quotient", (over, under)), box), place + 1
+
+    def _derivative(self, row: list[Box], place: int, mark: str) -> tuple[Node, int]:
+        box, (over, under) = row[place], row[place].parts
+        order, behind, variables = _order(over[0]), place + 1, list[tuple[Letter, int]]()
+        for sign, target in zip(under[::2], under[1::2], strict=False):
+            if not is_mark(sign, mark) or sign.sup or target.kind != "letter" or len(under) % 2:
+                raise FormulaError("what is differentiated by is not clear", r"write \frac{d f}{d x}")
+            variables.append((self.letter(replace(target, sup=None)), _order(target)))
+        if sum(times for _, times in variables) != order:
+            raise FormulaError("the orders of the derivative differ", "write the same order above and below")
+        in_time = mark == "d" and variables == [(Letter("t"), order)]
+        if not over[1:]:
+            node, behind = self._operand(row, behind)
+        else:
+            node, after = self.expression(over[1:]), row[behind] if behind < len(row) else box
+            held = after.parts[0] if after.kind == "bracket" and after.name == "(" else []
+            if in_time and [(b.name, b.sub) for b in held] == [("t", None)]:
+                behind += 1  # \frac{dx}{dt}(t)
+            elif held and not any(b.kind == "operator" for b in held[1:]):
+                raise self._open(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
+        made = _rate(node, order) if in_time else node
+        for variable, times in variables if not in_time else ():
+            made = _derived(made, variable, times)
+        return (self.power(made, box) if over[1:] else made), behind
+
+    def _operand(self, row: list[Box], place: int) -> tuple[Node, int]:
+        """Return what a derivative acts on: the last factor of a term, or a bracket."""
+        if place >= len(row) or row[place].kind == "operator":
+            raise FormulaError("the derivative has nothing to act on", "operators by themselves are not read")
+        node, behind = self.factor(row, place)
+        if behind < len(row) and row[place].kind != "bracket":
+            raise FormulaError("how far the derivative reaches is open", "write brackets around what is differentiated")
+        return node, behind
+
+    def _partial(self, row: list[Box], place: int) -> tuple[Node, int]:
+        r"""Read \partial_x f and \partial_t^2 f."""
+        below = row[place].sub or []
+        index = ("i", "j", "k", "l", "m", "n", "mu", "nu")
+        if [b.kind for b in below] != ["letter"] or below[0].name in index or self._kind(below[0], "indices"):
+            raise FormulaError("what ∂ differentiates by is not clear", r"write \frac{\partial f}{\partial x}")
+        node, behind = self._operand(row, place + 1)
+        return _derived(node, self.letter(below[0]), _order(row[place])), behind
+
+    def _nabla(self, row: list[Box], place: int) -> tuple[Node, int]:
+        r"""Read \nabla f, \nabla^2 f, \nabla\cdot\vec f and \nabla\times\vec f."""
+        box = row[place]
+        sign = row[place + 1].name if place + 1 < len(row) and row[place + 1].kind == "operator" else ""
+        of_vector = sign in ("cdot", "times") and not box.sup
+        node, behind = self._operand(row, place + 1 + of_vector)
+        if of_vector != is_vector(node) or (box.sup and _order(box) != 2):
+            raise FormulaError("∇ is of no vector, of a vector, or has a power", 'declare the vectors, vectors = "…"')
+        name = "laplacian" if box.sup else {"cdot": "divergence", "times": "curl"}.get(sign, "gradient")
+        return Call(name, (node,)), behind
+
+    # ---- sums, integrals, limits
+
+    def _big(self, row: list[Box], place: int) -> tuple[Node, int]:
+        box, rest, below = row[place], row[place + 1 :], row[place].sub or []
+        if BIG[box.name] == "Integral":
+            return self._integral(row, place)
+        if not rest:
+            raise FormulaError(f"\\{box.name} has no terms", "write them")
+        if BIG[box.name] == "limit":
+            sides = parted(below, "relation")
+            if len(sides) != 2 or not all(sides) or not any(b.name == "->" for b in below):
+                raise FormulaError("where the limit is taken is missing", r"write \lim_{x\to 0}")
+            return Call("limit", (self.term(rest), *map(self.expression, sides))), len(row)
+        names = [each.name for each in below if each.kind == "letter"]
+        self.bound += names
+        try:
+            return Call(BIG[box.name], (self.term(rest), *self._limits(box, below))), len(row)
+        finally:
+            del self.bound[len(self.bound) - len(names) :]
+
+    def _limits(self, box: Box, below: list[Box]) -> list[Node]:
+        """Return the index of a sum and its ends; the index alone where it runs over all its values."""
+        relations, letters = [b.name for b in below if b.kind == "relation"], [b for b in below if b.kind == "letter"]
+        if relations == ["="] and below[0].kind == "letter" and below[1].kind == "relation":
+            ends = [self.expression(box.sup)] if box.sup else []
+            return [self.letter(below[0]), self.expression(below[2:]), *ends]
+        if not box.sup and letters and all(b.kind in ("letter", "comma") for b in below):
+            if len({b.name for b in letters}) < len(letters):
+                raise FormulaError("whether indices stand below the sum is open", "write commas between them")
+            first, *others = map(self.letter, letters)
+            return [first, Letter("all"), Letter("all"), *others] if others else [first]
+        if not box.sup and relations and not any(b.kind == "comma" for b in below):
+            return [self.condition(below)]
+        raise FormulaError("what the sum runs over is not clear", r"write \sum_{i=1}^{n}")
+
+    def _integral(self, row: list[Box], place: int) -> tuple[Node, int]:
+        """Read an integral from its sign to its differential."""
+        box, at, depth = row[place], place, 1
+        while depth:
+            at += 1
+            if at >= len(row):
+                raise FormulaError("the differential of the integral is missing", "write d and its letter")
+            depth += _opens_integral(row[at]) - _closes_integral(row, at)
+        variables, end, inner = list[Node](), at, row[place + 1 : at]
+        if row[at].kind == "fraction":  # \int \frac{dx}{x} f
+            end = next((k for k in range(at, len(row)) if row[k].kind == "operator"), len(row))
+            over = row[at].parts[0]
+            start = next(k for k, b in enumerate(over) if is_mark(b, "d"))
+            variables.append(self._variable(over[start:]))
+            rest = over[:start] or [Box("number", "1", row[at].at, row[at].at)]
+            if any(b.kind == "operator" for b in inner):
+                raise FormulaError("a differential stands in one term only", "write it at the end")
+            inner = [*inner, replace(row[at], parts=[rest, row[at].parts[1]]), *row[at + 1 : end]]
+        else:
+            while end < len(row) and row[end].kind == "letter" and _closes_integral(row, end):
+                variables.append(self._variable(row[end : end + 2]))
+                end += 2
+            if end < len(row) and row[end].kind == "bracket" and inner:
+                raise self._open(box, "the bracket belongs to the differential", way="write the differential last")
+            if not inner and end < len(row) and row[end].kind != "operator":  # \int dx f(x)
+                inner, end = row[end:], len(row)
+        variable = variables[0] if len(variables) == 1 else Call("volume", tuple(variables))
+        return Call("Integral", (self._integrand(inner, variable), variable, *self._region(box, len(variables)))), end
+
+    def _region(self, box: Box, dimensions: int) -> list[Node]:
+        """Return the limits of an integral, or the name of what it is over."""
+        if box.sub and box.sup:
+            if dimensions > 1:
+                raise FormulaError("two differentials follow one integral", "write as many integrals as differentials")
+            return [self.expression(box.sub), self.expression(box.sup)]
+        over = box.sub or box.sup
+        if over or box.name == "oint":
+            words = re.findall(r"\w+", self.source[over[0].at : box.end]) if over else ["loop"]
+            return [Letter("_".join(("over", *words)))]
+        return []
+
+    def _integrand(self, row: list[Box], variable: Node) -> Node:
+        """Return what is integrated; with the differential of a vector where a dot or a cross joins them."""
+        if not row or row[-1].kind != "operator":
+            return self.expression(row) if row else number(1)
+        left = self.expression(row[:-1])
+        if not (is_vector(left) and is_vector(variable) and row[-1].name in ("cdot", "times")):
+            raise FormulaError("the differential is multiplied by no vector", "declare the vectors in [notation]")
+        return Call("dot" if row[-1].name == "cdot" else "cross", (left, Call("differential", (variable,))))
+
+    def _variable(self, marks: list[Box]) -> Node:
+        """Return what an integral is over, from its d and the letter behind."""
+        if len(marks) != 2 or marks[1].kind != "letter" or marks[1].sup:
+            raise FormulaError("the differential of the integral is not clear", "write d and its letter")
+        letter = self.letter(marks[1])
+        return Call("differential", (letter, self.expression(marks[0].sup))) if marks[0].sup else letter
+
+
+# Readers of the boxes that are a factor by themselves, and of those that take in what follows them.
+_SIMPLE: dict[str, Callable[[Grammar, Box], Node]] = {
+    "bracket": Grammar._bracket, "group": Grammar._group, "root": Grammar._root, "matrix": Grammar._matrix,
+    "infinity": lambda reader, box: Letter("oo"), "dots": lambda reader, box: Call("dots", ()),
+    "binomial": lambda reader, box: Call("binomial", tuple(map(reader.expression, box.parts))),
+}  # fmt: skip
+_FACTORS: dict[str, Callable[[Grammar, list[Box], int], tuple[Node, int]]] = {
+    "number": Grammar._number, "letter": Grammar._letter, "fraction": Grammar._fraction, "partial": Grammar._partial,
+    "nabla": Grammar._nabla, "function": Grammar._function, "big": Grammar._big,
+}  # fmt: skip
+# Calls of which a vector can be a multiple; functions whose argument may go on behind a slash.
+_SCALARS = ("sum", "product", "quotient", "negative", "power", "sqrt", "Abs", "norm", "dot", "Derivative", "rate")
+_OPEN_ENDED = {*FUNCTIONS.values()} - {"exp"}
+
+
+def _plain(bracket: str) -> str:
+    return _NAMES.get(bracket.removeprefix("\\"), bracket)
+
+
+def _product(factors: list[Node]) -> Node:
+    """Return the product of factors side by side. Raises FormulaError for vectors among them."""
+    vectors = [each for each in factors if is_vector(each)]
+    if len(vectors) > 1 and not all(map(is_matrix, vectors[:-1])):
+        way = 'write \\cdot or \\times, or declare matrices = "…" in [notation]'
+        raise FormulaError("two vectors stand side by side", way)
+    return Call("matmul", tuple(factors)) if len(vectors) > 1 else product_of(factors)
+
+
+def _check_sums(parts: list[list[Box]]) -> None:
+    """Raise FormulaError where a term behind a sum holds the index of that sum."""
+    indices: set[str] = set()
+    for part in parts:
+        held = {each.name for box in part for each in all_boxes(box.sub or ()) if each.kind == "letter"}
+        sums = [box for box in part if box.kind == "big"]
+        if held & indices and not sums:
+            raise FormulaError("whether the sum ends here is open", "write brackets around what is summed")
+        indices |= {b.name for box in sums if box.name in ("sum", "prod") for b in box.sub or () if b.kind == "letter"}
+
+
+def _check_neighbours(row: list[Box], place: int, before: Box | None) -> None:
+    """Raise FormulaError for a digit behind a factor, a mixed number, dots, and letters that are a word."""
+    box = row[place]
+    if box.kind == "dots" and len(row) > 1:
+        raise FormulaError("dots stand for factors", "write them, or as a product")
+    if before is not None and box.kind == "number" and (before.kind == "number" or not box.spaced):
+        raise FormulaError(f"the number {box.name} stands behind a factor", r"write \cdot, or braces around the power")
+    numeric = box.kind == "fraction" and all(b.kind == "number" for part in box.parts for b in part)
+    if before is not None and before.kind == "number" and numeric:
+        raise FormulaError("whether a mixed number or a product is meant is open", r"write \cdot")
+    run = ""
+    for each in row[place:]:
+        plain = each.kind == "letter" and len(each.name) == 1 and not (each.style or each.marks or each.upright)
+        run += each.name if plain else ""
+        if not plain or run in _WORDS or len(run) > 4 or each.sub or each.sup or each.primes:
+            break
+    if run in _WORDS or len(run) > 4:
+        raise FormulaError(f"{run} is a word", r"write \text{…} for words, and \sin for functions")
+
+
+def is_unit(text: str) -> bool:
+    """Whether a text is a unit: km, m/s^2."""
+    words = re.sub(r"[\^{}\d\-~.·]", " ", text.replace("/", " ")).split()
+    return bool(words) and all(word in UNITS for word in words)
+
+
+def _unit(name: str) -> Node:
+    """Return a unit such as m/s^2 as letters unit_m, unit_s."""
+    parts = _UNIT_PARTS.findall(name)
+    if "".join(parts).split() != name.split() or parts.count("/") > 1 or not parts[0][0].isalpha():
+        raise FormulaError(f"{name} is no unit", r"write it as \mathrm{m/s^2}")
+    factors: list[Node] = []
+    sign = 1
+    for part in parts:
+        sign = -1 if part == "/" else sign
+        if part[0] == "^":
+            base = factors.pop()
+            base = base.args[0] if isinstance(base, Call) else base
+            factors.append(Call("power", (base, number(sign * int(part.strip("^{}"))))))
+        elif part[0].isalpha() or part[0] == "%":
+            letter = Letter(f"unit_{part}")
+            factors.append(letter if sign > 0 else Call("power", (letter, number(-1))))
+    return product_of(factors)
+
+
+def _is_numeric(node: Node) -> bool:
+    """Whether a node has no letters but those of units."""
+    if isinstance(node, Letter):
+        return node.name.startswith("unit_")
+    return isinstance(node, Number) or (bool(node.args) and all(map(_is_numeric, node.args)))
+
+
+def _is_any_kind(node: Node) -> bool:
+    """Whether a term may be a number or a vector: 0, dots and O(…)."""
+    return is_printed_zero(node) or (isinstance(node, Call) and node.name in ("dots", "order"))
+
+
+def _derived(node: Node, variable: Letter, times: int) -> Call:
+    return Call("Derivative", (node, variable, number(times)) if times > 1 else (node, variable))
+
+
+def _rate(node: Node, order: int) -> Node:
+    r"""Return dx/dt as \dot x, and d/dt of other expressions as `rate`."""
+    dots = re.search(r"_(d*)dot$", node.name) if isinstance(node, Letter) else None
+    total = order + (len(dots[1]) + 1 if dots else 0)
+    if isinstance(node, Letter) and total <= 4:
+        return replace(node, name=f"{node.name[: dots.start()] if dots else node.name}_{'d' * (total - 1)}dot")
+    for _ in range(order):
+        node = Call("rate", (node,))
+    return node
+
+
+def _order(box: Box) -> int:
+    """Return the order of a derivative, the number above its sign."""
+    if not box.sup:
+        return 1
+    if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name in "123456789":
+        return int(box.sup[0].name)
+    raise FormulaError("the order of the derivative is no number", "write a number")
+
+
+def _opens_integral(box: Box) -> bool:
+    return box.kind == "big" and BIG[box.name] == "Integral"
+
+
+def _closes_integral(row: list[Box], place: int) -> bool:
+    """Whether a differential begins here: d before a letter, or above a fraction bar."""
+    box = row[place]
+    if box.kind == "fraction":
+        return any(is_mark(b, "d") for b in box.parts[0]) and not is_derivative(box)
+    target = row[place + 1] if place + 1 < len(row) else None
+    return is_mark(box, "d") and target is not None and target.kind == "letter" and not is_mark(target, "d")
+
+
+def _paired(row: list[Box]) -> list[Box]:
+    """Return a row with its bars in pairs as brackets, and a bar with an equation below as the bracket that it closes."""
+    places = [k for k, box in enumerate(row) if box.kind == "bar"]
+    if len(places) == 1 and row[places[0]].sub and places[0]:
+        last, bar = places[0], row[places[0]]
+        called = last > 1 and (row[last - 2].kind, row[last - 1].kind) == ("letter", "bracket")
+        start = last - 1 - called
+        made = Box("bracket", ".", row[start].at, bar.end, [row[start:last]], sub=bar.sub, sup=bar.sup, closing="|")
+        return [*row[:start], made, *row[last + 1 :]]
+    if len(places) % 2:
+        raise FormulaError("a bar has no partner", r"write \left| and \right|")
+    paired: list[Box] = []
+    last = 0
+    for a, b in zip(places[::2], places[1::2], strict=True):
+        inner, between = row[a + 1 : b], row[last:a]
+        nested = last and between and all(x.kind not in ("operator", "relation") for x in between)
+        odd = not inner or inner[-1].kind == "operator" or row[a].name != row[b].name
+        if nested or odd or row[a].sup or row[a].sub:
+            raise FormulaError("how the bars belong together is open", r"write \left| and \right|")
+        sign, shut = r"\|" if row[a].name == "||" else "|", row[b]
+        bars = Box("bracket", sign, row[a].at, shut.end, [inner], sub=shut.sub, sup=shut.sup, closing=sign)
+        paired += [*between, bars]
+        last = b + 1
+    return [*paired, *row[last:]]
+
+
+def _folded(row: list[Box]) -> list[Box]:
+    """Return a row with d^2x/dt^2 and ∂f/∂x as fractions."""
+    made: list[Box] = []
+    for box in row:
+        made.append(box)
+        over, slash, under = made[-5:-3], made[-3:-2], made[-2:]
+        letters = len(over) == 2 and slash[0].name == "/" and over[1].kind == under[1].kind == "letter"
+        if letters and any(is_mark(over[0], mark) and is_mark(under[0], mark) for mark in ("d", "partial")):
+            made[-5:] = [Box("fraction", "", over[0].at, box.end, [over, under])]
+    return made

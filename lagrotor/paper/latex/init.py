@@ -1,0 +1,379 @@
+"""A new paper: a folder with one worked equation, or one made from a source; it can be made again from a changed source.
+
+Made again, an equation keeps its id, its title, its confirmation and its comments if its label or its LaTeX is the same. An
+equation whose print has changed is marked, and its reading is to be confirmed again.
+"""
+
+import json
+import re
+import shutil
+import tomllib
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import takewhile
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.files import read_text, write_text
+from lagrotor.paper.catalogue import reading_digest
+from lagrotor.paper.latex.displays import Displayed, Source
+from lagrotor.paper.latex.markup import read_source
+from lagrotor.paper.latex.notation import declared_notation
+from lagrotor.paper.latex.readings import Print, paper_notation, read_print
+from lagrotor.paper.scripts import beside
+from lagrotor.paper.title_page import toml
+
+# The worked example that a new folder begins with.
+_EXAMPLE = "papers/pendulum"
+_HOLDS = "It holds one worked equation, one claim and one figure of a pendulum; replace\nthem by your own."
+_HOLDS_SOURCE = (
+    "It holds the displayed equations of {name} as they were read:\nconfirm the readings, then derive the equations."
+)
+_NOT_COPIED = shutil.ignore_patterns("__pycache__", "report", ".*")
+_HEAD = (
+    "# The displayed equations of {name}. `lagrotor readings` shows each reading beside its print; confirm it there.\n"
+    "# `lagrotor init` makes this file again: confirmed and derived equations stay, comments stand above their equation."
+)
+
+
+@dataclass(frozen=True)
+class NewPaper:
+    """The folder that was made, the number of its equations, and how many of them were read.
+
+    notes: sentences on the source. changed, gone: ids of equations whose print has changed, and that the source no longer
+    has. moved: sentences on equations that have another number now.
+    """
+
+    folder: Path
+    equations: int
+    read: int
+    notes: tuple[str, ...] = ()
+    changed: tuple[str, ...] = ()
+    gone: tuple[str, ...] = ()
+    moved: tuple[str, ...] = ()
+
+
+def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
+    """Make the folder of a paper, or make it again from its source.
+
+    Parameters
+    ----------
+    folder : Path
+        A new or an empty folder, or a paper that is made again.
+    source : Path, optional
+        LaTeX, Markdown or a notebook; without it the folder holds a worked example.
+
+    Raises
+    ------
+    InputError
+        Before anything is written, if the folder holds something else, or the source has no displayed equation.
+    """
+    again = (folder / "paper.toml").is_file()
+    if again and source is None:
+        raise InputError(f"{folder} is a paper already: give its source, --from paper.tex, to read it again")
+    if not again and folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise InputError(f"{folder} is there already and is no paper: choose a new or an empty folder")
+    if not folder.resolve().parent.is_dir():
+        raise InputError(f"{folder}: the folder {folder.resolve().parent} is missing: make it first")
+    if again and source is not None:
+        return _from_source(folder, source, again)
+    with TemporaryDirectory(prefix=".made.", dir=folder if folder.is_dir() else folder.resolve().parent) as near:
+        whole = Path(near) / "paper"  # so that an interrupt leaves nothing
+        paper = _example(whole, folder.resolve().name) if source is None else _from_source(whole, source, again)
+        if folder.is_dir():
+            for each in whole.iterdir():
+                each.rename(folder / each.name)
+        else:
+            whole.rename(folder)
+    return replace(paper, folder=folder)
+
+
+def _example(folder: Path, title: str) -> NewPaper:
+    shutil.copytree(beside(_EXAMPLE), folder, ignore=_NOT_COPIED)
+    about = read_text(folder / "paper.toml")
+    about = re.sub(r"^title = .*$", lambda _: f"title = {_text(title)}", about, count=1, flags=re.MULTILINE)
+    write_text(folder / "paper.toml", about)
+    return NewPaper(folder, 1, 1)
+
+
+def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
+    source = read_source(path)
+    faults = [f"{file or path.name}:{line}: {said}" for file, line, said in source.faults]
+    if not source.equations:
+        why = "; ".join([f"--from {path}: it has no displayed equation", *(*faults, *source.notes)[:3]])
+        raise InputError(f"{why}: lagrotor init alone makes a folder to begin with")
+    old = toml(folder / "equations.toml") if again else {}
+    table = toml(folder / "paper.toml").get("notation", {}) if again else {}
+    formulas = [*(each.latex for each in source.equations), *source.inline]
+    notation = paper_notation(formulas, table, str(folder / "paper.toml"))
+    prints = [read_print(each.latex, notation, each.lead) for each in source.equations]
+    rows, changed, gone = _merged(source.equations, prints, old.get("equation", []), _derived(folder))
+    (folder / "derivations").mkdir(parents=True, exist_ok=True)
+    sections = _write_about(folder, source, again)
+    _write_symbols(folder, prints, again)
+    vectors = _vectors(source.equations, prints, old.get("letters", {}))
+    before = _comments(read_text(folder / "equations.toml")) if again else {}
+    text = _catalogue(rows, vectors, before | {"": [_HEAD.format(name=path.name)]})
+    write_text(folder / "equations.toml", text)  # last: the other files are about these equations
+    if not again:
+        about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=path.name))
+        write_text(folder / "README.md", about)
+    numbers = {row["id"]: row.get("number") for row in old.get("equation", [])}
+    moved = tuple(
+        f"{row['id']} is ({row['number']})"
+        for row in rows
+        if row.get("number") not in (None, row["id"], numbers.get(row["id"], row.get("number")))
+    )
+    notes = (*faults, *source.notes, *sections)
+    read = sum(each.stop is None for each in prints)
+    return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone), moved)
+
+
+# ---- equations.toml
+
+
+def _derived(folder: Path) -> set[str]:
+    """Return the ids that a derivation states."""
+    scripts = (folder / "derivations").glob("*.py")
+    return {i for script in scripts for i in re.findall(r"verdict\(\s*[\"']([^\"']+)[\"']", read_text(script))}
+
+
+def _merged(
+    equations: list[Displayed], prints: list[Print], old: list[dict[str, Any]], derived: set[str]
+) -> tuple[list[dict[str, Any]], list[str], list[str]]:
+    """Return the rows of equations.toml with the entries of the old ones, the ids changed, and the ids gone."""
+    before, ids = _known(equations, old), {row["id"] for row in old}
+    taken: set[str] = set()
+    rows: list[dict[str, Any]] = []
+    changed: list[str] = []
+    for place, (each, print_) in enumerate(zip(equations, prints, strict=True)):
+        row = _row(each, print_, old[before[place]] if place in before else None, changed)
+        while place not in before and (row["id"] in taken or row["id"] in ids):
+            row["id"] += "'"
+        taken.add(row["id"])
+        rows.append(row)
+    gone = [row for row in old if row["id"] not in taken]
+    stay = [row | {"read": "gone"} for row in gone if row["id"] in derived or row.get("read") == "confirmed"]
+    return [*rows, *stay], changed, [row["id"] for row in gone]
+
+
+def _known(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
+    """Return place of an equation → place of its old row: alike in label and LaTeX, in label, in LaTeX with a new label."""
+    known: dict[int, int] = {}
+    rows = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]
+    labels = {each.label for each in equations} & {label for label, _ in rows} - {""}
+    keys = (
+        lambda label, latex: (label, latex),
+        lambda label, latex: label,
+        lambda label, latex: "" if label in labels else latex,
+    )
+    for key in keys:
+        for place, each in enumerate(equations):
+            name = key(each.label, each.latex)
+            free = (row for row, names in enumerate(rows) if row not in known.values() and key(*names) == name)
+            if place not in known and name and (row := next(free, None)) is not None:
+                known[place] = row
+    return known
+
+
+def _row(each: Displayed, print_: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
+    """Return the row of an equation, with the entries of the old row; its id is added to `changed` if its print has changed."""
+    row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section}
+    row |= {"title": each.label or f"displayed equation {each.id}", "label": each.label, "latex": each.latex}
+    row |= {"lead": each.lead, "aside": list(print_.aside), "read": "unconfirmed" if print_.lines else ""}
+    row["line"] = [dict(line) for line in print_.lines]
+    if known is not None:
+        stay = ("id",) if known.get("title") == known.get("label") else ("id", "title")
+        skip = (*row, "changed", "print", "guesses", "subject")
+        row |= {key: value for key, value in known.items() if key not in skip or key in stay}
+        old = known.get("line", ())  # the author's additions to a line, such as an order, stay if it is read alike
+        row["line"] = [next((dict(line) for line in old if line | new == line), new) for new in row["line"]]
+        if known.get("latex") != each.latex:
+            row["changed"] = str(known.get("latex"))
+            changed.append(row["id"])
+        elif old and known.get("read") != "unconfirmed":
+            row["read"] = ""
+            row |= {key: value for key, value in known.items() if key in ("read", "print", "aside", "reading", "line")}
+        else:
+            row["changed"] = known.get("changed")
+    return {key: value for key, value in row.items() if value not in ("", [], None)}
+
+
+def _vectors(
+    equations: list[Displayed], prints: list[Print], old: Mapping[str, Mapping[str, str]]
+) -> dict[str, dict[str, str]]:
+    """Return the tables [letters.SECTION] with the letters that are vectors."""
+    letters = {section: dict(rows) for section, rows in old.items()}
+    for each, print_ in zip(equations, prints, strict=True):
+        if print_.vectors:
+            rows = letters.setdefault(each.section, {})
+            rows["vector"] = " ".join(dict.fromkeys([*rows.get("vector", "").split(), *print_.vectors]))
+    return letters
+
+
+def _comments(text: str) -> dict[str, list[str]]:
+    """Return id → the comments above and within its equation; under "" those that the file begins with."""
+    ids = iter(row["id"] for row in tomllib.loads(text).get("equation", ()))
+    lines = text.splitlines()
+    head = list(takewhile(lambda line: line.startswith("#"), lines))
+    comments, above, identifier = defaultdict(list, {"": head}), list[str](), ""
+    for line in lines[len(head) :]:
+        if line.startswith("#"):
+            above.append(line)
+        elif line.strip() and not line.startswith("[letters"):
+            identifier = str(next(ids, "")) if line.startswith("[[equation]]") else identifier
+            comments[identifier] += above
+            above = []
+    comments[identifier] += above
+    return comments
+
+
+def _catalogue(
+    rows: list[dict[str, Any]], letters: Mapping[str, Mapping[str, str]], comments: Mapping[str, list[str]]
+) -> str:
+    """Return the text of equations.toml."""
+    blocks = [comments.get("", [])]
+    blocks += [
+        [f"[letters.{_text(section)}]", *(f"{kind} = {_text(names)}" for kind, names in kinds.items())]
+        for section, kinds in letters.items()
+    ]
+    blocks += [[*comments.get(str(row["id"]), ()), *_equation(row)] for row in rows]
+    return "\n\n".join("\n".join(block) for block in blocks if block) + "\n"
+
+
+def _equation(row: Mapping[str, Any]) -> Iterator[str]:
+    yield "[[equation]]"
+    yield from (f"{key} = {_value(key, value)}" for key, value in row.items() if key != "line")
+    for line in row.get("line", ()):
+        yield ""
+        yield "[[equation.line]]"
+        yield from (f"{key} = {_value(key, value)}" for key, value in line.items())
+
+
+def _value(key: str, value: Any) -> str:
+    """A TOML value."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_text(str(k))} = {_value('', v)}" for k, v in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_value("", each) for each in value) + "]"
+    return _latex(value) if key in ("latex", "quantity", "lead", "changed") else _text(value)
+
+
+def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
+    """Write `read = "confirmed"` and a hash of the print for these equations, named by id, label or (number); their ids.
+
+    Raises InputError for one without a reading.
+    """
+    file = folder / "equations.toml"
+    given = toml(file)
+    rows = {row["id"]: row for row in given.get("equation", [])}
+    names: dict[str, list[str]] = {}
+    for identifier, row in rows.items():
+        for name in (row.get("label"), f"({row.get('number')})"):
+            if row.get("read") != "gone":
+                names.setdefault(str(name), []).append(identifier)
+    wanted = list[str]()
+    for each in ids:
+        identifier, *others = [each] if each in rows else names.get(each, [each])
+        row = rows.get(identifier)
+        if others:
+            raise InputError(
+                f"{each} is more than one equation: name one by its id, {identifier}, {', '.join(others[:7])}"
+            )
+        if row is None:
+            raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
+        if row.get("read") == "gone":
+            raise InputError(f"equation {identifier} is no longer in the source: there is no print to confirm it by")
+        if not row.get("line"):
+            why = f"`lagrotor readings {folder}` says where its reading stopped, or what was kept aside"
+            raise InputError(f"equation {identifier} has no line to confirm: {why}")
+        wanted.append(identifier)
+    for row in (rows[identifier] for identifier in wanted):
+        row.pop("changed", None)
+        row |= {"read": "confirmed", "print": reading_digest(row["latex"], row["line"])}
+    write_text(file, _catalogue(list(rows.values()), given.get("letters", {}), _comments(read_text(file))))
+    return wanted
+
+
+# ---- paper.toml and symbols.py
+
+
+def declare(folder: Path, kinds: Mapping[str, str]) -> None:
+    """Write letters with their kinds, "f" → "functions", into the table [notation] of paper.toml.
+
+    Raises
+    ------
+    InputError
+        If the table cannot be read, or a letter would have two kinds that exclude each other.
+    """
+    file = folder / "paper.toml"
+    table = dict(toml(file).get("notation", {}))
+    for letter, kind in kinds.items():
+        table[kind] = " ".join(dict.fromkeys([*str(table.get(kind, "")).split(), letter]))
+    declared_notation(table, str(file))
+    _write_table(file, "notation", [f"{key} = {_text(value)}" for key, value in table.items()])
+
+
+def _write_table(file: Path, name: str, rows: list[str]) -> None:
+    """Write one table of a TOML file, in its place or at the end; comments within it stay, above its rows."""
+    text = read_text(file)
+    old = re.search(rf"^\[{name}\][^\n]*\n(?:(?![\[\n])[^\n]*\n?)*", text, re.MULTILINE)
+    comments = [line for line in old[0].splitlines()[1:] if line.startswith("#")] if old else []
+    block = "\n".join([old[0].splitlines()[0] if old else f"[{name}]", *comments, *rows]) + "\n"
+    write_text(file, text.replace(old[0], block, 1) if old else f"{text.rstrip()}\n\n{block}")
+
+
+def _write_about(folder: Path, source: Source, again: bool) -> list[str]:
+    """Write paper.toml; made again only its sections are renewed, and sentences say which titles change."""
+    file = folder / "paper.toml"
+    sections = [f"{_text(number)} = {_text(title)}" for number, title in source.sections.items()]
+    if again:
+        known = toml(file).get("sections", {})
+        if known != source.sections:
+            _write_table(file, "sections", sections)
+        old = ((number, title) for number, title in known.items() if title not in source.sections.values())
+        return [f'section {number} was "{title}", which the source does not have' for number, title in old]
+    head = [
+        f"title = {_text(source.title)}",
+        f"authors = {json.dumps(source.authors, ensure_ascii=False)}",
+        "results = []",
+        'equations_in = "s"',
+        'claims_in = "c"',
+    ]
+    if source.preamble:
+        head.append(f"preamble = '''{source.preamble}'''")
+    write_text(file, "\n".join([*head, "", "[sections]", *sections]) + "\n")
+    return []
+
+
+def _write_symbols(folder: Path, prints: Iterable[Print], again: bool) -> None:
+    """Write symbols.py with the letters of the prints; made again it gets those that are new."""
+    file = folder / "symbols.py"
+    letters = dict.fromkeys(letter for each in prints for letter in each.letters)
+    known = read_text(file) if again and file.is_file() else ""
+    if known:
+        names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", known) for name in call.split()}
+        new = [name for name in letters if re.sub(r"_d?dot$", "", name) not in names]
+        if new:
+            write_text(file, known.rstrip("\n") + "\n" + "\n".join(map(_letter, new)) + "\n")
+        return
+    head = '"""The letters of the paper: give each its meaning, its unit, and what sympy may assume of it."""'
+    rows = [head, "", "from lagrotor.paper import Glossary", "", "GLOSSARY = Glossary()"]
+    write_text(file, "\n".join([*rows, *map(_letter, letters)]) + "\n")
+
+
+def _letter(name: str) -> str:
+    return f'{name} = GLOSSARY.letter("{name}", "?", "?", real=True)'
+
+
+def _text(value: str | float) -> str:
+    """Return a string, a number, true or false in TOML."""
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _latex(value: str) -> str:
+    """Return a TOML string in which a backslash is a backslash."""
+    return f"'''{value}'''" if "'''" not in value and not value.endswith("'") else _text(value)

@@ -1,0 +1,262 @@
+r"""A source as TeX sees it: macros expanded, and the parts left out that \iffalse hides.
+
+Nothing is executed. A definition is a list of tokens, and the number of expansions is bounded. A condition other than
+\iftrue and \iffalse is not decided: a note names its lines, both branches are left out, and names that they define are unknown.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import pairwise
+from pathlib import Path
+from typing import NamedTuple
+
+from lagrotor.errors import InputError
+from lagrotor.paper.latex import packages
+from lagrotor.paper.latex.token_stream import TokenStream
+from lagrotor.paper.latex.tokens import Token, plain, tokenize
+
+_MOST_EXPANSIONS = 20_000  # at one place of the source; a macro that needs more calls itself without end
+_MOST_TOKENS = 2_000_000  # of all expansions, besides ten for each character of the source
+# Commands that choose between arguments, and the number of these.
+CHOICES = {
+    r"\@ifundefined": 3, r"\@ifpackageloaded": 3, r"\@ifclassloaded": 3, r"\ifthenelse": 3,
+    r"\ifdef": 3, r"\ifundef": 3, r"\ifbool": 3, r"\iftoggle": 3, r"\ifblank": 3, r"\ifstrempty": 3, r"\ifstrequal": 4,
+}  # fmt: skip
+# Commands of which a branch without a decision may not have any unnoticed.
+_MATTER = (
+    r"\begin",
+    r"\[",
+    "$$",
+    r"\input",
+    r"\include",
+    r"\chapter",
+    r"\section",
+    r"\subsection",
+    r"\appendix",
+    r"\tag",
+)
+_NO_VALUE = (Token("command", r"\NoValue", 0),)
+_LETTER = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")  # of an argument of \NewDocumentCommand
+
+
+class Parameter(NamedTuple):
+    r"""One argument of a macro: m, s, o or g as in \NewDocumentCommand, u (ends with `mark`), or = (the mark must follow)."""
+
+    kind: str
+    mark: Token = Token("text", "[]", 0)
+    default: tuple[Token, ...] = _NO_VALUE
+
+
+class Macro(NamedTuple):
+    """A definition: the tokens that stand for a name, with the arguments as #1."""
+
+    body: tuple[Token, ...]
+    head: tuple[Parameter, ...] = ()
+
+    @staticmethod
+    def of(text: str, spec: str = "") -> "Macro":
+        r"""Return a macro by its LaTeX, with the arguments of \NewDocumentCommand."""
+        return Macro(tuple(tokenize(text)), head_of(spec))
+
+
+def head_of(spec: str) -> tuple[Parameter, ...]:
+    r"""Return the arguments that \NewDocumentCommand states by letters."""
+    head = []
+    for letter, optional, opening, closing, default in _LETTER.findall(spec):
+        value = tuple(tokenize(default)) if optional[:1] in ("O", "D") else _NO_VALUE
+        head.append(
+            Parameter(letter) if letter else Parameter("o", Token("text", (opening + closing) or "[]", 0), value)
+        )
+    return tuple(head)
+
+
+# A command that acts on the expansion; it returns False if its token stays in the text.
+Primitive = Callable[["Expander", Token], bool | None]
+
+
+class Expander(TokenStream):
+    """The expanded tokens of a source, one after the other, by iteration.
+
+    `macros` are the definitions that hold here. In a formula (`in_formula`) a condition that is not decided stays, so that no
+    reader of formulas accepts it.
+    """
+
+    def __init__(self, text: str, file: Path | None, primitives: Mapping[str, Primitive]) -> None:
+        super().__init__(text, file)
+        self.primitives = primitives
+        self.macros: dict[str, Macro] = {}
+        self.scopes: list[tuple[str, dict[str, Macro | None]]] = []  # {, an environment: the definitions that it hides
+        self.in_formula = False
+        self.loaded: set[str] = set()
+        self.doubt = ""  # why the numbers of equations may be others
+        self.branches = 0  # conditions of which a branch is being read
+        self._expansions: Counter[int] = Counter()
+        self._made = 0
+        self._stream = self._expanded()
+        self.load("")
+        if r"\documentclass" not in text:  # Markdown: nothing says which packages are loaded
+            self.load("siunitx")
+            self.load("physics")
+            self.define(r"\div", None)
+
+    def __iter__(self) -> Iterator[Token]:
+        return self._stream
+
+    def _expanded(self) -> Iterator[Token]:
+        while (token := self.next()) is not None:
+            if token.kind in ("command", "primitive"):
+                if self._acts(token):
+                    continue
+                token = Token("command", token.text, token.at)
+            elif token.kind == "open":
+                self.begin_group("{")
+            elif token.kind == "close":
+                self.end_group("{")
+            elif token.kind == "scope":
+                self.end_group(token.text)
+                continue
+            yield token
+
+    def expand(self, tokens: Iterable[Token]) -> list[Token]:
+        """Return these tokens, expanded by themselves."""
+        waiting, self.waiting = self.waiting, [iter(list(tokens))]
+        depth = len(self.scopes)
+        try:
+            return list(self._expanded())
+        finally:
+            self.waiting = waiting
+            self._close_to(depth)
+
+    def _acts(self, token: Token) -> bool:
+        """Expand or execute a command; return False if it stays."""
+        name = token.text
+        if token.kind == "command" and (macro := self.macros.get(name)) is not None:
+            body = self._body(macro, token)
+            self._expansions[token.at] += 1
+            self._made += len(body)
+            if self._expansions[token.at] > _MOST_EXPANSIONS or self._made > _MOST_TOKENS + 10 * self.length:
+                said = f"{name} expands without end: a macro that calls itself cannot be taken in"
+                raise InputError(f"{self.place(token.at)}: {said}")
+            self.push(body)
+            return True
+        if (primitive := self.primitives.get(name)) is not None:
+            return primitive(self, token) is not False
+        if name in (r"\begingroup", r"\bgroup"):
+            self.begin_group("{")
+        elif name in (r"\endgroup", r"\egroup"):
+            self.end_group("{")
+        elif self.is_condition(token) and not self.in_formula:
+            self.leave_out(token)
+            return True
+        return False
+
+    def _body(self, macro: Macro, token: Token) -> list[Token]:
+        """Return the body of a macro with its arguments; tokens of the body have the place of the macro."""
+        values: list[Iterable[Token]] = []
+        if macro.head and macro.head[0].kind in "u=":
+            self.skip_spaces()
+        for kind, mark, default in macro.head:
+            value: list[Token] | None = None
+            if kind == "=":
+                self.take(mark.text)
+                continue
+            if kind == "s":
+                value = plain("*" if self.star() else "", token.at)
+            elif kind == "u":
+                value = self.until(mark, at=token.at)
+            elif kind == "o":
+                value = self.delimited(*mark.text)
+            elif kind == "m" or self.begins("{"):
+                value = self.argument()
+            values.append(default if value is None else value)
+        made: list[Token] = []
+        for part in macro.body:
+            if part.kind != "param":
+                made.append(Token(part.kind, part.text, token.at))
+            elif part.text[1:].isdigit():
+                made += values[int(part.text[1:]) - 1] if int(part.text[1:]) <= len(values) else ()
+            elif part.text.startswith("##"):
+                made.append(Token("param", part.text[1:], token.at))
+        return made
+
+    # ---- definitions
+
+    def define(self, name: str, macro: Macro | None, everywhere: bool = False) -> None:
+        """Give a name its meaning in the open group, or in all; None: no meaning."""
+        if everywhere:
+            for _, hidden in self.scopes:
+                hidden.pop(name, None)
+        elif self.scopes:
+            self.scopes[-1][1].setdefault(name, self.macros.get(name))
+        if macro is None:
+            self.macros.pop(name, None)
+        else:
+            self.macros[name] = macro
+
+    def begin_group(self, mark: str) -> None:
+        """Begin a group: { or the name of an environment."""
+        self.scopes.append((mark, {}))
+
+    def end_group(self, mark: str) -> None:
+        """End the innermost group with this mark, and the groups within it."""
+        for place in range(len(self.scopes) - 1, -1, -1):
+            if self.scopes[place][0] == mark:
+                return self._close_to(place)
+        return None
+
+    def _close_to(self, depth: int) -> None:
+        while len(self.scopes) > depth:
+            for name, macro in self.scopes.pop()[1].items():
+                self.macros.pop(name, None)
+                if macro is not None:
+                    self.macros[name] = macro
+
+    def load(self, package: str) -> None:
+        """Define the commands of a package that are known here."""
+        self.loaded.add(package)
+        for line in packages.TABLE.get(package, "").splitlines():
+            names, _, rest = line.strip().partition(" ")
+            spec, _, body = rest.partition(" ")
+            for name in filter(None, names.split(",")):
+                if not (name in self.macros and package == "siunitx"):  # \qty of physics
+                    macro = Macro.of(body, spec)
+                    same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
+                    self.define(name, Macro(same, macro.head))
+
+    # ---- conditions
+
+    def leave_out(self, condition: Token, arguments: int = 0) -> None:
+        r"""Leave out the branches of a condition that is not decided; the names that they define have no meaning.
+
+        Branches with equations, headings, counters or files are noted.
+        """
+        passed = [token for _ in range(arguments) for token in self.argument()]
+        if not arguments:
+            self.skip((r"\fi",), condition, passed)
+        for name, after in pairwise(token.text for token in passed if token.kind == "command"):
+            if name in (r"\let", r"\DeclareMathOperator") or "def" in name or "newcommand" in name:
+                self.define(after, None, everywhere=True)
+        if any(token.text in _MATTER or token.text.endswith("counter") for token in passed):
+            end = self.line(passed[-1].at)[1]
+            place = self.place(condition.at) + (f"-{end}" if end > self.line(condition.at)[1] else "")
+            helps = r"both branches are left out; write \iftrue or \iffalse"
+            self.notes.append(f"{place}: {condition.text} is not decided: {helps}")
+            self.doubt = self.doubt or "a part of the source is left out"
+
+    def skip(self, ends: tuple[str, ...], condition: Token, passed: list[Token] | None = None) -> str:
+        r"""Pass over tokens up to the \else or \fi of a condition, and return which it is."""
+        depth = 0
+        while (token := self.next()) is not None:
+            if depth == 0 and token.text in ends:
+                return token.text
+            depth += -1 if token.text == r"\fi" else self.is_condition(token)
+            if passed is not None:
+                passed.append(token)
+        self.fault(condition.at, rf"{condition.text} has no \fi: the text up to the end is left out")
+        return ""
+
+    def is_condition(self, token: Token) -> bool:
+        r"""Return True for a command that ends with \fi, as far as its name says; one with arguments in braces does not."""
+        named = token.text.startswith(r"\if") and token.text not in (r"\iff", *CHOICES)
+        return named and not self.begins("{")

@@ -1,0 +1,277 @@
+"""The statements of a formula: rows that continue each other, parts between commas and words, sides and relations."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
+from lagrotor.paper.latex.grammar import Grammar, is_unit
+from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, letters_of, number
+
+_CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
+_DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather|or)\b")
+_SETS = ("in", "->")  # relations of what need not be alike
+# Kinds of statements, each with the relations that it may have.
+_EQUAL, _BOUNDS = {"=", ":="}, {"<", ">", "<=", ">=", "<<", ">>", "!=", "<~", ">~"}
+_KINDS = {"expression": set[str](), "equation": _EQUAL, "approximation": {*_EQUAL, "~"}, "inequality": _EQUAL | _BOUNDS}
+_PARTING = ("wide", "arrow", "text")
+_SIMPLE = ("number", "dots", "letter", "operator", "infinity", "fraction", "root")
+
+
+@dataclass(frozen=True)
+class Side:
+    """One side of a relation: its expression, its LaTeX and its place in the formula."""
+
+    node: Node
+    latex: str
+    at: int
+
+
+@dataclass(frozen=True)
+class PrintedStatement:
+    """Sides and the relations between them; `order`: (small letter, power) of a term O(…) that the last side had.
+
+    kind: equation, approximation, inequality, range, condition, expression or other.
+    """
+
+    sides: tuple[Side, ...]
+    relations: tuple[str, ...]
+    kind: str
+    order: tuple[str, int] | None = None
+
+
+def read_statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
+    """Return the statements of a formula, its rows joined where one continues the other."""
+    found: list[PrintedStatement] = []
+    for piece in _pieces(strip(row)):
+        found += _statements(reader, piece)
+    return found
+
+
+def _is_related(row: list[Box]) -> bool:
+    return any(box.kind == "relation" for box in row)
+
+
+def _pieces(row: list[Box]) -> list[list[Box]]:
+    """Return the rows of a display, each with the rows that continue it; what stands beside them is a piece of its own."""
+    lines = _system(row[0]) if row else None
+    beside = strip(row[1:])
+    if lines is None or (beside and row[1].kind not in ("wide", "comma", "text")):
+        return [row]
+    pieces: list[list[Box]] = []
+    for line in lines:
+        while line and line[0].kind == "wide":
+            line = line[1:]
+        if not line:
+            continue
+        if pieces and _continues(pieces[-1], line):
+            twice = pieces[-1][-1].kind == line[0].kind == "relation"  # = \\ =
+            pieces[-1] = [*pieces[-1][: -1 if twice else None], *line]
+        else:
+            pieces.append(line)
+    held = [each for piece in pieces for each in (_pieces(strip(piece)) if len(strip(piece)) == 1 else [piece])]
+    return [*held, *([beside] if beside else [])]
+
+
+def _system(box: Box) -> list[list[Box]] | None:
+    """Return the lines of rows or of a system of equations; None where a box is neither."""
+    if box.sub is not None or box.sup is not None:
+        return None
+    if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
+        inside = strip(box.parts[0])
+        return _system(inside[0]) if len(inside) == 1 else None
+    if box.kind in ("rows", "cases") or (box.kind == "matrix" and box.name == "array"):
+        lines = [_joined(line.parts) for line in box.parts[0]]
+        if box.kind == "rows" or all(map(_is_related, lines)):
+            return lines
+    return None
+
+
+def _joined(cells: Sequence[list[Box]]) -> list[Box]:
+    """Return the cells of a line; a second relation that continues none is a statement beside the first."""
+    line: list[Box] = []
+    for cell in cells:
+        before, inner = strip(line), strip(cell)
+        ends = any(b and b[k].kind in ("operator", "relation") for b, k in ((before, -1), (inner, 0)))
+        if not ends and _is_related(before) and _is_related(inner):
+            line.append(Box("wide", "", inner[0].at, inner[0].at))
+        line += cell
+    return line
+
+
+def _continues(before: list[Box], line: list[Box]) -> bool:
+    last, first = before[-1], line[0]
+    if last.kind in ("operator", "relation"):
+        return True
+    if last.kind == "comma" or first.kind in ("arrow", "text"):
+        return False
+    starts = first.kind == "relation" or (first.kind == "operator" and first.name in ("+", "-", "cdot", "times", "/"))
+    if starts and _is_related(line) and first.kind != "relation":
+        raise FormulaError("whether a row continues the row before is open", "write a comma between statements")
+    if starts and any(box.kind in ("text", "wide", "comma") for box in strip(before)):
+        raise FormulaError("a row continues one of several statements", "write each statement in its rows")
+    if not starts and not _is_related(line):
+        raise FormulaError("a row has no relation", "begin it with the sign that joins it to the row before")
+    return starts
+
+
+def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
+    """Return a piece in parts between wide spaces, words, arrows and commas: the sign before each part, and its boxes."""
+    parts: list[tuple[str, list[Box]]] = [("", [])]
+    for place, box in enumerate(row):
+        following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
+        if box.kind == "arrow" or (box.kind == "text" and not _is_side(row, place)):
+            if box.kind == "text" and _DENYING.search(box.name):
+                raise FormulaError(f"{box.name}: the words deny what they join", "write each statement by itself")
+            condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
+            parts.append(("condition" if condition else box.kind, []))
+        elif box.kind == "bracket" and box.name == "(" and _is_related(box.parts[0]) and not (box.sup or box.sub):
+            parts += [("condition", list(box.parts[0])), ("wide", [])]
+        elif box.name == "." and box.kind == "comma" and following and row[place + 1].kind not in _PARTING:
+            raise FormulaError("a full stop stands within the formula", r"write \cdot for a product")
+        elif box.kind in ("wide", "comma"):
+            before, after = strip(parts[-1][1]), following or box
+            goes_on = before and before[-1].kind in ("operator", "relation")
+            signed = after.kind == "relation" or (box.kind == "wide" and after.kind == "operator" and after.name != "-")
+            if not (goes_on or (signed and before)):
+                waiting = not before and parts[-1][0] in ("text", "condition")
+                parts.append((parts[-1][0] if waiting else box.kind, []))
+        elif not (box.name == ":" and not parts[-1][1]):
+            parts[-1][1].append(box)
+    return parts
+
+
+def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
+    """Return the statements of one piece."""
+    found: list[PrintedStatement] = []
+    parts = _parts(reader, row)
+    several = [sign for sign, _ in parts].count("comma") > 1
+    for sign, part in parts:
+        part = strip(part)
+        if not part:
+            continue
+        if _is_related(part) and found and sign == "comma" and found[-1].kind == "expression":
+            raise FormulaError("what stands before the comma has no relation", "write it for each letter")
+        if not _is_related(part) and found and sign in ("comma", "wide"):
+            found[-1] = _listed(reader, found[-1], part, several)
+        elif sign == "condition":
+            stated = _statements(reader, part)
+            found += [replace(each, kind="range" if each.kind == "range" else sign) for each in stated]
+        else:
+            found.append(read_statement(reader, part))
+    return found
+
+
+def _is_side(row: list[Box], place: int) -> bool:
+    """Whether words are a whole side of a relation, or a unit behind a number."""
+    before = row[place - 1] if place else None
+    after = row[place + 1] if place + 1 < len(row) else None
+    if before is not None and before.kind == "number" and is_unit(row[place].name):
+        return True
+    if before is None:
+        return after is not None and after.kind == "relation"
+    return before.kind == "relation" and (after is None or after.kind in ("relation", "wide", "comma"))
+
+
+def _listed(reader: Grammar, last: PrintedStatement, part: list[Box], several: bool) -> PrintedStatement:
+    """Return n = 1 with a further value as n = 1, 2. Raises FormulaError where what follows a comma is no value."""
+    close = reader.source[max(part[0].at - 2, 0) : part[0].at]
+    if part[0].kind == "number" and not several and re.fullmatch(r"\d,", close):
+        way = "write {,} in the number, or a space behind the comma"
+        raise FormulaError("whether the comma is in a number is open", way)
+    simple = all(b.kind in _SIMPLE for b in part) and len(last.sides) == 2
+    if simple and last.kind in ("equation", "range", "condition"):
+        first, end = last.sides
+        if last.kind == "range" or (isinstance(first.node, Letter) and isinstance(end.node, Number | Letter)):
+            values = end.node.args if isinstance(end.node, Call) and last.kind == "range" else (end.node,)
+            ends = [part[:-1], part[-1:]] if len(part) > 1 and part[-1].kind == "dots" else [part]  # 1, 2...
+            end = replace(end, node=Call("values", (*values, *(_side(reader, each) for each in ends))))
+            return replace(last, sides=(first, end), kind="range")
+    raise FormulaError("what follows the comma has no relation", "write it as a statement of its own")
+
+
+def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
+    """Return one statement. Raises FormulaError where a side is missing, or a vector is equal to a number."""
+    sides = [strip(side) for side in parted(row, "relation")]
+    relations = [box.name for box in row if box.kind == "relation"]
+    if len(sides) > 2 and [b.kind for b in sides[-1]] == ["dots"]:
+        sides, relations = sides[:-1], relations[:-1]  # the chain goes on
+    if not all(sides):
+        raise FormulaError("a side of the relation is missing", "write it, or join it to the row before")
+    read: list[Side] = []
+    for place, side in enumerate(sides):
+        _check_side(side)
+        index = not place and len(sides) > 1 and [(b.name, b.sup) for b in side] in ([("i", None)], [("j", None)])
+        node: Node = reader.letter(side[0]) if index else _side(reader, side)
+        read.append(Side(node, reader.source[side[0].at : side[-1].end].strip(), side[0].at))
+    kinds = {is_vector(side.node) for side in read if not is_printed_zero(side.node) and side.node != Call("dots", ())}
+    if len(kinds) > 1 and not {*relations} & {*_SETS}:
+        raise FormulaError("a vector is equal to a number", "declare the vectors in [notation], or mark them alike")
+    if summed := set().union(*(_repeated(side.node) for side in read)):
+        missing = {name for name in summed if any(name not in _indices(side.node) for side in read)}
+        if missing and len(read) > 1:
+            raise FormulaError(
+                f"whether {min(missing)} is summed over is open", r"write \sum, or give it another index"
+            )
+    order, kept = without_order(read[-1].node)
+    read[-1] = replace(read[-1], node=kept)
+    return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
+
+
+def _indices(node: Node) -> set[str]:
+    """Return i, j, k, μ and ν where they are indices of the letters of a node, outside the sums over them."""
+    if isinstance(node, Call):
+        bound = set(letters_of(Call("", node.args[1:]))) if node.name in ("Sum", "Product") else set[str]()
+        return set[str]().union(*map(_indices, node.args)) - bound
+    parts = node.name.split("_")[1:] if isinstance(node, Letter) else []
+    return {
+        each for part in parts for each in ([part] if part in ("mu", "nu") else part if {*part} <= {*"ijk"} else "")
+    }
+
+
+def _repeated(node: Node) -> set[str]:
+    """Return the indices that two factors of a product share and no sum binds: they may stand for a sum."""
+    if not isinstance(node, Call):
+        return set()
+    shared = [_indices(each) for each in node.args] if node.name in ("product", "dot") else []
+    twice = {index for place, one in enumerate(shared) for other in shared[:place] for index in one & other}
+    return twice.union(*map(_repeated, node.args)) & _indices(node)
+
+
+def _check_side(side: list[Box]) -> None:
+    """Raise FormulaError for a side that is an acronym or stands in square brackets."""
+    plain = [b for b in side if b.kind == "letter" and not (b.sub or b.sup or b.marks or b.style)]
+    name = "".join(box.name for box in plain)
+    if 2 < len(side) == len(name) and name.isupper():
+        raise FormulaError(f"{name} is a word", r"write \mathrm for it, or \cdot")
+    square = len(side) == 1 and side[0].name == "[" and not (side[0].sub or side[0].sup)
+    if square and [b.kind for b in side[0].parts[0]] != ["matrix"]:
+        raise FormulaError("what the square brackets mean is open", "leave them out, or write what it is")
+
+
+def _side(reader: Grammar, row: list[Box]) -> Node:
+    if len(row) == 1 and row[0].kind == "text":
+        name = "".join(c if c.isalnum() else "_" for c in row[0].name).strip("_")
+        if not re.match(r"[A-Za-z]\w*$", name) or _DENYING.search(row[0].name):
+            raise FormulaError("words stand for a side", "give it a letter")
+        return Letter(name)
+    return reader.expression(row)
+
+
+def _kind(relations: list[str]) -> str:
+    return next((kind for kind, signs in _KINDS.items() if {*relations} <= signs), "other")
+
+
+def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:
+    """Return the power of a term O(x^n) in which a sum ends, and the sum without it."""
+    last = node.args[-1] if isinstance(node, Call) and node.name == "sum" else None
+    if not (isinstance(node, Call) and isinstance(last, Call) and last.name == "order"):
+        return None, node
+    power: Node
+    inner, power = last.args[0], number(1)
+    if isinstance(inner, Call) and inner.name == "power":
+        inner, power = inner.args
+    if not (isinstance(inner, Letter) and isinstance(power, Number) and power.value.denominator == 1):
+        return None, node
+    rest = node.args[:-1]
+    return (inner.name, int(power.value)), rest[0] if len(rest) == 1 else Call("sum", rest)
