@@ -299,10 +299,6 @@ PASSAGES = {
         r"\[ L = \frac m2(\dot x - \Omega y)^2 + \frac m2(\dot y + \Omega x)^2 \]",
         r"p = \frac{\partial L}{\partial\dot y} = m(\dot y + \Omega x)", r"+ \Omega x", r"- \Omega x",
     ),
-    "a term of another number": (
-        r"\[ F = -N k T\left[\ln\frac VN + \frac32\ln T + 1\right] \] The entropy is",
-        r"S = -\frac{\partial F}{\partial T} = N k\left[\ln\frac VN + \frac32\ln T + \frac52\right]", r"\frac52", r"\frac32",
-    ),
     "a power for a root": (
         r"Here $\Phi(z) = \frac{Q}{\sqrt{R^2 + z^2}}$. The field is",
         r"E = -\frac{d\Phi}{dz} = \frac{Q z}{(R^2 + z^2)^{3/2}}", "{3/2}", "{1/2}",
