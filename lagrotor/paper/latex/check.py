@@ -302,9 +302,9 @@ class _Checker:
         if not others and letters:
             value = constant_value(a)
             return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its letters")
-        dropped = ({s: 0} for s in a.free_symbols if s.name in letters - others)  # v² = v₀² + 2as = 2as from rest
         if self._related(letters):
             return BEFORE, ""
+        dropped = ({s: 0} for s in a.free_symbols if s.name in letters - others)  # v² = v₀² + 2as = 2as from rest
         if any(agree(a.subs(zero), b) for zero in dropped):
             return MAYBE, ""
         if slip := self._slip(left, right, a, b, first):

@@ -84,6 +84,11 @@ CHAINS = [
     (r"E = (\vec a + \vec b)\cdot\vec c = \vec a\cdot\vec c", NOT_JUDGED),
     (r"y = 9^{9^{9^9}} = 9^{9^{9^9}} + 1", NOT_JUDGED),
     (r"w = 99999999! = 99999999! + 1", NOT_JUDGED),
+    (r"w = \binom{1000000000}{500000000} = 1", NOT_JUDGED),
+    (r"w = 4\pi\cdot 1.2 = 15.08", NOT_JUDGED),
+    (r"w = 4\cdot 2 = 9", REFUTED),
+    (r"w = a^2 + 2bc = 2bc", NOT_JUDGED),
+    (r"w = a^2 + 2bc = a^2 + bc", REFUTED),
     (r"y = (a + 9^{2})^2 = a^2 - 2\cdot 9^{2} a + 9^{4}", REFUTED),
     (r"y = e^{10^{24} + x} z = 2 e^{10^{24} - x} z", NOT_JUDGED),
     (r"y = e^{10^{24} x} z = z e^{10^{24} x}", HOLDS),
@@ -474,6 +479,8 @@ def test_a_wrong_dimension_is_found_where_the_paper_prints_units_and_none_among_
     units = r"With $m = 2\,\mathrm{kg}$, $x = 3\,\mathrm{m}$ and $v = 0.5\,\mathrm{m/s}$, "
     assert [each.equation for each in findings(units + body) if each.verdict == UNITS] == ["0j"]
     assert UNITS not in verdicts(units + body.replace(rf"\[ {wrong} \]", rf"\[ {good} \]"))
+    (why,) = [each.why for each in findings(units + body) if each.verdict == UNITS]
+    assert wrong.startswith("E = F x +") or f"unless {wrong[0]} has another meaning here" in why
     assert UNITS not in verdicts(r"With $m = 2$, $x = 3$ and $\hbar = 1$, " + body)
 
 
