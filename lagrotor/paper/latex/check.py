@@ -301,7 +301,10 @@ class _Checker:
         differ = f"the members differ by {_difference(a, b)}"
         if not others and letters:
             value = constant_value(a)
-            return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its letters")
+            if value is not None:
+                return "", f"the left member is {value} for all values of its letters"
+            slip = change_to_agree(b, left, letters, self._value) if a.has(sp.Function) else None
+            return ("", f"{differ}; {slip}") if slip and "sign" in slip else (MAYBE, "")
         if self._related(letters):
             return BEFORE, ""
         dropped = ({s: 0} for s in a.free_symbols if s.name in letters - others)  # v² = v₀² + 2as = 2as from rest
@@ -341,8 +344,8 @@ class _Checker:
             return self.given.of(parts, self.place, section, printed)
 
         tried: list[list[dict[Node, PrintedMeaning]]] = []
-        for fixed in (1, 0, None):
-            put = rounds((left, right), premises, fixed)
+        for constant_side in (1, 0, None):
+            put = rounds((left, right), premises, constant_side)
             if put in tried:
                 continue
             tried.append(put)

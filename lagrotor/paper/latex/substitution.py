@@ -194,7 +194,7 @@ def put_rounds(node: Node, put: Iterable[dict[Node, PrintedMeaning]]) -> Node:
 
 
 def rounds(
-    sides: Sequence[Node], premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]], fixed: int | None
+    sides: Sequence[Node], premises: Callable[[Iterable[Node]], Iterator[PrintedMeaning]], constant_side: int | None
 ) -> list[dict[Node, PrintedMeaning]]:
     """Return what is put into two sides, round by round.
 
@@ -204,19 +204,21 @@ def rounds(
         The two sides.
     premises : callable
         Called with parts of the sides; returns the premise for each of them that has one.
-    fixed : int, optional
-        The side whose letters stay: x = f(y) and y = g(x) put into both sides would exchange x and y.
+    constant_side : int, optional
+        The place of the side whose letters stay: x = f(y) and y = g(x) put into both sides would exchange x and y.
     """
     put: list[dict[Node, PrintedMeaning]] = []
     above: defaultdict[Node, set[Node]] = defaultdict(
         set
     )  # part → the parts in whose values it stands: x by y by x has no end
     for _ in range(_MOST_ROUNDS):
-        stay = set() if fixed is None else {*_free(sides[fixed])}
+        stay = set() if constant_side is None else {*_free(sides[constant_side])}
         parts = dict.fromkeys(part for side in sides for part in _free(side) if part not in stay)
         new = {each.meaning: each for each in premises(parts) if each.meaning not in above[each.meaning]}
         if not new:
             break
+        for square in [part for part in new if isinstance(part, Call) and part.name == "power"]:
+            new.pop(square.args[0], None)  # by ω² = g/l no root is put in for ω in ω²
         for meaning, each in new.items():
             for part in walk(each.value):
                 above[part] |= {meaning, *above[meaning]}

@@ -95,6 +95,7 @@ CHAINS = [
     (r"y = x^{10^{12}} = x^{10^{12}+1}", NOT_JUDGED),
     (r"y = (10^{10^5} + x)^{50} = x^{50}", NOT_JUDGED),
     (r"y = \sqrt{x^2} = x", HOLDS),  # for positive letters, and it says so
+    (r"y = \cos^2 x - \sin^2 x = 1", REFUTED),
     (r"y = x\sqrt{-1 - x^2} = \sqrt{-1 - x^2}\,x", HOLDS),
     (r"A = \frac{\partial f}{\partial x} + b = \frac{\partial f}{\partial y} - b", NOT_JUDGED),
     (r"f = \sin^2 x/2 = \frac{1 - \cos x}{2}", NOT_JUDGED),  # an argument of two readings
@@ -198,6 +199,7 @@ WITH_PREMISES = [
         r"= \frac12 m\omega^2 A", r"= m\omega^2 A",
     ),
     ("", r"N = \frac{d}{dt}\left(\frac13 m b^2\dot\theta\right) = \frac13 m b^2\ddot\theta", r"= \frac13", r"= -\frac13"),
+    (r"Here $\omega^2 = g/l$.", r"E = \omega^2 + k = g/l + k", "l + k", "l - k"),
     ("", r"S = \int_0^a b x\,dx = \frac{a^2 b}{2}", "{a^2", "{a^3"),
     (
         "", r"E = \left(1 + \frac{\partial f}{\partial x}\right)^2 = 1 + 2\frac{\partial f}{\partial x}"
