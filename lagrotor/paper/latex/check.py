@@ -307,8 +307,8 @@ class _Checker:
             return ("", f"{differ}; {slip}") if slip and "sign" in slip else (MAYBE, "")
         if self._related(letters):
             return BEFORE, ""
-        dropped = ({s: 0} for s in a.free_symbols if s.name in letters - others)  # v² = v₀² + 2as = 2as from rest
-        if any(agree(a.subs(zero), b) for zero in dropped):
+        fewer = [a.subs(each, 0) for each in a.free_symbols if each.name in letters - others]
+        if any(agree(each, b) for each in (*fewer, *(a - term for term in sp.Add.make_args(a)))):  # v₀² + 2as = 2as
             return MAYBE, ""
         if slip := self._slip(left, right, a, b, first):
             return "", f"{differ}; {slip}"

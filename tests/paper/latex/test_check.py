@@ -88,6 +88,7 @@ CHAINS = [
     (r"w = 4\pi\cdot 1.2 = 15.08", NOT_JUDGED),
     (r"w = 4\cdot 2 = 9", REFUTED),
     (r"w = a^2 + 2bc = 2bc", NOT_JUDGED),
+    (r"w = -a - \sqrt{a^2 - b^2} + b = -a + b", NOT_JUDGED),
     (r"w = a^2 + 2bc = a^2 + bc", REFUTED),
     (r"y = (a + 9^{2})^2 = a^2 - 2\cdot 9^{2} a + 9^{4}", REFUTED),
     (r"y = e^{10^{24} + x} z = 2 e^{10^{24} - x} z", NOT_JUDGED),

@@ -142,6 +142,7 @@ def test_the_text_of_a_reading_is_what_its_tree_is() -> None:
 REFUSED = {
     r"u = f(x - ct) + g(x + ct)": "whether f before ( is a function or a factor is open",
     r"U = V(|x - y|)": "whether V before ( is a function or a factor is open",
+    r"|k_{ij} - \omega^2 m_{ij}| = 0": "whether the bars are a determinant or a length is open",
     r"U = G(|x| + a)": "whether G before ( is a function or a factor is open",
     r"\ddot x + 2\delta\dot x + x = 0": r"whether \delta is a factor or acts on what follows is open",
     r"x = ae^{-\delta t}": r"whether \delta is a factor or acts on what follows is open",
