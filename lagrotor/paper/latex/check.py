@@ -179,14 +179,14 @@ class _Checker:
     def __init__(self, source: Source, readings: list[tuple[Displayed, Reading]], notation: Notation) -> None:
         self.source, self.readings, self.notation = source, readings, notation
         self.opaque = Opaque()
-        self.given, self.sections_read = SectionMeanings(negative=self._compared_with_zero(("<", "<="))), set[str]()
+        self.given, self.sections_read = SectionMeanings(negative=self._compared_with_zero("<", "<=")), set[str]()
         self.labelled: defaultdict[str, list[Displayed]] = defaultdict(list)
         self.place = 0
         self.statements = [(each, s) for each, reading in readings for s in reading.statements]
         self.rates = rates_of(side.node for _, statement in self.statements for side in statement.sides)
 
     def findings(self, progress: Callable[[str], None] | None = None) -> Iterator[StepFinding]:
-        """Every finding."""
+        """Yield every finding."""
         for place, (each, reading) in enumerate(with_progress("check", self.readings, progress)):
             self.place = place
             if not reading.whole:
@@ -218,25 +218,21 @@ class _Checker:
     # ---- chains
 
     def _steps(self, each: Displayed, printed: PrintedStatement, statement: PrintedStatement) -> Iterator[StepFinding]:
-        """The steps of a chain but the first, unless that may be an identity; printed: without the row before."""
-        sides, order = statement.sides, statement.order
+        """Yield the steps of a chain but the first, unless that may be an identity; printed: without the row before."""
         order_before = None if statement is printed else self.readings[self.place - 1][1].statements[-1].order
-        for step in range(1 if statement is printed else 2, len(sides)):
-            left, right, relation = sides[step - 1], sides[step], statement.relations[step - 1]
-            claimed = order if step == len(sides) - 1 and step > 1 else None
-            claimed = claimed or (order_before if step == 2 else None)
-            if claimed:
-                verdict = bounded(self._order, left.node, right.node, claimed, too_large=(NOT_JUDGED, TOO_LARGE))
-            elif relation not in ("=", ":=") or (
-                step == 1 and not self._is_judged_alone(left.node, right.node, printed)
-            ):
+        steps = enumerate(zip(statement.sides, statement.sides[1:], statement.relations, strict=False), 1)
+        for step, (left, right, relation) in steps:
+            claimed = (right is statement.sides[-1] and statement.order) or (step == 2 and order_before)
+            arguments: tuple[Any, ...] = (self._step, left.node, right.node, printed, step == 1)
+            if step == 1 and (statement is not printed or not self._is_judged_alone(left.node, right.node, printed)):
                 continue
-            else:
-                verdict = bounded(
-                    self._step, left.node, right.node, printed, step == 1, too_large=(NOT_JUDGED, TOO_LARGE)
-                )
-            if step > 1 or verdict[0] != NOT_JUDGED:
-                yield self._finding(each, step, (left, right), verdict[0], verdict[1])
+            if claimed and step > 1:
+                arguments = (self._order, left.node, right.node, claimed)
+            elif relation not in ("=", ":="):
+                continue
+            verdict, why = bounded(*arguments, too_large=(NOT_JUDGED, TOO_LARGE))
+            if step > 1 or verdict != NOT_JUDGED:
+                yield self._finding(each, step, (left, right), verdict, why)
 
     def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """Return a row that continues the one before, with the last side of that row in its place."""
@@ -305,11 +301,14 @@ class _Checker:
         differ = f"the members differ by {_difference(a, b)}"
         if not others and letters:
             value = constant_value(a)
-            return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its letters")
-        dropped = ({s: 0} for s in a.free_symbols if s.name in letters - others)  # v² = v₀² + 2as = 2as from rest
+            if value is not None:
+                return "", f"the left member is {value} for all values of its letters"
+            slip = change_to_agree(b, left, letters, self._value) if a.has(sp.Function) else None
+            return ("", f"{differ}; {slip}") if slip and "sign" in slip else (MAYBE, "")
         if self._related(letters):
             return BEFORE, ""
-        if any(agree(a.subs(zero), b) for zero in dropped):
+        fewer = [a.subs(each, 0) for each in a.free_symbols if each.name in letters - others]
+        if any(agree(each, b) for each in (*fewer, *(a - term for term in sp.Add.make_args(a)))):  # v₀² + 2as = 2as
             return MAYBE, ""
         if slip := self._slip(left, right, a, b, first):
             return "", f"{differ}; {slip}"
@@ -322,9 +321,8 @@ class _Checker:
     def _slip(self, left: Node, right: Node, a: Any, b: Any, first: bool) -> str | None:
         """Return the one change with which the two members agree."""
         names = {*letters_of(left), *letters_of(right)}
-        return change_to_agree(a, right, names, self._value, first) or change_to_agree(
-            b, left, names, self._value, first
-        )
+        slips = (change_to_agree(fixed, node, names, self._value, first) for fixed, node in ((a, right), (b, left)))
+        return next(filter(None, slips), None)
 
     def _slip_with(self, left: Node, right: Node, way: _Way) -> str | None:
         """Return the one change of the right member with which it is the left one, the premises put in."""
@@ -346,8 +344,8 @@ class _Checker:
             return self.given.of(parts, self.place, section, printed)
 
         tried: list[list[dict[Node, PrintedMeaning]]] = []
-        for fixed in (1, 0, None):
-            put = rounds((left, right), premises, fixed)
+        for constant_side in (1, 0, None):
+            put = rounds((left, right), premises, constant_side)
             if put in tried:
                 continue
             tried.append(put)
@@ -415,7 +413,7 @@ class _Checker:
     def _before(self, place: int) -> Iterator[tuple[str, Reading]]:
         """Yield the displays before a place, and the relations of the text."""
         yield from ((each.latex, reading) for each, reading in self.readings[:place])
-        yield from ((latex, reading) for _, latex, reading in self._text)
+        yield from self._text
 
     def _order(self, left: Node, right: Node, order: tuple[str, int]) -> _VERDICT:
         """Return the verdict on a step that is claimed through an order of a small letter."""
@@ -441,48 +439,39 @@ class _Checker:
     # ---- the text
 
     @cached_property
-    def _text(self) -> list[tuple[str, str, Reading]]:
-        """The relations of the text: name, LaTeX, reading."""
-        return [
-            (f"${latex}$", latex, read_formula(latex, self.notation))
-            for latex in self.source.inline
-            if _RELATION.search(latex)
-        ]
+    def _text(self) -> list[tuple[str, Reading]]:
+        """The relations of the text, with their readings."""
+        formulas = (latex for latex in self.source.inline if _RELATION.search(latex))
+        return [(latex, read_formula(latex, self.notation)) for latex in formulas]
 
-    def _compared_with_zero(self, relations: tuple[str, ...]) -> frozenset[str]:
-        """The letters that the text compares with zero by one of these relations."""
-        statements = (s for _, _, reading in self._text for s in reading.statements)
-        return frozenset(
-            s.sides[0].node.name
-            for s in statements
-            if isinstance(s.sides[0].node, Letter)
-            and {*s.relations[:1]} & {*relations}
-            and s.sides[-1].node == number(0)
-        )
+    def _compared_with_zero(self, *relations: str) -> frozenset[str]:
+        """Return the letters that the text compares with zero by one of these relations."""
+        statements = [s for _, reading in self._text for s in reading.statements if s.sides[-1].node == number(0)]
+        nodes = (s.sides[0].node for s in statements if {*s.relations[:1]} & {*relations})
+        return frozenset(node.name for node in nodes if isinstance(node, Letter))
 
     @cached_property
     def _positive(self) -> frozenset[str]:
         """The letters that the author declares, or the text says, to be positive."""
-        return self.notation.positive | self._compared_with_zero((">",))
+        return self.notation.positive | self._compared_with_zero(">")
 
     def _take_text(self, section: str) -> None:
         """Take over the equations in the text of a section, at its first display."""
-        for name, latex, reading in self._text if section not in self.sections_read else ():
-            if self.source.inline[latex] == section:
-                for statement in reading.statements:
-                    if letters_of(statement.sides[-1].node):  # x = 0 is a result, and no premise
-                        self.given.add(statement, name, section, -1)
+        for latex, reading in self._text if section not in self.sections_read else ():
+            for statement in reading.statements if self.source.inline[latex] == section else ():
+                if letters_of(statement.sides[-1].node):  # x = 0 is a result, and no premise
+                    self.given.add(statement, f"${latex}$", section, -1)
         self.sections_read.add(section)
 
     def _values(self) -> Iterator[tuple[str, list[Node]]]:
-        """Sections and sides of equations in the text, which may give a unit: m = 2 kg."""
-        for _, latex, reading in self._text:
-            for each in reading.statements:
-                if each.kind == "equation" and re.search(r"\\(?:mathrm|rm|text|hbar)\b|k_", latex):
+        """Yield sections and sides of equations in the text, which may give a unit: m = 2 kg."""
+        for latex, reading in self._text:
+            for each in reading.statements if re.search(r"\\(?:mathrm|rm|text|hbar)\b|k_", latex) else ():
+                if each.kind == "equation":
                     yield self.source.inline[latex], [side.node for side in each.sides]
 
     def _other_meanings(self) -> Iterator[tuple[Displayed, str]]:
-        """Equations that define a letter with := or ≡ otherwise than one before."""
+        """Yield equations that define a letter with := or ≡ otherwise than one before."""
         definitions: dict[str, tuple[Displayed, PrintedStatement]] = {}
         for each, statement in self.statements:
             letter = statement.sides[0].node

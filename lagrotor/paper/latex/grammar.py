@@ -37,6 +37,7 @@ from lagrotor.paper.latex.tree import (
     is_matrix,
     is_printed_zero,
     is_vector,
+    letters_of,
     number,
     product_of,
 )
@@ -508,7 +509,8 @@ class Grammar:
             return self._at(box, content)
         if pair in (("|", "|"), (r"\|", r"\|")):
             inner = self.expression(content)
-            if is_matrix(inner):
+            pairs = any(re.search(r"_(?:ij|ik|jk|kl|i_j|i_k|j_k)\b", name) for name in letters_of(inner))
+            if is_matrix(inner) or (pairs and not is_vector(inner)):
                 raise FormulaError("whether the bars are a determinant or a length is open", r"write \det")
             if pair[0] != "|" and not is_vector(inner):
                 raise FormulaError("‖…‖ is of no vector", 'write in paper.toml [notation] vectors = "…"')

@@ -33,6 +33,12 @@ _HOLDS_SOURCE = (
     "It holds the displayed equations of {name} as they were read:\nconfirm the readings, then derive the equations."
 )
 _NOT_COPIED = shutil.ignore_patterns("__pycache__", "report", ".*")
+_SYMBOLS = '''"""The letters of the paper: give each its meaning, its unit, and what sympy may assume of it."""
+
+from lagrotor.paper import Glossary
+
+GLOSSARY = Glossary()
+'''
 _HEAD = (
     "# The displayed equations of {name}. `lagrotor readings` shows each reading beside its print; confirm it there.\n"
     "# `lagrotor init` makes this file again: confirmed and derived equations stay, comments stand above their equation."
@@ -112,8 +118,8 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     prints = [read_print(each.latex, notation, each.lead) for each in source.equations]
     rows, changed, gone = _merged(source.equations, prints, old.get("equation", []), _derived(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
-    sections = _write_about(folder, source, again)
-    _write_symbols(folder, prints, again)
+    _write_about(folder, source, again)
+    _write_symbols(folder, prints)
     vectors = _vectors(source.equations, prints, old.get("letters", {}))
     before = _comments(read_text(folder / "equations.toml")) if again else {}
     text = _catalogue(rows, vectors, before | {"": [_HEAD.format(name=path.name)]})
@@ -127,7 +133,7 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
         for row in rows
         if row.get("number") not in (None, row["id"], numbers.get(row["id"], row.get("number")))
     )
-    notes = (*faults, *source.notes, *sections)
+    notes = (*faults, *source.notes)
     read = sum(each.stop is None for each in prints)
     return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone), moved)
 
@@ -326,43 +332,30 @@ def _write_table(file: Path, name: str, rows: list[str]) -> None:
     write_text(file, text.replace(old[0], block, 1) if old else f"{text.rstrip()}\n\n{block}")
 
 
-def _write_about(folder: Path, source: Source, again: bool) -> list[str]:
-    """Write paper.toml; made again only its sections are renewed, and sentences say which titles change."""
+def _write_about(folder: Path, source: Source, again: bool) -> None:
+    """Write paper.toml; made again only its sections are renewed."""
     file = folder / "paper.toml"
     sections = [f"{_text(number)} = {_text(title)}" for number, title in source.sections.items()]
     if again:
-        known = toml(file).get("sections", {})
-        if known != source.sections:
-            _write_table(file, "sections", sections)
-        old = ((number, title) for number, title in known.items() if title not in source.sections.values())
-        return [f'section {number} was "{title}", which the source does not have' for number, title in old]
-    head = [
-        f"title = {_text(source.title)}",
-        f"authors = {json.dumps(source.authors, ensure_ascii=False)}",
-        "results = []",
+        return _write_table(file, "sections", sections)
+    head = [f"title = {_text(source.title)}", f"authors = {_value('authors', source.authors)}", "results = []"]
+    head += [
         'equations_in = "s"',
         'claims_in = "c"',
+        *([f"preamble = '''{source.preamble}'''"] * bool(source.preamble)),
     ]
-    if source.preamble:
-        head.append(f"preamble = '''{source.preamble}'''")
     write_text(file, "\n".join([*head, "", "[sections]", *sections]) + "\n")
-    return []
+    return None
 
 
-def _write_symbols(folder: Path, prints: Iterable[Print], again: bool) -> None:
-    """Write symbols.py with the letters of the prints; made again it gets those that are new."""
+def _write_symbols(folder: Path, prints: Iterable[Print]) -> None:
+    """Write symbols.py with the letters of the prints; where it is there already it gets those that are new."""
     file = folder / "symbols.py"
+    text = read_text(file) if file.is_file() else _SYMBOLS
+    names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", text) for name in call.split()}
     letters = dict.fromkeys(letter for each in prints for letter in each.letters)
-    known = read_text(file) if again and file.is_file() else ""
-    if known:
-        names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", known) for name in call.split()}
-        new = [name for name in letters if re.sub(r"_d?dot$", "", name) not in names]
-        if new:
-            write_text(file, known.rstrip("\n") + "\n" + "\n".join(map(_letter, new)) + "\n")
-        return
-    head = '"""The letters of the paper: give each its meaning, its unit, and what sympy may assume of it."""'
-    rows = [head, "", "from lagrotor.paper import Glossary", "", "GLOSSARY = Glossary()"]
-    write_text(file, "\n".join([*rows, *map(_letter, letters)]) + "\n")
+    new = [_letter(name) for name in letters if re.sub(r"_d?dot$", "", name) not in names]
+    write_text(file, "\n".join([text.rstrip("\n"), *new]) + "\n")
 
 
 def _letter(name: str) -> str:

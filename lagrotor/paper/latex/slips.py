@@ -16,7 +16,7 @@ _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 _TWICE = ((Fraction(2), "{} doubled"), (Fraction(1, 2), "{} halved"))
 _FACTORS = ((Fraction(-1), "the sign of {} changed"), *_TWICE)
 _MOST_SLIPS = 120  # changes that are tried
-_DIGIT, _FEW_DIGITS = 9, 100  # bounds of the denominators of factors
+_MOST_PARTS = 100  # denominator of a factor
 
 
 def change_to_agree(
@@ -42,7 +42,7 @@ def change_to_agree(
     point = point_of(fixed, expression)
     number = value_at(fixed, point)
     bare = by_identity or has_opaque(fixed)  # {f, f} = −{f, f} = 0 and tan x = cot x may be conditions
-    ratio = _ratio(number, value_at(expression, point), _FEW_DIGITS)
+    ratio = _ratio(number, value_at(expression, point))
     scaled = sp.Rational(str(ratio or 0)) * expression
     if ratio is not None and decided(fixed, scaled) == "zero":
         if ratio == -1 and not bare:
@@ -55,23 +55,6 @@ def change_to_agree(
             continue
         if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
             return f"with {said} they agree"
-    return None if by_identity else _term_to_agree(fixed, changing, value, point)
-
-
-def _term_to_agree(
-    fixed: Any, changing: Node, value: Callable[[Node], Any], point: dict[sp.Symbol, sp.Rational]
-) -> str | None:
-    """Return the factor of one digit of one term with which the sides agree, in words."""
-    number, whole = (value_at(each, point) for each in (fixed, value(changing)))
-    for node, put in _parts(changing):
-        for place, term in enumerate(node.args if isinstance(node, Call) and node.name == "sum" else ()):
-            without = value_at(value(put(_with(node, place, Number(Fraction(0))))), point)
-            ratio = _ratio(number - without, whole - without, _DIGIT)
-            if ratio is None or not 0 < abs(ratio.numerator) <= _DIGIT:
-                continue
-            other = value(put(_with(node, place, _times(ratio, term))))
-            if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
-                return f"with {text_of(term)} times {ratio} they agree"
     return None
 
 
@@ -133,17 +116,17 @@ def _times(factor: Fraction, node: Node) -> Node:
     return Call("product", (Number(factor), node))
 
 
-def _ratio(value: Any, other: Any, bound: int) -> Fraction | None:
-    """Return the quotient of two numbers as a fraction of a denominator up to a bound; None where it is none."""
+def _ratio(value: Any, other: Any) -> Fraction | None:
+    """Return the quotient of two numbers as a fraction of small numbers; None where it is none."""
     if not (value.is_real and other.is_real and other and abs(value / other) < LARGEST):
         return None
-    fraction = Fraction(float(value / other)).limit_denominator(bound)
+    fraction = Fraction(float(value / other)).limit_denominator(_MOST_PARTS)
     return fraction if nearly_equal(value, sp.Rational(str(fraction)) * other) else None
 
 
 def constant_value(a: Any) -> sp.Rational | None:
     """Return the number that an expression is for all values of its letters; None where it is none."""
-    ratio = None if isinstance(a, sp.MatrixBase) else _ratio(value_at(a, point_of(a)), sp.S.One, _FEW_DIGITS)
+    ratio = None if isinstance(a, sp.MatrixBase) else _ratio(value_at(a, point_of(a)), sp.S.One)
     constant = None if ratio is None else sp.Rational(str(ratio))
     return constant if constant is not None and decided(a, constant) == "zero" else None
 

@@ -4,9 +4,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import sympy as sp
+
+from lagrotor.errors import InputError
 from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
 from lagrotor.paper.latex.grammar import Grammar, is_unit
 from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, letters_of, number
+from lagrotor.paper.units import dimension_of
 
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather|or)\b")
@@ -207,8 +211,9 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     kinds = {is_vector(side.node) for side in read if not is_printed_zero(side.node) and side.node != Call("dots", ())}
     if len(kinds) > 1 and not {*relations} & {*_SETS}:
         raise FormulaError("a vector is equal to a number", "declare the vectors in [notation], or mark them alike")
-    if summed := set().union(*(_repeated(side.node) for side in read)):
-        missing = {name for name in summed if any(name not in _indices(side.node) for side in read)}
+    _check_units([side.node for side in read])
+    if summed := set[str]().union(*(_repeated(side.node) for side in read)):
+        missing = summed - set[str].intersection(*(_indices(side.node) for side in read))
         if missing and len(read) > 1:
             raise FormulaError(
                 f"whether {min(missing)} is summed over is open", r"write \sum, or give it another index"
@@ -216,6 +221,21 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     order, kept = without_order(read[-1].node)
     read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
+
+
+def _check_units(sides: list[Node]) -> None:
+    """Raise FormulaError for units that are made of each other, m and cm, N and kg: nothing converts them."""
+    names = {name for side in sides for name in letters_of(side) if name.startswith("unit_")}
+    if len(names) < 2:
+        return
+    try:
+        powers = [dimension_of(name.removeprefix("unit_")).as_powers_dict() for name in sorted(names)]
+    except InputError:
+        powers = []
+    bases = [*{base for each in powers for base in each if base != 1}]
+    numbers = sum(not {*each} - {1} for each in powers)  # of rad and deg
+    if numbers > 1 or sp.Matrix([[each[base] for base in bases] for each in powers]).rank() < len(names) - numbers:
+        raise FormulaError("units of one kind stand beside each other", "write all in the same units")
 
 
 def _indices(node: Node) -> set[str]:

@@ -21,6 +21,10 @@ def said(latex: str, *others: str, **table: str | bool) -> str:
 
 
 READ = {
+    r"W = \frac{\partial L}{\partial q}\delta q - 2\Delta t": "W = Derivative(L, q)*delta_q - 2*Delta_t",
+    r"F_i = m_i\ddot x_i + \sum_j a_{ij} x_j": "F_i = m_i*x_i_ddot + Sum(a_ij*x_j, j)",
+    r"p = 3\,\mathrm{kg} \cdot 2\,\mathrm{m/s}": "p = 3*unit_kg*2*unit_m*unit_s**(-1)",
+    r"y = \ln\frac ab\,x + \sin\frac{n\pi}{l}": "y = log(a/b)*x + sin(n*pi/l)",
     r"\ddot\theta = -\frac{g}{l}\,\theta.": "theta_ddot = -g/l*theta",
     r"T = \tfrac12 m \dot{x}_1^2 = T_1": "T = 1/2*m*x_1_dot**2 = T_1",
     r"E = a\left(b + c\right)": "E = a*(b + c)",
@@ -136,6 +140,23 @@ def test_the_text_of_a_reading_is_what_its_tree_is() -> None:
 
 # What the notation does not declare, or the grammar does not have, and where the reading stops.
 REFUSED = {
+    r"u = f(x - ct) + g(x + ct)": "whether f before ( is a function or a factor is open",
+    r"U = V(|x - y|)": "whether V before ( is a function or a factor is open",
+    r"|k_{ij} - \omega^2 m_{ij}| = 0": "whether the bars are a determinant or a length is open",
+    r"U = G(|x| + a)": "whether G before ( is a function or a factor is open",
+    r"\ddot x + 2\delta\dot x + x = 0": r"whether \delta is a factor or acts on what follows is open",
+    r"x = ae^{-\delta t}": r"whether \delta is a factor or acts on what follows is open",
+    r"\delta\int L\,dt = 0": r"whether \delta is a factor or acts on what follows is open",
+    r"\Delta\frac12 mv^2 = W": r"whether \Delta is a factor or acts on what follows is open",
+    r"H = p_i\dot q_i - L": "whether i is summed over is open",
+    r"Q_j = F_i\frac{\partial x_i}{\partial q_j}": "whether i is summed over is open",
+    r"a^\nu = g_{\mu\nu}b_\mu": r"whether \nu is an upper index or a power is open",
+    r"\hat H\psi = E\psi": "whether Hhat is an operator or a letter is open",
+    r"F^e = a": "whether e is an upper index or a power is open",
+    r"y = \ln\frac ab x": "where the argument of ln ends is open",
+    r"g = 9.81\,\mathrm{m/s^2} = 981\,\mathrm{cm/s^2}": "units of one kind stand beside each other",
+    r"F = 2\,\mathrm{N} = 2\,\mathrm{kg}\,\mathrm{m}\,\mathrm{s}^{-2}": "units of one kind stand beside each other",
+    r"a = 3\,\mathrm{rad} = 180\,\mathrm{deg}": "units of one kind stand beside each other",
     r"f = \begin{cases} 1 & x<0\\ 2 & \text{else}\end{cases}":
         r"\begin{cases} 1 & x<0\\ 2 & \text{else}\end{cases} is not read here",
     r"y = \begin{cases} a & 0 \le t \le T\\ b & t > T\end{cases}":
