@@ -158,9 +158,8 @@ def smooth_motion(
                 rest = min(float(times[-1]) - begin - at, _AHEAD * turn)
                 at, end, more = _some_steps_on(program.rate(parameters, begin), at, end, rest)
                 singular, spent = words(end), spent + more
-            if not singular:
-                at = stop.at
             cause: Cause = "singular" if singular else stop.cause
+            at = at if singular else stop.at
             raise StopError(begin + at, singular or stop.reason, reached, spent, cause) from None
 
     return motion
