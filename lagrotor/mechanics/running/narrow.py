@@ -46,7 +46,9 @@ class NarrowPart(NamedTuple):
 @lru_cache(maxsize=64)
 def _parts(system: Equations) -> tuple[NarrowPart, ...]:
     """The parts that may be narrow, one for each argument."""
-    energy = system.lagrangian if isinstance(system.lagrangian, sp.Expr) else sp.sympify(system.lagrangian.rest)
+    energy = (
+        system.lagrangian if isinstance(system.lagrangian, sp.Expr) else sp.sympify(system.lagrangian.rest, strict=True)
+    )
     states = {*system.c.q, *system.c.v, *system.speeds}
     made: dict[sp.Expr, NarrowPart] = {}
     for part in subexpressions(energy, *system.acting):

@@ -288,7 +288,8 @@ class Grammar:
             raise self._open(box, "pi is the number or a quantity", way="give the quantity an index")
         if name == "pi" and not settled:
             return self.power(Letter("pi"), box), place + 1
-        if settled or after is None or kind in ("operator", "comma", "dots", "percent"):
+        proposed = name in ("Delta", "delta") and self._kind(box, "proposed") and kind != "bracket"
+        if (settled and not proposed) or after is None or kind in ("operator", "comma", "dots", "percent"):
             return None
         if name in ("Delta", "delta"):
             return None if box.sup else self._difference(row, place)
@@ -328,7 +329,12 @@ class Grammar:
         late = any([b.name for b in part] == ["t"] for part in parted(content, "operator"))  # x(t - \tau)
         derived = [b.kind for b in content] == ["fraction"] and bool(bracket.sup or is_derivative(content[0]))
         listed = any(b.kind in ("comma", "relation") for b in content)
-        if (adds or derived) and not (late or listed) and name not in _NO_FACTORS and not self._kind(box, "proposed"):
+        doubtful = name in _NO_FACTORS or self._kind(box, "proposed")
+        if (
+            (adds or derived)
+            and not (late or listed)
+            and (any(mark.endswith("dot") for mark in box.marks) or not doubtful)
+        ):
             return None
         raise self._open(box, f"{self._text(box)} before {bracket.name} is a function or a factor", "functions", "real")
 
