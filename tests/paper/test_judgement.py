@@ -327,3 +327,11 @@ def test_a_number_with_a_name_is_no_letter_that_an_equation_defines() -> None:
 def test_a_difference_that_is_not_real_is_shown_by_its_size() -> None:
     assert "|left − right| is 1.255 at" in repr(judge_text("sqrt(x) = 1", given=["x < 0"]))
     assert "left − right is" in repr(judge_text("sqrt(x) = 1"))
+
+
+def test_a_function_by_its_name_is_no_unknown_function() -> None:
+    assert judge_text(r"\operatorname{atan2}(y, x) = \arctan\frac{y}{x}", given=["x > 0"]).verdict.verdict == "holds-if"
+    assert judge_text(r"\operatorname{besselj}(0, 0) = 1").verdict.verdict == "holds"
+    assert judge_text(r"\gamma(x) + \gamma(x) = 2\gamma(x)").verdict.verdict == "holds"
+    with pytest.raises(InputError, match="no rules for the function erf"):
+        judge_text(r"\operatorname{erf}(x) = 1")
