@@ -587,8 +587,8 @@ class Translation:
             if isinstance(e, sp.im):
                 return sp.S.Zero
             if isinstance(e, sp.sign):
-                factors = (f.as_base_exp()[0] for f in sp.Mul.make_args(sp.factor(u)))
-                self.signed |= dict.fromkeys(f for f in factors if 0 in (signs(f, self.where) or {0}))
+                bases = (factor.as_base_exp()[0] for factor in sp.Mul.make_args(sp.factor(u)))
+                self.signed |= dict.fromkeys(f for f in bases if 0 in (signs(f, self.where) or {0}))
             if is_nonnegative(u, self.where):
                 size = t
             else:
