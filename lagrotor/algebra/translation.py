@@ -362,7 +362,8 @@ class Translation:
                 key = "exp", self.back(rest)
                 self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
                 step = self.steps[key]
-                w = self.letter(key, (), sp.exp(self.back(rest) / step))
+                # Evaluated, sympy takes n log p for log(p**n), which has no end for n = 10**8.
+                w = self.letter(key, (), sp.exp(self.back(rest) / step, evaluate=not key[1].has(sp.log)))
                 self.exponentials[w] = rest / step
                 result *= w ** int(rate * step)
         return result

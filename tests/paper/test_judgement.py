@@ -335,3 +335,8 @@ def test_a_function_by_its_name_is_no_unknown_function() -> None:
     assert judge_text(r"\gamma(x) + \gamma(x) = 2\gamma(x)").verdict.verdict == "holds"
     with pytest.raises(InputError, match="no rules for the function erf"):
         judge_text(r"\operatorname{erf}(x) = 1")
+
+
+def test_a_logarithm_with_a_large_factor_in_an_exponent_ends() -> None:
+    assert judge_text("exp(sign(log(1 + 8/10**8) - 8/10**8)) = exp(1)").verdict.verdict == "refuted"
+    assert judge_text("exp(sign(log(1 + 8/10**8) - 8/10**8)) = exp(-1)").verdict.verdict != "refuted"
