@@ -9,7 +9,7 @@ import sympy as sp
 
 from lagrotor.algebra.proving import Proof, proof_of_zero
 from lagrotor.algebra.refutation import sample
-from lagrotor.algebra.signs import Region, conditions, is_nonnegative, is_positive
+from lagrotor.algebra.signs import Region, conditions, is_nonnegative, is_positive, is_real
 from lagrotor.errors import NotExactError
 
 _MOST_CONDITIONS, _MOST_SIGNS = 8, 3
@@ -67,6 +67,12 @@ def _fewest(
         fewer = tuple(other for other in chosen if other != condition)
         if fewer and (found := _proof(expression, where, fewer)).how is not None:
             chosen, proof = fewer, found
+        elif isinstance(condition, sp.Ge | sp.Le) and is_real(condition.gts - condition.lts, where.with_(*fewer)):
+            # Proved for u ≥ 0 and for u ≤ 0, it needs neither.
+            found = _proof(expression, where, (*fewer, _opposite(condition)))
+            if found.how is not None:
+                divisors = tuple(dict.fromkeys((*proof.divisors, *found.divisors)))
+                chosen, proof = fewer, Proof(found.how, divisors)
     return chosen, proof
 
 
@@ -108,7 +114,8 @@ def _simplest(e: sp.Expr, where: Region) -> list[sp.Expr]:
     content, factors = sp.factor(e).as_coeff_mul()
     factors = [_exponent(f) for f in factors if not is_positive(f, where)]
     odd = [f for f in factors if not (f.is_Pow and f.exp.is_Integer and f.exp % 2 == 0)]
-    return [sp.expand(sp.sign(content) * sp.Mul(*(odd or factors)))]
+    product = sp.sign(content) * sp.Mul(*(odd or factors))
+    return [product if product.as_numer_denom()[1].free_symbols else sp.expand(product)]
 
 
 def _exponent(f: sp.Expr) -> sp.Expr:

@@ -191,7 +191,7 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
     branch, within = branch_of_zero(plain, where, proof.wanted)
     inside = _inside(branch, within.divisors)
     if witness is None:
-        if branch and set(branch) <= set(simplest(conditions(plain), where)):
+        if within.how is not None and set(branch) <= set(simplest(conditions(plain), where)):
             return Decision("zero", within.divisors, within.how or "", conditions=lambda: branch)
         return replace(exact, reason=reason, conditions=lambda: inside)
     if not (branch or witness.real or has_principal_values(plain, (), where)):
@@ -326,7 +326,12 @@ def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
 
 
 def _monic(factor: sp.Expr) -> sp.Expr:
-    """Return a polynomial over its leading coefficient, the letters in the order of their names: for reading only."""
+    """Return a polynomial over its leading coefficient, the letters in the order of their names: for reading only.
+
+    |u| and a root of u vanish where u does, which is returned for them.
+    """
+    while isinstance(factor, sp.Abs) or (factor.is_Pow and factor.exp.is_Rational and factor.exp > 0):
+        factor = factor.args[0]
     if not factor.is_Add or not (polynomial := factor.as_poly()):
         return factor
     leading = polynomial.reorder(*sorted(polynomial.gens, key=sp.default_sort_key)).LC()

@@ -93,7 +93,7 @@ def _signs_in(where: Region) -> _Signs:
 
 class _Signs:
     def __init__(self, where: Region) -> None:
-        self.where = where
+        self.where = where = Region((*where.above, *(end for fact in where.above for end in _ends(fact))))
         self.facts = [(*_primitive(e), strict) for e, strict in where.above]
         self.known: dict[sp.Expr, Signs | None] = {}
         self.open: set[sp.Expr] = set()
@@ -333,6 +333,17 @@ class _Signs:
                 elif (rest := primitive * content - part * over).is_number and rest.is_nonnegative:
                     found &= POSITIVE if strict or rest.is_positive else NONNEGATIVE
         return found
+
+
+def _ends(fact: tuple[sp.Expr, bool]) -> Iterator[tuple[sp.Expr, bool]]:
+    """Yield x − a and b − x of a fact (x − a)(b − x) in one letter, with rational a < b."""
+    e, strict = fact
+    polynomial = e.as_poly() if len(e.free_symbols) == 1 and e.is_polynomial() else None
+    if not polynomial or polynomial.is_multivariate or not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
+        return
+    roots = sorted(polynomial.ground_roots())
+    if polynomial.degree() == len(roots) == 2 and polynomial.LC() < 0:
+        yield from ((polynomial.gen - roots[0], strict), (roots[1] - polynomial.gen, strict))
 
 
 def _between(u: sp.Expr, low: Any, high: Any) -> list[sp.Expr]:

@@ -67,9 +67,8 @@ def proved_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...]
     second = Translation(where, first.steps, first.degrees)
     translated = second.of(expression)
     ring, zero = vanishes(translated, second.relations, second.numbers)
-    divisors = tuple(
-        dict.fromkeys(second.back(ring.expression(d) if n is None else n) for d, n in ring.divisors.items())
-    )
+    divided = (second.back(ring.expression(d) if n is None else n) for d, n in ring.divisors.items())
+    divisors = tuple(dict.fromkeys((*divided, *second.signed)))
     wanted = tuple(dict.fromkeys((*first.wanted, *second.wanted)))
     return (divisors if zero else None), wanted
 
@@ -91,6 +90,9 @@ class Translation:
         self.logarithms: dict[sp.Symbol, tuple[sp.Expr, bool]] = {}  # of log|p|: p, True; of log b: b, False
         self.exponentials: dict[sp.Symbol, sp.Expr] = {}  # letters exp(u): u
         self.wanted: list[sp.Basic] = []
+        self.signed: dict[
+            sp.Expr, None
+        ] = {}  # factors of u in sign(u) = u/|u|, which is 0 and not ±1 where one vanishes
         self.known: dict[sp.Expr, sp.Expr] = {}
 
     def of(self, e: sp.Expr) -> sp.Expr:
@@ -170,6 +172,8 @@ class Translation:
         for side, half in ((1, NONNEGATIVE), (-1, {-1, 0})):
             if found is not None and found <= half:
                 return (*(part for part in e.args if part not in bars), side * product)
+        if found is not None:
+            self.want(False, product)
         return e.args
 
     def _function(self, e: sp.Expr) -> sp.Expr:
@@ -227,6 +231,8 @@ class Translation:
         if exponent.is_Integer:
             return self.of(base) ** exponent
         if exponent.is_Rational:
+            if exponent.q == 2 and (side := _square_root(base)) is not None and is_real(side, self.where):
+                return self.of(sp.Abs(side, evaluate=False)) ** exponent.p
             if e.is_number and (e.is_algebraic or base.is_algebraic):
                 return self._number(sp.Pow(base, sp.Rational(1, exponent.q), evaluate=False)) ** exponent.p
             return self.root(self.of(base), exponent, base)
@@ -356,7 +362,8 @@ class Translation:
                 key = "exp", self.back(rest)
                 self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
                 step = self.steps[key]
-                w = self.letter(key, (), sp.exp(self.back(rest) / step))
+                # Evaluated, sympy takes n log p for log(p**n), which has no end for n = 10**8.
+                w = self.letter(key, (), sp.exp(self.back(rest) / step, evaluate=not key[1].has(sp.log)))
                 self.exponentials[w] = rest / step
                 result *= w ** int(rate * step)
         return result
@@ -580,7 +587,14 @@ class Translation:
                 return t
             if isinstance(e, sp.im):
                 return sp.S.Zero
-            size = t if is_nonnegative(u, self.where) else self.root(t**2, sp.S.Half, u**2)
+            if isinstance(e, sp.sign):
+                bases = (factor.as_base_exp()[0] for factor in sp.Mul.make_args(sp.factor(u)))
+                self.signed |= dict.fromkeys(f for f in bases if 0 in (signs(f, self.where) or {0}))
+            if is_nonnegative(u, self.where):
+                size = t
+            else:
+                size = self.root(t**2, sp.S.Half, u**2)
+                self.want(False, u)
             return size if isinstance(e, sp.Abs) else t / size
         if not all(is_real(self.back(s), self.where) for s in t.free_symbols):
             return self.letter(e.func, (t,), e)
@@ -616,6 +630,15 @@ def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
             if base == cosine + side * sp.I * sp.sin(u):
                 return side * u
     return None
+
+
+def _square_root(base: sp.Expr) -> sp.Expr | None:
+    """Return v of a product of even powers v², with letters."""
+    number, factors = base.as_coeff_mul()
+    powers = [factor.as_base_exp() for factor in factors]
+    if not base.free_symbols or not number.is_positive or not all(k.is_Integer and k.is_even for _, k in powers):
+        return None
+    return sp.Mul(*(b ** (k / 2) for b, k in powers))
 
 
 def _sum(a: tuple[sp.Expr, sp.Expr], b: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:

@@ -7,7 +7,7 @@ a point of what is left satisfies all of it.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
@@ -32,6 +32,7 @@ class Hypotheses:
     """put: letter → what it is, in the letters that are left. left: expressions that are zero. region: conditions that hold.
 
     small: the small quantities. contradiction: why no values of the letters satisfy all of it; empty where none was found.
+    meaning: what the new letters of `signed` are.
     """
 
     put: Mapping[sp.Symbol, sp.Expr]
@@ -39,6 +40,7 @@ class Hypotheses:
     region: tuple[Relational, ...] = ()
     small: tuple[sp.Symbol, ...] = ()
     contradiction: str = ""
+    meaning: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
     def on(self, side: Any) -> Any:
         """A side in the letters that are left."""
@@ -47,12 +49,17 @@ class Hypotheses:
     @cached_property
     def signed(self) -> "Hypotheses":
         """The same set with its inequalities as assumptions of letters, as far as they are linear in one that is free."""
-        put, left = dict(self.put), self.left
+        put, left, meaning = dict(self.put), self.left, dict[sp.Symbol, sp.Expr]()
         order = letters_in_order((sp.S.Zero, *self.region, *left))
         for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
             step = _as_assumption(relation.xreplace(put), self.small, order)
             if step is not None:
                 letter, value = step
+                [new] = value.free_symbols - relation.xreplace(put).free_symbols
+                if new.name != letter.name:
+                    meaning[new] = sp.expand((letter - value.xreplace({new: sp.S.Zero})) / value.diff(new)).xreplace(
+                        meaning
+                    )
                 put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
                 left = tuple(replaced(e, {letter: value}) for e in left)
         there = tuple(relation.xreplace(put) for relation in self.region)
@@ -60,7 +67,7 @@ class Hypotheses:
             (f"{relation_text(r)} is false" for r, s in zip(self.region, there, strict=True) if s == sp.false), ""
         )
         relations = tuple(r for r in there if isinstance(r, Relational))
-        return Hypotheses(put, left, relations, self.small, self.contradiction or contradiction)
+        return Hypotheses(put, left, relations, self.small, self.contradiction or contradiction, meaning)
 
     @property
     def inside(self) -> tuple[Relational, ...]:

@@ -189,7 +189,9 @@ def _poles(e: Any) -> set[sp.Expr]:
     bases = {power.base for power in e.atoms(sp.Pow) if power.exp.could_extract_minus_sign()}
     bases |= {log.args[0] for log in e.atoms(sp.log)}
     factors = (
-        factor.as_base_exp()[0] for b in bases for factor in sp.Mul.make_args(b.doit().together().as_numer_denom()[0])
+        factor.args[0] if isinstance(factor, sp.Abs) else factor.as_base_exp()[0]
+        for b in bases
+        for factor in sp.Mul.make_args(b.doit().together().as_numer_denom()[0])
     )
     own = e.free_symbols  # and not what an integral or a sum binds
     return {
@@ -245,7 +247,12 @@ def _check_says_something(text: _Text, texts: Iterable[_Text]) -> None:
     """Raise InputError where the first side is a letter of which nothing else is said: then the rest only defines it."""
     name, *rest = text.sides
     others = (*rest, *(side for each in texts if each is not text for side in each.sides))
-    if name.isidentifier() and len(rest) == 1 and not any(re.search(rf"\b{name}\b", side) for side in others):
+    if (
+        name.isidentifier()
+        and name not in FUNCTIONS
+        and len(rest) == 1
+        and not any(re.search(rf"\b{name}\b", side) for side in others)
+    ):
         raise InputError(
             f"judge: {text} defines {name}, of which nothing else is known: write the other expression in its place, or "
             f"say what {name} is by a premise, --given '{name} = …'"
@@ -275,4 +282,7 @@ def _relation(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> Any:
     (left, _), (right, _) = _values(text, letters, opaque)
     if isinstance(left, sp.MatrixBase):
         raise InputError(f"given: {text} is of vectors: write it for each component")
-    return {left: right} if text.signs[0] == "=" else _RELATIONS[text.signs[0]](left, right)
+    relation = _RELATIONS[text.signs[0]](left, right)
+    if relation is sp.true:
+        raise InputError(f"given: {text} says nothing: it is always true")
+    return {left: right} if text.signs[0] == "=" else relation

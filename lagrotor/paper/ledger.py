@@ -16,7 +16,9 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, normal_form, truncated_series
+from lagrotor.algebra.branches import sided
 from lagrotor.algebra.scalar import sympified
+from lagrotor.algebra.signs import is_positive
 from lagrotor.errors import InputError, LagrotorError, NotExactError
 from lagrotor.mechanics.glossary import Glossary
 from lagrotor.paper.hypotheses import Hypotheses, hypotheses
@@ -285,10 +287,11 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
 
 def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
     exact = decide_equal(printed, derived, under.signed.inside)
-    factors = (f for f in exact.domain if not (f.is_positive or f.is_number))
+    factors = (f for f in exact.domain if not (is_positive(f) or f.is_number))
     domain = tuple(sp.Ne(factor, 0, evaluate=False) for factor in factors)
     if exact.answer == "zero":
         domain += exact.branch
+    domain = tuple(_in_letters(relation, under.signed) for relation in domain)
     small = _small(relation, printed, derived, under)
     on_equations = _in_ideal(printed, derived, under)
     if on_equations == "nowhere":
@@ -313,6 +316,14 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     value = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
     reason = f"{exact.reason} ({value})" if exact.answer == "undecided" else "no certified point keeps the sides apart"
     return _Finding("undecided", None, None, domain, (reason,), gap, place, may_branch=True)
+
+
+def _in_letters(relation: Relational, signed: Hypotheses) -> Relational:
+    """Return a relation in the letters of the print, where the premises brought in letters with other names."""
+    there = relation.xreplace(signed.meaning)
+    if there == relation or isinstance(there, sp.Ne):
+        return there
+    return sided(sp.expand(there.gts - there.lts), isinstance(there, sp.StrictGreaterThan | sp.StrictLessThan))
 
 
 def _shortest(difference: sp.Expr) -> sp.Expr:

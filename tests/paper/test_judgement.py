@@ -270,3 +270,73 @@ def test_positive_letters_are_positive_in_sums_and_rates() -> None:
         letters = ["x"] if "dt" in equation else ["x_1", "x_2"]
         assert judge_text(equation, positive=letters).verdict.verdict == "holds"
         assert judge_text(equation).verdict.verdict != "holds"
+
+
+ON_THE_EDGE = [
+    # sign(0) is neither 1 nor −1
+    ("sign(x) = 1", ["x > 0"], []),
+    ("sign(x) = -1", ["x < 0"], []),
+    ("sign(x - 1) = 1", ["x − 1 > 0"], []),
+    ("sign(x*y) = sign(x)", ["y > 0"], []),
+    ("sign(x) + sign(y) = 2", ["x > 0", "y > 0"], []),
+    ("sign(sin(x)) = 1", ["tan(x/2) ≥ 0"], ["sin(x) ≠ 0"]),
+    ("sign(x**2) = 1", [], ["x ≠ 0"]),
+    ("sign(1 + x**2) = 1", [], []),
+    (r"\operatorname{sgn}(x) = 1", ["x > 0"], []),
+    # the sign of a product, and not of each factor
+    ("Abs(x*y) = x*y", ["x·y ≥ 0"], []),
+    ("Abs(x)*Abs(y) = x*y", ["x·y ≥ 0"], []),
+    ("sqrt(m**2*g**2*sin(t)**2) = m*g*sin(t)", ["g·m·sin(t) ≥ 0"], []),
+    ("m*g*sin(t) = sqrt(m**2*g**2*sin(t)**2)", ["g·m·sin(t) ≥ 0"], []),
+    ("sqrt(cos(x)**2) = cos(x)", ["cos(x) ≥ 0"], []),
+    # between the roots of a quadratic
+    ("asin(x) = atan(x/sqrt(1 - x**2))", ["x² − 1 < 0"], []),
+    ("sqrt((1 + b)/(1 - b)) = (1 + b)/sqrt(1 - b**2)", ["b² − 1 < 0"], ["b − 1 ≠ 0", "b + 1 ≠ 0"]),
+    # proved for either sign
+    ("acosh(cosh(x)) = Abs(x)", [], []),
+    ("acosh(cosh(x)) = x", ["x ≥ 0"], []),
+    ("log(cosh(x)) = Abs(x) + log((1 + exp(-2*Abs(x)))/2)", [], []),
+    # the domain in the letters of the print
+    ("log((1 + x)/(1 - x)) = log(1 + x) - log(1 - x)", ["x − 1 < 0"], ["x + 1 > 0"]),
+    ("log(x**2) = 2*log(Abs(x))", [], ["x ≠ 0"]),
+]
+
+
+@pytest.mark.parametrize(("equation", "branch", "domain"), ON_THE_EDGE)
+def test_the_condition_is_right_at_its_edge(equation: str, branch: list[str], domain: list[str]) -> None:
+    verdict = judge_text(equation).verdict
+    assert verdict.verdict == ("holds-if" if branch else "holds")
+    conditions = [relation for premise in verdict.premises for relation in premise.conditions]
+    assert [relation_text(relation) for relation in conditions] == branch
+    assert [relation_text(relation) for relation in verdict.domain] == domain
+    left, right = equation.split(" = ")
+    assert judge_text(f"{left} + 7 = {right}").verdict.verdict == "refuted"
+
+
+@pytest.mark.parametrize("premise", ["1 > 0", "x = x", "x**2 >= 0"])
+def test_a_premise_that_is_always_true_is_named(premise: str) -> None:
+    with pytest.raises(InputError, match="is always true"):
+        judge_text("sqrt(x**2) = x", given=["x >= 0", premise])
+
+
+def test_a_number_with_a_name_is_no_letter_that_an_equation_defines() -> None:
+    assert judge_text("pi = 2*acos(x) + 2*asin(x)").verdict.verdict == "holds"
+    assert judge_text("pi = acos(x) + asin(x)").verdict.verdict == "refuted"
+
+
+def test_a_difference_that_is_not_real_is_shown_by_its_size() -> None:
+    assert "|left − right| is 1.255 at" in repr(judge_text("sqrt(x) = 1", given=["x < 0"]))
+    assert "left − right is" in repr(judge_text("sqrt(x) = 1"))
+
+
+def test_a_function_by_its_name_is_no_unknown_function() -> None:
+    assert judge_text(r"\operatorname{atan2}(y, x) = \arctan\frac{y}{x}", given=["x > 0"]).verdict.verdict == "holds-if"
+    assert judge_text(r"\operatorname{besselj}(0, 0) = 1").verdict.verdict == "holds"
+    assert judge_text(r"\gamma(x) + \gamma(x) = 2\gamma(x)").verdict.verdict == "holds"
+    with pytest.raises(InputError, match="no rules for the function erf"):
+        judge_text(r"\operatorname{erf}(x) = 1")
+
+
+def test_a_logarithm_with_a_large_factor_in_an_exponent_ends() -> None:
+    assert judge_text("exp(sign(log(1 + 8/10**8) - 8/10**8)) = exp(1)").verdict.verdict == "refuted"
+    assert judge_text("exp(sign(log(1 + 8/10**8) - 8/10**8)) = exp(-1)").verdict.verdict != "refuted"

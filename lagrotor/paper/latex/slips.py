@@ -95,7 +95,10 @@ def _changes(node: Node, names: Collection[str]) -> Iterator[tuple[Node, str]]:
         if other := _TAKEN_FOR.get(node.name):
             yield Call(other, node.args), f"{other} for {node.name}"
         for factor, said in _TWICE:
-            yield Call(node.name, (_times(factor, node.args[0]),)), f"the argument of {said.format(text_of(node))}"
+            yield (
+                Call(node.name, (_times(factor, node.args[0]), *node.args[1:])),
+                f"the argument of {said.format(text_of(node))}",
+            )
     if isinstance(node, Call) and node.name == "sum":
         for place, term in enumerate(node.args):
             for factor, said in _FACTORS:

@@ -69,7 +69,7 @@ _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
 _KNOWN_NAMES = (
     "sin cos tan cot sec csc sinh cosh tanh coth sech csch asin acos atan asinh acosh atanh exp log sqrt Abs sign "
-    "factorial"
+    "factorial atan2 besselj"
 )
 # Functions whose identities are decided.
 KNOWN = {name: getattr(sp, name) for name in _KNOWN_NAMES.split()}
@@ -219,6 +219,8 @@ class Opaque:
         """Return the symbol that stands for a part; of a vector, its components. Raises InputError where none may."""
         text = text_of(node)
         if self.refuses and isinstance(node, Call):
+            if isinstance(getattr(sp, node.name, None), sp.FunctionClass) and node.name not in _GREEK:
+                raise InputError(f"{text} is not decided: judge has no rules for the function {node.name}")
             if node.name not in _UNDECIDED and not any(map(is_vector, (node, *node.args))):
                 return sp.Function(node.name, real=True)(*(sympy_expression(each, self) for each in node.args))
             raise InputError(f"{text} is not decided: {_UNDECIDED.get(node.name, 'write its components')}")
@@ -227,6 +229,7 @@ class Opaque:
         return self.names.setdefault(text, sp.Symbol(f"[{text}]", real=True))
 
 
+_GREEK = ("beta", "gamma", "zeta")  # as a rule a function of the author's
 # Calls without a value of sympy that is decided, and what would help.
 _OF_NABLA = "write its components"
 _UNDECIDED = {
