@@ -49,22 +49,25 @@ def _parts(system: Equations) -> tuple[NarrowPart, ...]:
     energy = system.lagrangian if isinstance(system.lagrangian, sp.Expr) else sp.sympify(system.lagrangian.rest)
     states = {*system.c.q, *system.c.v, *system.speeds}
     made: dict[sp.Expr, NarrowPart] = {}
-    for part in subexpressions(energy, *system.acting):
-        of_base = isinstance(part, sp.Pow) and bool(part.base.free_symbols & states)
-        if of_base and not (part.exp.is_Integer and part.exp > 0):
-            g, log = part.base, True
-        elif isinstance(part, sp.Pow) and part.exp.free_symbols & states:
-            g, log = part.exp * sp.log(part.base), False
-        elif isinstance(part, sp.Function) and len(part.args) == 1 and not isinstance(part, (AppliedUndef, *_WIDE)):
-            g, log = part.args[0], isinstance(part, sp.log)
-        elif isinstance(part, Relational):  # of a Piecewise
-            g, log = part.lhs - part.rhs, False
-        else:
-            continue
+
+    def add(part: sp.Expr, g: sp.Expr, log: bool) -> None:
         unknown = g.free_symbols & {*system.reactions, *system.multipliers, *system.c.a}
         if g.free_symbols & states and not unknown and not g.has(AppliedUndef, sp.Derivative, sp.Piecewise):
             g = -g if g.could_extract_minus_sign() else g
             made.setdefault(g, NarrowPart(g, 1 / g if log else (1 + g**2) ** sp.Rational(-1, 2), part))
+
+    for part in subexpressions(energy, *system.acting):
+        of_base = isinstance(part, sp.Pow) and bool(part.base.free_symbols & states)
+        if of_base and not (part.exp.is_number and abs(part.exp) <= MOST**2):  # like exp(n (b² − 1)/2) where b is near 1
+            add(part, part.exp * (part.base**2 - 1) / 2, False)
+        if of_base and not (part.exp.is_Integer and part.exp > 0):
+            add(part, part.base, True)
+        elif isinstance(part, sp.Pow) and part.exp.free_symbols & states:
+            add(part, part.exp * sp.log(part.base), False)
+        elif isinstance(part, sp.Function) and len(part.args) == 1 and not isinstance(part, (AppliedUndef, *_WIDE)):
+            add(part, part.args[0], isinstance(part, sp.log))
+        elif isinstance(part, Relational):  # of a Piecewise
+            add(part, part.lhs - part.rhs, False)
     return tuple(made.values())
 
 
