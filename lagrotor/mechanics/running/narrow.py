@@ -44,8 +44,8 @@ class NarrowPart(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def _parts(system: Equations) -> tuple[NarrowPart, ...]:
-    """The parts that may be narrow, one for each argument."""
+def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]:
+    """The parts of a section, or of what acts on the motion, that may be narrow, one for each argument."""
     energy = system.lagrangian if isinstance(system.lagrangian, sp.Expr) else sp.sympify(system.lagrangian.rest)
     states = {*system.c.q, *system.c.v, *system.speeds}
     made: dict[sp.Expr, NarrowPart] = {}
@@ -56,9 +56,11 @@ def _parts(system: Equations) -> tuple[NarrowPart, ...]:
             g = -g if g.could_extract_minus_sign() else g
             made.setdefault(g, NarrowPart(g, 1 / g if log else (1 + g**2) ** sp.Rational(-1, 2), part))
 
-    for part in subexpressions(energy, *system.acting):
+    for part in subexpressions(*((energy, *system.acting) if section is None else (section,))):
         of_base = isinstance(part, sp.Pow) and bool(part.base.free_symbols & states)
-        if of_base and not (part.exp.is_number and abs(part.exp) <= MOST**2):  # like exp(n (b² − 1)/2) where b is near 1
+        if of_base and not (
+            part.exp.is_number and abs(part.exp) <= MOST**2
+        ):  # like exp(n (b² − 1)/2) where b is near 1
             add(part, part.exp * (part.base**2 - 1) / 2, False)
         if of_base and not (part.exp.is_Integer and part.exp > 0):
             add(part, part.base, True)
@@ -77,9 +79,12 @@ def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, co
     return np.append(scale, np.full(len(followed), unit))
 
 
-def narrow_parts(system: Equations, values: Mapping[Any, Any], states: Array) -> tuple[NarrowPart, ...]:
-    """The parts that are narrow for a motion with the states (n, d): q, u and, where more is known, the time."""
-    parts = (_with_edge(system, values, part, states) for part in _parts(system))
+def narrow_parts(
+    system: Equations, values: Mapping[Any, Any], states: Array, section: sp.Expr | None = None
+) -> tuple[NarrowPart, ...]:
+    """Return the parts of the system, or of a section, that are narrow for a motion with the states (n, d): q, u and, where
+    more is known, the time."""
+    parts = (_with_edge(system, values, part, states) for part in _parts(system, section))
     return tuple(part for part in parts if _narrowness(system, values, part, states) > MOST)
 
 

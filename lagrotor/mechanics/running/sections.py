@@ -22,6 +22,7 @@ from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
 from lagrotor.mechanics.running.motion import SampledMotion, integration_of
+from lagrotor.mechanics.running.narrow import narrow_parts
 from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
 from lagrotor.numerics.calibrated import BEYOND
@@ -44,7 +45,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
     Times and states are as exact as the run. Every zero of the polynomials through the solver's steps is a crossing, also two
     in one step. Where the section turns round within tol of zero it is touched, and two crossings there may be one or none. The
-    search takes at most twice the evaluations of the run, by the engine "core". A LagrotorWarning says where the section
+    search takes at most twice the evaluations of the run, by the engine "core", and more only where the section is narrow. A LagrotorWarning says where the section
     changes faster than the polynomials can follow.
 
     Parameters
@@ -64,11 +65,39 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     section, size = with_values(expression("crossings: section", section), run.values), run.switched.size
     value = function_program(run.system, section).along(run.values, "crossings")
     touch = max(run.tol, _LEAST) * _change(run, section)
+    h, known = run.switched, {part.argument for part in run.switched.narrow}
+    narrow = narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section)
+    run = replace(
+        run, switched=replace(h, narrow=(*h.narrow, *(part for part in narrow if part.argument not in known)))
+    )
     passages: list[tuple[float, int, Array]] = []
     hidden: list[tuple[float, float]] = []
     evaluations = run.evaluations
 
+    within: list[tuple[float, float, float, Any]] = []  # short steps that follow each other, within `touch` all along
+
     def observe(begun: float, left: float, right: float, curve: Any) -> None:
+        nodes = chebyshev_nodes(np.array([left, right]))[0]
+        if within and begun + left > within[-1][0] + within[-1][2] + _ONE * (right - left):
+            leave()
+        if begun + left > run.t[0] and np.abs(value(curve(nodes), begun + nodes)).max() <= touch:
+            within.append((begun, left, right, curve))
+            return
+        leave()
+        search(begun, left, right, curve, touch)
+
+    def leave() -> None:
+        """Search the steps within `touch` of zero if the section has changed its sign there."""
+        signs = [
+            [value(curve(np.array([s])), np.array([begun + s]))[0, 0] > 0 for s in (left, right)]
+            for begun, left, right, curve in within
+        ]
+        for step, (before, after) in zip(within, signs, strict=True):
+            if signs[0][0] != signs[-1][1] and before != after:
+                search(*step, 0.0)
+        within.clear()
+
+    def search(begun: float, left: float, right: float, curve: Any, touch: float) -> None:
         def values(s: Array) -> Array:
             return value(curve(s), begun + s)
 
@@ -92,6 +121,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
                 passages.pop()  # the next stage begins before it
             elif not near_end:
                 passages.append((float(run.t[j]), way, run.states[j, :size]))
+    leave()
     if hidden:
         warnings.warn(
             f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "
@@ -107,7 +137,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     more = run.states[before, size:].copy()
     if tail:
         more[:, 0] = times
-    return replace(run.read(times, np.hstack([rows, more])), evaluations=evaluations)
+    return replace(run.read(times, np.hstack([rows, more])), evaluations=evaluations, switched=h)
 
 
 def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
@@ -146,7 +176,8 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
         states = states_at(times, start)
         panels = np.arange(len(nodes))[:, None] * m + np.arange(m + 1)
         values = value(states, times)[0][panels]
-        for k in np.flatnonzero(may_vanish(values, touch) | ~np.isfinite(values).all(1)):
+        short = np.abs(values).max(1) <= touch
+        for k in np.flatnonzero(may_vanish(values, touch) | short | ~np.isfinite(values).all(1)):
             left, right = edges[k : k + 2]
             curve, last = interpolant(right - left, states[panels[k], : len(sizes)])
             if halvings and (last > max(local, _LEAST) * sizes).any():
