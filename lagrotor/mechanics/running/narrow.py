@@ -62,7 +62,7 @@ def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]
             part.exp.is_number and abs(part.exp) <= MOST**2
         ):  # like exp(n (b² − 1)/2) where b is near 1
             add(part, part.exp * (part.base**2 - 1) / 2, False)
-        if of_base and not (part.exp.is_Integer and part.exp > 0):
+        if of_base and not (part.exp.is_positive and (part.exp.is_Integer or not part.exp.is_number)):
             add(part, part.base, True)
         elif isinstance(part, sp.Pow) and part.exp.free_symbols & states:
             add(part, part.exp * sp.log(part.base), False)

@@ -160,7 +160,10 @@ def simulate_system(
         _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
     evolution = Evolution(
         start=start,
-        integrate=integration_of(system, values, engine, scales, h, start, progress),
+        # A solver looks beyond its last time.
+        integrate=integration_of(
+            system, values, engine, scales, h, start, progress and (lambda now: progress(min(now, float(times[-1]))))
+        ),
         distance=scales.distance,
         turn=scales.turn,
         patience=_STIFF if scales.stiff else _PATIENCE,
