@@ -16,6 +16,7 @@ from lagrotor.algebra.enclosures import Bounds, Point, enclosure, enclosures
 _DIGITS, _STEPS, _FAR, _NARROW = 60, 40, 1e9, sp.Rational(1, 10**25)
 _MOST_BOXES, _MOST_UNDECIDED, _LEAST = 4_000, 16, sp.Rational(1, 10**6)
 _CUT = sp.Rational(49, 100)  # beside the middle, where roots often are
+_REACH = 32  # widths of a narrow part, from which on the direction of a force at a kink is enclosed
 _PIECEWISE = (sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min)
 Box = dict[sp.Symbol, Bounds]
 
@@ -146,11 +147,11 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
 
 
 def kinks_in(equations: Sequence[sp.Expr], part: Box, box: Box) -> list[sp.Expr]:
-    """Return the expressions that may vanish in a narrow part of a box, or in the parts next to it, and leave the equations
+    """Return the expressions that may vanish in a narrow part of a box, or near to it, and leave the equations
     without a derivative or a value there: denominators, radicands, arguments at which a function changes its form."""
     if any(high - low > _LEAST * (box[s][1] - box[s][0]) for s, (low, high) in part.items() if s in box):
         return []
-    near = {s: (2 * low - high, 2 * high - low) for s, (low, high) in part.items()}
+    near = {s: (low - _REACH * (high - low), high + _REACH * (high - low)) for s, (low, high) in part.items()}
     pieces = [e.rewrite(_PIECEWISE, sp.Piecewise) for e in equations]
     powers = set().union(*(e.atoms(sp.Pow) for e in pieces))
     relations = set().union(*(e.atoms(sp.core.relational.Relational) for e in pieces))

@@ -235,3 +235,16 @@ def test_a_box_is_refused_where_bodies_roll_or_constraints_are_many() -> None:
         )
     with pytest.raises(InputError, match="where a body rolls"):
         System(d, kinetic, rolling=(u - 2 * w,)).equilibria(values={}, box={a: (0, 1), b: (0, 1)})
+
+
+def test_an_equilibrium_between_two_stretched_springs_is_kept_beside_their_kinks() -> None:
+    """Newton's method from 3,000 places comes to one; at each end a force has no direction, and about it nothing is decided."""
+    c = coordinates("x y")
+    (x, y), R = c.q, sp.Rational
+    springs = (
+        10 * (sp.sqrt((x - 1) ** 2 + y**2) - R(4, 5)) ** 2 + R(15, 2) * (sp.sqrt((x + 1) ** 2 + y**2) - R(7, 10)) ** 2
+    )
+    system = System(c, (c.v[0] ** 2 + c.v[1] ** 2) / 2 - y - springs)
+    with pytest.warns(LagrotorWarning, match="nothing is decided where"):
+        (only,) = system.equilibria(values={}, box={x: (-3, 3), y: (-3, 3)})
+    assert [float(only.at[q]) for q in c.q] == pytest.approx([-0.013397, -0.114423], abs=1e-6)

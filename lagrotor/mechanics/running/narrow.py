@@ -44,29 +44,32 @@ class NarrowPart(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def _parts(system: Equations) -> tuple[NarrowPart, ...]:
-    """The parts that may be narrow, one for each argument."""
-    energy = (
-        system.lagrangian if isinstance(system.lagrangian, sp.Expr) else sp.sympify(system.lagrangian.rest, strict=True)
-    )
+def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]:
+    """The parts of a section, or of what acts on the motion, that may be narrow, one for each argument."""
+    energy = getattr(system.lagrangian, "rest", system.lagrangian)
     states = {*system.c.q, *system.c.v, *system.speeds}
     made: dict[sp.Expr, NarrowPart] = {}
-    for part in subexpressions(energy, *system.acting):
-        of_base = isinstance(part, sp.Pow) and bool(part.base.free_symbols & states)
-        if of_base and not (part.exp.is_Integer and part.exp > 0):
-            g, log = part.base, True
-        elif isinstance(part, sp.Pow) and part.exp.free_symbols & states:
-            g, log = part.exp * sp.log(part.base), False
-        elif isinstance(part, sp.Function) and len(part.args) == 1 and not isinstance(part, (AppliedUndef, *_WIDE)):
-            g, log = part.args[0], isinstance(part, sp.log)
-        elif isinstance(part, Relational):  # of a Piecewise
-            g, log = part.lhs - part.rhs, False
-        else:
-            continue
+
+    def add(part: sp.Expr, g: sp.Expr, log: bool) -> None:
         unknown = g.free_symbols & {*system.reactions, *system.multipliers, *system.c.a}
         if g.free_symbols & states and not unknown and not g.has(AppliedUndef, sp.Derivative, sp.Piecewise):
             g = -g if g.could_extract_minus_sign() else g
             made.setdefault(g, NarrowPart(g, 1 / g if log else (1 + g**2) ** sp.Rational(-1, 2), part))
+
+    for part in subexpressions(*((energy, *system.acting) if section is None else (section,))):
+        of_base = isinstance(part, sp.Pow) and bool(part.base.free_symbols & states)
+        if of_base and not (
+            part.exp.is_number and abs(part.exp) <= MOST**2
+        ):  # like exp(n (b² − 1)/2) where b is near 1
+            add(part, part.exp * (part.base**2 - 1) / 2, False)
+        if of_base and not (part.exp.is_positive and (part.exp.is_Integer or not part.exp.is_number)):
+            add(part, part.base, True)
+        elif isinstance(part, sp.Pow) and part.exp.free_symbols & states:
+            add(part, part.exp * sp.log(part.base), False)
+        elif isinstance(part, sp.Function) and len(part.args) == 1 and not isinstance(part, (AppliedUndef, *_WIDE)):
+            add(part, part.args[0], isinstance(part, sp.log))
+        elif isinstance(part, Relational):  # of a Piecewise
+            add(part, part.lhs - part.rhs, False)
     return tuple(made.values())
 
 
@@ -76,9 +79,12 @@ def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, co
     return np.append(scale, np.full(len(followed), unit))
 
 
-def narrow_parts(system: Equations, values: Mapping[Any, Any], states: Array) -> tuple[NarrowPart, ...]:
-    """The parts that are narrow for a motion with the states (n, d): q, u and, where more is known, the time."""
-    parts = (_with_edge(system, values, part, states) for part in _parts(system))
+def narrow_parts(
+    system: Equations, values: Mapping[Any, Any], states: Array, section: sp.Expr | None = None
+) -> tuple[NarrowPart, ...]:
+    """Return the parts of the system, or of a section, that are narrow for a motion with the states (n, d): q, u and, where
+    more is known, the time."""
+    parts = (_with_edge(system, values, part, states) for part in _parts(system, section))
     return tuple(part for part in parts if _narrowness(system, values, part, states) > MOST)
 
 

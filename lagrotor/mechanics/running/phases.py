@@ -407,7 +407,7 @@ def _smooth(
     except StopError as stop:
         end = stop.reached.end * scale if stop.reached else y
         so_far = Stretch(np.concatenate(parts), end, stop.evaluations)
-        words = unbounded_force(system, numbers, end, h.sizes) if stop.cause == "stopped" and h.sizes.all() else ""
+        words = unbounded_force(system, numbers, y, end, h.sizes) if stop.cause == "stopped" and h.sizes.all() else ""
         raise StopError(stop.at, words or stop.reason, so_far, cause="singular" if words else stop.cause) from None
     assert solver is not None  # a phase that is begun has a length
     return Stretch(np.concatenate(parts), solver.y * scale, solver.nfev), None

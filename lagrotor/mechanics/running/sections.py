@@ -8,7 +8,7 @@ no zero by the sizes of its coefficients is left at once. So the search costs tw
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Any, TypeVar
 
@@ -22,6 +22,7 @@ from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
 from lagrotor.mechanics.running.motion import SampledMotion, integration_of
+from lagrotor.mechanics.running.narrow import narrow_parts
 from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
 from lagrotor.numerics.calibrated import BEYOND
@@ -36,7 +37,57 @@ _STEPS = 8  # times of evaluations in a panel, which has twice as many intervals
 _HALVINGS = 8  # of a panel whose polynomial is not resolved
 _BUDGET = 60_000, 4_800  # evaluations of a stage, to begin and for each turn: three times those that a run may take
 _CLOCK = 1e3  # spacings of doubles at the time, of a shortest panel
+_Step = tuple[float, float, float, Callable[[Array], Array]]  # as an Observer has it
 Values = Callable[[Array, Array], Array]  # of the section: states (m, d) and times (m,) → (1, m)
+
+
+@dataclass
+class _Search:
+    """The crossings of a section (time, direction, state) from the time `begin` on, of steps in the order of time.
+
+    within: short steps that follow each other, in which the section is within `touch` of zero all along.
+    """
+
+    value: Values
+    begin: float
+    size: int
+    touch: float
+    passages: list[tuple[float, int, Array]] = field(default_factory=list)
+    hidden: list[tuple[float, float]] = field(default_factory=list)
+    within: list[_Step] = field(default_factory=list)
+
+    def observe(self, begun: float, left: float, right: float, curve: Any) -> None:
+        nodes = chebyshev_nodes(np.array([left, right]))[0]
+        if self.within and begun + left > self.within[-1][0] + self.within[-1][2] + _ONE * (right - left):
+            self.leave()
+        if begun + left > self.begin and np.abs(self.value(curve(nodes), begun + nodes)).max() <= self.touch:
+            self.within.append((begun, left, right, curve))
+            return
+        self.leave()
+        self._search(begun, left, right, curve, self.touch)
+
+    def leave(self) -> None:
+        """Search the steps within `touch` of zero if the section has changed its sign there."""
+        signs = [
+            [bool(self.value(curve(np.array([s])), np.array([begun + s]))[0, 0] > 0) for s in (left, right)]
+            for begun, left, right, curve in self.within
+        ]
+        for step, (before, after) in zip(self.within, signs, strict=True):
+            if signs[0][0] != signs[-1][1] and before != after:
+                self._search(*step, 0.0)
+        self.within.clear()
+
+    def _search(self, begun: float, left: float, right: float, curve: Any, touch: float) -> None:
+        def values(s: Array) -> Array:
+            return self.value(curve(s), begun + s)
+
+        zeros, passages = zeros_between(values, left, right, touch), self.passages
+        self.hidden += [(begun + zeros.hidden[0], begun + zeros.hidden[1])] if zeros.hidden else []
+        for s, way in zip(zeros.t, zeros.direction, strict=True):
+            since = float(s) if way == 0 else polish(values, 0, float(s), left, right)
+            at, near = begun + since, _ONE * (right - left)
+            if at > self.begin + near and not (passages and passages[-1][1] == way and at - passages[-1][0] <= near):
+                passages.append((at, int(way), curve(np.array([since]))[0][: self.size]))
 
 
 def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
@@ -44,8 +95,8 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
     Times and states are as exact as the run. Every zero of the polynomials through the solver's steps is a crossing, also two
     in one step. Where the section turns round within tol of zero it is touched, and two crossings there may be one or none. The
-    search takes at most twice the evaluations of the run, by the engine "core". A LagrotorWarning says where the section
-    changes faster than the polynomials can follow.
+    search takes at most twice the evaluations of the run, by the engine "core", and more only of a section that is narrow
+    itself. A LagrotorWarning says where the section changes faster than the polynomials can follow.
 
     Parameters
     ----------
@@ -64,25 +115,15 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     section, size = with_values(expression("crossings: section", section), run.values), run.switched.size
     value = function_program(run.system, section).along(run.values, "crossings")
     touch = max(run.tol, _LEAST) * _change(run, section)
-    passages: list[tuple[float, int, Array]] = []
-    hidden: list[tuple[float, float]] = []
-    evaluations = run.evaluations
-
-    def observe(begun: float, left: float, right: float, curve: Any) -> None:
-        def values(s: Array) -> Array:
-            return value(curve(s), begun + s)
-
-        zeros = zeros_between(values, left, right, touch)
-        hidden.extend([(begun + zeros.hidden[0], begun + zeros.hidden[1])] if zeros.hidden else [])
-        for s, way in zip(zeros.t, zeros.direction, strict=True):
-            since = float(s) if way == 0 else polish(values, 0, float(s), left, right)
-            at, near = begun + since, _ONE * (right - left)
-            if at > run.t[0] + near and not (passages and passages[-1][1] == way and at - passages[-1][0] <= near):
-                passages.append((at, int(way), curve(np.array([since]))[0][:size]))
-
+    h = run.switched
+    narrow = {part.argument: part for part in narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section)}
+    narrow |= {part.argument: part for part in h.narrow}
+    run = replace(run, switched=replace(h, narrow=tuple(narrow.values())))
+    search = _Search(value, float(run.t[0]), size, touch)
+    passages, evaluations = search.passages, run.evaluations
     known = value(run.states, run.t)[0]
     for i, j in _stages(run):
-        end, spent = _stage(run, i, j, value, touch, observe)
+        end, spent = _stage(run, i, j, value, touch, search.observe)
         evaluations += spent
         side = float(value(end[None], run.t[[j]])[0, 0])
         if side * known[j] < 0:  # between the end of a stage and the beginning of the next
@@ -92,7 +133,8 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
                 passages.pop()  # the next stage begins before it
             elif not near_end:
                 passages.append((float(run.t[j]), way, run.states[j, :size]))
-    if hidden:
+    search.leave()
+    if hidden := search.hidden:
         warnings.warn(
             f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "
             "followed: crossings may be hidden there",
@@ -107,7 +149,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     more = run.states[before, size:].copy()
     if tail:
         more[:, 0] = times
-    return replace(run.read(times, np.hstack([rows, more])), evaluations=evaluations)
+    return replace(run.read(times, np.hstack([rows, more])), evaluations=evaluations, switched=h)
 
 
 def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
@@ -146,7 +188,8 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
         states = states_at(times, start)
         panels = np.arange(len(nodes))[:, None] * m + np.arange(m + 1)
         values = value(states, times)[0][panels]
-        for k in np.flatnonzero(may_vanish(values, touch) | ~np.isfinite(values).all(1)):
+        short = np.abs(values).max(1) <= touch
+        for k in np.flatnonzero(may_vanish(values, touch) | short | ~np.isfinite(values).all(1)):
             left, right = edges[k : k + 2]
             curve, last = interpolant(right - left, states[panels[k], : len(sizes)])
             if halvings and (last > max(local, _LEAST) * sizes).any():

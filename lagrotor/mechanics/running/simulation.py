@@ -93,8 +93,10 @@ class SystemRun(SampledMotion):
         check_engine(engine, "load")
         h = with_events(system, values, given)
         windows = clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
-        scales = replace(scales, windows=windows)
-        narrow = narrow_parts(h.system, h.numbers(h.slipping), states)
+        swings = np.repeat(states[:1], 2, axis=0)  # as far as the motion came between its samples
+        swings[:, : len(scales.sizes)] = scales.sizes, -scales.sizes
+        scales = replace(scales, windows=windows, survey=np.vstack([states, swings]))
+        narrow = narrow_parts(h.system, h.numbers(h.slipping), scales.survey)
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows, narrow=narrow)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
@@ -158,7 +160,10 @@ def simulate_system(
         _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
     evolution = Evolution(
         start=start,
-        integrate=integration_of(system, values, engine, scales, h, start, progress),
+        # A solver looks beyond its last time.
+        integrate=integration_of(
+            system, values, engine, scales, h, start, progress and (lambda now: progress(min(now, float(times[-1]))))
+        ),
         distance=scales.distance,
         turn=scales.turn,
         patience=_STIFF if scales.stiff else _PATIENCE,

@@ -12,6 +12,7 @@ from lagrotor.shown import scientific
 
 _SINGULAR = 1e-6  # least eigenvalue of the mass matrix over that at the start; least cosine of the constraints' normals
 _UNBOUNDED = 1e8
+_GROWN = 1e3  # acceleration over that at the start, below which a force is large and stiff, and has a bound
 _TAKES_PART = 0.2  # component of a direction from which on a coordinate is named
 
 
@@ -40,18 +41,19 @@ def singular_position(
             )
         if system.left and (cosine := float(independence(system, values, state[None])[0])) < _SINGULAR:
             return f"the constraints are dependent there: the least singular value of their normals is {scientific(cosine, 1)}"
-        return unbounded_force(system, values, state, sizes)
+        return unbounded_force(system, values, start, state, sizes)
 
     return words
 
 
-def unbounded_force(system: Equations, values: Mapping[Any, Any], state: Array, sizes: Array) -> str:
+def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, state: Array, sizes: Array) -> str:
     """The words of a force that grows without bound, as at a collision: the acceleration at the state would change a velocity by
-    its size in 10⁻⁸ of the time in which the motion covers its sizes; none elsewhere."""
-    n = len(system.c.q)
-    change = _at(function_program(system, *system.c.a), system, values, state)[:, 0]
+    its size in 10⁻⁸ of the time in which the motion covers its sizes, and has grown since the start; none elsewhere."""
+    n, program = len(system.c.q), function_program(system, *system.c.a)
+    first, change = (_at(program, system, values, each)[:, 0] for each in (start, state))
     i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
-    if not _UNBOUNDED * typical * np.max(sizes[n:]) < abs(change[i]) < np.inf:  # also where it is no number
+    least = max(_UNBOUNDED * typical * np.max(sizes[n:]), _GROWN * np.abs(first).max())
+    if not least < abs(change[i]) < np.inf:  # also where it is no number
         return ""
     return (
         f"the force grows without bound there: the acceleration of {system.c.q[i]} is {scientific(float(change[i]), 1)}"

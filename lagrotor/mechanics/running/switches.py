@@ -154,6 +154,14 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             f"simulate: the Lagrangian jumps where {w} = 0, and its force is infinite there: give an Impact or an Event; of a "
             f"potential without a jump write {w} as a factor"
         )
+    # A solver looks beyond the surface before it ends its phase there: Hertz's (−z)^(5/2) has |z| for −z.
+    roots = {
+        e: sp.Abs(e.base.xreplace(put)) ** e.exp
+        for e in subexpressions(*places)
+        if isinstance(e, sp.Pow) and e.exp.is_number and not e.exp.is_integer
+        if e.base.has(*put) or any((e.base / w).is_number for w in signs)
+    }
+    put |= roots
     friction = gradient(system.dissipation.xreplace(put), system.c.v)
     forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(put))
     smooth = replace(system, lagrangian=system.lagrangian.xreplace(put), forces=forces, dissipation=sp.S.Zero)

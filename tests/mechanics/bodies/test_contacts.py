@@ -124,6 +124,7 @@ SWING = coordinates("phi")
 STOPS = {
     "Heaviside": 500 * sp.sin(SWING.q[0]) ** 2 * sp.Heaviside(sp.sin(SWING.q[0])),
     "Max": 500 * sp.Max(0, sp.sin(SWING.q[0])) ** 2,
+    "Hertz": 500 * sp.Max(0, sp.sin(SWING.q[0])) ** sp.Rational(5, 2),
     "Abs": 5 * sp.Abs(SWING.q[0] - sp.Rational(1, 10)) ** 3 + sp.Abs(SWING.q[0]),
 }
 
