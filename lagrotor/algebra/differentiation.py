@@ -61,7 +61,7 @@ def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.E
 
 
 def _vanishes(product: sp.Expr) -> bool:
-    """Whether an expression is f δ(g), f zero wherever g is, as x δ(x)."""
+    """Return whether an expression is f δ(g), f zero wherever g is, as x δ(x)."""
     for delta in product.args if product.is_Mul else ():
         if isinstance(delta, sp.DiracDelta) and len(delta.args) == 1:
             f, g = product / delta, delta.args[0]

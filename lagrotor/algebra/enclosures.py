@@ -50,7 +50,7 @@ def enclosed_at(expression: sp.Expr, point: Point, precision: int = DIGITS) -> A
 
 
 def excludes_zero(value: Any) -> bool:
-    """Whether 0 lies outside an enclosure."""
+    """Return whether 0 lies outside an enclosure."""
     return any(0 not in part and part.delta < iv.inf for part in (value.real, value.imag))
 
 
@@ -156,7 +156,7 @@ class PointEnclosure:
         raise NotExactError(f"{e} is not enclosed: no piece is shown to hold.")
 
     def _holds(self, condition: sp.Basic) -> bool | None:
-        """Whether an equation or an inequality holds; None where that is open."""
+        """Return whether an equation or an inequality holds; None where that is open."""
         if condition in (sp.true, sp.false):
             return bool(condition)
         if isinstance(condition, sp.And | sp.Or):

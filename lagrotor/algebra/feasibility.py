@@ -177,7 +177,7 @@ _VALUES: dict[Any, Range] = {
 
 
 def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[sp.Symbol] = ()) -> bool:
-    """Whether it is proved that at no point of the region every equation is zero.
+    """Return whether it is proved that at no point of the region every equation is zero.
 
     small: letters that are as near to 0 as one likes.
     """
@@ -211,7 +211,7 @@ def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Regio
 
 
 def _excludes_itself(where: Region) -> bool:
-    """Whether linear conditions, and the letters' own, exclude each other: Fourier–Motzkin elimination."""
+    """Return whether linear conditions, and the letters' own, exclude each other: Fourier–Motzkin elimination."""
     rows = [(sp.expand(e), strict) for e, strict in where.above]
     letters = set().union(*(e.free_symbols for e, _ in rows)) if rows else set()
     for letter in letters:
@@ -234,7 +234,7 @@ def _excludes_itself(where: Region) -> bool:
 
 
 def _has_no_root(e: sp.Expr) -> bool:
-    """Whether a polynomial with rational coefficients in one real letter has none."""
+    """Return whether a polynomial with rational coefficients in one real letter has none."""
     if len(e.free_symbols) != 1 or not next(iter(e.free_symbols)).is_real or not e.is_polynomial():
         return False
     polynomial = sp.Poly(e, *e.free_symbols)
@@ -328,7 +328,7 @@ class _Parts:
         return values, found is not None
 
     def _keeps_real(self, e: sp.Expr) -> bool:
-        """Whether e of real parts is real."""
+        """Return whether e of real parts is real."""
         if e.is_Pow:
             return bool(e.exp.is_integer or self._of(e.base).nonnegative)
         if e.func in _INCREASING:

@@ -157,7 +157,7 @@ def _decide_numbered(expression: sp.Expr, where: Region) -> Decision:
 
 
 def _is_foreign(expression: sp.Expr) -> bool:
-    """Whether something in it is not exact, not finite or does not commute."""
+    """Return whether something in it is not exact, not finite or does not commute."""
     limits = {end for node in expression.atoms(sp.Integral, sp.Sum) for limit in node.limits for end in limit[1:]}
     return any(
         atom.is_Float or not atom.is_commutative or (atom.is_finite is False and atom not in limits) or atom is sp.nan

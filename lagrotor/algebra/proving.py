@@ -103,7 +103,7 @@ def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
 
 
 def _is_difference_of_squares(expression: sp.Expr, where: Region) -> bool:
-    """Whether it is a − b, both positive, with a² = b²."""
+    """Return whether it is a − b, both positive, with a² = b²."""
     terms = sp.Add.make_args(expression)
     sides = [sp.Add(*(sign * term for term in terms if is_positive(sign * term, where))) for sign in (1, -1)]
     if not expression.has(sp.Pow) or 0 in sides or sides[0] - sides[1] != expression:

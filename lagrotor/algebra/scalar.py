@@ -98,7 +98,7 @@ def divided(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 
 def _is_apart(number: sp.Expr) -> bool:
-    """Whether a number is certainly real and not zero."""
+    """Return whether a number is certainly real and not zero."""
     huge = number.is_Pow and number.exp.is_Integer  # written, not evaluated
     between = None if huge else enclosure(number, {})
     return between is not None and (between[0] > 0 or between[1] < 0)

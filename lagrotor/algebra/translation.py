@@ -426,7 +426,7 @@ class Translation:
         return _multiple(((1 - tau**2) / square, 2 * tau / square), int(rate * step))
 
     def _turns(self, angle: sp.Expr) -> bool:
-        """Whether an angle is a whole number of turns for all whole numbers it holds."""
+        """Return whether an angle is a whole number of turns for all whole numbers it holds."""
         return bool((self.back(angle) / (2 * sp.pi)).is_integer)
 
     def _number_of_turn(self, value: sp.Expr) -> sp.Expr:
@@ -502,7 +502,7 @@ class Translation:
         return letter
 
     def _are_real(self, factors: list[tuple[sp.Expr, int]]) -> bool:
-        """Whether each factor is known to be real: a product may be without that."""
+        """Return whether each factor is known to be real: a product may be without that."""
         return all(is_real(self.back(p), self.where) for p, _ in factors)
 
     def factors(self, u: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]]:

@@ -362,5 +362,5 @@ def start_unsure(model: Model, scene: Scene, start: Array) -> float:
 
 
 def _fast_runs(model: Model, scene: Scene) -> bool:
-    """Whether Taylor steps cannot pass a position at which the model's constraints fail."""
+    """Return whether Taylor steps cannot pass a position at which the model's constraints fail."""
     return model.outside is None or scene.link is None

@@ -579,7 +579,7 @@ def first_time(t: Array, where: NDArray[np.bool_]) -> float:
 
 
 def _hopeless(course: _Course, comparison: _Comparison) -> bool:
-    """Whether two integrations parted so fast that no tolerance keeps LOST to the end.
+    """Return whether two integrations parted so fast that no tolerance keeps LOST to the end.
 
     Their difference grew from the looser local error to LOST at `lost`, half the way by `early` (in logarithms): by e^(λt), or
     by a power of t. A tighter tolerance comes as far as the more hopeful of the two says.

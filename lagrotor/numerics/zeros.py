@@ -120,7 +120,7 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
 
 
 def _keeps_its_sign(series: Array) -> bool:
-    """Whether the constant outweighs all other terms, on [−1, 1] and so little beyond as a zero may lie: |T_k| is at most
+    """Return whether the constant outweighs all other terms, on [−1, 1] and so little beyond as a zero may lie: |T_k| is at most
     cosh(k √(2 · 10⁻⁶)) there."""
     return bool(abs(series[0]) > 1.001 * np.abs(series[1:]).sum())
 

@@ -106,7 +106,7 @@ def reading_digest(latex: str, lines: Iterable[Mapping[str, Any]]) -> str:
 
 
 def is_claim(identifier: str) -> bool:
-    """Whether an id is that of a claim, C and a number, not that of an equation."""
+    """Return whether an id is that of a claim, C and a number, not that of an equation."""
     return _CLAIM.fullmatch(identifier) is not None
 
 

@@ -202,7 +202,7 @@ class _Known(NamedTuple):
     where: Region
 
     def nonzero(self, e: sp.Expr) -> bool:
-        """Whether e does not vanish."""
+        """Return whether e does not vanish."""
         if e in self.units or sp.expand(e) in self.units:
             return True
         found = signs(e, self.where)

@@ -177,7 +177,7 @@ def _put_in(text: _Text, assumed: Iterable[_Text]) -> _Text:
 
 
 def _is_put_in(text: _Text, assumed: Iterable[_Text], texts: Iterable[_Text]) -> bool:
-    """Whether a premise was put in, so that no equation has its letter any more."""
+    """Return whether a premise was put in, so that no equation has its letter any more."""
     first = text.nodes[0] if text.nodes else None
     return first in _definitions(assumed) and not any(first in walk(node) for each in texts for node in each.nodes)
 

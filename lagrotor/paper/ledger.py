@@ -221,7 +221,7 @@ def _needed(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -
 
 
 def _is_conclusion(relation: Relation, premise: Premise) -> bool:
-    """Whether an equation of the premise is what the line says: their differences are multiples of each other."""
+    """Return whether an equation of the premise is what the line says: their differences are multiples of each other."""
     gap = relation.printed - relation.derived
     entries = [e for e in (gap if isinstance(gap, sp.MatrixBase) else [gap]) if sp.expand(e) != 0]
     equations = [
@@ -354,7 +354,7 @@ def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) ->
 
 
 def _is_singular(side: Any) -> bool:
-    """Whether a part of it has no value; the limits of sums and integrals may be infinite."""
+    """Return whether a part of it has no value; the limits of sums and integrals may be infinite."""
     if isinstance(side, sp.MatrixBase):
         return any(map(_is_singular, side))
     if isinstance(side, sp.Sum | sp.Integral):
@@ -367,7 +367,7 @@ def _is_zero(side: Any) -> bool:
 
 
 def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
-    """Whether the premises make each term of both sides zero; an equation Q = 0 states just that, and is not trivial."""
+    """Return whether the premises make each term of both sides zero; an equation Q = 0 states just that, and is not trivial."""
     sides = [relation.printed, relation.derived]
     entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
     return not any(map(_is_zero, sides)) and all(
@@ -376,7 +376,7 @@ def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
 
 
 def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:
-    """Whether the difference vanishes wherever the equations that were not solved hold."""
+    """Return whether the difference vanishes wherever the equations that were not solved hold."""
     signed = under.signed
     if not signed.left:
         return "undecided"

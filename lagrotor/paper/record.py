@@ -166,7 +166,7 @@ def _said(value: Any) -> str:
 def reaches_result(
     identifier: str, results: Iterable[str], verdicts: Mapping[str, str], uses: Mapping[str, Iterable[str]]
 ) -> bool:
-    """Whether a refuted equation takes a result of the paper with it: one that rests on it, or is it, is refuted too."""
+    """Return whether a refuted equation takes a result of the paper with it: one that rests on it, or is it, is refuted too."""
     ends = set(results)
     seen, left = {identifier}, [identifier]
     while left:

@@ -83,7 +83,7 @@ def contradicted(left: Any, right: Any, under: Hypotheses) -> Values | None:
 
 
 def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
-    """Whether an equation about a function may fix a derivative of it, or an equation that is left holds one."""
+    """Return whether an equation about a function may fix a derivative of it, or an equation that is left holds one."""
     given = sp.Tuple(*signed.left, *signed.put.values())
     new = e.atoms(sp.Derivative) - given.atoms(sp.Derivative)
     functions = given.atoms(AppliedUndef)
@@ -119,7 +119,7 @@ def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
 
 
 def _as_declared(values: Values) -> bool:
-    """Whether the letters that an equation fixes have the signs that they were declared with."""
+    """Return whether the letters that an equation fixes have the signs that they were declared with."""
     return all(
         not ((s.is_extended_nonnegative and v[0] <= 0) or (s.is_extended_nonpositive and v[1] >= 0) or s.is_integer)
         for s, v in values.items()
@@ -128,7 +128,7 @@ def _as_declared(values: Values) -> bool:
 
 
 def _satisfied(relation: Relational, values: Values) -> bool:
-    """Whether a condition certainly holds at a point."""
+    """Return whether a condition certainly holds at a point."""
     between = enclosure(sp.sympify(relation.lhs - relation.rhs, strict=True), values)
     if between is None:
         return False

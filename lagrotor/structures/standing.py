@@ -234,7 +234,7 @@ class Standing(Shown):
         return hold_time(self.structure, push, of)
 
     def summary(self) -> dict[str, str]:
-        """Whether it stands and why, and what spins it needs, name → words."""
+        """Return whether it stands and why, and what spins it needs, name → words."""
         least = "none" if self.critical_spin == inf else f"{self.critical_spin:.6g}"
         return {
             "stands to first order": "yes" if self.stands else "no",
@@ -245,7 +245,7 @@ class Standing(Shown):
 
 
 def stands(s: Assembly) -> Standing:
-    """Whether the linear motion about upright stays bounded, and what resonances do: see `Standing`.
+    """Return whether the linear motion about upright stays bounded, and what resonances do: see `Standing`.
 
     Raises InputError where upright breaks a bar's length, and where it falls more slowly than is resolved: an odd number of
     degrees of freedom that fall without spin do so at any (Kelvin), and so does what friction acts on (Tait and Chetaev, too).

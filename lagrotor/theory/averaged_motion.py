@@ -184,7 +184,7 @@ class SlowMotion:
         return (abs(half) + self.swing) / (self.ratio * cos(lean))
 
     def turns(self, share: float) -> bool:
-        """Whether |beta| turns back on the curve of W + share W_6, its s² that of the mean to the same share.
+        """Return whether |beta| turns back on the curve of W + share W_6, its s² that of the mean to the same share.
 
         False where, before, chi is more than 30 degrees, or the next order's part of the slope by eta² is more than
         half of the leading one's with all its terms positive.
@@ -309,7 +309,7 @@ def time_to_reach(scene: Scene, x: float) -> float:
 
 
 def turns_back(scene: Scene) -> bool:
-    """Whether the mean x of opposite spins stays bounded after the scene's shock: it turns back, again and again.
+    """Return whether the mean x of opposite spins stays bounded after the scene's shock: it turns back, again and again.
 
     Of the averaged motion. To leading order it does after a shock along x, which leaves eta = p_x/(2 G) and s = A |eta|, beyond a
     threshold that the next order moves:

@@ -109,7 +109,7 @@ def joint_line_limits(quick: bool) -> list[Limit]:
 
 
 def passes(miss: float) -> bool:
-    """Whether spheres takes a pair without spin, its axes parallel, past r_1 = r_2 = e_x at `miss` rad from it."""
+    """Return whether spheres takes a pair without spin, its axes parallel, past r_1 = r_2 = e_x at `miss` rad from it."""
     swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s, there after a quarter turn
     times, turn = np.array([0.0, 2.0]), np.array([cos(miss) * sin(2), sin(miss) * sin(2), cos(2)])
     try:

@@ -20,7 +20,7 @@ from lagrotor.pair.scene import Link, Scene
 
 
 def step_grows(system: RigidBodySystem, dt: float) -> bool:
-    """Whether a disturbance of 1e-9 m in the bodies' places has opened a joint beyond 1e-5 m after 1,000 steps of dt."""
+    """Return whether a disturbance of 1e-9 m in the bodies' places has opened a joint beyond 1e-5 m after 1,000 steps of dt."""
     moving = deepcopy(system)
     moving.X[:-1] += 1e-9 * np.random.default_rng(1).normal(size=moving.X[:-1].shape)
     with warnings.catch_warnings():

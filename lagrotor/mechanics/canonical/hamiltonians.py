@@ -96,11 +96,11 @@ class Hamiltonian:
         return shortest(self.bracket(f, self.H) + derivative(f, t))
 
     def conserved(self, f: sp.Expr) -> Decision:
-        """Whether f(q, p, t) is a first integral, decided; under constraints what vanishes only on them is "undecided"."""
+        """Return whether f(q, p, t) is a first integral, decided; under constraints what vanishes only on them is "undecided"."""
         return self._on_constraints(self.bracket(f, self.H) + derivative(f, t))
 
     def in_involution(self, *integrals: sp.Expr) -> Decision:
-        """Whether each is a first integral and every bracket of two of them vanishes, decided.
+        """Return whether each is a first integral and every bracket of two of them vanishes, decided.
 
         n of them that are independent make the system integrable (Liouville; Arnold § 49).
         """
@@ -121,7 +121,7 @@ class Hamiltonian:
         return decision
 
     def canonical(self, Q: Sequence[sp.Expr], P: Sequence[sp.Expr]) -> Decision:
-        """Whether (q, p) → (Q, P) keeps the brackets, {Q_i, P_j} = δ_ij and all others zero: decided. Arnold § 45."""
+        """Return whether (q, p) → (Q, P) keeps the brackets, {Q_i, P_j} = δ_ij and all others zero: decided. Arnold § 45."""
         n = len(self.q)
         new = sp.Matrix([*vector_of("canonical: Q", Q, n), *vector_of("canonical: P", P, n)])
         brackets = sp.Matrix(2 * n, 2 * n, lambda a, b: self.bracket(new[a], new[b]))

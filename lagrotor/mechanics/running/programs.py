@@ -279,14 +279,14 @@ def energy_program(system: Equations) -> Generated:
 
 
 def _is_plain(name: str) -> bool:
-    """Whether generated code may have it for a name: one of mathematics, no word of a language, none that stages have."""
+    """Return whether generated code may have it for a name: one of mathematics, no word of a language, none that stages have."""
     return name.isidentifier() and not (
         iskeyword(name) or name in vars(math) or name in _OWN or name.startswith(("_", "c_")) or name.endswith("_")
     )
 
 
 def depends_on_time(system: Equations) -> bool:
-    """Whether t is in the Lagrangian, a force, the friction, a constraint or a velocity of one's own."""
+    """Return whether t is in the Lagrangian, a force, the friction, a constraint or a velocity of one's own."""
     expressions = (*system.acting, *(e for _, e in system.velocities))
     return t in system.letters or any(t in e.free_symbols for e in expressions)
 

@@ -70,7 +70,7 @@ def kept_chunks(
 
 
 def _is_whole(arrays: Arrays, endings: Endings, blank: Arrays) -> bool:
-    """Whether the arrays are those of a chunk: finite motions of unit axes, NaN only after one that ended early."""
+    """Return whether the arrays are those of a chunk: finite motions of unit axes, NaN only after one that ended early."""
     if {k: (a.shape, a.dtype) for k, a in arrays.items()} != {k: (a.shape, a.dtype) for k, a in blank.items()}:
         return False
     axes, rates, errors, models = (arrays[name] for name in ("axes", "rates", "errors", "models"))

@@ -459,7 +459,7 @@ def _without_spaces(row: list[Box]) -> list[Box]:
 
 
 def _joins(before: Box, made: Box, style: str) -> bool:
-    """Whether an upright letter goes on with the word before it."""
+    """Return whether an upright letter goes on with the word before it."""
     letters = before.kind == made.kind == "letter" and before.upright and made.upright and len(made.name) == 1
     return style == "upright" and letters and before.sub is None and before.sup is None and not before.marks
 
@@ -511,7 +511,7 @@ _FORMS: dict[str, Callable[[_Reader, Token, str], list[Box]]] = {
 
 
 def is_printed_as_vector(box: Box) -> bool:
-    """Whether a letter is printed as a vector: bold, with an arrow or with a line below."""
+    """Return whether a letter is printed as a vector: bold, with an arrow or with a line below."""
     return box.style == "bold" or "vec" in box.marks or "under" in box.marks
 
 
@@ -540,7 +540,7 @@ def all_boxes(row: Iterable[Box]) -> Iterator[Box]:
 
 
 def is_mark(box: Box, mark: str) -> bool:
-    """Whether a box is the d or the ∂ of a derivative."""
+    """Return whether a box is the d or the ∂ of a derivative."""
     if mark == "partial":
         return box.kind == "partial" and box.sub is None
     return box.kind == "letter" and box.name == mark and not (box.marks or box.sub or box.primes or box.style)

@@ -92,7 +92,7 @@ class Grammar:
         return self.source[first.at : (last or first).end]
 
     def _kind(self, box: Box, *kinds: str) -> bool:
-        """Whether the notation declares a letter to be one of these kinds."""
+        """Return whether the notation declares a letter to be one of these kinds."""
         return any(has_kind(self.notation, kind, box) for kind in kinds)
 
     def _each(self, row: list[Box]) -> tuple[Node, ...]:
@@ -503,7 +503,7 @@ class Grammar:
         raise FormulaError(f"where the argument of {row[start - 1].name} ends is open", "write it in brackets")
 
     def _moves(self, box: Box) -> bool:
-        """Whether a box is a velocity or a vector, which ends the argument of a function."""
+        """Return whether a box is a velocity or a vector, which ends the argument of a function."""
         dotted = any(mark.endswith("dot") for mark in box.marks)
         return bool(is_derivative(box)) or (box.kind == "letter" and (dotted or self._kind(box, "vectors")))
 
@@ -785,7 +785,7 @@ def _check_neighbours(row: list[Box], place: int, before: Box | None) -> None:
 
 
 def is_unit(text: str) -> bool:
-    """Whether a text is a unit: km, m/s^2."""
+    """Return whether a text is a unit: km, m/s^2."""
     words = re.sub(r"[\^{}\d\-~.·]", " ", text.replace("/", " ")).split()
     return bool(words) and all(word in UNITS for word in words)
 
@@ -810,14 +810,14 @@ def _unit(name: str) -> Node:
 
 
 def _is_numeric(node: Node) -> bool:
-    """Whether a node has no letters but those of units."""
+    """Return whether a node has no letters but those of units."""
     if isinstance(node, Letter):
         return node.name.startswith("unit_")
     return isinstance(node, Number) or (bool(node.args) and all(map(_is_numeric, node.args)))
 
 
 def _is_any_kind(node: Node) -> bool:
-    """Whether a term may be a number or a vector: 0, dots and O(…)."""
+    """Return whether a term may be a number or a vector: 0, dots and O(…)."""
     return is_printed_zero(node) or (isinstance(node, Call) and node.name in ("dots", "order"))
 
 
@@ -850,7 +850,7 @@ def _opens_integral(box: Box) -> bool:
 
 
 def _closes_integral(row: list[Box], place: int) -> bool:
-    """Whether a differential begins here: d before a letter, or above a fraction bar."""
+    """Return whether a differential begins here: d before a letter, or above a fraction bar."""
     box = row[place]
     if box.kind == "fraction":
         return any(is_mark(b, "d") for b in box.parts[0]) and not is_derivative(box)

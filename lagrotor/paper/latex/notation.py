@@ -132,7 +132,7 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
 
 
 def has_kind(notation: Notation, kind: str, box: Box) -> bool:
-    """Whether the notation declares a letter to be of a kind, by its name with its font and marks, or without them."""
+    """Return whether the notation declares a letter to be of a kind, by its name with its font and marks, or without them."""
     names = getattr(notation, kind)
     return bool(names) and (stem_of(box) in names or _name(box.name) in names)
 
@@ -185,7 +185,7 @@ def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
 
 
 def is_evident_argument(box: Box, bracket: Box) -> bool:
-    """Whether what stands behind a letter is an argument and no factor: one letter other than t, or a list.
+    """Return whether what stands behind a letter is an argument and no factor: one letter other than t, or a list.
 
     A number may stand for a letter, and a prime makes a sum an argument. A power of the letter or of the bracket makes a product.
     """

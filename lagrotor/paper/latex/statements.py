@@ -167,7 +167,7 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
 
 
 def _is_side(row: list[Box], place: int) -> bool:
-    """Whether words are a whole side of a relation, or a unit behind a number."""
+    """Return whether words are a whole side of a relation, or a unit behind a number."""
     before = row[place - 1] if place else None
     after = row[place + 1] if place + 1 < len(row) else None
     if before is not None and before.kind == "number" and is_unit(row[place].name):

@@ -109,12 +109,12 @@ def letters_of(node: Node) -> list[str]:
 
 
 def is_constant(letter: Letter) -> bool:
-    """Whether it is pi, i or infinity."""
+    """Return whether it is pi, i or infinity."""
     return letter.name in _CONSTANTS
 
 
 def is_vector(node: Node) -> bool:
-    """Whether its value is a vector or a matrix."""
+    """Return whether its value is a vector or a matrix."""
     if not isinstance(node, Call):
         return isinstance(node, Letter) and node.vector
     if node.name in ("product", "matmul"):
@@ -136,7 +136,7 @@ def product_of(factors: list[Node]) -> Node:
 
 
 def is_matrix(node: Node) -> bool:
-    """Whether a node is a matrix: a declared one, one that is written out, a transposed one, a product of such."""
+    """Return whether a node is a matrix: a declared one, one that is written out, a transposed one, a product of such."""
     if not isinstance(node, Call):
         return isinstance(node, Letter) and node.matrix
     if node.name in ("sum", "negative", "quotient", "power", "rate", "Derivative", "Sum"):
@@ -159,7 +159,7 @@ def divisors(node: Node) -> Iterator[Node]:
 
 
 def in_catalogue(node: Node) -> bool:
-    """Whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
+    """Return whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
     each = list(walk(node))
     names = {part.name for part in each if isinstance(part, Call)}
     return names <= {*_ARITHMETIC, *_CALLED} and Letter("imaginary_unit") not in each
@@ -282,7 +282,7 @@ def _value(node: Call, opaque: Opaque) -> Any:
 
 
 def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
-    """Whether an operation is defined for parts of these sizes; () is the size of a number."""
+    """Return whether an operation is defined for parts of these sizes; () is the size of a number."""
     if name == "sum":
         return len(set(sizes)) == 1
     if name == "product":
@@ -300,7 +300,7 @@ def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
 
 
 def has_opaque(*values: Any) -> bool:
-    """Whether a part of an expression stands for itself."""
+    """Return whether a part of an expression stands for itself."""
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
@@ -449,7 +449,7 @@ def _raised(base: Any, exponent: Any) -> Any:
 
 
 def _too_large(node: Call, parts: list[Any]) -> bool:
-    """Whether the value is a number that no one writes out: 9**9**9, 99999!."""
+    """Return whether the value is a number that no one writes out: 9**9**9, 99999!."""
     if node.name == "power" and all(isinstance(part, sp.Rational) for part in parts):
         base, exponent = parts
         return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)

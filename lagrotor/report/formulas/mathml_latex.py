@@ -181,7 +181,7 @@ def _accent(child: Element) -> None:
 
 
 def _is_function_name(element: Element) -> bool:
-    """Whether an element is the name of a function, perhaps with a power."""
+    """Return whether an element is the name of a function, perhaps with a power."""
     core = element[0] if element.tag in ("msup", "msub") and len(element) else element
     return core.tag in ("mi", "mo") and (core.text or "").strip() in _NAMES
 

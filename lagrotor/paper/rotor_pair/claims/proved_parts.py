@@ -55,7 +55,7 @@ def _less(a: Any, b: Any) -> bool | None:
 
 
 def _all(answers: Iterable[bool | None]) -> bool | None:
-    """Whether all hold; None where that is open."""
+    """Return whether all hold; None where that is open."""
     each = {*answers}
     return False if False in each else None if None in each else True
 

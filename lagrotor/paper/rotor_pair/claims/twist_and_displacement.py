@@ -120,7 +120,7 @@ def measure_c13(cycles: float) -> dict[str, float]:
 
 
 def decide_c13(m: Mapping[str, float]) -> Finding:
-    """Whether the means of x_1 and x_2 are none, or vanish faster than the shock, along the bar and across it."""
+    """Return whether the means of x_1 and x_2 are none, or vanish faster than the shock, along the bar and across it."""
     none = max(abs(value) for name, value in m.items() if "_mean_x" in name) < NONE
     along, across = (
         min(m[f"power_of_shock_{way}_in_{part}"] for part in ("common_mean", "half_difference")) > FASTER

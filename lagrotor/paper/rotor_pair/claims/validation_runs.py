@@ -87,7 +87,7 @@ def _is_nan(rotation: Callable[[Array, float], Array], size: float) -> bool:
 
 
 def _is_lost(scene: Scene, rotation: Callable[[Array, float], Array], end: float) -> bool:
-    """Whether the paper's program, with this rotation, loses the run before `end` (s)."""
+    """Return whether the paper's program, with this rotation, loses the run before `end` (s)."""
     system = paper_system(scene, STIFFNESS, DAMPING, rotation=rotation)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LagrotorWarning)
