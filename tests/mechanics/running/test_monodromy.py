@@ -122,10 +122,10 @@ def roots(c: float, stiffness: float, period: float) -> list[float]:
 SMALL: dict[str, tuple[Callable[[], MonodromyMatrix], list[float], float]] = {
     "shaken about 0": (lambda: shaken(0.1, 20 * np.pi), [3267190.66686926, 5.71574457115e-10], 1e-8),
     "shaken about π": (lambda: shaken(10, 2 * np.pi, np.pi), [1.85530426634, 2.78008311419e-28], 1e-8),
-    "damped": (lambda: damped(3, 1, 20), roots(3, 1, 20), 1e-9),
-    "overdamped": (lambda: damped(10, 1, 30), roots(10, 1, 30), 1e-9),
+    "damped": (lambda: damped(3, 1, 20), roots(3, 1, 20), 1e-8),
+    "overdamped": (lambda: damped(10, 1, 30), roots(10, 1, 30), 1e-8),
     "critical": (lambda: damped(2, 1, 20), [np.exp(-20)] * 2, 1e-5),
-    "constrained": (hung, roots(6, 1, 5), 1e-9),
+    "constrained": (hung, roots(6, 1, 5), 1e-8),
 }
 
 

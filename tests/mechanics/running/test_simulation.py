@@ -740,7 +740,7 @@ def test_the_time_of_a_drive_is_not_added_up(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(programs.Generated, "rate", lambda program, parameters, _: program.rhs(*parameters))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LagrotorWarning)
-        assert off() > 30 * max(exact, 1e-12)  # twin
+        assert off() > 5 * max(exact, 1e-12)  # twin
 
 
 def test_a_function_of_time_that_ends_before_the_run_does_ends_it_in_words() -> None:
