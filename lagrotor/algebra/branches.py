@@ -53,7 +53,9 @@ def _candidates(natural: tuple[sp.Basic, ...], wanted: tuple[sp.Basic, ...]) -> 
             if sp.false in chosen:
                 continue
             yield chosen
-            yield tuple(sided(one.gts - one.lts, True) for one in chosen)
+            strict = tuple(sided(one.gts - one.lts, True) for one in chosen)
+            if sp.false not in strict:  # u ≥ 0 where u is 0 throughout
+                yield strict
 
 
 def _opposite(relation: sp.Basic) -> sp.Basic:
