@@ -173,7 +173,7 @@ def test_a_face_hands_names_on_and_defines_nothing() -> None:
 
 @pytest.mark.parametrize("name", [name for name, handed in FACES.items() if handed])
 def test_every_name_that_a_face_hands_on_is_there(name: str) -> None:
-    if name == "lagrotor.proved":
+    if name == "lagrotor.proofs":
         pytest.importorskip("flint", reason="python-flint is not installed: the extra `proof`")
     package = import_module(name)
     for public in package.__all__:
@@ -213,7 +213,7 @@ def test_an_import_past_the_face_would_be_seen(tmp_path: Path) -> None:
 # The programs of a model have the same names in each: derived in `models/programs`, kept for use by the model's own module.
 PROTOCOL = {"lagrotor.models": {"program", "projection", "observation"}}
 # Verifies certificates and shares nothing with what makes them: its names are its own, and only `check` leaves it.
-ALONE = "lagrotor.proved.verification"
+ALONE = "lagrotor.proofs.checker"
 
 
 def public_names(path: Path) -> set[str]:

@@ -55,7 +55,7 @@ def test_what_a_kernel_has_run_with_the_extras_is_not_run_again_for_them() -> No
     named = {run.name: run for run in runs()}
     files, rest = (machines.without_repeats(named["extras"], [named[name]]).tests for name in ("lowest", OLDEST))
     assert files == extras_files() and set(rest) < set(files)
-    assert not any(path.startswith(machines.COMPUTING) for path in rest) and "tests/proved/test_theorems.py" in rest
+    assert not any(path.startswith(machines.COMPUTING) for path in rest) and "tests/proofs/test_theorems.py" in rest
     assert machines.without_repeats(named["Haswell"], [named[OLDEST]]) == named["Haswell"]
 
 

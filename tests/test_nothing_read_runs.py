@@ -26,13 +26,13 @@ from lagrotor.mechanics import System, coordinates
 from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.paper import Glossary, Paper, Premise, judge
-from lagrotor.paper.certificates.certificate import PREAMBLE
-from lagrotor.paper.certificates.checked_by_coq import CERTIFICATE_LIST, foreign_word, read_certificates
 from lagrotor.paper.latex.check import check_source
 from lagrotor.paper.latex.init import begin_paper, confirm
 from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.stated_system import write_derivation
 from lagrotor.paper.papers import opened
+from lagrotor.proofs.coq.certificate import PREAMBLE
+from lagrotor.proofs.coq.checked_by_coq import CERTIFICATE_LIST, foreign_word, read_certificates
 from lagrotor.report.job import kept as kept_products
 from lagrotor.report.job.folder import PRODUCTS
 from lagrotor.report.job.kept import Kept
@@ -281,7 +281,7 @@ def certificates(folder: Path, text: str) -> None:
 def theorem(folder: Path, text: str) -> None:
     """A certificate of a theorem about motion, with the text for each of its operations, numbers and words."""
     pytest.importorskip("flint", reason="python-flint is not installed")
-    checking = import_module("lagrotor.proved.verification.checking")
+    checking = import_module("lagrotor.proofs.checker.checking")
     claim = {"kind": "crossing", "r0": [text, text], "stability": text}
     motion = {"operations": [[text, 0], ["add", 0, text]], "numbers": [text]}
     for made in ({"claim": claim, "motion": motion, "steps": [text]}, {"claim": text}, {text: text}, [text]):

@@ -368,7 +368,7 @@ def audit_command(given: argparse.Namespace) -> int:
         if found is not None and waiting:
             say(f"{len(found.ids)} equations: {count_list(found.counts)}", 0)
     if given.certify is not None:
-        from lagrotor.paper.certificates.checked_by_coq import certify
+        from lagrotor.proofs.coq.checked_by_coq import certify
 
         files = sum(bool(row.file) for row in certify(shown, paper, given.certify))
         say(f"{_some(files, 'certificate')} in {given.certify}; to check: lagrotor certify {given.certify}", 0)
@@ -379,8 +379,8 @@ def audit_command(given: argparse.Namespace) -> int:
 
 
 def certify_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.certificates.checked_by_coq import check_certificates, read_certificates
     from lagrotor.paper.readable import from_latex
+    from lagrotor.proofs.coq.checked_by_coq import check_certificates, read_certificates
     from lagrotor.report.content import word
 
     began = time.perf_counter()

@@ -1,6 +1,6 @@
 """Theorems about motion that decide a part of a claim, or a number that is printed: their words, enclosure and certificate.
 
-`lagrotor.proved` finds them and its `check` verifies them; it needs python-flint. Without it what is on record stands, and it
+`lagrotor.proofs` finds them and its `check` verifies them; it needs python-flint. Without it what is on record stands, and it
 is said that it was not proved again.
 """
 
@@ -19,7 +19,7 @@ NOT_AGAIN = "on record, not proved again here; lagrotor claims does, with python
 
 @dataclass(frozen=True)
 class Theorem:
-    """What is proved: `says`, in the words of `lagrotor.proved.check`; `encloses`, the enclosure as it is printed.
+    """What is proved: `says`, in the words of `lagrotor.proofs.check`; `encloses`, the enclosure as it is printed.
 
     Attributes:
         certificate: what `check` verifies, plain data; None where the theorem is on record only.
@@ -34,7 +34,7 @@ class Theorem:
 
     @classmethod
     def of(cls, proved: Any, encloses: str = "", quantity: str = "") -> "Theorem":
-        """That of a proof of `lagrotor.proved`, which needs python-flint.
+        """That of a proof of `lagrotor.proofs`, which needs python-flint.
 
         Args:
             proved: an orbit, a crossing, an enclosure or an equilibrium.
@@ -44,7 +44,7 @@ class Theorem:
         Raises:
             InputError: where the theorem has no such quantity.
         """
-        from lagrotor.proved.statements import quantities, theorem_of
+        from lagrotor.proofs.statements import quantities, theorem_of
 
         if quantity and quantity not in (known := quantities(proved.certificate)):
             raise InputError(f"Theorem: it says nothing of {quantity!r}, but of {', '.join(known) or 'no number'}")
@@ -55,7 +55,7 @@ class Theorem:
         """Of the quantity, as the certificate claims them; None where it has none."""
         if self.certificate is None or not self.quantity:
             return None
-        from lagrotor.proved.statements import quantities
+        from lagrotor.proofs.statements import quantities
 
         found = quantities(self.certificate)[self.quantity]
         mantissa_exponents = (end.man_exp() for end in (found.lower(), found.upper()))
@@ -76,9 +76,9 @@ def can_prove() -> bool:
 def verify(theorems: Iterable[Theorem], where: str) -> None:
     """Check the certificate of each theorem, as it would be read from a file.
 
-    Raises ProofError where a theorem has none, where `lagrotor.proved.check` rejects it, or where it proves something else.
+    Raises ProofError where a theorem has none, where `lagrotor.proofs.check` rejects it, or where it proves something else.
     """
-    from lagrotor.proved.verification.checking import check
+    from lagrotor.proofs.checker.checking import check
 
     for theorem in theorems:
         if theorem.certificate is None:

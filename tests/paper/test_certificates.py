@@ -15,9 +15,9 @@ from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError, NotExactError
 from lagrotor.paper import Paper, Premise, Relation, Statement, decide, judge
 from lagrotor.paper.catalogue import Equation
-from lagrotor.paper.certificates import checked_by_coq
-from lagrotor.paper.certificates.certificate import PREAMBLE, CertifiedLine, certificate, certified_line, file_name
-from lagrotor.paper.certificates.checked_by_coq import (
+from lagrotor.proofs.coq import checked_by_coq
+from lagrotor.proofs.coq.certificate import PREAMBLE, CertifiedLine, certificate, certified_line, file_name
+from lagrotor.proofs.coq.checked_by_coq import (
     CERTIFICATE_LIST,
     CertifiedEquation,
     certify,
@@ -25,9 +25,9 @@ from lagrotor.paper.certificates.checked_by_coq import (
     foreign_word,
     read_certificates,
 )
-from lagrotor.paper.certificates.cofactors import cofactors_of
-from lagrotor.paper.certificates.coq_terms import Terms, comment, conditions_of_value
-from lagrotor.paper.certificates.propositions import Proposition, _letters_for_operators
+from lagrotor.proofs.coq.cofactors import cofactors_of
+from lagrotor.proofs.coq.coq_terms import Terms, comment, conditions_of_value
+from lagrotor.proofs.coq.propositions import Proposition, _letters_for_operators
 
 coq = pytest.mark.usefixtures("coq_is_here")
 

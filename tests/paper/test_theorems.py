@@ -33,7 +33,7 @@ from lagrotor.paper.claim_tests import claim_data
 from lagrotor.paper.record import changes, record_text, recorded, row_of
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.verdict_text import in_words, verdict_data
-from lagrotor.proved import NotProved, enclose
+from lagrotor.proofs import NotProved, enclose
 
 RATE = "the rate is 1.00"
 C = coordinates("x")

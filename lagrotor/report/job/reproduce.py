@@ -15,12 +15,12 @@ from typing import Any
 
 from lagrotor.files import write_text
 from lagrotor.paper import claim_tests, verdict_text
-from lagrotor.paper.certificates.checked_by_coq import certify
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.title_page import ReportPart
 from lagrotor.pictures.figures import Picture
+from lagrotor.proofs.coq.checked_by_coq import certify
 from lagrotor.report.content import Report, ShownPart
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter

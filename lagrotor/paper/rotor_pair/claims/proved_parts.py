@@ -29,21 +29,21 @@ Spans = Sequence[tuple[sp.Expr, Any, Any]]
 
 def _crossing(scene: Scene, event: sp.Expr, before: str, says: str = "") -> Theorem:
     """That an expression of the axes passes zero before a time."""
-    from lagrotor.proved import crossing
+    from lagrotor.proofs import crossing
 
     return Theorem.of(crossing(scene, event=event, before=before, tol=_TOL), says)
 
 
 def _no_crossing(scene: Scene, event: sp.Expr, until: str, says: str = "") -> Theorem:
     """That it does not up to a time."""
-    from lagrotor.proved import no_crossing
+    from lagrotor.proofs import no_crossing
 
     return Theorem.of(no_crossing(scene, event=event, until=until, tol=_TOL), says)
 
 
 def _means(system: Any, spans: Spans, says: str = "", start: Any = (None, None)) -> tuple[tuple[Any, ...], Theorem]:
     """Means over spans of time, and the theorem."""
-    from lagrotor.proved import means
+    from lagrotor.proofs import means
 
     found = means(system, None, start[0], start[1], spans, _TOL)
     return found.values, Theorem.of(found, says)
@@ -198,7 +198,7 @@ def not_followed(part: str, spins: Spins, bars: Sequence[Link]) -> Iterator[Part
 
 def rate_changes(part: str, scene: Scene, r0: float, unchanged: float) -> Iterator[Part]:
     """C17: the orbit's frequency is not G/(J cos θ), the one of constant inclination, by more than `unchanged` r0²."""
-    from lagrotor.proved import precession
+    from lagrotor.proofs import precession
 
     if scene.spins[0] != -scene.spins[1]:
         return
@@ -211,7 +211,7 @@ def rate_changes(part: str, scene: Scene, r0: float, unchanged: float) -> Iterat
 
 def over_cosine(part: str, scene: Scene, r0: float) -> Iterator[Part]:
     """C23: the paired precession is slower than the natural rate, which over a cosine is faster."""
-    from lagrotor.proved import precession
+    from lagrotor.proofs import precession
 
     if scene.spins[0] != -scene.spins[1]:
         return

@@ -1,0 +1,144 @@
+"""Numbers as balls: a midpoint and a radius that holds what is meant. Arb's arithmetic rounds outward (Johansson 2017).
+
+A decimal means what it says: 0.1 is 1/10, not the nearest binary number. An interval is a pair (lowest, highest).
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Integral, Rational, Real
+from typing import Any, TypeAlias
+
+import sympy as sp
+
+from lagrotor.errors import InputError
+
+try:
+    from flint import arb, arb_mat, arb_poly, arb_series, ctx, fmpq, fmpz
+except ImportError:
+    raise InputError("lagrotor.proofs needs python-flint: pip install lagrotor[proof]") from None
+
+Ball: TypeAlias = Any  # flint.arb
+Balls: TypeAlias = list[Any]
+Matrix: TypeAlias = Any  # flint.arb_mat
+
+__all__ = ["arb", "arb_mat", "arb_poly", "arb_series", "ctx"]
+
+
+@contextmanager
+def precision(bits: int, terms: int = 10) -> Iterator[None]:
+    """Arb's precision and the length of its series within a block."""
+    before = ctx.prec, ctx.cap
+    ctx.prec, ctx.cap = bits, terms
+    try:
+        yield
+    finally:
+        ctx.prec, ctx.cap = before
+
+
+def rational(value: Any, where: str) -> Fraction:
+    """The rational number that is meant: a float by the decimal that it prints."""
+    if isinstance(value, bool):
+        raise InputError(f"{where} = {value!r} must be a number")
+    if isinstance(value, Integral | Rational):
+        return Fraction(int(value.numerator), int(value.denominator))
+    if isinstance(value, sp.Rational):
+        return Fraction(int(value.p), int(value.q))
+    if isinstance(value, sp.Float):
+        value = float(value)
+    if isinstance(value, Real):
+        value = repr(float(value))
+    try:
+        return Fraction(Decimal(value)) if isinstance(value, str | Decimal) else Fraction(value)
+    except (ArithmeticError, TypeError, ValueError):
+        raise InputError(f"{where} = {value!r} must be a finite number, or a pair (lowest, highest)") from None
+
+
+def ball(value: Any, where: str = "value") -> Ball:
+    """A number, a pair (lowest, highest) or an expression of numbers as the ball that holds it, at the precision in force."""
+    if isinstance(value, arb):
+        if not value.is_finite():
+            raise InputError(f"{where} = {value} must be finite")
+        return value
+    if isinstance(value, tuple | list) and len(value) == 2:
+        low, high = (ball(end, where) for end in value)
+        if low > high:
+            raise InputError(f"{where} = {value!r}: the lowest value comes first")
+        return low.union(high)
+    if isinstance(value, sp.Expr) and not value.is_Number and value.is_number:
+        found = expression_ball(value, where)
+        if not found.is_finite():
+            raise InputError(f"{where} = {value} must be a finite real number")
+        return found
+    number = rational(value, where)
+    return arb(fmpq(number.numerator, number.denominator))
+
+
+_CONSTANTS: dict[Any, Any] = {sp.pi: arb.pi, sp.E: arb.const_e, sp.EulerGamma: arb.const_euler}
+
+
+def expression_ball(value: sp.Expr, where: str) -> Ball:
+    """A number of sympy: sums, products, powers and the common functions of rationals and of pi."""
+    if value in _CONSTANTS:
+        return _CONSTANTS[value]()
+    if value.is_Number:
+        return ball(value, where)
+    parts = [expression_ball(e, where) for e in value.args]
+    if value.is_Add:
+        return sum(parts, arb(0))
+    if value.is_Mul:
+        product = arb(1)
+        for part in parts:
+            product *= part
+        return product
+    if value.is_Pow:
+        return parts[0].sqrt() if value.exp == sp.S.Half else parts[0] ** parts[1]
+    name = type(value).__name__
+    if parts and name in ("sin", "cos", "tan", "exp", "log", "asin", "acos", "atan", "sinh", "cosh", "tanh"):
+        return getattr(parts[0], name)()
+    raise InputError(f"{where} = {value}: no ball is known for {name}")
+
+
+def upper(x: Ball) -> Ball:
+    """A number that is at least as large as the ball's absolute value."""
+    return arb(x.abs_upper())
+
+
+def exact(x: Ball) -> Ball:
+    """The midpoint, which is exact."""
+    return x.mid()
+
+
+def radius(x: Ball) -> Ball:
+    """The least number known to be at least as large as the ball's radius."""
+    return arb(x.rad().upper())
+
+
+def around(middle: Ball, wide: Ball) -> Ball:
+    """The ball of a radius about a midpoint; both may be balls."""
+    return middle + arb(0, wide.abs_upper())
+
+
+def as_text(x: Ball) -> str:
+    """An exact number as mantissa p exponent, to be read again without rounding: 3p-1 is 3/2."""
+    mantissa, exponent = x.man_exp()
+    return f"{int(mantissa):x}p{int(exponent)}"
+
+
+def of_text(text: str) -> Ball:
+    """The number of `as_text`."""
+    mantissa, _, exponent = text.partition("p")
+    bits = max(64, 4 * len(mantissa) + 8)
+    with ctx.workprec(bits):
+        return arb(fmpz(int(mantissa, 16))) * arb(2) ** int(exponent)
+
+
+def printed(x: Ball, digits: int = 30) -> str:
+    """The ball as people write it, [8.1234567 +/- 3e-8], or its ends where no digit is known; it holds the ball."""
+    if x.rel_accuracy_bits() > 3 or abs(x) < 1e-6:
+        return str(x.str(digits))
+    low, high = (
+        arb(end).str(3, radius=False) for end in (x.lower() - abs(x.lower()) * 0.01, x.upper() + abs(x.upper()) * 0.01)
+    )
+    return f"[{low}, {high}]"

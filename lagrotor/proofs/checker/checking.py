@@ -1,0 +1,269 @@
+"""`check`: a small second program that verifies a certificate. It shares no arithmetic of series with the search.
+
+It looks for no step, frame, order or orbit: all are in the certificate. At each node the set is carried through the step by
+this program's own Taylor terms, found by recurrences, and must lie within the certificate's next set. The derivative of the
+rates is found by dual numbers, forward.
+"""
+
+from collections.abc import Callable, Sequence
+from math import isfinite
+from typing import Any
+
+from flint import arb, arb_mat, arb_poly, ctx
+
+from lagrotor.errors import InputError, NotProved
+from lagrotor.proofs.checker.bounded_series import Dual, Rest, evaluated
+from lagrotor.proofs.checker.certified_sets import (
+    MOST_BITS,
+    Carried,
+    Flow,
+    balls,
+    column,
+    matrix,
+    number,
+    read_ball,
+    unit,
+)
+from lagrotor.proofs.checker.orbit_checking import check_family, check_orbit
+from lagrotor.proofs.checker.recurrences import ZERO, demand
+from lagrotor.proofs.checker.subject_checking import (
+    LagrangianOfWords,
+    check_subject,
+    demand_equal,
+    second_derivatives,
+)
+from lagrotor.proofs.checker.tapes import is_place
+from lagrotor.proofs.checker.written import tape_of_words
+from lagrotor.proofs.statements import theorem_of
+
+Ball = Any
+_MORE_BITS = 64
+
+
+def check(certificate: Any) -> str:
+    """Verify a certificate; returns the theorem that it proves, in words composed from what was verified.
+
+    Of an expression the words themselves are evaluated, and the program is shown to be that of the scene, the structure, the
+    Lagrangian or the rates that the theorem names.
+
+    Raises:
+        InputError: for what is no certificate.
+        NotProved: with the first thing that does not hold.
+    """
+    try:
+        certificate = plain(certificate)
+        version, rule = certificate["version"], _RULES[certificate["kind"]]
+    except (LookupError, TypeError, ValueError, RecursionError):
+        raise InputError(
+            "check: a certificate is the dictionary of `.certificate`, with a known version and kind"
+        ) from None
+    if type(version) is not int or version != 1:
+        raise InputError(f"check: version {version} of certificates is unknown; this program reads 1")
+    before = ctx.prec
+    try:
+        demand(is_place(certificate["bits"], MOST_BITS), "the precision is no number of bits")
+        ctx.prec = certificate["bits"] + _MORE_BITS
+        check_subject(certificate)
+        rule(certificate)
+        words = theorem_of(certificate)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, RecursionError):
+        raise NotProved(
+            "check: the certificate cannot be followed: an entry is missing, is no number, or has another shape"
+        ) from None
+    finally:
+        ctx.prec = before
+    return words
+
+
+def plain(data: Any) -> Any:
+    """As it would be read from a file: lists, dictionaries, text and finite numbers. Raises TypeError for anything else."""
+    if isinstance(data, dict) and all(isinstance(key, str) for key in data):
+        return {key: plain(x) for key, x in data.items()}
+    if isinstance(data, list | tuple):
+        return [plain(x) for x in data]
+    if not (data is None or isinstance(data, str | int) or (isinstance(data, float) and isfinite(data))):
+        raise TypeError(f"{data!r} is no plain data")
+    return data
+
+
+def check_enclosure(certificate: Any) -> None:
+    """The last box lies within the states that are claimed, at the time that is claimed."""
+    carried, claim = Carried(certificate), certificate["claim"]
+    demand(carried.time.contains(read_ball(claim["t"])), "the steps do not end at the time that is claimed")
+    claimed = balls(claim["states"])
+    demand(0 < len(claimed) <= len(carried.box), "no states are claimed")
+    demand(
+        all(y.contains(x) for x, y in zip(carried.box, claimed, strict=False)),
+        "the states are not those that are claimed",
+    )
+
+
+def pieces_of(certificate: Any, carried: Carried, named: Sequence[Any]) -> Any:
+    """Of each step: its begin, its length, the series of the expressions as they are written."""
+    at = ZERO
+    tape = tape_of_words(named, carried.flow.tape["arguments"], certificate["observed"])
+    for box, h, n in carried.boxes:
+        rows = carried.flow.step(box, h, n)
+        arguments = carried.flow.arguments(rows, box[carried.flow.moving :], None, n)
+        yield at, h, [found.value for found in evaluated(tape, arguments)]
+        at += h
+
+
+def sign_over(a: Rest, low: Ball, high: Ball, depth: int = 30) -> int:
+    """The sign of a series between two places of a step; 0 where it has none."""
+    s = low.union(high)
+    middle = s.mid()
+    poly = arb_poly(a.terms)
+    value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, a.rest.upper())
+    if value > 0 or value < 0:
+        return 1 if value > 0 else -1
+    if not depth or poly(middle).contains(0):
+        return 0
+    half = (low + high) / 2
+    first = sign_over(a, low, half, depth - 1)
+    return first if first and sign_over(a, half, high, depth - 1) == first else 0
+
+
+def check_crossing(certificate: Any) -> None:
+    """Opposite signs at both ends of the claimed time; up to its begin one sign, where it is the first."""
+    carried, claim = Carried(certificate), certificate["claim"]
+    pieces = [*pieces_of(certificate, carried, [certificate["event"]])]
+    time = read_ball(claim["time"])
+    ends = []
+    for moment in (arb(time.lower()), arb(time.upper())):
+        signs = set()
+        for at, h, (series,) in pieces:
+            s = (moment - at) / h
+            if not (s < 0 or s > 1):  # a moment at a node may be in either step
+                value = arb_poly(series.terms)(within_step(s)) + arb(0, series.rest.upper())
+                signs.add(1 if value > 0 else -1 if value < 0 else 0)
+        ends.append(signs)
+    changes = ends in ([{1}, {-1}], [{-1}, {1}])
+    demand(changes, "the expression does not change its sign over the claimed time")
+    if claim["first"]:
+        signs = set()
+        for at, h, (series,) in pieces:
+            s = (arb(time.lower()) - at) / h
+            if not s <= 0:
+                signs.add(sign_over(series, ZERO, within_step(s)))
+        demand(signs == ends[0], "the expression may pass zero before the claimed time")
+
+
+def within_step(s: Ball) -> Ball:
+    """The part of a ball between 0 and 1."""
+    return s.max(ZERO).min(arb(1))
+
+
+def check_no_crossing(certificate: Any) -> None:
+    """One sign over every step."""
+    carried = Carried(certificate)
+    claimed = read_ball(certificate["claim"]["time"])
+    demand(claimed > 0, "no time is claimed")
+    demand(carried.time.contains(claimed) or carried.time >= claimed, "the steps end before the claimed time")
+    signs = {
+        sign_over(series, ZERO, arb(1)) for _, _, (series,) in pieces_of(certificate, carried, [certificate["event"]])
+    }
+    demand(len(signs) == 1 and 0 not in signs, "the expression may pass zero")
+
+
+def check_means(certificate: Any) -> None:
+    """The integrals of the expressions over the spans that are claimed, step by step."""
+    carried, claims = Carried(certificate), certificate["claim"]["means"]
+    demand(len(claims) > 0, "no mean is claimed")
+    spans = [(read_ball(x["since"]), read_ball(x["until"])) for x in claims]
+    for since, until in spans:
+        demand(bool(since >= 0 and since < until), "a span has no length")
+        demand(carried.time.contains(until) or carried.time >= until, "the steps end before a span does")
+    totals = [ZERO] * len(claims)
+    for at, h, series in pieces_of(certificate, carried, claims):
+        for i, (f, span) in enumerate(zip(series, spans, strict=True)):
+            low, high = (within_step((x - at) / h) for x in span)
+            whole = arb_poly(f.terms).integral()
+            totals[i] += h * (whole(high) - whole(low) + arb(0, ((high - low) * f.rest).abs_upper()))
+    for x, total, (since, until) in zip(claims, totals, spans, strict=True):
+        demand(read_ball(x["mean"]).contains(total / (until - since)), "a mean is another")
+
+
+def check_equilibrium(certificate: Any) -> None:
+    """Krawczyk's test for the forces at rest; definite energy, or an eigenvalue with a positive real part."""
+    flow = Flow(certificate["motion"])
+    n = flow.moving // 2
+    rest = [flow.tape["operations"][place] for place in flow.tape["outputs"][:n]]
+    demand(rest == [["argument", n + i] for i in range(n)], "the coordinates' rates are not the velocities")
+    middle, box = [number(x) for x in certificate["middle"]], balls(certificate["box"])
+    demand(len(middle) == len(box) == n and flow.size == flow.moving == 2 * n, "the equilibrium has other coordinates")
+    demand(all(x.contains(0) for x in box), "the box does not hold its middle")
+    A = matrix(certificate["A"])
+    wide = [x + y for x, y in zip(middle, box, strict=True)]
+    at = gradients(flow.tape, flow, [*middle, *[ZERO] * n])
+    J = gradients(flow.tape, flow, [*wide, *[ZERO] * n])
+    value = column([f.value.at_start() for f in at[n:]])
+    slope = arb_mat([[x.at_start() for x in (f.by or [])[:n]] for f in J[n:]])
+    w = column(box)
+    K = (unit(n) - A * slope) * w - A * value
+    for x, y in zip(K.entries(), box, strict=True):
+        demand(y.contains_interior(x), "Krawczyk's test does not close")
+    states = [x + y for x, y in zip(middle, K.entries(), strict=True)]
+    demand(
+        all(y.contains(x) for x, y in zip(states, balls(certificate["claim"]["q"]), strict=True)),
+        "the coordinates are others",
+    )
+    claim = certificate["claim"]["stability"]
+    demand(claim in ("stable", "stable to first order", "unstable", "undecided"), "the stability is unknown")
+    if claim == "unstable":
+        demand(any(z.real > 0 for z in linear(J, n).eig()), "no eigenvalue is shown to have a positive real part")
+    elif claim != "undecided":
+        check_stable(certificate, J, n, [*wide, *[ZERO] * n, *flow.parameters])
+
+
+def check_stable(certificate: Any, J: Sequence[Dual], n: int, state: list[Ball]) -> None:
+    """A definite energy that does not grow; or eigenvalues apart on the imaginary axis of a conservative system."""
+    claim, about = certificate["claim"]["stability"], certificate["about"]
+    demand(about is not None and "Lagrangian" in about, "no Lagrangian is named whose energy does not grow")
+    system = LagrangianOfWords(certificate, about["Lagrangian"])
+    demand(system.autonomous, "the energy may grow")
+    if claim == "stable":
+        demand(not grows(J, n), "an eigenvalue has a positive real part")
+        energy = system.words.place(certificate["energy"])
+        demand_equal(system.words, [energy], [system.energy()], "the energy is another")
+        H = second_derivatives(system.words.tape([energy]), [*state, *system.others], 2 * n)
+        for k in range(1, 2 * n + 1):
+            demand(arb_mat([row[:k] for row in H[:k]]).det() > 0, "the energy is not shown to be definite")
+        system.check_friction(state)
+    else:
+        demand(about["Lagrangian"]["dissipation"] == "0", "the system is not conservative")
+        values = linear(J, n).eig()
+        apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
+        demand(apart and all(z.real.contains(0) for z in values), "the eigenvalues are not shown to be imaginary")
+
+
+def grows(J: Sequence[Dual], n: int) -> bool:
+    """Whether an eigenvalue of the linear motion is shown to have a positive real part."""
+    try:
+        return any(z.real > 0 for z in linear(J, n).eig())
+    except ValueError:  # Not apart.
+        return False
+
+
+def linear(J: Sequence[Dual], n: int) -> Any:
+    """The matrix of the linear motion in (q, v)."""
+    zero = Rest([ZERO], ZERO, 1)
+    return arb_mat([[x.at_start() for x in (f.by or [zero] * 2 * n)] for f in J])
+
+
+def gradients(tape: Any, flow: Flow, state: list[Ball]) -> list[Dual]:
+    """The tape's outputs with their derivatives by the states."""
+    rows = [Rest([x], ZERO, 1) for x in state]
+    by = [[Rest([arb(int(i == j))], ZERO, 1) for j in range(len(state))] for i in range(len(state))]
+    return evaluated(tape, flow.arguments(rows, [], by, 1))
+
+
+_RULES: dict[str, Callable[[Any], None]] = {
+    "enclosure": check_enclosure,
+    "crossing": check_crossing,
+    "no crossing": check_no_crossing,
+    "means": check_means,
+    "periodic orbit": check_orbit,
+    "equilibrium": check_equilibrium,
+    "family": check_family,
+}

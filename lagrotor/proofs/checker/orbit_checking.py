@@ -1,0 +1,283 @@
+"""Periodic orbits and families of them: Krawczyk's test, reversals, period and multipliers of a certificate."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+from flint import arb, arb_mat, arb_poly
+
+from lagrotor.proofs.checker.bounded_series import total
+from lagrotor.proofs.checker.certified_sets import (
+    MOST_TERMS,
+    Carried,
+    Flow,
+    balls,
+    column,
+    matrix,
+    number,
+    read_ball,
+    unit,
+)
+from lagrotor.proofs.checker.family_checking import (
+    FamilyFlow,
+    inverse_of_sheets,
+    may_be,
+    product_of_sheets,
+    sign_of_sheet,
+    trace_of_sheets,
+)
+from lagrotor.proofs.checker.near_rest_checking import FlowNearRest
+from lagrotor.proofs.checker.recurrences import ZERO, demand, rational_of
+from lagrotor.proofs.checker.reversals import check_reversal
+from lagrotor.proofs.checker.tapes import demand_paced, is_place
+
+Ball = Any
+_FREE, _CONDITIONS = (
+    [4, 5, 6],
+    (0, 2, 4),
+)  # of the pair: the rates of chi and alpha and the pace; U, alpha and chi' at the end
+
+
+def check_orbit(certificate: Any) -> None:
+    """Krawczyk's test at the end of the steps; the reversals; the period; the multipliers."""
+    carried = Carried(certificate)
+    free, conditions = certificate["free"], certificate["conditions"]
+    first, last = certificate["reversals"]
+    demand(bool(first) == bool(last), "there is one reversal, at one end alone")
+    size, moving = carried.flow.size, carried.flow.moving
+    fits = size == moving + 1 and len(free) == len(conditions) == len({*free}) and moving in free
+    demand(fits and all(is_place(i, size) for i in (*free, *conditions)), "the conditions do not fit the unknowns")
+    demand_paced(carried.flow.tape)
+    still = all(x.is_zero() for i, x in enumerate(carried.w) if i not in free)
+    demand(still, "the test is held at the middle of what is not sought")
+    demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps are not one unit of s")
+    check_conditions(carried, first, last, free, conditions)
+    A, D = matrix(certificate["A"]), carried.derivative
+    back = 0 if first else 1
+
+    def slope(columns: Sequence[int]) -> Any:
+        return arb_mat([[D[i, j] - back * int(i == j) for j in columns] for i in conditions])
+
+    miss = column([carried.point[i] - back * carried.middle[i] for i in conditions])
+    w = column([carried.w[i] for i in free])
+    K = (unit(len(free)) - A * slope(free)) * w - A * miss
+    for x, box in zip(K.entries(), w.entries(), strict=True):
+        demand(box.contains_interior(x), "Krawczyk's test does not close")
+    start = list(carried.middle)
+    for i, x in zip(free, K.entries(), strict=True):
+        start[i] += x
+    turns = 1 if not first else 2 if first == last else 4
+    claim = certificate["claim"]
+    states = balls(claim["start"])
+    demand(
+        len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False)),
+        "the start is another",
+    )
+    demand(start[moving] > 0 and read_ball(claim["period"]).contains(turns * start[moving]), "the period is another")
+    check_kind(certificate, carried, first, last)
+    if "r0" in claim:
+        check_amplitude(certificate, claim["r0"])
+
+
+def check_amplitude(certificate: Any, claimed: Any) -> None:
+    """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line."""
+    check_pair(certificate)
+    demand(certificate["ones"] == 4, "energy and momentum leave one pair of multipliers")
+    demand(certificate["free"] == _FREE, "the amplitude is not held")
+    U = read_ball(certificate["start"]["middle"][0])
+    demand(claimed[0] == claimed[1] and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
+
+
+def check_pair(certificate: Any) -> None:
+    """It is a scene's motion, with the pair's reversals."""
+    own = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
+    demand("scene" in (certificate["about"] or {}) and own, "it is no precession of the pair")
+
+
+def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any) -> None:
+    """The start lies in the fixed set of the first reversal; the conditions put the end into that of the last."""
+    moving = carried.flow.moving
+    if not first:
+        demand(sorted(conditions) == list(range(moving)), "the orbit is not followed to its start")
+        return
+    demand(
+        sorted(conditions) == [i for i, s in enumerate(last) if s < 0], "the conditions are not those of the reversal"
+    )
+    for i, s in enumerate(first):
+        fixed = carried.middle[i].is_zero() and carried.w[i].is_zero()
+        demand(s > 0 or (fixed and i not in free), "the start is not in the fixed set of the reversal")
+    for signs in (first, last):
+        check_reversal(carried.flow.tape, signs)
+
+
+def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> None:
+    """The trace of the monodromy less the ones, against ±2."""
+    claim, moving = certificate["claim"], carried.flow.moving
+    demand(is_place(certificate["ones"], moving + 1), "the number of multipliers that are 1 is none")
+    demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
+    if claim["kind"] == "undecided":
+        return
+    whole = carried.derivative
+    D = arb_mat([[whole[i, j] for j in range(moving)] for i in range(moving)])
+    ones = certificate["ones"]
+    if not first:
+        values = D.eig()
+        along = [z for z in values if z.contains(1)]
+        others = [abs(z) for z in values if not z.contains(1)]
+        fine = all(x < 1 for x in others) if claim["kind"] == "attracting" else all(x < 1 or x > 1 for x in others)
+        demand(
+            len(along) == 1 and fine and claim["kind"] in ("attracting", "hyperbolic"),
+            "the multipliers are not shown to be apart from the unit circle",
+        )
+        return
+    pair = pair_sum(D, first, last, ones)
+    if claim["kind"] == "parabolic":
+        demand(moving == ones, "a pair of multipliers is left that need not be one")
+        return
+    demand(moving - ones == 2, "more than one pair of multipliers is left")
+    demand(read_ball(claim["pair_sum"]).contains(pair), "the multipliers' sum is another")
+    demand(claim["kind"] == kind_of(pair), f"the orbit is not shown to be {claim['kind']}")
+
+
+def kind_of(pair: Ball) -> str:
+    """By μ + 1/μ."""
+    return "elliptic" if abs(pair) < 2 else "hyperbolic" if abs(pair) > 2 else "undecided"
+
+
+def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
+    """μ + 1/μ of the multipliers that are left beside the ones, from the derivative between two reversals."""
+    moving = D.nrows()
+    X = arb_mat(moving, moving, [x.mid() for x in D.entries()]).inv()
+    X = arb_mat(moving, moving, [x.mid() for x in X.entries()])
+    R = unit(moving) - D * X
+    size = max((total(row) for row in R.tolist()), key=lambda x: float(x.upper()))
+    demand(size < 1, "the derivative cannot be inverted")
+    rest = (size**2 / (1 - size)).upper()
+    back = X * (unit(moving) + R + arb_mat(moving, moving, [arb(0, rest)] * moving**2))
+    reflect = [
+        arb_mat(moving, moving, [s[i] if i == j else 0 for i in range(moving) for j in range(moving)])
+        for s in (first, last)
+    ]
+    part = reflect[0] * back * reflect[1] * D
+    M = part if first == last else part * part
+    pair = sum((M[i, i] for i in range(moving)), ZERO) - ones
+    left = arb_poly([1, -pair, 1]) if moving > ones else arb_poly([1])
+    off = M.charpoly() - arb_poly([-1, 1]) ** ones * left
+    demand(all(x.contains(0) for x in off.coeffs()), "the multipliers are not as many ones and a pair")
+    return pair
+
+
+def check_family(certificate: Any) -> None:
+    """Krawczyk's test over every piece; each begins where the one before ends, with the same orbit."""
+    check_pair(certificate)
+    flow = Flow(certificate["motion"])
+    demand_paced(flow.tape)
+    for signs in certificate["reversals"]:
+        check_reversal(flow.tape, signs)
+    pieces = [CheckedPiece(flow.tape, piece) for piece in certificate["pieces"]]
+    for one, other in pairwise(pieces):
+        demand(other.low <= one.high and one.high <= other.high, "there is a gap between two pieces")
+        same = [
+            all(y.contains_interior(x) for x, y in zip(a.start(one.high), b.box(one.high), strict=True))
+            for a, b in ((one, other), (other, one))
+        ]
+        demand(any(same), "two pieces have other orbits at their common end")
+    low, high = (rational_of(text).atanh() for text in certificate["claim"]["r0"])
+    fits = low >= 0 and low < high and pieces[0].low <= low and high <= pieces[-1].high
+    demand(bool(fits), "the amplitudes are others")
+    period = read_ball(certificate["claim"]["period"])
+    kind = certificate["claim"].get("kind", "undecided")
+    demand(kind in ("elliptic", "hyperbolic", "undecided"), "the kind is unknown")
+    for piece in pieces:
+        fine = kind == "undecided" or piece.is_shown(kind, certificate["reversals"])
+        demand(fine, f"the orbits are not shown to be {kind}")
+        pace = piece.start(piece.low.union(piece.high))[-1]
+        demand(bool(pace > 0) and period.contains(4 * pace), "the period is another")
+
+
+class CheckedPiece:
+    """One piece of the pair's family: unknown are the rates of chi and alpha and the pace; U is middle + half ε."""
+
+    def __init__(self, motion: Any, data: Any) -> None:
+        self.middle, self.half = number(data["middle"]), number(data["half"])
+        self.low, self.high = self.middle - self.half, self.middle + self.half
+        self.x = [arb_poly([number(c) for c in poly]) for poly in data["x"]]
+        self.near_rest = data["near rest"] is True
+        W = [number(w) for w in data["W"]]
+        self._demand_start(W)
+        self.W = [W[i] for i in _FREE]
+        self.flow = self._followed(motion, data, W)
+        self.w = self._closed([number(c) for c in data["cuts"]])
+
+    def _demand_start(self, W: list[Ball]) -> None:
+        """The start is in the fixed set of the first reversal, U exactly middle + half ε."""
+        fits = len(self.x) == len(W) == 7 and bool(self.half > 0)
+        still = fits and all(self.x[i].degree() < 0 and W[i].is_zero() for i in (1, 2, 3)) and W[0].is_zero()
+        off = self.x[0] - arb_poly([1] if self.near_rest else [self.middle, self.half])
+        straight = all(c.is_zero() for c in off.coeffs())
+        demand(still and straight, "a piece does not start in the fixed set of the reversal")
+        demand(all(W[i] > 0 for i in _FREE), "a piece has no box")
+        demand(not self.near_rest or self.low.is_zero(), "the piece near the rest does not begin there")
+
+    def _followed(self, motion: Any, data: Any, W: list[Ball]) -> FamilyFlow:
+        """The motions of every ε over one unit of s."""
+        n, p = data["terms"], data["degree"]
+        demand(is_place(n, MOST_TERMS) and is_place(p, MOST_TERMS) and n > 2, "a piece has no terms")
+        demand(all(poly.degree() <= p for poly in self.x), "a piece has more terms than its degree")
+        made = (motion, list(self.x), W, n, p)
+        flow = FlowNearRest(*made, arb_poly([self.middle, self.half])) if self.near_rest else FamilyFlow(*made)
+        time = ZERO
+        for step in data["steps"]:
+            h = number(step["h"])
+            flow.step(h, [number(r) for r in step["tube"]])
+            time += h
+        demand(time.is_exact() and time == 1, "the steps are not one unit of s")
+        return flow
+
+    def _closed(self, cuts: list[Ball]) -> list[Ball]:
+        """Krawczyk's test for every ε between two cuts: what was unknown lies off the middle by no more than these."""
+        whole = bool(cuts[0] == -1 and cuts[-1] == 1 and all(a < b for a, b in pairwise(cuts)))
+        demand(whole, "the cuts leave a part out")
+        found, box = [ZERO] * 3, column([arb(0, w) for w in self.W])
+        for a, b in pairwise(cuts):
+            eps = a.union(b)
+            slope = arb_mat([[self.flow.slope(i, j, eps) for j in _FREE] for i in _CONDITIONS])
+            A = arb_mat(3, 3, [x.mid() for x in arb_mat(3, 3, [x.mid() for x in slope.entries()]).inv().entries()])
+            miss = A * column([self.flow.end(i, eps) for i in _CONDITIONS])
+            K = (unit(3) - A * slope) * box - miss
+            for x, y in zip(K.entries(), box.entries(), strict=True):
+                demand(y.contains_interior(x), "Krawczyk's test does not close over a family")
+            for _ in range(2):
+                K = (unit(3) - A * slope) * K - miss
+            found = [x.union(y) for x, y in zip(found, K.entries(), strict=True)]
+        return found
+
+    def is_shown(self, kind: str, reversals: Any) -> bool:
+        """Whether every orbit is of a kind: energy and momentum leave one pair beside 4 ones, half a turn's μ + 1/μ squared.
+
+        That half a turn has 4 ones is held against the trace of its square, (μ + 1/μ)² + 2.
+        """
+        D = [row[:6] for row in self.flow.V[:6]]
+        reflected = [[x.signed(s) for x in row] for row, s in zip(D, reversals[1], strict=True)]
+        back = product_of_sheets(inverse_of_sheets(D), reflected)
+        part = [[x.signed(s) for x in row] for row, s in zip(back, reversals[0], strict=True)]
+        half = trace_of_sheets(part) - part[0][0].number(arb(4))
+        square = half * half
+        off = trace_of_sheets(product_of_sheets(part, part)) - square
+        two = all(may_be(off, arb(2), arb(eps)) for eps in (-1, 0, 1))
+        demand(two, "half a turn has other multipliers than four ones and a pair")
+        above = sign_of_sheet(square - half.number(arb(4)), arb(-1), arb(1))
+        return above == 1 if kind == "hyperbolic" else above == -1 and sign_of_sheet(half, arb(-1), arb(1)) != 0
+
+    def start(self, U: Ball) -> list[Ball]:
+        """What was unknown, for the U of a ball."""
+        return self._about(U, self.w)
+
+    def box(self, U: Ball) -> list[Ball]:
+        """Where it is alone."""
+        return self._about(U, [arb(0, w) for w in self.W])
+
+    def _about(self, U: Ball, off: Sequence[Ball]) -> list[Ball]:
+        eps = (U - self.middle) / self.half
+        *rates, pace = (poly(eps) + w for poly, w in zip(self.x[4:], off, strict=True))
+        return [*(U * x if self.near_rest else x for x in rates), pace]

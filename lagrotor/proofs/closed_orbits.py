@@ -1,0 +1,352 @@
+"""Periodic orbits proved: Newton's method finds them, Krawczyk's test proves that they exist and are alone nearby.
+
+Where time reversed under a reflection of the states, x ↦ A x with signs ±1, is a motion again, an orbit that starts in the
+fixed set of A and reaches that of B is its own image there: it closes after 2 m times that time, m the order of A B.
+Without a reversal the whole orbit is followed.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy as sp
+
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import InputError, NotProved
+from lagrotor.mechanics.equations import Equations
+from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
+from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, column_matrix, entries_of, steps_of
+from lagrotor.proofs.certificates import Certificate, Proved, ball_data, balls_data, flow_data, matrix_data
+from lagrotor.proofs.crossings import extremes
+from lagrotor.proofs.enclosure import accuracy_of, loosened, time_ball
+from lagrotor.proofs.fields import Field, Values, field_of, values_at
+from lagrotor.proofs.krawczyk import inside, krawczyk, middle_inverse
+from lagrotor.proofs.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
+from lagrotor.proofs.stepping import Motion
+from lagrotor.proofs.tape import paced
+
+Signs = tuple[int, ...]
+TOL = 1e-20
+_COARSE = 1e-12  # of the first Newton steps
+_NEWTON = 12
+
+
+@dataclass(frozen=True)
+class OrbitProblem:
+    """Which starts are sought: the states and the pace free, the states at the end of one unit of s that must vanish.
+
+    first, last: the reversals at the start and at the end, none where the orbit is followed through; then the conditions are
+    that the states return.
+    """
+
+    motion: Motion
+    free: tuple[int, ...]
+    conditions: tuple[int, ...]
+    first: Signs = ()
+    last: Signs = ()
+
+    @property
+    def turns(self) -> int:
+        """Times of one unit of s in a period."""
+        return 1 if not self.first else 2 if self.first == self.last else 4
+
+    def value(self, middle: Balls, end: Balls) -> Balls:
+        """What must vanish."""
+        return [end[i] - (0 if self.first else middle[i]) for i in self.conditions]
+
+    def slope(self, derivative: Matrix, by: Sequence[int]) -> Matrix:
+        """Its derivative by some of the states and the pace."""
+        rows = [[derivative[i, j] - int(i == j and not self.first) for j in by] for i in self.conditions]
+        return arb_mat(rows)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PeriodicOrbit(Proved):
+    """A periodic orbit that exists, the only one of its kind within `alone` of its start's middle.
+
+    period (s) and frequency 2π/period (rad/s), balls; start: the states at t = 0; kind: by its multipliers. pair_sum: μ + 1/μ
+    of the pair of multipliers that is not 1, where there is one. certificate: what `check` verifies.
+    """
+
+    field: Field
+    period: Ball
+    frequency: Ball
+    start: tuple[Ball, ...]
+    alone: Ball
+    multipliers: Multipliers
+    proof: "OrbitProof"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the states."""
+        return tuple(map(str, self.field.states))
+
+    def value(self, expression: sp.Expr) -> Ball:
+        """An expression of the states at t = 0; where it is conserved, of the whole orbit."""
+        with precision(self.proof.bits):
+            fixed = [self.field.values[s] for s in self.field.arguments[len(self.start) :]]
+            tape = self.field.function([sp.sympify(expression, strict=True)])
+            return values_at(tape, [*self.start, *fixed])[0]
+
+    def extremes(self, expression: sp.Expr) -> tuple[Ball, Ball]:
+        """The least and the largest value of an expression along the orbit, which passes its images under the reversals, too."""
+        proof, one = self.proof, (1,) * len(self.start)
+        A, B = (signs or one for signs in (proof.problem.first, proof.problem.last))
+        images = {one, A, B, tuple(a * b for a, b in zip(A, B, strict=True))}
+        w = [arb(0)] * len(proof.start.middle)
+        for i, x in zip(proof.problem.free, proof.found, strict=True):
+            w[i] = x
+        with precision(proof.bits, max(step.n for step in proof.steps)):
+            put = sp.sympify(expression, strict=True)
+            return extremes(self.field, proof.problem.motion, proof.steps, w, images, put)
+
+    @property
+    def kind(self) -> Kind:
+        """elliptic, hyperbolic, attracting, parabolic or undecided."""
+        return self.multipliers.kind
+
+    @property
+    def pair_sum(self) -> Ball | None:
+        """μ + 1/μ."""
+        return self.multipliers.pair_sum
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        """Plain data that `check` verifies."""
+        return self.proof.certificate(self)
+
+    def summary(self) -> dict[str, str]:
+        """Period, frequency, start and kind, name → words."""
+        sums = {"μ + 1/μ": printed(self.pair_sum, 20)} if self.pair_sum is not None else {}
+        return (
+            {"period [s]": printed(self.period), "frequency [rad/s]": printed(self.frequency), "kind": self.kind}
+            | sums
+            | {f"{name} at t = 0": printed(x, 25) for name, x in zip(self.names, self.start, strict=True)}
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class OrbitProof:
+    """The last run of a proof: the problem, the start with its box, A, the steps, and K about the middle."""
+
+    problem: OrbitProblem
+    start: Start
+    A: Matrix
+    steps: tuple[CarriedStep, ...]
+    found: Balls
+    ones: int
+    bits: int
+
+    @property
+    def derivative(self) -> Matrix:
+        """Of the end by the start's coordinates w."""
+        return self.steps[-1].end.derivative
+
+    def states(self) -> Balls:
+        """The orbit's start and pace, enclosed."""
+        w = [x if x.is_zero() else arb(0) for x in self.start.spread]
+        for i, x in zip(self.problem.free, self.found, strict=True):
+            w[i] = x
+        return [a + b for a, b in zip(self.start.middle, w, strict=True)]
+
+    def multipliers(self) -> Multipliers:
+        """Of the whole period."""
+        d = self.problem.motion.moving
+        D = self.derivative
+        part = arb_mat([[D[i, j] for j in range(d)] for i in range(d)])
+        if not self.problem.first:
+            return of_any(part)
+        try:
+            return of_pairs(monodromy(part, self.problem.first, self.problem.last), self.ones)
+        except NotProved:
+            return Multipliers("undecided", None, ())
+
+    def certificate(self, orbit: PeriodicOrbit) -> Certificate:
+        """Plain data."""
+        problem = self.problem
+        with precision(self.bits):
+            flow = flow_data(orbit.field.about, problem.motion, self.start, self.steps, self.bits)
+            sums = {} if orbit.pair_sum is None else {"pair_sum": ball_data(loosened(orbit.pair_sum))}
+            return flow | {
+                "kind": "periodic orbit",
+                "free": list(problem.free),
+                "conditions": list(problem.conditions),
+                "reversals": [list(problem.first), list(problem.last)],
+                "A": matrix_data(self.A),
+                "ones": self.ones,
+                "claim": {
+                    "period": ball_data(loosened(orbit.period)),
+                    "start": balls_data([loosened(x) for x in orbit.start]),
+                    "kind": orbit.kind,
+                }
+                | sums,
+            }
+
+
+def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: int, where: str) -> OrbitProof:
+    """From a start and pace near those of an orbit; at the precision in force. Raises NotProved with how far it came."""
+    middle, A, miss = refined(problem, list(middle), accuracy, where)
+    sizes = [upper(x) for x in entries_of(A * column_matrix(miss))]
+    for grow in (2**10, 2**16, 2**24):
+        spread = [arb(0)] * len(middle)
+        for i, x in zip(problem.free, sizes, strict=True):
+            spread[i] = arb(
+                0, (grow * (x + abs(middle[i]) * arb(2) ** (20 - accuracy.bits) + arb(2) ** -accuracy.bits)).upper()
+            )
+        start = Start(middle, spread)
+        steps = tuple(steps_of(problem.motion, start, arb(1), accuracy))
+        proof = closing(problem, start, A, steps, ones, accuracy.bits)
+        if proof is not None:
+            if not proof.states()[-1] > 0:
+                raise NotProved(f"{where}: Newton's method leads to a period of zero: start nearer to the orbit")
+            return proof
+    raise NotProved(
+        f"{where}: Newton's method comes within {float(max(sizes)):.1g} of an orbit, but Krawczyk's test does not close there"
+    )
+
+
+def closing(
+    problem: OrbitProblem,
+    start: Start,
+    A: Matrix,
+    steps: tuple[CarriedStep, ...],
+    ones: int,
+    bits: int,
+) -> OrbitProof | None:
+    """The proof, where K lies within the box."""
+    last = steps[-1].end
+    w = [start.spread[i] for i in problem.free]
+    found = krawczyk(problem.value(start.middle, last.middle), problem.slope(last.derivative, problem.free), A, w)
+    return OrbitProof(problem, start, A, steps, found, ones, bits) if inside(found, w) else None
+
+
+def refined(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where: str) -> tuple[Balls, Matrix, Balls]:
+    """Newton's method on midpoints: the start and pace, A near the inverse of the conditions' derivative, and what they miss."""
+    coarse = Accuracy(max(_COARSE, accuracy.tol))
+    last = coarse if coarse.tol > accuracy.tol else accuracy
+    before = float("inf")
+    for _ in range(_NEWTON):
+        still = Start(middle, [arb(0)] * len(middle))
+        *_, step = steps_of(problem.motion, still, arb(1), last)
+        miss = problem.value(middle, step.end.middle)
+        A = middle_inverse(problem.slope(step.end.derivative, problem.free))
+        move = entries_of(A * column_matrix(miss))
+        size = max(float(upper(x)) for x in move)
+        if last is accuracy and (size < 1e3 * accuracy.tol or size > 0.1 * before):
+            return middle, A, miss
+        if not size < 1e3:
+            break
+        for i, x in zip(problem.free, move, strict=True):
+            middle[i] = exact(middle[i] - x)
+        if last is not accuracy and (size < 1e-4 or size > 0.1 * before):
+            last, size = accuracy, float("inf")
+        before = size
+    raise NotProved(f"{where}: Newton's method finds no orbit near the start that is given")
+
+
+def periodic_orbit(
+    system: Any,
+    values: Values | None = None,
+    q0: Any = None,
+    v0: Any = None,
+    period: Any = None,
+    reversals: Sequence[Sequence[int]] = (),
+    integrals: int = 1,
+    held: Sequence[Any] = (),
+    tol: float = TOL,
+) -> PeriodicOrbit:
+    """The periodic orbit near the start q0, v0 and the period (s), proved to exist.
+
+    Args:
+        values: as in `enclose`.
+        tol: as in `enclose`.
+        reversals: one or two rows of signs ±1, one for each state (q, v): time reversed under the first is a motion, and the
+            start lies in its fixed set; likewise the second, if any, at a quarter period instead of the first at half of it.
+        held: states that keep their value, by symbol or name; where orbits come in families, as many as the family has parameters
+            are held, the first that can be, unless given.
+        integrals: how many the system has, its energy among them, each with a pair of multipliers that are 1.
+
+    Raises:
+        InputError: for what makes no sense.
+        NotProved: where no orbit can be proved, with how far it came.
+    """
+    accuracy, where = accuracy_of(tol, "periodic_orbit"), "periodic_orbit"
+    with precision(accuracy.bits, accuracy.terms):
+        length = time_ball(period, where)
+        made = field_of(system, values, q0, v0)
+        n = len(made.states)
+        if made.varying or made.stages or "t" in map(str, made.states):
+            raise InputError("periodic_orbit: values are numbers, and the time is not in the equations")
+        if made.held:
+            raise InputError("periodic_orbit: an orbit is not shown to keep constraints: take free coordinates")
+        first, last = reversals_of(system, made, reversals)
+        problem = _problem_of(made, first, last, indices(made, held))
+        start = [*made.start, length / problem.turns]
+        for i, x in enumerate(start):
+            if first and i < n and first[i] < 0:
+                start[i] = arb(0)
+            elif i in problem.free:
+                start[i] = exact(x)
+        return orbit_of(prove_orbit(problem, start, accuracy, 2 * integrals, where), made)
+
+
+def orbit_of(proof: OrbitProof, made: Field) -> PeriodicOrbit:
+    """What a proof says."""
+    states = proof.states()
+    period = states[-1] * proof.problem.turns
+    alone = min((upper(proof.start.spread[i]) for i in proof.problem.free), key=float)
+    start = tuple(states[: len(made.states)])
+    return PeriodicOrbit(made, period, 2 * arb.pi() / period, start, alone, proof.multipliers(), proof)
+
+
+def indices(made: Field, held: Sequence[Any]) -> tuple[int, ...]:
+    """Places of states by symbol or name."""
+    names = [str(s) for s in made.states]
+    if missing := [str(s) for s in held if str(s) not in names]:
+        raise InputError(f"periodic_orbit: held = {', '.join(missing)}: the states are {', '.join(names)}")
+    return tuple(names.index(str(s)) for s in held)
+
+
+def _problem_of(made: Field, first: Signs, last: Signs, held: tuple[int, ...]) -> OrbitProblem:
+    """The free states and the conditions; as many states are held as there are more unknowns than conditions."""
+    n = len(made.states)
+    free = [i for i in range(n) if not first or first[i] > 0]
+    conditions = [i for i in range(n) if last[i] < 0] if first else list(range(n))
+    spare = len(free) + 1 - len(conditions)
+    if spare < 0 or len(held) > spare or any(i not in free for i in held):
+        raise InputError(
+            f"periodic_orbit: {len(free)} free states and the period for {len(conditions)} conditions: hold "
+            f"{max(spare, 0)} states that the reversal leaves free"
+        )
+    chosen = [*held, *(i for i in free if i not in held)][:spare]
+    motion = Motion(paced(made.motion.tape, n), made.motion.parameters)
+    return OrbitProblem(motion, (*(i for i in free if i not in chosen), n), tuple(conditions), first, last)
+
+
+def reversals_of(system: Any, made: Field, given: Sequence[Sequence[int]]) -> tuple[Signs, Signs]:
+    """One or two rows of signs, each proved to reverse the motion."""
+    if not given:
+        return (), ()
+    rows = [tuple(row) for row in given]
+    n = len(made.states)
+    if len(rows) > 2 or any(len(row) != n or {*row} - {1, -1} for row in rows):
+        raise InputError(f"periodic_orbit: reversals must be one or two rows of {n} signs 1 or −1")
+    for row in rows:
+        if not (isinstance(system, Equations) and reverses(system, row)):
+            raise InputError(
+                f"periodic_orbit: time reversed under the signs {row} is not shown to be a motion of the system: the Lagrangian "
+                "must be the same at q → S q, v → −S v"
+            )
+    return rows[0], rows[-1]
+
+
+def reverses(system: Equations, signs: Signs) -> bool:
+    """Whether (q, v) ↦ signs (q, v) with time reversed takes motions to motions: S of the q, −S of the v, L unchanged."""
+    n = len(system.c.q)
+    S = signs[:n]
+    if tuple(-s for s in S) != signs[n:] or system.dissipation != 0 or system.rolling or system.forces:
+        return False
+    put = {x: s * x for x, s in zip((*system.c.q, *system.c.v), signs, strict=True)}
+    same = decide_zero(system.L.xreplace(put) - system.L).answer == "zero"
+    return same and all(decide_zero(g.xreplace(put) - g).answer == "zero" for g in system.constraints)

@@ -1,0 +1,241 @@
+"""A folder of certificates, a file of Coq for each equation and `certificates.json`, which lists every line and its theorems; its
+check by Coq's kernel: `coqc` compiles the files, several at once.
+
+In each are the lemmas that all begin with, and theorems.
+"""
+
+import json
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass
+from os import cpu_count
+from pathlib import Path
+from typing import Any
+
+from lagrotor.errors import InputError, LagrotorError
+from lagrotor.files import read_text, write_text
+from lagrotor.paper.catalogue import Catalogue
+from lagrotor.paper.verdicts import Verdict
+from lagrotor.proofs.coq.certificate import PREAMBLE, CertifiedLine, certificate, file_name
+
+CERTIFICATE_LIST = "certificates.json"
+
+
+@dataclass(frozen=True)
+class CertifiedEquation:
+    """One equation of a folder: its verdict, its file ("" where it has none), its lines."""
+
+    id: str
+    verdict: str
+    file: str
+    lines: tuple[CertifiedLine, ...]
+
+
+def certify(verdicts: Iterable[Verdict], paper: Catalogue, folder: Path) -> list[CertifiedEquation]:
+    """Write a file for each equation that has a certificate, and the list; what an earlier run wrote there goes.
+
+    Raises InputError where the folder cannot be written to, or holds something else.
+    """
+    old = read_certificates(folder) if (folder / CERTIFICATE_LIST).is_file() else []
+    if not old and folder.is_dir() and any(folder.iterdir()):
+        raise InputError(f"{folder} holds other files: give a new or an empty folder, or one of certificates")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{folder}: {error.strerror}: give a folder that can be written to") from None
+    rows, names = [], set[str]()
+    for verdict in verdicts:
+        text, lines = certificate(verdict, paper.equation(verdict.id))
+        name = file_name(verdict.id) if text else ""
+        if name and name in names:
+            raise InputError(f"two equations would be written to {name}: let their ids differ in letters or digits")
+        names.add(name)
+        if name:
+            write_text(folder / name, text)
+        rows.append(CertifiedEquation(verdict.id, verdict.verdict, name, lines))
+    for row in old:
+        if row.file not in names:
+            (folder / row.file).unlink(missing_ok=True)
+    listed = [asdict(row) | {"lines": [_listed(line) for line in row.lines]} for row in rows]
+    write_text(folder / CERTIFICATE_LIST, json.dumps(listed, indent=1, ensure_ascii=False) + "\n")
+    return rows
+
+
+def _listed(line: CertifiedLine) -> dict[str, Any]:
+    return {name: value for name, value in asdict(line).items() if name != "text"}
+
+
+def read_certificates(folder: Path) -> list[CertifiedEquation]:
+    """What a folder of certificates lists. Raises InputError where it is none."""
+    if not (folder / CERTIFICATE_LIST).is_file():
+        raise InputError(f"{folder} has no {CERTIFICATE_LIST}: write one with lagrotor audit --certify {folder}")
+    try:
+        rows = [_row(each) for each in json.loads(read_text(folder / CERTIFICATE_LIST))]
+    except (ValueError, TypeError, KeyError, AttributeError):
+        raise InputError(
+            f"{folder / CERTIFICATE_LIST} cannot be read: write it again with lagrotor audit --certify"
+        ) from None
+    for row in rows:
+        if row.file and (row.file != file_name(row.id) or not (folder / row.file).is_file()):
+            raise InputError(f"{folder / CERTIFICATE_LIST} lists {row.file!r}, which is not there: write it again")
+    return rows
+
+
+def _row(each: dict[str, Any]) -> CertifiedEquation:
+    lines = (CertifiedLine(**{**line, "theorems": tuple(map(str, line["theorems"]))}) for line in each["lines"])
+    return CertifiedEquation(str(each["id"]), str(each["verdict"]), str(each["file"]), tuple(lines))
+
+
+# The seconds after which a file counts as rejected.
+_LONGEST = 300
+# Files are compiled together, in so many parts for each core.
+_BATCHES = 4
+# Words that a sentence begins with after the preamble: nothing is assumed, no notation is changed, and no name is taken but
+# those of lines, since a lemma `sin` would be another sine in all that follows.
+_SENTENCES = frozenset(["Theorem", "Proof", "Qed"])
+_NAME = re.compile(r"(line|correction)_\d+(_\w+)?")
+# The end of a sentence; the next may begin with the marks of its place in a proof.
+_END = re.compile(r"(?:(?<!\.)|\.\.)\.(?:\s|\Z)|[{}]")
+_MARKS = " \t\r\n+-*"
+_TO_INSTALL = "install Debian's packages coq and libcoq-interval (apt-get install coq libcoq-interval)"
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What Coq said of one line. status: accepted, rejected, or skipped; why: what it rejected, or why there is nothing."""
+
+    id: str
+    line: CertifiedLine
+    status: str
+    why: str = ""
+
+
+def missing_coq() -> str:
+    """Why nothing can be checked here; empty where Coq and its Interval are installed."""
+    if shutil.which("coqc") is None:
+        return f"coqc is not on the PATH: {_TO_INSTALL}"
+    with tempfile.TemporaryDirectory() as folder:
+        failed = _compiled(Path(folder), "needed.v", PREAMBLE)
+    return f"coqc has no Interval library ({failed}): {_TO_INSTALL}" if failed else ""
+
+
+def check_certificates(folder: Path, begins: Callable[[str], None] = lambda name: None) -> list[Checked]:
+    """Check every certificate of a folder, as many at once as there are cores; `begins` is called with each id.
+
+    Raises InputError for a folder without certificates, LagrotorError where there is no Coq.
+    """
+    rows = read_certificates(folder)
+    if why := missing_coq():
+        lines = sum(bool(line.theorems) for row in rows for line in row.lines)
+        raise LagrotorError(f"nothing was checked, {lines} lines were skipped: {why}")
+
+    texts = [read_text(folder / row.file) if row.file else "" for row in rows]
+    cores = cpu_count() or 1
+    place = sorted(range(len(rows)), key=lambda i: len(texts[i]))
+    batches = [place[first :: _BATCHES * cores] for first in range(_BATCHES * cores)]
+
+    def checked(batch: list[int]) -> dict[int, list[Checked]]:
+        for i in batch:
+            begins(rows[i].id)
+        failures = _failures_of([(rows[i], texts[i]) for i in batch])
+        return {i: list(_lines(rows[i], failed)) for i, failed in zip(batch, failures, strict=True)}
+
+    with ThreadPoolExecutor(cores) as pool:
+        found = {i: lines for part in pool.map(checked, batches) for i, lines in part.items()}
+    return [each for i in range(len(rows)) for each in found[i]]
+
+
+def _lines(row: CertifiedEquation, failed: Mapping[str, str]) -> Iterator[Checked]:
+    for line in row.lines:
+        if not line.theorems:
+            yield Checked(row.id, line, "skipped", line.why_not)
+        elif wrong := next((failed[name] for name in ("", *line.theorems) if name in failed), ""):
+            yield Checked(row.id, line, "rejected", wrong)
+        else:
+            yield Checked(row.id, line, "accepted")
+
+
+def _failures_of(files: Sequence[tuple[CertifiedEquation, str]]) -> list[dict[str, str]]:
+    """Of each file its theorems that are rejected, with the reason; "" for the whole file.
+
+    Coq takes longer to load its libraries than to check most files: these are compiled together, each as a module, and one by
+    one where one of them is rejected.
+    """
+    wrong = [_malformed(row, text) for row, text in files]
+    sound = [(row, text) for (row, text), reason in zip(files, wrong, strict=True) if text and not reason]
+    together = PREAMBLE
+    for row, text in sound:
+        name = row.file.removesuffix(".v")
+        together += f"\nModule {name}.\n{text.partition(PREAMBLE)[2]}\nEnd {name}.\n"
+    with tempfile.TemporaryDirectory() as folder:
+        accepted = len(sound) > 1 and not _compiled(Path(folder), "together.v", together)
+    return [
+        {"": reason} if reason else {} if accepted or not text else _failures(row, text)
+        for (row, text), reason in zip(files, wrong, strict=True)
+    ]
+
+
+def _malformed(row: CertifiedEquation, text: str) -> str:
+    """What is wrong with a file as a text; empty where nothing is, or there is no file."""
+    if text and (other := foreign_word(text)):
+        return f"the file holds {other}, which is no part of a certificate"
+    for name in (name for line in row.lines for name in line.theorems):
+        if len(re.findall(rf"^Theorem {re.escape(name)}\b", text, re.MULTILINE)) != 1:
+            return f"the file does not hold one theorem {name}"
+    return ""
+
+
+def _failures(row: CertifiedEquation, text: str) -> dict[str, str]:
+    """Theorem -> why Coq rejects it; "" for the whole file. A theorem that is rejected is left out of the next attempt."""
+    failed: dict[str, str] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        while error := _compiled(Path(folder), row.file, text):
+            place = re.match(r"line (\d+)", error)
+            before = "\n".join(text.split("\n")[: int(place[1])]) if place else ""
+            begun = re.findall(r"^Theorem (\w+)", before, re.MULTILINE)
+            if not begun or begun[-1] in failed:
+                return {"": error}
+            failed[begun[-1]] = error
+            text = re.sub(rf"^Theorem {begun[-1]}\b.*?\bQed\.$", "", text, count=1, flags=re.MULTILINE | re.DOTALL)
+    return failed
+
+
+def _compiled(folder: Path, name: str, text: str) -> str:
+    """What coqc objects to, as line n: the message; empty where it accepts."""
+    (folder / name).write_text(text, encoding="utf-8")
+    try:
+        run = subprocess.run(["coqc", "-q", name], cwd=folder, capture_output=True, text=True, timeout=_LONGEST)
+    except subprocess.TimeoutExpired:
+        return f"it takes more than {_LONGEST} s"
+    if run.returncode == 0:
+        return ""
+    said = " ".join((run.stderr or run.stdout).split())
+    return re.sub(r'^File "[^"]*", (line \d+), characters [\d-]+: (?:Error: )?', r"\1: ", said)[:300] or "coqc failed"
+
+
+def foreign_word(text: str) -> str:
+    """What in a file is neither the preamble, nor a theorem about a line, nor a comment; empty where all is."""
+    before, preamble, plain = _without_comments(text).partition(PREAMBLE)
+    if not preamble or before.strip():
+        return "another beginning than the preamble of certificates"
+    if '"' in text:  # also in a comment, where Coq reads one
+        return "a string"
+    starts = (re.match(r"\w+|.", sentence.lstrip(_MARKS)) for sentence in _END.split(plain))
+    other = [start[0] for start in starts if start and start[0] not in _SENTENCES and not start[0][0].islower()]
+    names = re.findall(r"\bTheorem\s+([^\s:({]+)", plain)
+    other += [f"a theorem {name}" for name in names if not _NAME.fullmatch(name)]
+    return next(iter(other), "")
+
+
+def _without_comments(text: str) -> str:
+    """The text with a space for each comment, which may hold others."""
+    kept, depth = [], 0
+    for part in re.split(r"(\(\*|\*\))", text):
+        depth += {"(*": 1, "*)": -1}.get(part, 0)
+        if depth == 0:
+            kept.append(" " if part == "*)" else part)
+    return "".join(kept)

@@ -1,0 +1,136 @@
+"""How far two sides agree in a small quantity: their difference as a power of it times an expression that stays finite at zero.
+
+Near zero cos b = 1 - u sin(b)^2 with u = 1/(1 + cos b), and of a root y of R, which is y_0 at zero, y = y_0 + (R - y_0^2) w with
+w = 1/(y + y_0). Put in as often as terms of too low an order hold u or w, where u = 1/2 + u^2 sin(b)^2/2 and
+w = 1/(2 y_0) - (R - y_0^2) w^2/(2 y_0), these identities leave a polynomial; its terms of low order must vanish. What is left is
+written with cosines and roots again, so that Coq checks an identity in which nothing was left out.
+"""
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrotor.errors import NotExactError
+from lagrotor.proofs.coq.sides import Sides
+
+_MOST_TERMS = 4000
+
+
+@dataclass(frozen=True)
+class SeriesRest:
+    """difference = power * rest. at_zero: the rest where the small quantity is zero; None where it is a limit."""
+
+    power: sp.Expr
+    rest: sp.Expr
+    at_zero: sp.Expr | None = None
+
+
+def value_at_zero(sides: Sides, expression: sp.Expr, small: sp.Symbol) -> sp.Expr:
+    """The value of an expression where the small quantity is zero, in functions of the other letters."""
+    over, under = sides.in_generators(expression)
+    return sp.cancel((over / under).xreplace(sides.meaning()).xreplace({small: sp.S.Zero}))
+
+
+def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -> SeriesRest:
+    """difference = small**order * rest, or the sine of small in its place.
+
+    Raises NotExactError where terms of lower order do not vanish, or a function has no such form.
+    """
+    over, under = sides.in_generators(difference)
+    near = _Near(sides, small)
+    meaning, used = near.meaning, near.small_letters(over)
+    for function in (meaning.get(x, x) for x in over.free_symbols - {*near.put, *near.weights}):
+        if small in function.free_symbols:
+            raise NotExactError(f"{function} is a series in {small}")
+    if under.xreplace(meaning).xreplace({small: sp.S.Zero}) == 0:
+        raise NotExactError(f"the difference is not finite where {small} is zero")
+    polynomial = near.expanded(over, order)
+    if len(used) <= 1 and all(near.weights[x] == 1 for x in used):
+        letter = next(iter(used), small)
+        power = meaning.get(letter, letter)
+        rest = (sp.expand(polynomial / letter**order) / under).xreplace(meaning)
+        return SeriesRest(power**order, rest, rest.xreplace({small: sp.S.Zero}))
+    over_small = {x: sp.Dummy() for x in used if x is not small}
+    scaled = polynomial.xreplace({x: y * small ** near.weights[x] for x, y in over_small.items()})
+    back = {y: meaning[x] / small ** near.weights[x] for x, y in over_small.items()}
+    return SeriesRest(small**order, (sp.expand(scaled / small**order) / under).xreplace(meaning).xreplace(back))
+
+
+class _Near:
+    """The generators near zero. weights: those that are small, with their order; put: a cosine or root -> what it is in
+    small ones and letters of rules; rules: such a letter -> itself to the next order; meaning: all of them as functions."""
+
+    def __init__(self, sides: Sides, small: sp.Symbol) -> None:
+        self.small, self.meaning = small, sides.meaning()
+        self.weights: dict[sp.Symbol, int] = {small: 1}
+        self.put: dict[sp.Symbol, sp.Expr] = {}
+        self.rules: dict[sp.Symbol, sp.Expr] = {}
+        at_zero: dict[sp.Symbol, sp.Expr] = {small: sp.S.Zero}
+        for base, (cosine, sine) in sides.small_pairs(small).items():
+            letter = sp.Dummy("u")
+            self.weights[sine] = int(base.as_powers_dict()[small])
+            self.put[cosine] = 1 - sine**2 * letter
+            self.rules[letter] = sp.S.Half + sine**2 * letter**2 / 2
+            self.meaning[letter] = 1 / (1 + self.meaning[cosine])
+            at_zero |= {sine: sp.S.Zero, cosine: sp.S.One}
+        earlier: list[tuple[sp.Symbol, sp.Expr]] = []
+        for generator, square in sorted(sides.roots(), key=lambda row: str(row[0])):
+            if small in self.meaning[generator].free_symbols:
+                self._add_root(
+                    generator,
+                    sp.expand(square.xreplace(self.put)),
+                    sp.sqrt(sp.expand(square.xreplace(at_zero))),
+                    earlier,
+                )
+
+    def _add_root(
+        self, root: sp.Symbol, square: sp.Expr, at_zero: sp.Expr, earlier: list[tuple[sp.Symbol, sp.Expr]]
+    ) -> None:
+        """A root beside the earlier one, or the number, from whose square its own differs by the highest order."""
+        if not at_zero.is_Rational or at_zero == 0:
+            raise NotExactError(f"{self.meaning[root]} has no rational value where {self.small} is zero")
+        letter, known = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
+        beside, gap = max(((y, sp.expand(square - other)) for y, other in known), key=lambda row: self.least(row[1]))
+        self.put[root] = beside + gap * letter
+        self.meaning[letter] = 1 / (self.meaning[root] + self.meaning.get(beside, beside))
+        if beside is at_zero:
+            self.rules[letter] = 1 / (2 * at_zero) - gap * letter**2 / (2 * at_zero)
+        earlier.append((root, square))
+
+    def small_letters(self, expression: sp.Expr) -> set[sp.Symbol]:
+        """The small letters that an expression holds once its cosines and roots are put in."""
+        found = expression.free_symbols
+        inner = (self.small_letters(self.put[letter]) for letter in found if letter in self.put)
+        return set(found & set(self.weights)).union(*inner)
+
+    def least(self, expression: sp.Expr) -> int:
+        """The lowest order of a polynomial in the small letters; of zero more than any."""
+        return min(map(self._order_of, sp.Add.make_args(expression))) if expression != 0 else 10**6
+
+    def _order_of(self, term: sp.Expr) -> int:
+        powers = term.as_powers_dict()
+        return sum(int(powers.get(letter, 0)) * weight for letter, weight in self.weights.items())
+
+    def expanded(self, over: sp.Expr, order: int) -> sp.Expr:
+        """The polynomial with every cosine and root put in, and no term below the order."""
+        while over.free_symbols & set(self.put):
+            over = _bounded(sp.expand(over.xreplace(self.put)))
+        high = sp.S.Zero
+        while over != 0:
+            low = [term for term in sp.Add.make_args(over) if self._order_of(term) < order]
+            high += over - sp.Add(*low)
+            if low and not any(term.free_symbols & set(self.rules) for term in low):
+                raise NotExactError(f"the two sides differ at order {self.least(sp.Add(*low))} in {self.small}")
+            over = _bounded(sp.expand(sp.Add(*map(self._next, low))))
+        return sp.expand(high)
+
+    def _next(self, term: sp.Expr) -> sp.Expr:
+        """A term of too low an order, one letter of a rule put in."""
+        letter = next((each for each in self.rules if each in term.free_symbols), None)
+        return term if letter is None else term / letter * self.rules[letter]
+
+
+def _bounded(expression: sp.Expr) -> sp.Expr:
+    if len(sp.Add.make_args(expression)) > _MOST_TERMS:
+        raise NotExactError(f"its series has more than {_MOST_TERMS} terms")
+    return expression

@@ -1,0 +1,185 @@
+"""Equilibria proved, with their stability: of a system after Routh's reduction they are its steady motions.
+
+Stable where the energy is definite there (Lagrange and Dirichlet) and nothing but friction changes it, unstable where an
+eigenvalue of the linear motion has a positive real part (Lyapunov), stable to first order where all eigenvalues of a
+conservative system are apart and lie on the imaginary axis.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any, Literal
+
+import sympy as sp
+
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import InputError, NotProved
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.running.programs import depends_on_time
+from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
+from lagrotor.proofs.carried_sets import column_matrix, entries_of
+from lagrotor.proofs.certificates import Certificate, Proved, balls_data, exact_data, matrix_data, tape_data
+from lagrotor.proofs.crossings import words
+from lagrotor.proofs.enclosure import accuracy_of, loosened
+from lagrotor.proofs.fields import Field, Values, system_field, values_at
+from lagrotor.proofs.krawczyk import inside, krawczyk, middle_inverse
+from lagrotor.proofs.subjects import exactly_meant
+from lagrotor.proofs.tape import Tape, joined
+
+Stability = Literal["stable", "stable to first order", "unstable", "undecided"]
+TOL = 1e-25
+_NEWTON = 30
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ProvedEquilibrium(Proved):
+    """An equilibrium that exists, the only one in a box about it. q: its coordinates, balls; stability: what is proved of it.
+
+    Attributes:
+        eigenvalues: of the linear motion, balls (real, imaginary), where they are apart.
+        certificate: what `check` verifies.
+    """
+
+    names: tuple[str, ...]
+    q: tuple[Ball, ...]
+    stability: Stability
+    eigenvalues: tuple[tuple[Ball, Ball], ...]
+    certificate: Certificate
+
+    def summary(self) -> dict[str, str]:
+        """Coordinates and stability, name → words."""
+        return {n: printed(x, 25) for n, x in zip(self.names, self.q, strict=True)} | {"stability": self.stability}
+
+
+def equilibrium(system: Equations, values: Values | None = None, q0: Any = None, tol: float = TOL) -> ProvedEquilibrium:
+    """An equilibrium proved to exist, with its stability.
+
+    Args:
+        system: a `System`.
+        values: numbers or pairs (lowest, highest).
+        q0: near which it lies.
+        tol: as in `enclose`.
+
+    Raises:
+        InputError: for what makes no sense.
+        NotProved: where none can be proved near q0.
+    """
+    if not isinstance(system, Equations):
+        raise InputError(f"equilibrium: {system!r} must be a System")
+    if system.multipliers or depends_on_time(system):
+        raise InputError("equilibrium: the system must have no constraints and no time: take free coordinates")
+    accuracy, system = accuracy_of(tol, "equilibrium"), exactly_meant(system)
+    n = len(system.c.q)
+    with precision(accuracy.bits, accuracy.terms):
+        made = system_field(system, values or {}, q0, [0] * n)
+        tape, parameters = made.motion.tape, [made.values[s] for s in made.arguments[2 * n :]]
+        forces = joined(tape, range(n, 2 * n))
+        middle, box, A = located(forces, [exact(x) for x in made.start[:n]], parameters)
+        q = [a + b for a, b in zip(middle, box, strict=True)]
+        state = [*q, *[arb(0)] * n, *parameters]
+        _, rows = values_at(tape, state, True)
+        J = arb_mat([row[: 2 * n] for row in rows])
+        energy = _energy_hessian(made, system)
+        found = arb_mat(2 * n, 2 * n, values_at(energy, state))
+        calm = not any(system.forces) and damped(system, made, state)
+        stability, eigenvalues = stability_of(system, J, found, calm)
+        names = tuple(map(str, system.c.q))
+        certificate = {
+            "version": 1,
+            "bits": accuracy.bits,
+            "kind": "equilibrium",
+            "about": made.about,
+            "motion": tape_data(tape) | {"parameters": balls_data(parameters)},
+            "middle": exact_data(middle),
+            "box": balls_data([loosened(x) for x in box]),
+            "A": matrix_data(A),
+            "energy": words(system.energy)["of"],
+            "claim": {"q": balls_data([loosened(x) for x in q]), "stability": stability},
+        }
+        return ProvedEquilibrium(names, tuple(q), stability, eigenvalues, certificate)
+
+
+def located(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Balls, Balls, Matrix]:
+    """Newton's method, then Krawczyk's test: the middle, the box about it that holds the equilibrium, and A."""
+    n = len(middle)
+    still = [arb(0)] * n
+    before = float("inf")
+    for _ in range(_NEWTON):
+        value, rows = values_at(forces, [*middle, *still, *parameters], True)
+        A = middle_inverse(arb_mat([row[:n] for row in rows]))
+        move = entries_of(A * column_matrix(value))
+        size = max(float(upper(x)) for x in move)
+        if size > 0.5 * before or size == 0:
+            break
+        before = size
+        middle = [exact(a - b) for a, b in zip(middle, move, strict=True)]
+    for grow in (2, 16, 2**10, 2**20):
+        w = [
+            arb(0, (grow * (upper(x) + arb(2) ** -200 + abs(m) * arb(2) ** -60)).upper())
+            for x, m in zip(move, middle, strict=True)
+        ]
+        box = [a + b for a, b in zip(middle, w, strict=True)]
+        value = values_at(forces, [*middle, *still, *parameters])
+        _, rows = values_at(forces, [*box, *still, *parameters], True)
+        found = krawczyk(value, arb_mat([row[:n] for row in rows]), A, w)
+        if inside(found, w):
+            return middle, found, A
+    raise NotProved(f"equilibrium: Newton's method comes within {size:.1g}, but Krawczyk's test does not close there")
+
+
+def _energy_hessian(made: Field, system: Equations) -> Tape:
+    """The second derivatives of the Jacobi integral by (q, v), row by row, 1 for letters that are not in the equations."""
+    states = (*system.c.q, *system.c.v)
+    unused = dict.fromkeys(system.energy.free_symbols - {*made.arguments}, 1)
+    first = [sp.diff(system.energy.xreplace(unused), x) for x in states]
+    return made.function([sp.diff(e, x) for e in first for x in states])
+
+
+def damped(system: Equations, made: Field, state: Sequence[Ball]) -> bool:
+    """Whether Rayleigh's function takes energy out: D = vᵀ H(q) v / 2 with every principal minor of H zero or positive there."""
+    v = system.c.v
+    H = sp.hessian(system.dissipation, v)
+    column = sp.Matrix(v)
+    rest = sp.expand(system.dissipation - (column.T * H * column)[0] / 2)
+    if H.free_symbols & {*v} or decide_zero(rest).answer != "zero":
+        return False
+    minors = [
+        sp.expand(H.extract(rows, rows).det(method="berkowitz"))
+        for size in range(1, len(v) + 1)
+        for rows in map(list, combinations(range(len(v)), size))
+    ]
+    signed = [minor for minor in minors if minor != 0]
+    return all(x > 0 for x in values_at(made.function(signed), state)) if signed else True
+
+
+def definite(matrix: Matrix) -> bool:
+    """Whether every symmetric matrix of a ball is positive definite: all leading minors are positive."""
+    n = matrix.nrows()
+    return all(arb_mat([[matrix[i, j] for j in range(k)] for i in range(k)]).det() > 0 for k in range(1, n + 1))
+
+
+def stability_of(
+    system: Equations, J: Matrix, energy: Matrix, calm: bool
+) -> tuple[Stability, tuple[tuple[Ball, Ball], ...]]:
+    """What the energy, which does not grow where the system is calm, and the linear motion prove."""
+    try:
+        found = [(z.real, z.imag) for z in J.eig()]
+    except ValueError:
+        found = []
+    if calm and definite(energy):
+        return "stable", tuple(found)
+    if any(real > 0 for real, _ in found):
+        return "unstable", tuple(found)
+    conservative = system.dissipation == 0 and not any(system.forces)
+    if found and conservative and on_axis(found):
+        return "stable to first order", tuple(found)
+    return "undecided", tuple(found)
+
+
+def on_axis(found: Sequence[tuple[Ball, Ball]]) -> bool:
+    """Whether all eigenvalues are shown to be imaginary and apart: the spectrum of a conservative system is its own mirror image
+    in the imaginary axis, and no ball but its own holds the image of an eigenvalue.
+    """
+    heights = [imaginary for _, imaginary in found]
+    apart = all(not x.overlaps(y) for i, x in enumerate(heights) for y in heights[:i])
+    return apart and all(real.contains(0) for real, _ in found)

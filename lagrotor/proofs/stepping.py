@@ -1,0 +1,131 @@
+"""One step of an autonomous motion x' = f(x), enclosed: the Taylor polynomial, a bound of its rest, and the derivative.
+
+On a step of length h, in s = t/h, the motion is P + e with P its first n Taylor terms and e from s^n on. Picard's map
+e ↦ h ∫ f(P + e) ds − P takes the ball |e_i| ≤ ε_i into itself as soon as the evaluation with these tails gives
+
+    h (|f_{n−1}| / n + tail(f) / (n + 1)) ≤ ε,
+
+and its fixed point is the motion. The derivative by the start, D' = h J D, is linear: its rest is bounded at once.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly, arb_series, ctx, upper
+from lagrotor.proofs.tails import ZERO, Evaluation, Tailed, TailError, max_of, series_values
+from lagrotor.proofs.tape import Tape
+
+SLACK = 4  # on each bound of a rest, so that another program's bound of it is below, too
+SINGULAR = "a denominator, or a root's or logarithm's argument, in the equations is not shown to be other than zero"
+_TRIES = 4  # of a bound of the rest, each from the one before
+
+
+@dataclass(frozen=True)
+class Motion:
+    """x' = f(x; parameters): the tape's outputs are the rates of its first arguments.
+
+    The states after `moving` stand still: parameters that vary within an interval, by which derivatives are taken.
+    """
+
+    tape: Tape
+    parameters: tuple[Any, ...] = ()
+
+    @property
+    def moving(self) -> int:
+        """How many states move."""
+        return len(self.tape.outputs)
+
+    @property
+    def size(self) -> int:
+        """States that move, and parameters that vary."""
+        return len(self.tape.arguments) - len(self.parameters)
+
+    def evaluation(self, arguments: Sequence[Any]) -> Any:
+        """The rates over series or Taylor models of the states and parameters, with their derivatives."""
+        return Evaluation(self.tape, arguments)
+
+
+def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
+    """The first n Taylor coefficients of every moving state in t."""
+    rows = [[x] for x in start[: motion.moving]]
+    still = [*start[motion.moving :], *motion.parameters]
+    before = ctx.cap
+    try:
+        for k in range(n - 1):
+            ctx.cap = k + 1
+            try:
+                rates = series_values(motion.tape, [*(arb_series(row, k + 1) for row in rows), *still])
+            except (ZeroDivisionError, ValueError):
+                raise TailError(SINGULAR) from None
+            for row, rate in zip(rows, rates, strict=True):
+                value = rate[k] if isinstance(rate, arb_series) else rate if k == 0 else ZERO
+                row.append(value / (k + 1))
+    finally:
+        ctx.cap = before
+    return rows
+
+
+def scaled(rows: Sequence[Balls], h: Ball, n: int) -> list[Balls]:
+    """The first n coefficients in s = t/h."""
+    powers = [arb(1)]
+    for _ in range(n - 1):
+        powers.append(powers[-1] * h)
+    return [[c * p for c, p in zip(row, powers, strict=False)] for row in rows]
+
+
+def with_rest(motion: Motion, rows: Sequence[Balls], start: Balls, h: Ball, n: int) -> tuple[Balls, Evaluation]:
+    """Bounds ε of the rests of n scaled terms, and the evaluation of the tape that proves them."""
+    still = [*start[motion.moving :], *motion.parameters]
+    guess = [upper(row[-1]) + upper(row[-2]) for row in rows]
+    least = max_of(guess) * arb(2) ** -20 + arb(2) ** (-2 * ctx.prec)
+    for _ in range(_TRIES):
+        guess = [g + least for g in guess]
+        moving = [Tailed(arb_poly(row), g, n) for row, g in zip(rows, guess, strict=True)]
+        evaluation = Evaluation(motion.tape, [*moving, *(Tailed(arb_poly([c]), ZERO, n) for c in still)])
+        rest = [upper(h * (abs(f.poly[n - 1]) / n + f.tail / (n + 1))) for f in evaluation.outputs]
+        if all(r <= g for r, g in zip(rest, guess, strict=True)):
+            return rest, evaluation
+        guess = [2 * r for r in rest]
+        if not max_of(guess) < 1:
+            break
+    raise TailError("the rest of the Taylor series is not bounded over the step")
+
+
+def derivative_of_step(motion: Motion, evaluation: Evaluation, h: Ball, n: int) -> tuple[Matrix, list[Matrix]]:
+    """The derivative of the step by states and varying parameters, (size, size), and those of the n Taylor terms in s."""
+    size = motion.size
+    entries: list[Balls] = [[ZERO] * (size * size) for _ in range(n)]
+    rest = ZERO
+    for i in range(motion.moving):
+        row = ZERO
+        for j, entry in enumerate(evaluation.gradient(i)[:size]):
+            if entry is not None:
+                row += entry.tail
+                for k, c in enumerate(entry.poly.coeffs()):
+                    entries[k][i * size + j] = c * h
+        rest = rest.max(upper(row * h))
+    slopes = [arb_mat(size, size, entry) for entry in entries]
+    found = [arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])]
+    for k in range(n - 1):
+        total = slopes[0] * found[k]
+        for i in range(1, k + 1):
+            total = total + slopes[i] * found[k - i]
+        found.append(total * (arb(1) / (k + 1)))
+    outer, inner = ([matrix_norm(m) for m in matrices] for matrices in (slopes, found))
+    over = sum((a * b for i, a in enumerate(outer) for j, b in enumerate(inner) if i + j >= n - 1), ZERO)
+    whole, size_found = sum(outer, ZERO) + rest, sum(inner, ZERO)
+    left = 1 - whole / (n + 1)
+    if not left > 0:
+        raise TailError("the variational equations' series does not converge over the step")
+    error = SLACK * upper((over / n + rest * size_found / (n + 1)) / left)
+    total = found[0]
+    for matrix in found[1:]:
+        total = total + matrix
+    wide = [arb(0, error) if i < motion.moving else ZERO for i in range(size) for _ in range(size)]
+    return total + arb_mat(size, size, wide), found
+
+
+def matrix_norm(matrix: Matrix) -> Ball:
+    """The largest sum of absolute values along a row, an upper bound."""
+    return max_of([sum(map(abs, row), ZERO) for row in matrix.tolist()])

@@ -1,0 +1,516 @@
+"""Orbits, crossings and equilibria proved: published numbers are held, false theorems are refused, certificates are verified."""
+
+import copy
+import json
+from dataclasses import replace
+from typing import Any
+
+import mpmath as mp
+import numpy as np
+import pytest
+import sympy as sp
+
+pytest.importorskip("flint", reason="the extra `proof` is not installed")
+
+from flint import arb
+
+from lagrotor import Link, Scene, floquet, paired_scene, simulate
+from lagrotor.algebra import decide_zero
+from lagrotor.errors import DomainError, InputError
+from lagrotor.mechanics import System, coordinates, t
+from lagrotor.numerics import Program
+from lagrotor.pair.notation import AXES
+from lagrotor.proofs import (
+    NotProved,
+    carried_sets,
+    check,
+    crossing,
+    enclose,
+    equilibrium,
+    means,
+    no_crossing,
+    paired_orbits,
+    periodic_orbit,
+    precession,
+)
+from lagrotor.proofs.balls import as_text, precision
+from lagrotor.proofs.carried_sets import Accuracy, Start, steps_of
+from lagrotor.proofs.checker import certified_sets
+
+C = coordinates("theta")
+(THETA,), (RATE,) = C.q, C.v
+PENDULUM = System(C, RATE**2 / 2 + sp.cos(THETA))
+PLANE = coordinates("x y")
+(X, Y), (U, V) = PLANE.q, PLANE.v
+MU = sp.Symbol("mu", positive=True)
+THREE_BODIES = System(
+    PLANE,
+    ((U - Y) ** 2 + (V + X) ** 2) / 2
+    + (1 - MU) / sp.sqrt((X + MU) ** 2 + Y**2)
+    + MU / sp.sqrt((X - 1 + MU) ** 2 + Y**2),
+)
+HENON_HEILES = System(PLANE, (U**2 + V**2 - X**2 - Y**2) / 2 - X**2 * Y + Y**3 / 3)
+
+
+def verified(theorem: Any) -> str:
+    """The certificate goes through JSON, and the second program follows it."""
+    return check(json.loads(json.dumps(theorem.certificate)))
+
+
+def moved(number: list[str], by: str) -> list[str]:
+    """A ball [midpoint, radius] moved."""
+    with precision(300):
+        from lagrotor.proofs.balls import of_text
+
+        return [as_text((of_text(number[0]) + arb(by)).mid()), number[1]]
+
+
+def near(ball: Any, number: str, within: str) -> bool:
+    """Whether a ball holds a number that is published to some digits, and is not wide."""
+    with precision(200):
+        return bool(ball.overlaps(arb(number) + arb(0, float(within))) and float(ball.rad()) < float(within))
+
+
+def test_a_pendulum_has_the_period_of_the_elliptic_integral() -> None:
+    orbit = periodic_orbit(PENDULUM, {}, [1], [0], 6.7, reversals=[(1, -1)])
+    with mp.workdps(40):
+        assert near(orbit.period, mp.nstr(4 * mp.ellipk(mp.sin(mp.mpf(1) / 2) ** 2), 35), "1e-18")
+    assert orbit.kind == "parabolic" and "periodic orbit of period [6.69997566437" in verified(orbit)
+    with mp.workdps(40):
+        energy, fastest = -mp.cos(1), mp.sqrt(2 - 2 * mp.cos(1))
+        assert near(orbit.value(RATE**2 / 2 - sp.cos(THETA)), mp.nstr(energy, 35), "1e-18")
+        for expression, end in {THETA: mp.mpf(1), RATE: fastest}.items():
+            least, largest = orbit.extremes(expression)
+            assert near(largest, mp.nstr(end, 35), "1e-14") and near(least, mp.nstr(-end, 35), "1e-14")
+        angles = np.linspace(-1, 1, 20001)  # on the orbit θ′² = 2 (cos θ − cos 1)
+        least = (-np.sqrt(2 * np.maximum(np.cos(angles) - np.cos(1), 0)) - 2 * angles**2).min()
+        assert abs(float(orbit.extremes(RATE - 2 * THETA**2)[0].mid()) - least) < 1e-7
+
+
+def test_the_shortest_orbit_of_lorenz() -> None:
+    """Viswanath 2003: the orbit AB, its period to many digits."""
+    x, y, z = sp.symbols("x y z")
+    lorenz = Program((x, y, z), (), (10 * (y - x), x * (28 - z) - y, x * y - sp.Rational(8, 3) * z))
+    orbit = periodic_orbit(lorenz, {}, [-13.7636, -19.5788, 27], [], 1.5587, held=["z"])
+    assert near(orbit.period, "1.55865221071617472756787", "1e-17")
+    assert near(orbit.start[0], "-13.763610682134", "1e-12") and near(orbit.start[1], "-19.578751942452", "1e-12")
+    assert orbit.kind == "hyperbolic" and "hyperbolic" in verified(orbit)
+
+
+def test_henon_and_heiles() -> None:
+    """The straight orbit along y: y'' = −y + y², whose period is an elliptic integral; stable at small energies."""
+    orbit = periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"])
+    with mp.workdps(40):
+        y = mp.mpf("0.3")
+        a, b, c = sorted(mp.polyroots([mp.mpf(2) / 3, -1, 0, y**2 - 2 * y**3 / 3]))
+        period = 2 * mp.sqrt(6) / mp.sqrt(c - a) * mp.ellipk((b - a) / (c - a))
+    assert near(orbit.period, mp.nstr(period, 35), "1e-18")
+    assert orbit.kind == "elliptic" and "elliptic" in verified(orbit)
+    assert crossing(HENON_HEILES, {}, [0, 0.3], [0, 0], event=Y, before=3).first
+
+
+@pytest.mark.slow
+def test_arenstorf_s_orbit() -> None:
+    """Hairer, Nørsett & Wanner II.0: of a satellite between earth and moon, its start and period to 30 digits."""
+    orbit = periodic_orbit(
+        THREE_BODIES, {MU: "0.012277471"}, ["0.994", 0], [0, "-2.0016"], "17.0652", reversals=[(1, -1, -1, 1)]
+    )
+    assert near(orbit.period, "17.0652165601579625588917206249", "1e-15")
+    assert near(orbit.start[3], "-2.00158510637908252240537862224", "1e-16")
+    assert orbit.kind == "hyperbolic" and verified(orbit)
+
+
+def test_lagrange_s_points() -> None:
+    triangle = equilibrium(THREE_BODIES, {MU: 0.01}, [0.49, 0.866])
+    assert triangle.stability == "stable to first order" and verified(triangle)
+    assert equilibrium(THREE_BODIES, {MU: 0.05}, [0.45, 0.866]).stability == "unstable"
+    line = equilibrium(THREE_BODIES, {MU: 0.01}, [0.85, 0])
+    assert line.stability == "unstable" and line.q[1].contains(0) and verified(line)
+    assert equilibrium(PENDULUM, {}, [0.1]).stability == "stable" and verified(equilibrium(PENDULUM, {}, [0.1]))
+    with pytest.raises(NotProved):
+        equilibrium(System(C, RATE**2 / 2 + THETA), {}, [0])
+
+
+@pytest.mark.parametrize(
+    ("dissipation", "stability"),
+    [
+        (RATE**2 / 10, "stable"),
+        (RATE**4 - RATE**2 / 10, "unstable"),
+        (RATE**6 - RATE**4, "undecided"),
+        (RATE**4 + THETA * RATE**2, "undecided"),
+    ],
+)
+def test_only_friction_leaves_a_least_energy_stable(dissipation: sp.Expr, stability: str) -> None:
+    """Of Rayleigh's function: one that feeds slow motion, also to a higher order alone, or whose sign is not shown."""
+    found = equilibrium(System(C, RATE**2 / 2 + sp.cos(THETA), dissipation=dissipation), {}, [0.1])
+    assert found.stability == stability and f"it is {stability}." in verified(found)
+    if stability != "stable":
+        false = found.certificate | {"claim": found.certificate["claim"] | {"stability": "stable to first order"}}
+        with pytest.raises(NotProved, match="the system is not conservative"):
+            check(false)
+
+
+@pytest.mark.parametrize(("r0", "link"), [(0.204, Link()), pytest.param(0.6, Link(1, 1, 1), marks=pytest.mark.slow)])
+def test_the_paired_precession_exists(r0: float, link: Link) -> None:
+    scene = Scene((10, -10), link=link)
+    orbit, numeric = precession(scene, r0), floquet(scene, r0)
+    assert abs(float(orbit.frequency.mid()) - numeric.frequency) < 1e-11
+    assert float(orbit.frequency.rad()) < 1e-15
+    assert orbit.kind == numeric.kind == "hyperbolic" and orbit.pair_sum is not None
+    assert abs(float(orbit.pair_sum.mid()) - numeric.pair_sum) < 1e-4
+    assert "paired precession, hyperbolic" in verified(orbit)
+    run = simulate(paired_scene(scene, r0), np.linspace(0, float(orbit.period.mid()), 401), tol=1e-10)
+    inclinations, (x, y) = run.inclinations, run.axes[0, :, :2].T
+    seen = [inclinations.min(), inclinations.max(), x.max(), y.max()]
+    for found, value in zip(orbit.shape.values(), seen, strict=True):
+        assert abs(float(found.mid()) - value) < 1e-4 and float(found.rad()) < 1e-12
+    assert orbit.shape["largest x"].overlaps(arb(str(r0)))
+    assert abs(float(orbit.energy.mid()) - run.energy[0]) < 1e-9
+    assert abs(float(orbit.joint_line_momentum.mid()) - run.joint_line_momentum[0]) < 1e-9
+
+
+def test_spins_that_are_not_opposite_have_none() -> None:
+    with pytest.raises(InputError):
+        precession(Scene((10, 5)), 0.2)
+
+
+def test_another_amplitude_is_refused() -> None:
+    orbit = precession(Scene((10, -10)), 0.2004)
+    assert orbit.frequency_at("0.2004").overlaps(orbit.frequency)
+    with pytest.raises(DomainError, match="is not shown to lie in"):
+        orbit.frequency_at("0.2")
+    with pytest.raises(NotProved, match="the amplitude"):
+        check(orbit.certificate | {"claim": orbit.certificate["claim"] | {"r0": ["1/5", "1/5"]}})
+
+
+@pytest.mark.parametrize("row", [paired_orbits.A, paired_orbits.B])
+def test_the_pair_s_reversals_are_symmetries_of_its_lagrangian(row: tuple[int, ...]) -> None:
+    """In the axes: A is y → −y, B exchanges the rotors and mirrors x, y; with time reversed the gyroscopic force stays."""
+    from lagrotor.pair import axes_pair
+    from lagrotor.pair.notation import G_1, G_2
+
+    pair, (x1, y1, z1, x2, y2, z2), v = axes_pair(), AXES.q, AXES.v
+    if row is paired_orbits.A:
+        image = [x1, -y1, z1, x2, -y2, z2]
+        moved = [-v[0], v[1], -v[2], -v[3], v[4], -v[5]]
+    else:
+        image = [-x2, -y2, z2, -x1, -y1, z1]
+        moved = [v[3], v[4], -v[5], v[0], v[1], -v[2]]
+    put = dict(zip((*AXES.q, *AXES.v), (*image, *moved), strict=True))
+    assert decide_zero(pair.L.xreplace(put) - pair.L).answer == "zero"
+    for g in pair.constraints:
+        assert any(decide_zero(g.xreplace(put) - other).answer == "zero" for other in pair.constraints)
+    # Forces turn as accelerations do, which have the image's signs.
+    for i, force in enumerate(pair.forces):
+        source = AXES.q.index(next(iter(image[i].free_symbols)))
+        sign = 1 if image[i] == AXES.q[source] else -1
+        opposite = {G_2: -G_1} if row is paired_orbits.B else {}
+        left = force.xreplace(put) - sign * pair.forces[source]
+        assert decide_zero(left.subs(opposite)).answer == "zero"
+
+
+def test_a_crossing_is_proved_with_its_time() -> None:
+    event = crossing(PENDULUM, {}, [1], [0], event=THETA, before=3)
+    with mp.workdps(40):
+        assert near(event.time, mp.nstr(mp.ellipk(mp.sin(mp.mpf(1) / 2) ** 2), 35), "1e-3")
+    assert event.first and "first passes zero" in verified(event)
+    quiet = no_crossing(PENDULUM, {}, [1], [0], event=THETA + sp.Rational("1.001"), until=6)
+    assert "does not pass zero" in verified(quiet)
+
+
+def test_false_theorems_are_never_proved() -> None:
+    """A crossing that just misses, a non-crossing that just fails, an orbit that is none, a wrong period and kind."""
+    with pytest.raises(NotProved, match="keeps its sign, or is not shown to change it"):
+        crossing(PENDULUM, {}, [1], [0], event=THETA + 1 + sp.Rational("1e-13"), before=6)
+    with pytest.raises(NotProved, match=r"not shown to stay off zero beyond t = 3\.34"):
+        no_crossing(PENDULUM, {}, [1], [0], event=THETA + 1 - sp.Rational("1e-13"), until=6)
+    with pytest.raises(NotProved):
+        periodic_orbit(System(C, RATE**2 / 2 + THETA), {}, [1], [0], 6, reversals=[(1, -1)])
+    with pytest.raises(InputError, match="not shown to be a motion"):
+        periodic_orbit(System(C, RATE**2 / 2 + THETA**3, dissipation=RATE**2), {}, [1], [0], 6, reversals=[(1, -1)])
+    with pytest.raises(InputError, match="signs"):
+        periodic_orbit(PENDULUM, {}, [1], [0], 6, reversals=[(-1, -1)])
+    with pytest.raises(InputError, match="the system has fewer integrals"):
+        periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"], integrals=2)
+    with pytest.raises(InputError, match="'theta' must be an expression"):
+        crossing(PENDULUM, {}, [1], [0], event="theta", before=1)
+
+
+def test_means_over_time() -> None:
+    """x″ = −x from x = 1: ∫ of x, x² and x x′ in closed form, also where spans begin and end within a step."""
+    c = coordinates("x")
+    (x,), (v,) = c.q, c.v
+    spring = System(c, (v**2 - x**2) / 2)
+    found = means(spring, {}, [1], [0], [(x, 0, 1), (x**2, "0.5", 2), (x * v, 1, 3)])
+    with mp.workdps(30):
+        closed = [mp.sin(1), mp.mpf(1) / 2 + (mp.sin(4) - mp.sin(1)) / 6, (mp.cos(3) ** 2 - mp.cos(1) ** 2) / 4]
+        assert all(near(ball, mp.nstr(value, 20), "1e-9") for ball, value in zip(found.values, closed, strict=True))
+    assert "The mean of x**2 from t = 0.5 to 2 s is in [0.2336210" in verified(found) == found.theorem
+    for i, (name, data) in enumerate([("mean", ["1p0", "0p0"]), ("until", ["5p0", "0p0"]), ("since", ["1p0", "0p0"])]):
+        spoiled = copy.deepcopy(found.certificate)
+        spoiled["claim"]["means"][0][name] = data
+        with pytest.raises(NotProved, match=["a mean is another", "before a span does", "a span has no length"][i]):
+            check(spoiled)
+    for spans in ((), [(x, 1, 1)], [(x, -1, 1)]):
+        with pytest.raises(InputError, match="means: "):
+            means(spring, {}, [1], [0], spans)
+
+
+SWING = means(PENDULUM, {}, [1], [0], [(sp.Eq(sp.Symbol("E"), RATE**2 / 2 - sp.cos(THETA)), 0, 2), (THETA, 1, 2)])
+MISS = crossing(Scene((10, -10), rates=((0.1, 0, 0),) * 2), event=AXES.q[0] - sp.Rational(1, 500), before="0.03")
+
+
+def test_a_name_is_defined_once_and_what_is_written_is_what_is_computed() -> None:
+    words = verified(SWING)
+    assert (
+        words.startswith("The mean of E from t = 0 to 2 s is in [-0.54030231 +/- ") and words.count("- cos(theta)") == 1
+    )
+    assert "x_1 - 1/500 first passes zero" in verified(MISS)
+
+
+def test_a_theorem_names_its_start_and_its_parameters() -> None:
+    assert verified(SWING).endswith(
+        " This is of the system with L = theta_dot**2/2 + cos(theta), from t = 0 with theta = 1, theta_dot = 0."
+    )
+    wide = enclose(THREE_BODIES, {MU: ("0.01", "0.011")}, ["0.5", (0.8, 0.81)], [0, sp.Rational(1, 3)], 0.1)
+    words = verified(wide)
+    assert ", from t = 0 with x = 0.5, y in [0.8, 0.81], x_dot = 0, y_dot = 0.333333333333333" in words
+    assert words.endswith(", where mu in [0.01, 0.011].")
+    for change in (("start", "middle"), ("motion", "parameters")):
+        other = json.loads(json.dumps(wide.certificate))
+        other[change[0]][change[1]] = [moved(x, "0.01") for x in other[change[0]][change[1]]]
+        if other != wide.certificate:
+            with pytest.raises(NotProved, match="check: "):
+                check(other)
+
+
+FALSE_WORDS = {
+    "cannot be read": [
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta # and it topples"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta\n"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "__import__('os').getcwd()"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "omega"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "v_1"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "ⴰ1"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "0*E + theta"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1/(1/3 - 1/3)"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "1**(10**9*1)*theta**100000"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "(" * 5000 + "theta" + ")" * 5000),
+    ],
+    "more than 20000 characters": [lambda c: c["claim"]["means"][1].__setitem__("of", "theta" + " + 0" * 10_000)],
+    "no name of its own": [
+        lambda c: c["claim"]["means"][0].__setitem__("of", "E, and it topples"),
+        lambda c: c["claim"]["means"][0].__setitem__("of", "theta"),
+        lambda c: c["claim"]["means"][0].__setitem__("of", "sin"),
+    ],
+    "E has two meanings": [lambda c: c["claim"]["means"][1].update(of="E", means="theta")],
+    "a mean is another": [
+        lambda c: c["claim"]["means"][1].__setitem__("of", "9**9**9**9**9"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1/10**7"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1000 + 10**80*(1/3 - 1/3)"),
+        lambda c: c["claim"]["means"][1].__setitem__("of", "theta + 1000 + 10**80*(1/theta - 1/theta)"),
+        lambda c: c["claim"]["means"][0].__setitem__("means", "theta_dot**2/2 + cos(theta)"),
+        lambda c: c["claim"]["means"][1].__setitem__("mean", c["claim"]["means"][0]["mean"]),
+        lambda c: c["claim"]["means"][0].__setitem__("mean", moved(c["claim"]["means"][0]["mean"], "1e-8")),
+        lambda c: c["claim"]["means"][0].__setitem__("mean", [c["claim"]["means"][0]["mean"][0], "0p0"]),
+        lambda c: c["claim"]["means"][1].__setitem__("since", ["3p-1", "0p0"]),
+    ],
+}
+
+
+@pytest.mark.parametrize(("says", "k"), [(says, k) for says, rows in FALSE_WORDS.items() for k in range(len(rows))])
+def test_a_mean_of_something_else_is_refused(says: str, k: int) -> None:
+    spoiled = json.loads(json.dumps(SWING.certificate))
+    FALSE_WORDS[says][k](spoiled)
+    with pytest.raises(NotProved, match=says):
+        check(spoiled)
+
+
+@pytest.mark.parametrize("by", ["1e-4", "-1e-4", "0.01"])
+def test_a_crossing_that_just_misses_its_time_is_refused(by: str) -> None:
+    spoiled = json.loads(json.dumps(MISS.certificate))
+    spoiled["claim"]["time"] = moved(spoiled["claim"]["time"], by)
+    with pytest.raises(NotProved, match="does not change its sign over the claimed time"):
+        check(spoiled)
+    spoiled = copy.deepcopy(MISS.certificate) | {"event": {"of": "x_1 - 1/499"}}
+    with pytest.raises(NotProved, match="does not change its sign over the claimed time"):
+        check(spoiled)
+
+
+def test_a_name_of_an_expression_is_its_own() -> None:
+    E = sp.Symbol("E")
+    for spans in (
+        [(sp.Eq(E, RATE), 0, 1), (THETA * sp.E, 0, 1)],
+        [(sp.Eq(E, RATE), 0, 1), (sp.Eq(E, THETA), 0, 1)],
+        [(sp.Eq(E, RATE), 0, 1), (E + THETA, 0, 1)],
+        [(sp.Eq(THETA, RATE**2), 0, 1), (THETA, 0, 1)],
+        [(sp.Eq(sp.Symbol("sin"), RATE), 0, 1)],
+    ):
+        with pytest.raises(InputError, match="a name of its own"):
+            means(PENDULUM, {}, [1], [0], spans)
+
+
+WRITTEN = (
+    sp.tan(THETA / 2) + sp.sec(THETA / 3) - sp.csc(THETA + 2) * sp.cot(2 + THETA / 5),
+    sp.sinh(THETA) * sp.cosh(RATE) - sp.tanh(THETA - RATE) ** 3,
+    sp.acos(THETA / 3) - sp.asin(RATE / 4) * sp.atan(THETA) + sp.log(3 + THETA),
+    (2 + THETA) ** sp.Rational(-3, 2) + (3 + RATE) ** sp.Rational(1, 3) - sp.sqrt(2) * sp.pi ** (THETA - 1) + sp.exp(2),
+    -(-THETA - 2 * (RATE - sp.Rational(1, 7))) / (5 - RATE / -3) ** 2 - sp.E**RATE,
+)
+
+
+@pytest.mark.parametrize("expression", WRITTEN, ids=str)
+def test_what_is_written_is_what_is_evaluated(expression: sp.Expr) -> None:
+    """The search's operations of an expression against those of its words, at a point."""
+    from lagrotor.proofs.checker.bounded_series import Dual, Rest, evaluated
+    from lagrotor.proofs.checker.written import tape_of_words
+    from lagrotor.proofs.fields import system_field, values_at
+
+    made, at = system_field(PENDULUM, {}, [1], [0]), [arb("0.3"), arb("-0.7")]
+    tape = tape_of_words([{"of": str(expression)}], ["theta", "theta_dot"], None)
+    (found,) = evaluated(tape, [Dual(Rest([x], arb(0), 1)) for x in at])
+    off = found.value.terms[0] - values_at(made.function([expression]), at)[0]
+    assert off.contains(0) and float(off.rad()) < 1e-12
+
+
+def test_a_pulse_that_begins_within_a_step_leaves_the_set_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A force exp(−(t − 1)²/w²) is in no Taylor term at t = 0, but in the rest; the twin lets the rest be large."""
+    c = coordinates("x")
+    (x,), (v,) = c.q, c.v
+    pushed = System(c, (v**2 - x**2) / 2, forces=(sp.exp(-(((t - 1) * 10) ** 2)),))
+    assert float(enclose(pushed, {}, [0], [0], 2, 1e-14).states[0].rad()) < 1e-11
+    monkeypatch.setattr(carried_sets, "_REST", 1e300)
+    assert float(enclose(pushed, {}, [0], [0], 2, 1e-14).states[0].rad()) > 1e-9
+
+
+CERTIFICATE = periodic_orbit(
+    HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"]
+).certificate
+
+
+LEFT_OUT = {"a node is left out": 2, "the last node is left out": -1}
+
+
+def spoil(certificate: dict[str, Any], what: str) -> None:
+    steps, claim = certificate["steps"], certificate["claim"]
+    if what in LEFT_OUT:
+        del steps[LEFT_OUT[what]]
+    elif what == "the period is off by 1e-13":
+        claim["period"] = moved(claim["period"], "1e-13")
+    elif what == "another start":
+        claim["start"][1] = moved(claim["start"][1], "1e-15")
+    elif what == "more integrals":
+        certificate["ones"], claim["kind"] = 4, "parabolic"
+    elif what == "a node is moved by 1e-17":
+        steps[1]["node"]["m"][0] = moved([steps[1]["node"]["m"][0], "0p0"], "1e-17")[0]
+    elif what == "a node's error is dropped":
+        steps[1]["node"]["s"] = [[m, "0p0"] for m, _ in steps[1]["node"]["s"]]
+    elif what == "a node's derivative is narrowed":
+        steps[1]["node"]["S"] = [[[m, "0p0"] for m, _ in row] for row in steps[1]["node"]["S"]]
+    elif what == "the start is elsewhere":
+        certificate["start"]["middle"][3] = moved(certificate["start"]["middle"][3], "1e-3")
+        certificate["start"]["middle"][4] = moved(certificate["start"]["middle"][4], "1e-3")
+    elif what == "another reversal":
+        certificate["reversals"][0] = [1, 1, -1, -1]
+    elif what == "another force":
+        operation = next(o for o in certificate["motion"]["operations"] if o[0] == "subtract")
+        operation[0] = "add"
+    elif what == "another sum of multipliers":
+        claim["pair_sum"] = moved(claim["pair_sum"], "1e-3")
+    else:
+        certificate["motion"]["operations"][0] = ["__import__", 0]
+
+
+def test_an_orbit_of_another_amplitude_in_the_box_is_refused() -> None:
+    """The test is held at the middle: a box that is wide in what is not sought says nothing of the rest of it."""
+    scene = Scene((10, -10))
+    orbit = precession(scene, "0.2", 1e-12).pieces[0]
+    with precision(orbit.proof.bits, 30):
+        off = arb(0, 1e-7)
+        spread = [off, *orbit.proof.start.spread[1:]]
+        start = Start(orbit.proof.start.middle, spread)
+        accuracy = Accuracy(1e-12)
+        steps = tuple(steps_of(orbit.proof.problem.motion, start, arb(1), accuracy))
+        wide = replace(orbit, proof=replace(orbit.proof, start=start, steps=steps)).certificate
+    false = wide | {"claim": wide["claim"] | {"r0": ["20000001/100000000"] * 2}}
+    with pytest.raises(NotProved, match="at the middle of what is not sought"):
+        check(false)
+
+
+def test_a_precession_that_is_hyperbolic_is_not_parabolic() -> None:
+    """At r0 = 0.02 the multipliers are so near to 1 that six ones fit them, too."""
+    certificate = precession(Scene((10, -10)), "0.02", 1e-14).certificate
+    assert certificate["claim"]["kind"] == "undecided"
+    false = certificate | {"ones": 6, "claim": certificate["claim"] | {"kind": "parabolic"}}
+    with pytest.raises(NotProved, match="energy and momentum leave one pair"):
+        check(false)
+
+
+@pytest.mark.parametrize(
+    "what",
+    [
+        "a node is left out",
+        "the last node is left out",
+        "the period is off by 1e-13",
+        "another start",
+        "more integrals",
+        "a node is moved by 1e-17",
+        "a node's error is dropped",
+        "a node's derivative is narrowed",
+        "the start is elsewhere",
+        "another reversal",
+        "another force",
+        "another sum of multipliers",
+        "another operation",
+    ],
+)
+def test_a_spoiled_certificate_is_refused(what: str) -> None:
+    certificate = copy.deepcopy(CERTIFICATE)
+    spoil(certificate, what)
+    with pytest.raises((NotProved, InputError), match="check: "):
+        check(certificate)
+
+
+@pytest.mark.parametrize("kind", ["hyperbolic", "parabolic", "attracting", "of another kind"])
+def test_another_kind_is_refused(kind: str) -> None:
+    with pytest.raises(NotProved, match="check: "):
+        check(CERTIFICATE | {"claim": CERTIFICATE["claim"] | {"kind": kind}})
+
+
+def test_a_certificate_that_is_not_spoiled_is_verified() -> None:
+    """The words are those of the claim, whatever else the certificate says."""
+    assert "elliptic" in check(copy.deepcopy(CERTIFICATE))
+    assert check(CERTIFICATE | {"theorem": "It falls."}) == check(CERTIFICATE)
+    with pytest.raises(InputError, match="a certificate is the dictionary"):
+        check({"kind": "theorem"})
+    with pytest.raises(NotProved, match="is not an exact number"):
+        check(CERTIFICATE | {"A": [["zz"]]})
+
+
+def test_a_check_that_skips_a_node_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The twin of the spoiled nodes: without the test of one node each of them would be verified."""
+    carried, whole = certified_sets.Carried._step, certified_sets.demand
+    spoiled = copy.deepcopy(CERTIFICATE)
+    spoil(spoiled, "a node is moved by 1e-17")
+
+    def skipping(self: Any, node: Any, data: Any, k: int) -> Any:
+        monkeypatch.setattr(certified_sets, "demand", (lambda *_: None) if k in (1, 2) else whole)
+        return carried(self, node, data, k)
+
+    monkeypatch.setattr(certified_sets.Carried, "_step", skipping)
+    assert "elliptic" in check(spoiled)
+
+
+def test_mutated_arithmetic_of_the_search_is_found_by_the_check(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = enclose(PENDULUM, {}, [1], [0], 2)
+    assert verified(found)
+    from lagrotor.proofs import stepping
+    from lagrotor.proofs.tails import ZERO
+
+    def without_rest(*arguments: Any) -> Any:
+        rests, evaluation = stepping.with_rest(*arguments)
+        return [ZERO for _ in rests], evaluation
+
+    monkeypatch.setattr(carried_sets, "with_rest", without_rest)
+    with pytest.raises(NotProved, match="node 1 does not hold the motion of the middle"):
+        verified(enclose(PENDULUM, {}, [1], [0], 2))
