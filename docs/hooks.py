@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 ROOT = Path(__file__).parent.parent
 REPORT = ROOT / "report"
 # The parts of the package with public names for other people's programs.
-PARTS = ("mechanics", "paper", "structures", "models", "theory", "pair", "algebra", "numerics", "proved")
+PARTS = ("mechanics", "paper", "structures", "models", "theory", "pair", "algebra", "numerics", "proofs")
 
 
 def on_config(config: Any) -> Any:

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from lagrotor.about import __version__ as __version__
 from lagrotor.faces import face
+from lagrotor.renamed import install
 
 if TYPE_CHECKING:
     from lagrotor.models.orbits.floquet import floquet as floquet
@@ -33,4 +34,5 @@ if TYPE_CHECKING:
     from lagrotor.theory.paired_precession.closed_forms import paired_momentum as paired_momentum
     from lagrotor.theory.shock_response import shock_response as shock_response
 
+install()
 __getattr__, __dir__, __all__ = face(__name__)

@@ -12,7 +12,7 @@ import pytest
 from lagrotor.faces import names_of_face
 
 ROOT = Path(__file__).parent.parent
-# From the ground up: a room imports from those before it and from itself.
+# From the ground up: a room imports from those before it and from itself. A part of a room may have its floor.
 FLOORS = (
     *(
         "about",
@@ -20,6 +20,7 @@ FLOORS = (
         "files",
         "process",
         "faces",
+        "renamed",
         "shown",
         "algebra",
         "numerics",
@@ -30,10 +31,14 @@ FLOORS = (
         "models",
         "structures",
         "benchmark",
-        "proved",
+        "proofs",
     ),
-    *("paper", "pictures", "", "report", "commands"),  # "": the face of the package, which hands names on
+    *("paper", "proofs.coq", "pictures", "", "report", "commands"),  # "": the face of the package, which hands names on
 )
+ROOMS = [room for room in FLOORS if room and "." not in room]
+# A leaf: a paper's theorems are verified by it, the claims prove theirs, and commands and report make certificates.
+LEAF = "lagrotor.proofs"
+ABOVE_THE_LEAF = ("paper.theorems", "paper.rotor_pair.claims", "commands", "report.job")
 
 
 def module_name(path: Path) -> str:
@@ -69,8 +74,9 @@ def imports() -> dict[str, set[str]]:
 
 def floor(module: str) -> int | None:
     """How high the room of a module lies; None for `__main__`."""
-    room = module.split(".")[1] if "." in module else ""
-    return FLOORS.index(room) if room in FLOORS else None
+    _, *parts = module.split(".")
+    part, room = ".".join(parts[:2]), ".".join(parts[:1])
+    return FLOORS.index(part if part in FLOORS else room) if room in FLOORS else None
 
 
 def upward(imports: dict[str, set[str]]) -> list[str]:
@@ -79,6 +85,16 @@ def upward(imports: dict[str, set[str]]) -> list[str]:
         for name, others in imports.items()
         for other in sorted(others)
         if (here := floor(name)) is not None and ((there := floor(other)) is None or there > here)
+    ]
+
+
+def into_the_leaf(imports: dict[str, set[str]]) -> list[str]:
+    """Modules that import a leaf of the house, though they are none of the few that may."""
+    allowed = (LEAF, *(f"lagrotor.{each}" for each in ABOVE_THE_LEAF))
+    return [
+        name
+        for name, others in imports.items()
+        if any(other.startswith(LEAF) for other in others) and not name.startswith(allowed)
     ]
 
 
@@ -103,11 +119,17 @@ def test_every_room_has_its_floor() -> None:
     rooms = {
         path.stem for path in (ROOT / "lagrotor").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()
     }
-    assert rooms - {"__init__", "__main__"} == set(FLOORS) - {""}
+    assert rooms - {"__init__", "__main__"} == set(ROOMS)
 
 
 def test_no_import_runs_upward(imports: dict[str, set[str]]) -> None:
     assert upward(imports) == []
+
+
+def test_only_claims_and_certificates_import_the_proofs(imports: dict[str, set[str]]) -> None:
+    assert into_the_leaf(imports) == []
+    changed = imports | {"lagrotor.structures.structure": {"lagrotor.proofs.checker.checking"}}
+    assert into_the_leaf(changed) == ["lagrotor.structures.structure"]
 
 
 def development_imports(file: Path) -> list[str]:
@@ -210,46 +232,8 @@ def test_an_import_past_the_face_would_be_seen(tmp_path: Path) -> None:
     assert past_the_face(tmp_path / "script.py") == ["script.py: prove from lagrotor.paper.proof"]
 
 
-# The programs of a model have the same names in each: derived in `models/programs`, kept for use by the model's own module.
-PROTOCOL = {"lagrotor.models": {"program", "projection", "observation"}}
-# Verifies certificates and shares nothing with what makes them: its names are its own, and only `check` leaves it.
+# Verifies certificates and shares nothing with what makes them: only `check` leaves it.
 ALONE = "lagrotor.proofs.checker"
-
-
-def public_names(path: Path) -> set[str]:
-    """Functions and classes that a module defines at its top and does not mark as its own."""
-    kinds = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
-    return {
-        node.name
-        for node in ast.parse(path.read_text()).body
-        if isinstance(node, kinds) and not node.name.startswith("_")
-    }
-
-
-def repeated(modules: dict[str, Path]) -> dict[str, list[str]]:
-    """Public names that more than one module defines, each with its modules."""
-    homes: dict[str, list[str]] = {}
-    for module, path in modules.items():
-        shared = {name for room, names in PROTOCOL.items() if module.startswith(f"{room}.") for name in names}
-        for name in public_names(path) - shared:
-            homes.setdefault(name, []).append(module)
-    return {name: places for name, places in homes.items() if len(places) > 1}
-
-
-def test_public_names_are_single() -> None:
-    alone = {module: path for module, path in MODULES.items() if module.startswith(ALONE)}
-    assert repeated(alone) == {} and len(alone) > 1
-    assert repeated({module: path for module, path in MODULES.items() if module not in alone}) == {}
-
-
-def test_a_public_name_in_two_modules_would_be_seen(tmp_path: Path) -> None:
-    (tmp_path / "one.py").write_text("def rate(): ...\ndef _turn(): ...\nclass Run:\n    def rate(self): ...\n")
-    (tmp_path / "two.py").write_text("def _turn(): ...\nclass rate: ...\n")
-    modules = {"one": tmp_path / "one.py", "two": tmp_path / "two.py"}
-    assert repeated(modules) == {"rate": ["one", "two"]}
-    (tmp_path / "two.py").write_text("def program(): ...\n")
-    (tmp_path / "one.py").write_text("def program(): ...\n")
-    assert repeated(modules) == {"program": ["one", "two"]}  # the protocol is that of the models alone
 
 
 def test_only_its_check_is_taken_from_the_program_that_verifies() -> None:
@@ -287,7 +271,7 @@ def test_names_say_where_an_idea_is_derived_computed_judged_drawn_and_tested(wor
 def test_the_guide_draws_this_house() -> None:
     drawing = (ROOT / "CONTRIBUTING.md").read_text().split("\nlagrotor/\n")[1].split("\nderivations/")[0]
     drawn = [word.rstrip("/") for line in drawing.splitlines() for word in line[:25].split()]
-    assert drawn == [room for room in FLOORS if room]
+    assert drawn == ROOMS
 
 
 def public_functions() -> dict[str, ast.FunctionDef]:

@@ -341,7 +341,7 @@ def test_a_pair_of_amplitudes_that_is_none_is_refused() -> None:
 
 @pytest.mark.slow
 def test_the_precession_exists_for_all_amplitudes_up_to_three_fifths() -> None:
-    """The numbers of docs/proved.md, a hole, a missing beginning; a heavy bar over a shorter interval."""
+    """The numbers of docs/proofs.md, a hole, a missing beginning; a heavy bar over a shorter interval."""
     family = precession(Scene((10, -10)), (0, "0.6"), 1e-11)
     certificate = json.loads(json.dumps(family.certificate))
     assert "for every r0 in (0, 0.6]" in check(certificate) and len(certificate["pieces"]) == 5

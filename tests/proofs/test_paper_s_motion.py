@@ -1,4 +1,4 @@
-"""What the paper states of motions, as theorems with their certificates; the numbers of docs/proved.md."""
+"""What the paper states of motions, as theorems with their certificates; the numbers of docs/proofs.md."""
 
 import re
 import tomllib
@@ -31,13 +31,13 @@ def test_the_precession_of_figure_21_turns_more_slowly_than_the_printed_rate() -
     orbit, corrected = precession(scene, 0.204), precession_orbit(scene, 0.204, 1e-9)
     assert natural_rate(scene) == pytest.approx(8) and orbit.frequency < 8
     assert abs(float(orbit.frequency.mid()) - corrected.frequency) <= corrected.frequency_error + 1e-14
-    page = (Path(__file__).parents[2] / "docs" / "proved.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "proofs.md").read_text(encoding="utf-8")
     assert "7.9181412672010302" in page and "7.9181412672010302" in orbit.summary()["frequency [rad/s]"]
 
 
 def test_the_numbers_of_the_page_are_those_on_record() -> None:
     """Each decimal of a claim's row is in its theorems on record, to within one of its last digit."""
-    page = (Path(__file__).parents[2] / "docs" / "proved.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "proofs.md").read_text(encoding="utf-8")
     record = tomllib.loads((files("lagrotor.paper.rotor_pair") / "recorded.toml").read_text(encoding="utf-8"))
     decimals = re.compile(r"\d+\.\d+")
 

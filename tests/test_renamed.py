@@ -1,0 +1,55 @@
+"""Import paths of earlier releases: the same module under its old name, with a warning that names the new one."""
+
+import sys
+import warnings
+from importlib import import_module
+from importlib.util import find_spec
+
+import pytest
+
+from lagrotor.renamed import RENAMED, new_name
+
+
+@pytest.fixture
+def forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No module is known by an old name."""
+    for name in [name for name in sys.modules if new_name(name)]:
+        monkeypatch.delitem(sys.modules, name)
+
+
+@pytest.mark.usefixtures("forgotten")
+@pytest.mark.parametrize("old", RENAMED)
+def test_an_old_name_is_the_new_module_and_warns(old: str) -> None:
+    new = RENAMED[old]
+    spec = import_module(new).__spec__
+    with pytest.warns(DeprecationWarning, match=f"{old} is now {new}: import that instead") as warned:
+        module = import_module(old)
+    assert module is import_module(new) and module.__name__ == new and module.__spec__ is spec
+    assert len(warned) == 1 and new_name(new) is None
+
+
+@pytest.mark.usefixtures("forgotten")
+def test_a_module_of_a_renamed_package_is_no_second_copy() -> None:
+    with pytest.warns(DeprecationWarning, match="is now lagrotor.proofs") as warned:
+        from lagrotor.proved.coq import cofactors  # type: ignore[import-not-found]
+    assert cofactors is import_module("lagrotor.proofs.coq.cofactors")
+    assert {each.filename for each in warned} == {__file__}
+
+
+@pytest.mark.usefixtures("forgotten")
+def test_the_longest_row_counts_and_no_other_name_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(RENAMED, "lagrotor.proved.steady", "lagrotor.errors")
+    assert new_name("lagrotor.proved.steady") == "lagrotor.errors"
+    assert new_name("lagrotor.proved_too") is None and find_spec("lagrotor.proved_too") is None
+    with pytest.warns(DeprecationWarning, match="is now"), pytest.raises(ModuleNotFoundError, match="no_such"):
+        import_module("lagrotor.proved.no_such")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        import_module("lagrotor.errors")
+
+
+@pytest.mark.usefixtures("forgotten")
+def test_without_the_finder_the_old_name_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "meta_path", sys.meta_path[1:])
+    with pytest.raises(ModuleNotFoundError):
+        import_module(next(iter(RENAMED)))
