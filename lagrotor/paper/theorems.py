@@ -5,7 +5,7 @@ is said that it was not proved again.
 """
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
@@ -29,7 +29,7 @@ class Theorem:
 
     says: str
     encloses: str = ""
-    certificate: Mapping[str, Any] | None = None
+    certificate: dict[str, Any] | None = None
     quantity: str = ""
 
     @classmethod

@@ -3,7 +3,7 @@
 A decimal means what it says: 0.1 is 1/10, not the nearest binary number. An interval is a pair (lowest, highest).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from decimal import Decimal
 from fractions import Fraction
@@ -22,6 +22,7 @@ except ImportError:
 Ball: TypeAlias = Any  # flint.arb
 Balls: TypeAlias = list[Any]
 Matrix: TypeAlias = Any  # flint.arb_mat
+ZERO = arb(0)
 
 __all__ = ["arb", "arb_mat", "arb_poly", "arb_series", "ctx"]
 
@@ -120,6 +121,14 @@ def around(middle: Ball, wide: Ball) -> Ball:
     return middle + arb(0, wide.abs_upper())
 
 
+def max_of(values: Sequence[Ball]) -> Ball:
+    """Return the largest upper end of balls that are not negative."""
+    most = ZERO
+    for value in values:
+        most = most.max(upper(value))
+    return most
+
+
 def as_text(x: Ball) -> str:
     """An exact number as mantissa p exponent, to be read again without rounding: 3p-1 is 3/2."""
     mantissa, exponent = x.man_exp()
@@ -132,6 +141,26 @@ def of_text(text: str) -> Ball:
     bits = max(64, 4 * len(mantissa) + 8)
     with ctx.workprec(bits):
         return arb(fmpz(int(mantissa, 16))) * arb(2) ** int(exponent)
+
+
+def ball_data(x: Ball) -> list[str]:
+    """Return [midpoint, radius] as text."""
+    return [as_text(exact(x)), as_text(x.rad())]
+
+
+def balls_data(values: Sequence[Ball]) -> list[list[str]]:
+    """Return balls as text."""
+    return [ball_data(x) for x in values]
+
+
+def exact_data(values: Sequence[Ball]) -> list[str]:
+    """Return exact numbers as text."""
+    return [as_text(x) for x in values]
+
+
+def matrix_data(matrix: Matrix) -> list[list[str]]:
+    """Return the rows of a matrix of exact numbers as text."""
+    return [exact_data(row) for row in matrix.tolist()]
 
 
 def printed(x: Ball, digits: int = 30) -> str:

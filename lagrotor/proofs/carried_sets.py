@@ -20,9 +20,25 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import NotProved
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, exact, radius, upper
+from lagrotor.proofs.balls import (
+    Ball,
+    Balls,
+    Matrix,
+    arb,
+    arb_mat,
+    ball_data,
+    balls_data,
+    exact,
+    exact_data,
+    matrix_data,
+    max_of,
+    radius,
+    upper,
+)
+from lagrotor.proofs.matrices import column, identity, middle_of, times
+from lagrotor.proofs.statements import VERSION, Certificate
 from lagrotor.proofs.stepping import SLACK, Motion, derivative_of_step, scaled, taylor, with_rest
-from lagrotor.proofs.tails import TailError, max_of
+from lagrotor.proofs.tails import TailError
 
 SHORTEST = 1e-5  # of the whole time: a step below it ends the proof, as it means that the set has grown too wide
 MOST = 5_000  # steps
@@ -47,7 +63,7 @@ class Node:
     @property
     def middle(self) -> Balls:
         """Where the motion of the start's middle is."""
-        return entries_of(self.Q * column_matrix(self.s) + column_matrix(self.m))
+        return (self.Q * column(self.s) + column(self.m)).entries()
 
     @property
     def derivative(self) -> Matrix:
@@ -56,7 +72,17 @@ class Node:
 
     def box(self, w: Balls) -> Balls:
         """Where every motion is that starts in x_0 + w."""
-        return [a + b for a, b in zip(self.middle, entries_of(self.derivative * column_matrix(w)), strict=True)]
+        return [a + b for a, b in zip(self.middle, times(self.derivative, w), strict=True)]
+
+    def data(self) -> dict[str, Any]:
+        """Return the set as plain data."""
+        return {
+            "m": exact_data(self.m),
+            "Q": matrix_data(self.Q),
+            "s": balls_data(self.s),
+            "C": matrix_data(self.C),
+            "S": [balls_data(row) for row in self.S.tolist()],
+        }
 
 
 @dataclass(frozen=True)
@@ -69,20 +95,14 @@ class CarriedStep:
     slope_terms: int
     end: Node
 
-
-def column_matrix(values: Balls) -> Matrix:
-    """A column."""
-    return arb_mat(len(values), 1, values)
-
-
-def entries_of(matrix: Matrix) -> Balls:
-    """A column's entries."""
-    return matrix.entries()
-
-
-def identity(size: int) -> Matrix:
-    """The unit matrix."""
-    return arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+    def data(self) -> dict[str, Any]:
+        """Return the step with the set at its end as plain data."""
+        return {
+            "h": ball_data(self.h),
+            "terms": self.n,
+            "slope_terms": self.slope_terms,
+            "node": self.end.data(),
+        }
 
 
 @dataclass(frozen=True)
@@ -153,7 +173,7 @@ def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ba
     _, evaluation = with_rest(motion, wide, box, h, n)
     D, slopes = derivative_of_step(motion, evaluation, h, n)
     if max_of(off) > _WIDE:
-        moved = [entries_of(slope * column_matrix(off)) for slope in slopes]
+        moved = [times(slope, off) for slope in slopes]
         wide = [
             [narrower(c, a + moved[k][i]) for k, (c, a) in enumerate(zip(row, exactly, strict=False))]
             for i, (row, exactly) in enumerate(zip(wide, at, strict=True))
@@ -183,9 +203,7 @@ def frame(image: Matrix, node: Node) -> Matrix:
     """An orthogonal matrix nearly: the directions of the image's columns, the widest first. Exact as it stands."""
     size = image.nrows()
     columns = np.array([[float(x.mid()) for x in row] for row in image.tolist()])
-    spread = [
-        max(map(float, [radius_of(node.s[j]), *(radius_of(node.S[j, k]) for k in range(size))])) for j in range(size)
-    ]
+    spread = [max(float(upper(x)) for x in (node.s[j], *(node.S[j, k] for k in range(size)))) for j in range(size)]
     lengths = np.linalg.norm(columns, axis=0)
     order = np.argsort(-lengths * (np.array(spread) + 1e-300), kind="stable")
     unit = columns[:, order] / np.where(lengths[order] > 0, lengths[order], 1.0)
@@ -195,20 +213,14 @@ def frame(image: Matrix, node: Node) -> Matrix:
     return arb_mat(size, size, Q.ravel().tolist())
 
 
-def radius_of(x: Ball) -> Any:
-    """The size of a ball about zero, as a number."""
-    return float(upper(x))
-
-
 def carried(node: Node, h: Ball, image: Balls, D: Matrix, Q: Matrix) -> Node:
     """The node at the end of a step, in the frame Q."""
     m = [exact(x) for x in image]
-    off = column_matrix([x - y for x, y in zip(image, m, strict=True)])
+    off = column([x - y for x, y in zip(image, m, strict=True)])
     back = Q.inv()
     turned = back * (D * node.Q)
-    s = entries_of(turned * column_matrix(node.s) + back * off)
-    moved = D * node.C
-    C = arb_mat(moved.nrows(), moved.ncols(), [exact(x) for x in moved.entries()])
+    s = (turned * column(node.s) + back * off).entries()
+    C = middle_of(D * node.C)
     wider = by_other_orders(D)
     S = back * (wider * node.Q) * node.S + back * (wider * node.C - C)
     return Node(node.t + h, m, Q, widened(s), C, arb_mat(C.nrows(), C.ncols(), widened(S.entries())))
@@ -268,3 +280,15 @@ def step_length(rows: list[Balls], tol: float) -> float:
 def size_of(rows: Sequence[Balls]) -> float:
     """Of the state, at least 1."""
     return max(1.0, *(abs(float(row[0])) for row in rows))
+
+
+def flow_data(about: Any, motion: Motion, start: Start, steps: Sequence[CarriedStep], bits: int) -> Certificate:
+    """Return the entries that all certificates of a motion share."""
+    return {
+        "version": VERSION,
+        "bits": bits,
+        "about": about,
+        "motion": motion.data(),
+        "start": {"middle": balls_data(start.middle), "spread": balls_data(start.spread)},
+        "steps": [step.data() for step in steps],
+    }

@@ -1,8 +1,14 @@
-"""What is integrated: a `System`, a `Scene`, a `Structure` or a generated `Program` as a motion with its start."""
+"""A `System`, a `Scene`, a `Structure` or a generated `Program` as a motion with its start, and as the subject of a theorem.
 
+The subject is plain data of a certificate: the numbers of a scene or structure, a Lagrangian or rates in words. It is None where
+the words cannot be read again: then a digest of the program stands for it.
+"""
+
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -17,15 +23,74 @@ from lagrotor.numerics.codegen import Program, Stage
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, J, K, M, R, a, b, ell, k, m
 from lagrotor.pair.scene import Scene
-from lagrotor.proofs.balls import Ball, Balls, arb, arb_mat, arb_poly, ball, exact
+from lagrotor.proofs.balls import ZERO, Ball, Balls, arb, arb_mat, arb_poly, ball, exact, rational
 from lagrotor.proofs.exact_structure import exact_number, structure_program
+from lagrotor.proofs.matrices import identity, inside, times
 from lagrotor.proofs.stepping import Motion
-from lagrotor.proofs.subjects import Subject, exactly_meant, of_program, of_scene, of_structure, of_system
-from lagrotor.proofs.tails import ZERO, Evaluation, Tailed
+from lagrotor.proofs.tails import Evaluation, Tailed
 from lagrotor.proofs.tape import Tape, tape_of
 from lagrotor.structures.assembly import Assembly
 
 Values = Mapping[Any, Any]
+Subject = dict[str, Any] | None
+_EXPRESSION, _LONGEST = re.compile(r"^\d|[\s+*/().-]"), 20_000  # a name that is one; characters
+
+
+def in_rationals(e: sp.Basic) -> sp.Basic:
+    """Decimals as the rational numbers that they mean."""
+    return e.xreplace({x: sp.Rational(str(rational(x, "a number"))) for x in e.atoms(sp.Float)})
+
+
+def exactly_meant(system: Equations) -> Equations:
+    """The system with its decimals as rational numbers, so that none is rounded when its equations are derived."""
+    acting = {name: getattr(system, name) for name in ("constraints", "rolling", "forces")}
+    parts: dict[str, Any] = {name: tuple(map(in_rationals, each)) for name, each in acting.items()}
+    whole = (system.L, system.dissipation, *chain(*acting.values()))
+    if not any(e.has(sp.Float) for e in whole):
+        return system
+    return replace(system, lagrangian=in_rationals(whole[0]), dissipation=in_rationals(whole[1]), **parts)
+
+
+def of_scene(scene: Scene) -> Subject:
+    """Spins, rotor, bar and shock."""
+    data = asdict(scene)
+    return {"scene": {name: data[name] for name in ("spins", "rotor", "link", "shock")}}
+
+
+def of_structure(s: Assembly) -> Subject:
+    """All that it is made of."""
+    return {"structure": asdict(s)}
+
+
+def of_system(system: Equations, arguments: Sequence[str]) -> Subject:
+    """The Lagrangian and what else acts, in words; letters: those that are in the words alone."""
+    terms = system.L, *system.acting
+    letters = set().union(*(map(str, e.free_symbols) for e in terms))
+    data: dict[str, Any] = {
+        name: [str(e) for e in getattr(system, name)] for name in ("constraints", "rolling", "forces")
+    }
+    data |= {"L": str(system.L), "dissipation": str(system.dissipation), "letters": sorted(letters - {*arguments})}
+    known = _readable(terms, [*arguments, *data["letters"]])
+    return {"Lagrangian": data} if known else None
+
+
+def of_program(program: Program) -> Subject:
+    """The rates in words."""
+    rates = [in_rationals(e) for e in program.outputs]
+    known = not program.stages and _readable(rates, [str(s) for s in program.arguments])
+    return {"rates": [str(e) for e in rates]} if known else None
+
+
+def _readable(expressions: Sequence[sp.Expr], letters: Sequence[str]) -> bool:
+    """Whether the second program reads their words."""
+    if any(_EXPRESSION.search(name) for name in letters) or any(len(str(e)) > _LONGEST for e in expressions):
+        return False
+    used: set[Any] = set().union(*(e.free_symbols for e in expressions))
+    try:
+        tape_of(Program(tuple(used), (), tuple(expressions)))
+    except InputError:
+        return False
+    return True
 
 
 @dataclass(frozen=True)
@@ -279,22 +344,17 @@ def on_constraints(field: Field) -> Field:
         step = moved @ np.array([float(x.mid()) for x in found])
         middle = [exact(x - arb(float(d))) for x, d in zip(middle, step, strict=True)]
     B = arb_mat(len(middle), len(found), moved.ravel().tolist())
-    spread = 1e-13
-    box = B * arb_mat(len(found), 1, [arb(0, spread)] * len(found))
-    inside = [x + d for x, d in zip(middle, box.entries(), strict=True)]
+    w = [arb(0, 1e-13)] * len(found)
+    box = [x + d for x, d in zip(middle, times(B, w), strict=True)]
     at = values_at(held, [*middle, *values])
-    _, rows = values_at(held, [*inside, *values], True)
-    G = arb_mat([row[: len(middle)] for row in rows])
-    move = G * B
-    unit = arb_mat(len(found), len(found), [int(i == j) for i in range(len(found)) for j in range(len(found))])
-    narrow = arb_mat(len(found), 1, [-x for x in at]) + (unit - move) * arb_mat(
-        len(found), 1, [arb(0, spread)] * len(found)
-    )
+    _, rows = values_at(held, [*box, *values], True)
+    slope = identity(len(found)) - arb_mat([row[: len(middle)] for row in rows]) * B
+    narrow = [x - y for x, y in zip(times(slope, w), at, strict=True)]
     far = max(float(abs(x - y).upper()) for x, y in zip(middle, field.start, strict=True))
-    if far > 1e-6 or not all(arb(0, spread).contains_interior(x) for x in narrow.entries()):
+    if far > 1e-6 or not inside(narrow, w):
         raise ConstraintError(
             f"proved: the start is off the constraints by {max(float(abs(x).upper()) for x in residual):.2g}, and no state on "
             "them is proved within 1e-6; system.consistent gives a start on them"
         )
-    start = [x + d for x, d in zip(middle, (B * narrow).entries(), strict=True)]
+    start = [x + d for x, d in zip(middle, times(B, narrow), strict=True)]
     return replace(field, start=tuple(start))

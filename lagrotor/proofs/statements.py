@@ -1,6 +1,9 @@
 """The theorem of a certificate in words, composed from the claim that `check` verifies.
 
-Every number, kind and expression is claimed, and what it is about is shown to have the certificate's program.
+A certificate is plain data (JSON), which `check` verifies without the search. An exact number is text, mantissa in base 16 and
+power of two: "3p-1" is 3/2. A ball is [midpoint, radius], a matrix a list of rows. `about` names the system; `motion` is the
+tape x' = f(x) with its parameters; `start` has x_0 and w; `steps` has of each its length, terms and the set at its end; `claim`
+has every number, kind and expression of the theorem.
 """
 
 import json
@@ -9,11 +12,29 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from hashlib import sha256
 from math import hypot
-from typing import Any
+from typing import Any, Protocol
 
 from lagrotor.proofs.balls import Ball, arb, of_text, precision, printed
+from lagrotor.shown import Shown
 
-Certificate = Mapping[str, Any]
+Certificate = dict[str, Any]
+VERSION = 1
+
+
+class Certified(Protocol):
+    """A result with a certificate, either an attribute or computed when it is read."""
+
+    @property
+    def certificate(self) -> Certificate: ...
+
+
+class Proved(Shown):
+    """A result with a theorem, which its certificate has."""
+
+    @property
+    def theorem(self: Certified) -> str:
+        """The theorem in words."""
+        return theorem_of(self.certificate)
 
 
 def theorem_of(certificate: Certificate) -> str:

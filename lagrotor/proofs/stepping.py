@@ -12,8 +12,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly, arb_series, ctx, upper
-from lagrotor.proofs.tails import ZERO, Evaluation, Tailed, TailError, max_of, series_values
+from lagrotor.proofs.balls import (
+    ZERO,
+    Ball,
+    Balls,
+    Matrix,
+    arb,
+    arb_mat,
+    arb_poly,
+    arb_series,
+    balls_data,
+    ctx,
+    max_of,
+    upper,
+)
+from lagrotor.proofs.matrices import identity, matrix_norm
+from lagrotor.proofs.tails import Evaluation, Tailed, TailError, series_values
 from lagrotor.proofs.tape import Tape
 
 SLACK = 4  # on each bound of a rest, so that another program's bound of it is below, too
@@ -44,6 +58,10 @@ class Motion:
     def evaluation(self, arguments: Sequence[Any]) -> Any:
         """The rates over series or Taylor models of the states and parameters, with their derivatives."""
         return Evaluation(self.tape, arguments)
+
+    def data(self) -> dict[str, Any]:
+        """Return the tape and its parameters as plain data."""
+        return self.tape.data() | {"parameters": balls_data(self.parameters)}
 
 
 def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
@@ -106,7 +124,7 @@ def derivative_of_step(motion: Motion, evaluation: Evaluation, h: Ball, n: int) 
                     entries[k][i * size + j] = c * h
         rest = rest.max(upper(row * h))
     slopes = [arb_mat(size, size, entry) for entry in entries]
-    found = [arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])]
+    found = [identity(size)]
     for k in range(n - 1):
         total = slopes[0] * found[k]
         for i in range(1, k + 1):
@@ -124,8 +142,3 @@ def derivative_of_step(motion: Motion, evaluation: Evaluation, h: Ball, n: int) 
         total = total + matrix
     wide = [arb(0, error) if i < motion.moving else ZERO for i in range(size) for _ in range(size)]
     return total + arb_mat(size, size, wide), found
-
-
-def matrix_norm(matrix: Matrix) -> Ball:
-    """The largest sum of absolute values along a row, an upper bound."""
-    return max_of([sum(map(abs, row), ZERO) for row in matrix.tolist()])

@@ -10,10 +10,9 @@ from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 from lagrotor.errors import NotProved
-from lagrotor.proofs.balls import Ball, arb, arb_poly, arb_series, ctx, upper
+from lagrotor.proofs.balls import ZERO, Ball, arb, arb_poly, arb_series, ctx, max_of, upper
 from lagrotor.proofs.tape import Tape
 
-ZERO = arb(0)
 Series: TypeAlias = Any  # Tailed, or a TaylorModel
 
 
@@ -125,14 +124,6 @@ def _norm(poly: Any) -> Ball:
 def beyond(poly: Any, n: int) -> Ball:
     """The norm of the terms from s^n on."""
     return _norm(poly.right_shift(n)) if poly.length() > n else ZERO
-
-
-def max_of(values: Sequence[Ball]) -> Ball:
-    """The largest upper end of balls that are not negative."""
-    most = ZERO
-    for value in values:
-        most = most.max(upper(value))
-    return most
 
 
 def _constant(a: Tailed, what: str) -> Ball:

@@ -28,6 +28,14 @@ class Tape:
     operations: tuple[Operation, ...]
     outputs: tuple[int, ...]
 
+    def data(self) -> dict[str, Any]:
+        """Return plain data, as a certificate holds it."""
+        return {
+            "arguments": list(self.arguments),
+            "operations": [list(operation) for operation in self.operations],
+            "outputs": list(self.outputs),
+        }
+
 
 class Recorder:
     """Operations as they are recorded, each once."""

@@ -17,15 +17,16 @@ from flint import arb, arb_mat, arb_poly, ctx
 from lagrotor import Link, Scene
 from lagrotor.errors import DomainError
 from lagrotor.mechanics import System, coordinates
-from lagrotor.proofs import NotProved, check, families, precession
+from lagrotor.proofs import NotProved, check, precession
 from lagrotor.proofs.balls import exact, precision, upper
 from lagrotor.proofs.checker import family_checking, near_rest_checking, orbit_checking
-from lagrotor.proofs.closed_orbits import OrbitProblem
-from lagrotor.proofs.families import FamilyProof, prove_family
 from lagrotor.proofs.fields import field_of
+from lagrotor.proofs.orbits import families
+from lagrotor.proofs.orbits.closed_orbits import OrbitProblem
+from lagrotor.proofs.orbits.families import FamilyProof, prove_family
+from lagrotor.proofs.orbits.taylor_models import MotionNearRest, NearRest, Order, TaylorModel
 from lagrotor.proofs.stepping import Motion
 from lagrotor.proofs.tape import paced
-from lagrotor.proofs.taylor_models import MotionNearRest, NearRest, Order, TaylorModel
 
 ORDER = Order(9, 7)
 FUNCTIONS = {

@@ -21,17 +21,16 @@ from lagrotor.mechanics import System, coordinates
 from lagrotor.models.orbits.shooting import QuarterPeriod
 from lagrotor.numerics import Program
 from lagrotor.proofs import NotProved, check, enclose, equilibrium, means, no_crossing, periodic_orbit
-from lagrotor.proofs.balls import as_text, ball, exact, precision
+from lagrotor.proofs.balls import as_text, ball, ball_data, balls_data, exact, matrix_data, precision
 from lagrotor.proofs.carried_sets import Accuracy, Start, steps_of
-from lagrotor.proofs.certificates import ball_data, balls_data, matrix_data, tape_data
 from lagrotor.proofs.checker import certified_sets
 from lagrotor.proofs.checker.checking import second_derivatives
 from lagrotor.proofs.checker.reversals import check_reversal
 from lagrotor.proofs.checker.tapes import demand_paced, read_tape
 from lagrotor.proofs.checker.written import tape_of_words
-from lagrotor.proofs.closed_orbits import closing, orbit_of, refined
 from lagrotor.proofs.fields import scene_field, values_at
-from lagrotor.proofs.paired_orbits import A, B, guess, problem_of_pair
+from lagrotor.proofs.orbits.closed_orbits import closing, orbit_of, refined
+from lagrotor.proofs.orbits.paired_orbits import A, B, guess, problem_of_pair
 from lagrotor.proofs.tape import paced, tape_of
 
 C = coordinates("theta")
@@ -143,7 +142,7 @@ def test_second_derivatives_are_those_of_sympy() -> None:
 def motion(*rates: Any, states: Any = (x, v)) -> dict[str, Any]:
     """x' = rates(x) in units of its pace."""
     return json.loads(
-        json.dumps(tape_data(paced(tape_of(Program(states, (), tuple(map(sp.sympify, rates)))), len(states))))
+        json.dumps(paced(tape_of(Program(states, (), tuple(map(sp.sympify, rates)))), len(states)).data())
     )
 
 
@@ -218,7 +217,7 @@ def test_a_theorem_names_each_state_that_is_no_time_and_no_name_is_an_expression
 def test_the_pair_s_reversals_are_decided_on_its_tape_and_no_other_signs_are(link: Link) -> None:
     """All 64 rows of signs, against the rates at a random state in balls."""
     made = scene_field(Scene((10, -10), link=link))
-    tape = json.loads(json.dumps(tape_data(paced(made.motion.tape, 6))))
+    tape = json.loads(json.dumps(paced(made.motion.tape, 6).data()))
     at = [arb(y) / 64 for y in (3, 11, -7, 5, 13, -9)]
     rates = values_at(made.motion.tape, at)
     alike = []

@@ -29,13 +29,13 @@ from lagrotor.proofs import (
     equilibrium,
     means,
     no_crossing,
-    paired_orbits,
     periodic_orbit,
     precession,
 )
 from lagrotor.proofs.balls import as_text, precision
 from lagrotor.proofs.carried_sets import Accuracy, Start, steps_of
 from lagrotor.proofs.checker import certified_sets
+from lagrotor.proofs.orbits import paired_orbits
 
 C = coordinates("theta")
 (THETA,), (RATE,) = C.q, C.v
@@ -505,7 +505,7 @@ def test_mutated_arithmetic_of_the_search_is_found_by_the_check(monkeypatch: pyt
     found = enclose(PENDULUM, {}, [1], [0], 2)
     assert verified(found)
     from lagrotor.proofs import stepping
-    from lagrotor.proofs.tails import ZERO
+    from lagrotor.proofs.balls import ZERO
 
     def without_rest(*arguments: Any) -> Any:
         rests, evaluation = stepping.with_rest(*arguments)

@@ -15,14 +15,27 @@ import sympy as sp
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
-from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, column_matrix, entries_of, steps_of
-from lagrotor.proofs.certificates import Certificate, Proved, ball_data, balls_data, flow_data, matrix_data
-from lagrotor.proofs.crossings import extremes
-from lagrotor.proofs.enclosure import accuracy_of, loosened, time_ball
+from lagrotor.proofs.balls import (
+    Ball,
+    Balls,
+    Matrix,
+    arb,
+    arb_mat,
+    ball_data,
+    balls_data,
+    exact,
+    matrix_data,
+    precision,
+    printed,
+    upper,
+)
+from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.fields import Field, Values, field_of, values_at
-from lagrotor.proofs.krawczyk import inside, krawczyk, middle_inverse
-from lagrotor.proofs.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
+from lagrotor.proofs.matrices import inside, krawczyk, middle_inverse, times
+from lagrotor.proofs.orbits.crossings import extremes
+from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened, time_ball
+from lagrotor.proofs.orbits.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
+from lagrotor.proofs.statements import Certificate, Proved
 from lagrotor.proofs.stepping import Motion
 from lagrotor.proofs.tape import paced
 
@@ -187,7 +200,7 @@ class OrbitProof:
 def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: int, where: str) -> OrbitProof:
     """From a start and pace near those of an orbit; at the precision in force. Raises NotProved with how far it came."""
     middle, A, miss = refined(problem, list(middle), accuracy, where)
-    sizes = [upper(x) for x in entries_of(A * column_matrix(miss))]
+    sizes = [upper(x) for x in times(A, miss)]
     for grow in (2**10, 2**16, 2**24):
         spread = [arb(0)] * len(middle)
         for i, x in zip(problem.free, sizes, strict=True):
@@ -231,7 +244,7 @@ def refined(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where: str
         *_, step = steps_of(problem.motion, still, arb(1), last)
         miss = problem.value(middle, step.end.middle)
         A = middle_inverse(problem.slope(step.end.derivative, problem.free))
-        move = entries_of(A * column_matrix(miss))
+        move = times(A, miss)
         size = max(float(upper(x)) for x in move)
         if last is accuracy and (size < 1e3 * accuracy.tol or size > 0.1 * before):
             return middle, A, miss

@@ -16,14 +16,25 @@ from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, exact, precision, printed, upper
-from lagrotor.proofs.carried_sets import column_matrix, entries_of
-from lagrotor.proofs.certificates import Certificate, Proved, balls_data, exact_data, matrix_data, tape_data
-from lagrotor.proofs.crossings import words
-from lagrotor.proofs.enclosure import accuracy_of, loosened
-from lagrotor.proofs.fields import Field, Values, system_field, values_at
-from lagrotor.proofs.krawczyk import inside, krawczyk, middle_inverse
-from lagrotor.proofs.subjects import exactly_meant
+from lagrotor.proofs.balls import (
+    Ball,
+    Balls,
+    Matrix,
+    arb,
+    arb_mat,
+    balls_data,
+    exact,
+    exact_data,
+    matrix_data,
+    precision,
+    printed,
+    upper,
+)
+from lagrotor.proofs.fields import Field, Values, exactly_meant, system_field, values_at
+from lagrotor.proofs.matrices import inside, krawczyk, middle_inverse, times
+from lagrotor.proofs.orbits.crossings import words
+from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened
+from lagrotor.proofs.statements import VERSION, Certificate, Proved
 from lagrotor.proofs.tape import Tape, joined
 
 Stability = Literal["stable", "stable to first order", "unstable", "undecided"]
@@ -85,11 +96,11 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
         stability, eigenvalues = stability_of(system, J, found, calm)
         names = tuple(map(str, system.c.q))
         certificate = {
-            "version": 1,
+            "version": VERSION,
             "bits": accuracy.bits,
             "kind": "equilibrium",
             "about": made.about,
-            "motion": tape_data(tape) | {"parameters": balls_data(parameters)},
+            "motion": tape.data() | {"parameters": balls_data(parameters)},
             "middle": exact_data(middle),
             "box": balls_data([loosened(x) for x in box]),
             "A": matrix_data(A),
@@ -107,7 +118,7 @@ def located(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Ba
     for _ in range(_NEWTON):
         value, rows = values_at(forces, [*middle, *still, *parameters], True)
         A = middle_inverse(arb_mat([row[:n] for row in rows]))
-        move = entries_of(A * column_matrix(value))
+        move = times(A, value)
         size = max(float(upper(x)) for x in move)
         if size > 0.5 * before or size == 0:
             break

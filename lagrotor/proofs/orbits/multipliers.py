@@ -8,11 +8,9 @@ outside it is real. Of any other orbit all multipliers but the one along the mot
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from lagrotor.errors import InputError, NotProved
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly
-from lagrotor.proofs.carried_sets import identity
-from lagrotor.proofs.krawczyk import middle_inverse
-from lagrotor.proofs.stepping import matrix_norm
+from lagrotor.errors import InputError
+from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_poly
+from lagrotor.proofs.matrices import diagonal, inverse
 
 Kind = Literal["elliptic", "hyperbolic", "attracting", "parabolic", "undecided"]
 
@@ -25,29 +23,8 @@ def trace(matrix: Matrix) -> Ball:
 def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) -> Matrix:
     """(A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end, m the order of A B."""
     A, B = diagonal(first), diagonal(last)
-    part = A * _inverse(quarter) * B * quarter
+    part = A * inverse(quarter) * B * quarter
     return part if first == last else part * part
-
-
-def _inverse(matrix: Matrix) -> Matrix:
-    """The inverses of all matrices of a ball: X (1 + R + R² + …) with X near the middle's inverse and R = 1 − M X.
-
-    Raises NotProved where the sum is not shown to converge.
-    """
-    X = middle_inverse(matrix)
-    R = identity(matrix.nrows()) - matrix * X
-    size = matrix_norm(R)
-    if not size < 1:
-        raise NotProved("the derivative along the orbit is too wide to be inverted")
-    rest = (size * size / (1 - size)).upper()
-    n = matrix.nrows()
-    return X * (identity(n) + R + arb_mat(n, n, [arb(0, rest)] * (n * n)))
-
-
-def diagonal(signs: tuple[int, ...]) -> Matrix:
-    """A diagonal matrix of signs."""
-    n = len(signs)
-    return arb_mat(n, n, [signs[i] if i == j else 0 for i in range(n) for j in range(n)])
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ period (lagrotor.models.orbits.floquet). Energy and the momentum about the joint
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any
 
 import numpy as np
@@ -19,19 +19,30 @@ from lagrotor.models.orbits.shooting import FAILURES, QuarterPeriod
 from lagrotor.pair.lagrangians import axes_pair
 from lagrotor.pair.notation import AXES, G_1, G_2, a, b
 from lagrotor.pair.scene import Scene
-from lagrotor.proofs.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, rational
+from lagrotor.proofs.balls import (
+    Ball,
+    Balls,
+    arb,
+    arb_poly,
+    ball,
+    ball_data,
+    exact,
+    exact_data,
+    precision,
+    printed,
+    rational,
+)
 from lagrotor.proofs.carried_sets import Accuracy
-from lagrotor.proofs.certificates import VERSION, Certificate, Proved, ball_data, exact_data, motion_data
-from lagrotor.proofs.closed_orbits import OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
-from lagrotor.proofs.enclosure import accuracy_of, loosened
 from lagrotor.proofs.exact_structure import exact_number
-from lagrotor.proofs.families import FamilyProof, prove_family
-from lagrotor.proofs.fields import Field, scene_field, scene_numbers
-from lagrotor.proofs.multipliers import Kind
+from lagrotor.proofs.fields import Field, of_scene, scene_field, scene_numbers
+from lagrotor.proofs.orbits.closed_orbits import OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
+from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened
+from lagrotor.proofs.orbits.families import FamilyProof, prove_family
+from lagrotor.proofs.orbits.multipliers import Kind
+from lagrotor.proofs.orbits.taylor_models import MotionNearRest
+from lagrotor.proofs.statements import VERSION, Certificate, Proved
 from lagrotor.proofs.stepping import Motion
-from lagrotor.proofs.subjects import of_scene
 from lagrotor.proofs.tape import paced
-from lagrotor.proofs.taylor_models import MotionNearRest
 
 A, B = (1, -1, -1, -1, 1, 1), (-1, 1, -1, 1, -1, 1)
 FREE, CONDITIONS = (4, 5, 6), (0, 2, 4)
@@ -193,7 +204,7 @@ class Precession(Proved):
                 "kind": "family",
                 "bits": self.bits,
                 "about": of_scene(replace(self.scene, shock=None)),
-                "motion": motion_data(first.proof.problem.motion),
+                "motion": first.proof.problem.motion.data(),
                 "reversals": [list(A), list(B)],
                 "claim": {"r0": ends, "period": ball_data(loosened(self.period)), "kind": self.kind},
                 "pieces": [piece_data(piece) for piece in self.pieces if isinstance(piece, FamilyPiece)],
@@ -213,11 +224,8 @@ class Precession(Proved):
 
 def hull(values: list[Any]) -> Ball:
     """A ball that holds all."""
-    found = values[0]
     with precision(200):
-        for value in values[1:]:
-            found = found.union(value)
-    return found
+        return reduce(lambda a, b: a.union(b), values)
 
 
 def interval(x: Ball) -> str:

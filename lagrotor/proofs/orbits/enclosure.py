@@ -1,6 +1,5 @@
 """The motion from a start, or from all starts within an interval, enclosed at a time."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -9,10 +8,10 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import letter_latex
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, ball, precision, printed, radius
-from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, steps_of
-from lagrotor.proofs.certificates import Certificate, ball_data, balls_data, flow_data
+from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, ball, ball_data, balls_data, precision, printed, radius
+from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.fields import Field, Values, field_of, values_at
+from lagrotor.proofs.statements import Certificate
 from lagrotor.shown import Shown, scientific
 
 if TYPE_CHECKING:
@@ -161,17 +160,11 @@ def enclose(
     with precision(accuracy.bits, accuracy.terms):
         end = time_ball(t, "enclose")
         made = field_of(system, values, q0, v0)
-        middle, off = made.parts
-        start = Start(middle, off)
+        start = Start(*made.parts)
         steps = tuple(steps_of(made.motion, start, end, accuracy))
-        return enclosure_of(made, start, steps, end, accuracy.bits)
-
-
-def enclosure_of(made: Field, start: Start, steps: Sequence[CarriedStep], t: Ball, bits: int) -> Enclosure:
-    """What the last node says."""
-    n, last = len(made.states), steps[-1].end
-    box = last.box(start.spread)
-    fixed = [made.values[s] for s in made.arguments[len(box) :]]
-    residual = tuple(values_at(made.function(made.held), [*box, *fixed])) if made.held else ()
-    by = tuple(map(str, (*made.states, *made.varying)))
-    return Enclosure(made, t, tuple(box[:n]), last.derivative, by, residual, tuple(steps), start, bits)
+        n, last = len(made.states), steps[-1].end
+        box = last.box(start.spread)
+        fixed = [made.values[s] for s in made.arguments[len(box) :]]
+        residual = tuple(values_at(made.function(made.held), [*box, *fixed])) if made.held else ()
+        by = tuple(map(str, (*made.states, *made.varying)))
+        return Enclosure(made, end, tuple(box[:n]), last.derivative, by, residual, steps, start, accuracy.bits)

@@ -16,14 +16,13 @@ from math import floor
 from typing import Any
 
 from lagrotor.errors import NotProved
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, arb_mat, arb_poly, exact, radius, upper
-from lagrotor.proofs.carried_sets import column_matrix, entries_of
-from lagrotor.proofs.closed_orbits import OrbitProblem
-from lagrotor.proofs.krawczyk import inside, krawczyk, middle_inverse
-from lagrotor.proofs.multipliers import Kind
+from lagrotor.proofs.balls import ZERO, Ball, Balls, Matrix, arb, arb_mat, arb_poly, exact, max_of, radius, upper
+from lagrotor.proofs.matrices import inside, krawczyk, middle_inverse, times
+from lagrotor.proofs.orbits.closed_orbits import OrbitProblem
+from lagrotor.proofs.orbits.multipliers import Kind
+from lagrotor.proofs.orbits.taylor_models import Order, TaylorModel, sum_of_sizes
 from lagrotor.proofs.stepping import Motion
-from lagrotor.proofs.tails import ZERO, TailError, max_of
-from lagrotor.proofs.taylor_models import Order, TaylorModel, sum_of_sizes
+from lagrotor.proofs.tails import TailError
 
 Models = list[TaylorModel]
 _TRIES = 6  # of a tube
@@ -174,7 +173,7 @@ def _tube(
 
 def grown(growth: Matrix, off: Balls) -> Balls:
     """What deviations become, by Gronwall's inequality."""
-    return [upper(x) for x in entries_of(growth * column_matrix(off))]
+    return [upper(x) for x in times(growth, off)]
 
 
 def _derivative(J: list[Models], h: Ball, order: Order, growth: Matrix) -> list[Models]:
@@ -381,5 +380,5 @@ def _misses(problem: OrbitProblem, node: FamilyNode) -> Balls:
     moves = []
     for k in range(-4, 5):
         value, slope = _at(problem, node, arb(k) / 4)
-        moves.append((middle_inverse(slope) * arb_mat(len(value), 1, value)).entries())
+        moves.append(times(middle_inverse(slope), value))
     return [max_of([move[i] for move in moves]) for i in range(len(problem.free))]

@@ -11,13 +11,12 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proofs.balls import Ball, Balls, arb, arb_poly, ball, exact, precision, printed, radius
-from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, steps_of
-from lagrotor.proofs.certificates import Certificate, Proved, ball_data, flow_data, tape_data
-from lagrotor.proofs.enclosure import TOL, accuracy_of, loosened, time_ball
-from lagrotor.proofs.fields import Field, Values, field_of
+from lagrotor.proofs.balls import Ball, Balls, arb, arb_poly, ball, ball_data, exact, precision, printed, radius
+from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
+from lagrotor.proofs.fields import Field, Values, field_of, in_rationals
+from lagrotor.proofs.orbits.enclosure import TOL, accuracy_of, loosened, time_ball
+from lagrotor.proofs.statements import Certificate, Proved
 from lagrotor.proofs.stepping import Motion, scaled, taylor, with_rest
-from lagrotor.proofs.subjects import in_rationals
 from lagrotor.proofs.tails import Evaluation, Tailed
 from lagrotor.proofs.tape import Tape
 
@@ -156,7 +155,7 @@ def words(expression: sp.Basic) -> dict[str, str]:
 def observed_data(made: Field) -> dict[str, Any] | None:
     """Of a certificate: the operations of what is observed, with its names."""
     seen = made.seen or {}
-    return tape_data(made.function([*seen])) | {"names": [str(s) for s in seen]} if seen else None
+    return made.function([*seen]).data() | {"names": [str(s) for s in seen]} if seen else None
 
 
 def crossing(

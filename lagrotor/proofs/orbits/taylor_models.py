@@ -16,9 +16,9 @@ from functools import cached_property
 from math import ceil, log2
 from typing import Any
 
-from lagrotor.proofs.balls import Ball, Balls, arb, arb_poly, ctx, exact, upper
+from lagrotor.proofs.balls import ZERO, Ball, Balls, arb, arb_poly, ctx, exact, upper
 from lagrotor.proofs.stepping import Motion
-from lagrotor.proofs.tails import ZERO, Evaluation, TailError
+from lagrotor.proofs.tails import Evaluation, TailError
 
 _LONGEST = 80  # terms of a function's series
 
