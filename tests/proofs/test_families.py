@@ -19,7 +19,7 @@ from lagrotor.errors import DomainError
 from lagrotor.mechanics import System, coordinates
 from lagrotor.proofs import NotProved, check, precession
 from lagrotor.proofs.balls import exact, precision, upper
-from lagrotor.proofs.checker import family_checking, near_rest_checking, orbit_checking
+from lagrotor.proofs.checker import family_checking, orbit_checking
 from lagrotor.proofs.fields import field_of
 from lagrotor.proofs.orbits import families
 from lagrotor.proofs.orbits.closed_orbits import OrbitProblem
@@ -160,7 +160,7 @@ def follow(proof: FamilyProof, change: str = "", U: Any = None) -> family_checki
     tape = {"operations": proof.problem.motion.tape.operations, "outputs": proof.problem.motion.tape.outputs}
     tape |= {"arguments": proof.problem.motion.tape.arguments}
     made = (tape, list(proof.x), list(proof.W), proof.n, 8)
-    flow = family_checking.FamilyFlow(*made) if U is None else near_rest_checking.FlowNearRest(*made, U)
+    flow = family_checking.FamilyFlow(*made) if U is None else family_checking.FlowNearRest(*made, U)
     for k, step in enumerate(proof.steps):
         narrow = 1e-4 if change == "a narrow tube" and k == 1 else 1
         flow.step(step.h, [exact(r * narrow) for r in step.tube])
@@ -206,7 +206,7 @@ def test_a_rest_that_is_none_is_refused_by_both_programs() -> None:
             with pytest.raises(NotProved, match="do not vanish at rest"):
                 prove_family(problem, x, 14, 1e-11)
             data = {"operations": tape.operations, "outputs": tape.outputs, "arguments": tape.arguments}
-            flow = near_rest_checking.FlowNearRest(data, x, [arb(0)] * 3, 14, 8, U)
+            flow = family_checking.FlowNearRest(data, x, [arb(0)] * 3, 14, 8, U)
             with pytest.raises(NotProved, match="do not vanish at rest"):
                 flow.step(arb(0.25), [arb(1), arb(1)])
 
@@ -235,9 +235,9 @@ def test_both_programs_keep_the_bounds_of_functions_near_a_rest(name: str, rest:
             split = (sheet([[at]], 0.0), sheet(w, rest))
             one = (sheet([[1.0]], 0.0), sheet(none, 0.0))
             if name == "divide":
-                other = near_rest_checking._joined(name, one, split, sheet_u)[1]
+                other = family_checking._joined(name, one, split, sheet_u)[1]
             else:
-                other = near_rest_checking._moved(name, split, sheet_u)[1]
+                other = family_checking._moved(name, split, sheet_u)[1]
             needed = arb(0)
             for s, eps in [
                 (arb(1), arb(1)),

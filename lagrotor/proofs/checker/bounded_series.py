@@ -7,8 +7,7 @@ from typing import Any
 from flint import arb, arb_poly
 
 from lagrotor.errors import InputError
-from lagrotor.proofs.checker.recurrences import ZERO, demand, rational_of, slopes_of, terms_of
-from lagrotor.proofs.checker.tapes import results_of
+from lagrotor.proofs.checker.tapes import ZERO, demand, rational_of, results_of, slopes_of, terms_of
 
 Ball = Any
 Series = Any  # a Rest, or what has its operations

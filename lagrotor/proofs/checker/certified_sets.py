@@ -8,8 +8,7 @@ from flint import arb, arb_mat, ctx, fmpz
 
 from lagrotor.errors import NotProved
 from lagrotor.proofs.checker.bounded_series import Dual, Rest, below_one, evaluated, total
-from lagrotor.proofs.checker.recurrences import ZERO, demand, motion_terms
-from lagrotor.proofs.checker.tapes import is_place, read_tape
+from lagrotor.proofs.checker.tapes import ZERO, demand, is_place, motion_terms, read_tape
 
 Ball = Any
 _EXACT = re.compile(r"-?[0-9a-f]+p-?\d+", re.ASCII)

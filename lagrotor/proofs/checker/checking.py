@@ -25,14 +25,13 @@ from lagrotor.proofs.checker.certified_sets import (
     unit,
 )
 from lagrotor.proofs.checker.orbit_checking import check_family, check_orbit
-from lagrotor.proofs.checker.recurrences import ZERO, demand
 from lagrotor.proofs.checker.subject_checking import (
     LagrangianOfWords,
     check_subject,
     demand_equal,
     second_derivatives,
 )
-from lagrotor.proofs.checker.tapes import is_place
+from lagrotor.proofs.checker.tapes import ZERO, demand, is_place
 from lagrotor.proofs.checker.written import tape_of_words
 from lagrotor.proofs.statements import theorem_of
 

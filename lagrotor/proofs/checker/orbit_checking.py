@@ -20,16 +20,15 @@ from lagrotor.proofs.checker.certified_sets import (
 )
 from lagrotor.proofs.checker.family_checking import (
     FamilyFlow,
+    FlowNearRest,
     inverse_of_sheets,
     may_be,
     product_of_sheets,
     sign_of_sheet,
     trace_of_sheets,
 )
-from lagrotor.proofs.checker.near_rest_checking import FlowNearRest
-from lagrotor.proofs.checker.recurrences import ZERO, demand, rational_of
 from lagrotor.proofs.checker.reversals import check_reversal
-from lagrotor.proofs.checker.tapes import demand_paced, is_place
+from lagrotor.proofs.checker.tapes import ZERO, demand, demand_paced, is_place, rational_of
 
 Ball = Any
 _FREE, _CONDITIONS = (

@@ -19,8 +19,7 @@ from typing import Any, NamedTuple
 
 from sympy import nextprime
 
-from lagrotor.proofs.checker.recurrences import demand
-from lagrotor.proofs.checker.tapes import Tape, results_of
+from lagrotor.proofs.checker.tapes import Tape, demand, results_of
 
 Terms = Mapping[int, Fraction]
 _DEGREE = 2**256

@@ -8,8 +8,7 @@ from operator import add, mul, sub, truediv
 from typing import Any
 
 from lagrotor.errors import NotProved
-from lagrotor.proofs.checker.recurrences import demand
-from lagrotor.proofs.checker.tapes import Tape, read_tape, results_of
+from lagrotor.proofs.checker.tapes import Tape, demand, read_tape, results_of
 from lagrotor.proofs.tape import OPERATIONS
 
 _LONGEST = 20_000  # characters

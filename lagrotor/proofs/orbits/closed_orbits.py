@@ -3,12 +3,17 @@
 Where time reversed under a reflection of the states, x ↦ A x with signs ±1, is a motion again, an orbit that starts in the
 fixed set of A and reaches that of B is its own image there: it closes after 2 m times that time, m the order of A B.
 Without a reversal the whole orbit is followed.
+
+Floquet multipliers come from the enclosed monodromy matrix. Of a conservative system they come in pairs μ, 1/μ: one pair of ones
+for the energy with the shift of time, one more for every further integral. Where one pair is left, its sum is the trace less the
+ones: inside (−2, 2) the pair lies on the unit circle, outside it is real. Of any other orbit all multipliers but the one along
+the motion are enclosed one by one.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import sympy as sp
 
@@ -21,6 +26,7 @@ from lagrotor.proofs.balls import (
     Matrix,
     arb,
     arb_mat,
+    arb_poly,
     ball_data,
     balls_data,
     exact,
@@ -31,15 +37,15 @@ from lagrotor.proofs.balls import (
 )
 from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.fields import Field, Values, field_of, values_at
-from lagrotor.proofs.matrices import inside, krawczyk, middle_inverse, times
+from lagrotor.proofs.matrices import diagonal, inside, inverse, krawczyk, middle_inverse, times
 from lagrotor.proofs.orbits.crossings import extremes
 from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened, time_ball
-from lagrotor.proofs.orbits.multipliers import Kind, Multipliers, monodromy, of_any, of_pairs
 from lagrotor.proofs.statements import Certificate, Proved
 from lagrotor.proofs.stepping import Motion
 from lagrotor.proofs.tape import paced
 
 Signs = tuple[int, ...]
+Kind = Literal["elliptic", "hyperbolic", "attracting", "parabolic", "undecided"]
 TOL = 1e-20
 _COARSE = 1e-12  # of the first Newton steps
 _NEWTON = 12
@@ -72,6 +78,72 @@ class OrbitProblem:
         """Its derivative by some of the states and the pace."""
         rows = [[derivative[i, j] - int(i == j and not self.first) for j in by] for i in self.conditions]
         return arb_mat(rows)
+
+
+def trace(matrix: Matrix) -> Ball:
+    """The sum of the diagonal."""
+    return sum((matrix[i, i] for i in range(matrix.nrows())), arb(0))
+
+
+def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) -> Matrix:
+    """(A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end, m the order of A B."""
+    A, B = diagonal(first), diagonal(last)
+    part = A * inverse(quarter) * B * quarter
+    return part if first == last else part * part
+
+
+@dataclass(frozen=True)
+class Multipliers:
+    """pair_sum: μ + 1/μ of the one pair that is not 1, None where there are more; values: complex balls (real, imaginary)."""
+
+    kind: Kind
+    pair_sum: Ball | None
+    values: tuple[tuple[Ball, Ball], ...]
+
+
+def of_pairs(matrix: Matrix, ones: int) -> Multipliers:
+    """The pair μ, 1/μ of a conservative orbit whose other multipliers are 1; parabolic where all are, undecided of more pairs."""
+    left = matrix.nrows() - ones
+    total = trace(matrix) - ones
+    if left not in (0, 2):
+        return Multipliers("undecided", None, ())
+    if not fits(matrix, total, ones):
+        raise InputError(
+            f"periodic_orbit: the multipliers are not {ones} ones and a pair: the system has fewer integrals"
+        )
+    if not left:
+        return Multipliers("parabolic", None, ())
+    if abs(total) < 2:
+        half, high = total / 2, (1 - total * total / 4).sqrt()
+        return Multipliers("elliptic", total, ((half, high), (half, -high)))
+    if abs(total) > 2:
+        root = (total * total / 4 - 1).sqrt()
+        zero = arb(0)
+        return Multipliers("hyperbolic", total, ((total / 2 + root, zero), (total / 2 - root, zero)))
+    return Multipliers("undecided", total, ())
+
+
+def fits(matrix: Matrix, total: Ball, ones: int) -> bool:
+    """Whether the characteristic polynomial may be (z − 1)^ones (z² − total z + 1), without the pair where none is left."""
+    pair = arb_poly([1, -total, 1]) if matrix.nrows() > ones else arb_poly([1])
+    return all(x.contains(0) for x in (matrix.charpoly() - arb_poly([-1, 1]) ** ones * pair).coeffs())
+
+
+def of_any(matrix: Matrix) -> Multipliers:
+    """All multipliers, where they are apart; "hyperbolic" where all but the one along the motion are off the unit circle."""
+    try:
+        found: list[Any] = matrix.eig()
+    except ValueError:
+        return Multipliers("undecided", None, ())
+    sizes: Balls = [abs(z) for z in found]
+    along = [i for i, z in enumerate(found) if z.contains(1)]
+    others = [s for i, s in enumerate(sizes) if i not in along]
+    kind: Kind = "undecided"
+    if len(along) == 1 and all(s < 1 for s in others):
+        kind = "attracting"
+    elif len(along) == 1 and all(s < 1 or s > 1 for s in others):
+        kind = "hyperbolic"
+    return Multipliers(kind, None, tuple((z.real, z.imag) for z in found))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -18,8 +18,7 @@ from typing import Any
 from lagrotor.errors import NotProved
 from lagrotor.proofs.balls import ZERO, Ball, Balls, Matrix, arb, arb_mat, arb_poly, exact, max_of, radius, upper
 from lagrotor.proofs.matrices import inside, krawczyk, middle_inverse, times
-from lagrotor.proofs.orbits.closed_orbits import OrbitProblem
-from lagrotor.proofs.orbits.multipliers import Kind
+from lagrotor.proofs.orbits.closed_orbits import Kind, OrbitProblem
 from lagrotor.proofs.orbits.taylor_models import Order, TaylorModel, sum_of_sizes
 from lagrotor.proofs.stepping import Motion
 from lagrotor.proofs.tails import TailError

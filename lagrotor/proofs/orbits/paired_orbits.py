@@ -33,12 +33,10 @@ from lagrotor.proofs.balls import (
     rational,
 )
 from lagrotor.proofs.carried_sets import Accuracy
-from lagrotor.proofs.exact_structure import exact_number
-from lagrotor.proofs.fields import Field, of_scene, scene_field, scene_numbers
-from lagrotor.proofs.orbits.closed_orbits import OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
+from lagrotor.proofs.fields import Field, exact_number, of_scene, scene_field, scene_numbers
+from lagrotor.proofs.orbits.closed_orbits import Kind, OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
 from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened
 from lagrotor.proofs.orbits.families import FamilyProof, prove_family
-from lagrotor.proofs.orbits.multipliers import Kind
 from lagrotor.proofs.orbits.taylor_models import MotionNearRest
 from lagrotor.proofs.statements import VERSION, Certificate, Proved
 from lagrotor.proofs.stepping import Motion

@@ -16,7 +16,15 @@ from lagrotor.errors import InputError, NotExactError
 from lagrotor.paper import Paper, Premise, Relation, Statement, decide, judge
 from lagrotor.paper.catalogue import Equation
 from lagrotor.proofs.coq import checked_by_coq
-from lagrotor.proofs.coq.certificate import PREAMBLE, CertifiedLine, certificate, certified_line, file_name
+from lagrotor.proofs.coq.certificate import (
+    PREAMBLE,
+    CertifiedLine,
+    Proposition,
+    _letters_for_operators,
+    certificate,
+    certified_line,
+    file_name,
+)
 from lagrotor.proofs.coq.checked_by_coq import (
     CERTIFICATE_LIST,
     CertifiedEquation,
@@ -27,14 +35,13 @@ from lagrotor.proofs.coq.checked_by_coq import (
 )
 from lagrotor.proofs.coq.cofactors import cofactors_of
 from lagrotor.proofs.coq.coq_terms import Terms, comment, conditions_of_value
-from lagrotor.proofs.coq.propositions import Proposition, _letters_for_operators
 
 coq = pytest.mark.usefixtures("coq_is_here")
 
 x, y, z = sp.symbols("x y z", real=True)
 J, I_3, R = sp.symbols("J I_3 R", positive=True)
 ENTRY = Equation("1.1", "1", "a line", "x = y")
-HEAVY_TOP = Path(__file__).parent.parent.parent / "papers" / "heavy_top"
+HEAVY_TOP = Path(__file__).parents[3] / "papers" / "heavy_top"
 
 
 def of(
