@@ -24,7 +24,7 @@ Balls: TypeAlias = list[Any]
 Matrix: TypeAlias = Any  # flint.arb_mat
 ZERO = arb(0)
 
-__all__ = ["arb", "arb_mat", "arb_poly", "arb_series", "ctx"]
+__all__ = ["arb", "arb_mat", "arb_poly", "arb_series", "ctx", "fmpq"]
 
 
 @contextmanager
@@ -54,51 +54,6 @@ def rational(value: Any, where: str) -> Fraction:
         return Fraction(Decimal(value)) if isinstance(value, str | Decimal) else Fraction(value)
     except (ArithmeticError, TypeError, ValueError):
         raise InputError(f"{where} = {value!r} must be a finite number, or a pair (lowest, highest)") from None
-
-
-def ball(value: Any, where: str = "value") -> Ball:
-    """A number, a pair (lowest, highest) or an expression of numbers as the ball that holds it, at the precision in force."""
-    if isinstance(value, arb):
-        if not value.is_finite():
-            raise InputError(f"{where} = {value} must be finite")
-        return value
-    if isinstance(value, tuple | list) and len(value) == 2:
-        low, high = (ball(end, where) for end in value)
-        if low > high:
-            raise InputError(f"{where} = {value!r}: the lowest value comes first")
-        return low.union(high)
-    if isinstance(value, sp.Expr) and not value.is_Number and value.is_number:
-        found = expression_ball(value, where)
-        if not found.is_finite():
-            raise InputError(f"{where} = {value} must be a finite real number")
-        return found
-    number = rational(value, where)
-    return arb(fmpq(number.numerator, number.denominator))
-
-
-_CONSTANTS: dict[Any, Any] = {sp.pi: arb.pi, sp.E: arb.const_e, sp.EulerGamma: arb.const_euler}
-
-
-def expression_ball(value: sp.Expr, where: str) -> Ball:
-    """A number of sympy: sums, products, powers and the common functions of rationals and of pi."""
-    if value in _CONSTANTS:
-        return _CONSTANTS[value]()
-    if value.is_Number:
-        return ball(value, where)
-    parts = [expression_ball(e, where) for e in value.args]
-    if value.is_Add:
-        return sum(parts, arb(0))
-    if value.is_Mul:
-        product = arb(1)
-        for part in parts:
-            product *= part
-        return product
-    if value.is_Pow:
-        return parts[0].sqrt() if value.exp == sp.S.Half else parts[0] ** parts[1]
-    name = type(value).__name__
-    if parts and name in ("sin", "cos", "tan", "exp", "log", "asin", "acos", "atan", "sinh", "cosh", "tanh"):
-        return getattr(parts[0], name)()
-    raise InputError(f"{where} = {value}: no ball is known for {name}")
 
 
 def upper(x: Ball) -> Ball:

@@ -26,11 +26,11 @@ from lagrotor.numerics.recorded_numbers import Recorded, Term
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, J, K, M, R, a, b, ell, k, m
 from lagrotor.pair.scene import Scene
-from lagrotor.proofs.balls import ZERO, Ball, Balls, arb, arb_mat, arb_poly, ball, exact, rational
+from lagrotor.proofs.balls import ZERO, Ball, Balls, arb, arb_mat, arb_poly, exact, fmpq, rational
 from lagrotor.proofs.matrices import identity, inside, times
 from lagrotor.proofs.statements import as_upright
 from lagrotor.proofs.stepping import Motion
-from lagrotor.proofs.tails import Evaluation, Tailed
+from lagrotor.proofs.tails import Evaluation, Tailed, series_values
 from lagrotor.proofs.tape import Tape, tape_of
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Coefficients, coefficients_in
@@ -40,6 +40,29 @@ from lagrotor.structures.exact.written_out import structure_accelerations
 Values = Mapping[Any, Any]
 Subject = dict[str, Any] | None
 _EXPRESSION, _LONGEST = re.compile(r"^\d|[\s+*/().-]"), 20_000  # a name that is one; characters
+
+
+def ball(value: Any, where: str = "value") -> Ball:
+    """Return the ball of a number, a pair (lowest, highest) or an expression of numbers, at the precision in force.
+
+    Raises:
+        InputError: if the value is none of these, or not finite.
+    """
+    if isinstance(value, tuple | list) and len(value) == 2:
+        low, high = (ball(end, where) for end in value)
+        if low > high:
+            raise InputError(f"{where} = {value!r}: the lowest value comes first")
+        return low.union(high)
+    if isinstance(value, arb):
+        number = value
+    elif isinstance(value, sp.Expr) and not value.is_Number and value.is_number:
+        number = series_values(tape_of(Program((), (), (value,))), [])[0]
+    else:
+        meant = rational(value, where)
+        number = arb(fmpq(meant.numerator, meant.denominator))
+    if not number.is_finite():
+        raise InputError(f"{where} = {value} must be a finite real number")
+    return number
 
 
 def in_rationals(e: sp.Basic) -> sp.Basic:

@@ -22,7 +22,8 @@ from lagrotor.mechanics import System, coordinates
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proofs import NotProved, carried_sets, enclose, stepping
-from lagrotor.proofs.balls import ZERO, as_text, ball, of_text, precision
+from lagrotor.proofs.balls import ZERO, as_text, of_text, precision
+from lagrotor.proofs.fields import ball
 from lagrotor.proofs.tails import Tailed
 from lagrotor.proofs.tape import tape_of
 

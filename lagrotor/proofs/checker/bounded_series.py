@@ -129,6 +129,18 @@ def below_one(x: Ball) -> Ball:
     return 1 - x if x < 1 else arb("nan")
 
 
+def sign_over(poly: Any, rest: Ball, low: Ball, high: Ball, depth: int = 30) -> int:
+    """Return the sign of a polynomial with a rest between two places, by middle and slope, by halves; 0 if none is shown."""
+    s, middle = low.union(high), (low + high) / 2
+    value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, rest.upper())
+    if value > 0 or value < 0:
+        return 1 if value > 0 else -1
+    if not depth or not abs(poly(middle)) > rest:
+        return 0
+    first = sign_over(poly, rest, low, middle, depth - 1)
+    return first if first and sign_over(poly, rest, middle, high, depth - 1) == first else 0
+
+
 class Dual:
     """A series, a `Rest` or what has its operations, and its derivatives by the start's coordinates; none where it does not
     depend on them."""

@@ -55,6 +55,20 @@ def unit(size: int) -> Any:
     return arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
 
 
+def middle_inverse(D: Any) -> Any:
+    """Return an exact matrix near the inverse of the middle."""
+    X = arb_mat(D.nrows(), D.ncols(), [x.mid() for x in D.entries()]).inv()
+    return arb_mat(D.nrows(), D.ncols(), [x.mid() for x in X.entries()])
+
+
+def krawczyk(miss: Any, slope: Any, A: Any, w: Sequence[Ball], where: str = "") -> list[Ball]:
+    """Return (1 − A D) w − A F, which must lie within the box w: then F has one zero there."""
+    K = ((unit(len(w)) - A * slope) * column(w) - A * miss).entries()
+    for x, box in zip(K, w, strict=True):
+        demand(box.contains_interior(x), f"Krawczyk's test does not close{where}")
+    return list(K)
+
+
 class Flow:
     """x' = f(x) of a certificate: what moves, what stands still."""
 

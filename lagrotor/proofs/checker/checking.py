@@ -12,17 +12,17 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, ctx
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proofs.checker.bounded_series import Dual, Rest, evaluated
+from lagrotor.proofs.checker.bounded_series import Dual, Rest, evaluated, sign_over
 from lagrotor.proofs.checker.certified_sets import (
     MOST_BITS,
     Carried,
     Flow,
     balls,
     column,
+    krawczyk,
     matrix,
     number,
     read_ball,
-    unit,
 )
 from lagrotor.proofs.checker.orbit_checking import check_family, check_orbit
 from lagrotor.proofs.checker.subject_checking import (
@@ -108,21 +108,6 @@ def pieces_of(certificate: Any, carried: Carried, named: Sequence[Any]) -> Any:
         at += h
 
 
-def sign_over(a: Rest, low: Ball, high: Ball, depth: int = 30) -> int:
-    """The sign of a series between two places of a step; 0 where it has none."""
-    s = low.union(high)
-    middle = s.mid()
-    poly = arb_poly(a.terms)
-    value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, a.rest.upper())
-    if value > 0 or value < 0:
-        return 1 if value > 0 else -1
-    if not depth or poly(middle).contains(0):
-        return 0
-    half = (low + high) / 2
-    first = sign_over(a, low, half, depth - 1)
-    return first if first and sign_over(a, half, high, depth - 1) == first else 0
-
-
 def check_crossing(certificate: Any) -> None:
     """Opposite signs at both ends of the claimed time; up to its begin one sign, where it is the first."""
     carried, claim = Carried(certificate), certificate["claim"]
@@ -144,7 +129,7 @@ def check_crossing(certificate: Any) -> None:
         for at, h, (series,) in pieces:
             s = (arb(time.lower()) - at) / h
             if not s <= 0:
-                signs.add(sign_over(series, ZERO, within_step(s)))
+                signs.add(sign_over(arb_poly(series.terms), series.rest, ZERO, within_step(s)))
         demand(signs == ends[0], "the expression may pass zero before the claimed time")
 
 
@@ -160,7 +145,8 @@ def check_no_crossing(certificate: Any) -> None:
     demand(claimed > 0, "no time is claimed")
     demand(carried.time.contains(claimed) or carried.time >= claimed, "the steps end before the claimed time")
     signs = {
-        sign_over(series, ZERO, arb(1)) for _, _, (series,) in pieces_of(certificate, carried, [certificate["event"]])
+        sign_over(arb_poly(series.terms), series.rest, ZERO, arb(1))
+        for _, _, (series,) in pieces_of(certificate, carried, [certificate["event"]])
     }
     demand(len(signs) == 1 and 0 not in signs, "the expression may pass zero")
 
@@ -198,11 +184,7 @@ def check_equilibrium(certificate: Any) -> None:
     J = gradients(flow.tape, flow, [*wide, *[ZERO] * n])
     value = column([f.value.at_start() for f in at[n:]])
     slope = arb_mat([[x.at_start() for x in (f.by or [])[:n]] for f in J[n:]])
-    w = column(box)
-    K = (unit(n) - A * slope) * w - A * value
-    for x, y in zip(K.entries(), box, strict=True):
-        demand(y.contains_interior(x), "Krawczyk's test does not close")
-    states = [x + y for x, y in zip(middle, K.entries(), strict=True)]
+    states = [x + y for x, y in zip(middle, krawczyk(value, slope, A, box), strict=True)]
     demand(
         all(y.contains(x) for x, y in zip(states, balls(certificate["claim"]["q"]), strict=True)),
         "the coordinates are others",

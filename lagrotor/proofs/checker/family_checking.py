@@ -14,7 +14,7 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
 from lagrotor.errors import NotProved
-from lagrotor.proofs.checker.bounded_series import Dual, evaluated
+from lagrotor.proofs.checker.bounded_series import Dual, evaluated, sign_over
 from lagrotor.proofs.checker.tapes import ZERO, demand, motion_terms, rational_of, results_of, terms_of
 
 Ball = Any
@@ -331,16 +331,9 @@ def _flat(a: Sheet) -> Any:
     return sum(a.terms, arb_poly([]))
 
 
-def sign_of_sheet(a: Sheet, low: Ball, high: Ball, depth: int = 14) -> int:
-    """Of what has no s, between two ε; 0 where it is not shown to have one."""
-    eps, poly, middle = low.union(high), _flat(a), (low + high) / 2
-    value = poly(middle) + poly.derivative()(eps) * (eps - middle) + arb(0, a.rest.upper())
-    if value > 0 or value < 0:
-        return 1 if value > 0 else -1
-    if not depth or abs(poly(middle)) < a.rest:
-        return 0
-    first = sign_of_sheet(a, low, middle, depth - 1)
-    return first if first and sign_of_sheet(a, middle, high, depth - 1) == first else 0
+def sign_of_sheet(a: Sheet) -> int:
+    """Return the sign of a sheet without s for every ε; 0 if none is shown."""
+    return sign_over(_flat(a), a.rest, arb(-1), arb(1), 14)
 
 
 def _centred(a: Sheet) -> Sheet:

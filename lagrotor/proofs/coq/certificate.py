@@ -362,7 +362,7 @@ def _theorem(
     name: str, head: str, h: "_Hypotheses", sides: Sides, claims: list[str], tactics: list[str]
 ) -> tuple[tuple[str, ...], str]:
     """The theorem that the claims follow from the hypotheses, and, where there are any, that these hold somewhere."""
-    proof = [*sides.steps.lines, *(f"split. {{ {each} }}" for each in tactics[:-1]), tactics[-1]]
+    proof = [*sides.steps, *(f"split. {{ {each} }}" for each in tactics[:-1]), tactics[-1]]
     claim, steps = " /\\\n  ".join(claims), "\n  ".join(proof)
     theorem = f"{comment(head)}\nTheorem {name} {h.binders()} :\n  {claim}.\nProof.\n  {steps}\nQed."
     if not (h.signs or h.equations or h.defined):

@@ -10,7 +10,7 @@ letter stands alone is put in; the numerators of the others, a^2 + b^2 = 1, are 
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import lcm
 from typing import Any
 
@@ -39,19 +39,8 @@ class _Relation:
     text: str
 
 
-@dataclass
-class _Steps:
-    """Statements that were proved on the way, in order: lines of tactics."""
-
-    lines: list[str] = field(default_factory=list)
-
-    def show(self, name: str, proposition: str, tactics: str) -> None:
-        """Assert a proposition under a name, and prove it."""
-        self.lines.append(f"assert ({name} : {proposition}). {{ {tactics} }}")
-
-
 class Sides:
-    """The sides of a statement in generators, under equations between letters; `steps` is the proof so far.
+    """The sides of a statement in generators, under equations between letters; `steps` are the lines of the proof so far.
 
     equations: the premises, named premise_1, …; conditions: named defined_1, …; small: the letter whose powers are looked at.
     Raises NotExactError outside the class.
@@ -65,7 +54,8 @@ class Sides:
         conditions: Sequence[Comparison],
         small: sp.Symbol | None = None,
     ) -> None:
-        self.terms, self.steps, self.small = terms, _Steps(), small
+        self.terms, self.small = terms, small
+        self.steps: list[str] = []
         self.eliminated, self.unsolved = elimination(equations)
         self.relations: list[_Relation] = []
         self.ideal: list[_Relation] = []
@@ -90,8 +80,12 @@ class Sides:
         zero, under = difference.numerator.as_expr(), difference.under
         name, text = self._name("ideal"), self.terms.write(zero)
         shown = f"apply (by_premise _ _ ({self.terms.write(under)}) _ premise_{place}). {self._settled()}same."
-        self.steps.show(name, f"{text} = 0", shown)
+        self._show(name, f"{text} = 0", shown)
         self.ideal.append(_Relation(name, zero, text))
+
+    def _show(self, name: str, proposition: str, tactics: str) -> None:
+        """Assert a proposition under a name, and prove it."""
+        self.steps.append(f"assert ({name} : {proposition}). {{ {tactics} }}")
 
     def _name(self, kind: str) -> str:
         self._count[kind] = self._count.get(kind, 0) + 1
@@ -164,7 +158,7 @@ class Sides:
     def _relate(self, kind: str, zero: sp.Expr, tactics: str) -> None:
         name = self._name(kind)
         text = self.terms.write(zero)
-        self.steps.show(name, f"{text} = 0", tactics)
+        self._show(name, f"{text} = 0", tactics)
         self.relations.append(_Relation(name, zero, text))
 
     def _atom(self, node: sp.Expr) -> sp.Expr:
@@ -184,7 +178,7 @@ class Sides:
         text, written = self.terms.write(node), self.terms.write(value)
         if text not in (written, written[1:-1]):
             name = self._name("atom")
-            self.steps.show(name, f"{text} = {written}", tactics)
+            self._show(name, f"{text} = {written}", tactics)
             self._rewritten["atom"].append((len(text), name, False))
         return value
 
@@ -238,7 +232,7 @@ class Sides:
             new, text = ("exp", base) not in self._generators, f"exp {self.terms.alone(base)}"
             generator = self._generator(("exp", base), text)
             if new:
-                self.steps.show(self._name("apart"), f"{text} <> 0", "apply more_than_zero, exp_pos.")
+                self._show(self._name("apart"), f"{text} <> 0", "apply more_than_zero, exp_pos.")
                 self._apart.add(generator)
             value *= generator**n
         if node.func is not sp.exp:
@@ -280,7 +274,7 @@ class Sides:
         letter = self._generators["root", base] = sp.Dummy(name)
         self.terms.names[letter] = name
         root = f"sqrt ({write(base)})"
-        self.steps.lines.append(f"destruct (a_letter_for ({root} * ({write(under)}))) as [{name} {self._name('sum')}].")
+        self.steps.append(f"destruct (a_letter_for ({root} * ({write(under)}))) as [{name} {self._name('sum')}].")
         square = f"replace (({root} * ({write(under)})) ^ 2) with ({root} ^ 2 * ({write(under)}) ^ 2) by ring"
         put = f"intro zero_2. subst {name}. {square}. replace ({root} ^ 2) with ({write(base)}) by lra. same."
         self._relate("root", letter**2 - sp.expand(base * under**2), tactics + put)
@@ -327,7 +321,7 @@ class Sides:
         if text not in (written, written[1:-1]):
             whole = self._name("whole")
             tactics = self._settled() + self._equal(self.value(base), value)
-            self.steps.show(whole, f"{text} = {written}", tactics)
+            self._show(whole, f"{text} = {written}", tactics)
             if not base.is_Symbol or not value.is_Symbol:
                 self._rewritten["whole"].append((len(text), whole, base.is_Symbol))
         if not positive:
@@ -335,7 +329,7 @@ class Sides:
                 shown = f"intro zero_1. apply {condition}. " + (
                     f"rewrite {whole}, zero_1. unfold Rdiv. ring." if whole else "exact zero_1."
                 )
-                self.steps.show(self._name("apart"), f"{self.terms.write(part)} <> 0", shown)
+                self._show(self._name("apart"), f"{self.terms.write(part)} <> 0", shown)
         self._apart |= names
         self._known[key] = value
         return value
@@ -349,7 +343,7 @@ class Sides:
                 if part in polynomial_of
                 else ""
             )
-            self.steps.show(self._name("apart"), f"{text} <> 0", f"apply more_than_zero. {inner}{self.put_in}positive.")
+            self._show(self._name("apart"), f"{text} <> 0", f"apply more_than_zero. {inner}{self.put_in}positive.")
 
     def _parts(self, ring: PolyRing, polynomial: PolyElement) -> tuple[sp.Expr, list[tuple[sp.Symbol, int]]]:
         """A number and powers of letters and of new letters for irreducible factors."""
@@ -372,7 +366,7 @@ class Sides:
             letter = self._factors[polynomial] = sp.Dummy(name)
             self.terms.names[letter] = name
             shown, written = self._name("sum"), self.terms.write(polynomial)
-            self.steps.lines.append(f"destruct (a_letter_for ({written})) as [{name} {shown}].")
+            self.steps.append(f"destruct (a_letter_for ({written})) as [{name} {shown}].")
             self.relations.append(_Relation(shown, letter - polynomial, ""))
         return self._factors[polynomial]
 

@@ -8,9 +8,9 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import letter_latex
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, ball, ball_data, balls_data, precision, printed, radius
+from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, ball_data, balls_data, precision, printed, radius
 from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
-from lagrotor.proofs.fields import Field, Values, field_of, values_at
+from lagrotor.proofs.fields import Field, Values, ball, field_of, values_at
 from lagrotor.proofs.statements import Certificate
 from lagrotor.shown import Shown, scientific
 

@@ -12,7 +12,9 @@ one box there is one orbit for each ε, and its derivative is regular: together 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 from math import floor
+from operator import add
 from typing import Any
 
 from lagrotor.errors import NotProved
@@ -110,17 +112,13 @@ def centred(model: TaylorModel) -> TaylorModel:
 def _shortening(P: list[Any], order: Order, tol: float) -> float:
     """The factor on s that makes the last powers small, exact in few bits and at most 1."""
     found = 1.0
-    size = max(1.0, max(float(sum_of_sizes(_block(poly, 0, order))) for poly in P))
+    blocks = [_by_powers(poly, order) for poly in P]
+    size = max(1.0, max(float(sum_of_sizes(block[0])) for block in blocks))
     for k in (order.n - 2, order.n - 1):
-        most = max(float(sum_of_sizes(_block(poly, k, order))) for poly in P)
+        most = max((float(sum_of_sizes(block[k])) for block in blocks if k < len(block)), default=0.0)
         if most > 0:
             found = min(found, (tol * size / most) ** (1 / k))
     return max(floor(found * 64), 1) / 64
-
-
-def _block(poly: Any, k: int, order: Order) -> Balls:
-    """The coefficients of s^k."""
-    return list(poly.coeffs()[k * order.width : (k + 1) * order.width])
 
 
 def _scaled(poly: Any, factor: Ball, width: int) -> Any:
@@ -129,10 +127,7 @@ def _scaled(poly: Any, factor: Ball, width: int) -> Any:
 
 
 def _sum(models: Models) -> TaylorModel:
-    total = models[0]
-    for model in models[1:]:
-        total = total + model
-    return total
+    return reduce(add, models)
 
 
 def _picard(motion: Motion, node: FamilyNode, h: Ball, order: Order) -> list[Any]:
@@ -178,7 +173,7 @@ def grown(growth: Matrix, off: Balls) -> Balls:
 def _derivative(J: list[Models], h: Ball, order: Order, growth: Matrix) -> list[Models]:
     """The step's derivative by states and parameters at s = 1, models of ε."""
     size, moving, p = len(J[0]), len(J), order.p
-    parts = [[_by_powers(g, order) for g in row] for row in J]
+    parts = [[[arb_poly(x) for x in _by_powers(g.poly, order)] for g in row] for row in J]
     D: list[list[list[Any]]] = [[[arb_poly([int(i == j)])] for j in range(size)] for i in range(size)]
     for k in range(order.n - 1):
         for i, row in enumerate(parts):
@@ -201,10 +196,10 @@ def _derivative(J: list[Models], h: Ball, order: Order, growth: Matrix) -> list[
     return end
 
 
-def _by_powers(model: TaylorModel, order: Order) -> list[Any]:
-    """Coefficients of the powers of s, polynomials of ε."""
-    coeffs, width = model.poly.coeffs(), order.width
-    return [arb_poly(coeffs[k : k + order.p + 1]) for k in range(0, len(coeffs), width)]
+def _by_powers(poly: Any, order: Order) -> list[Balls]:
+    """Return for each power of s the coefficients of the powers of ε."""
+    coeffs, width = poly.coeffs(), order.width
+    return [coeffs[k : k + order.p + 1] for k in range(0, len(coeffs), width)]
 
 
 def _packed(parts: Sequence[Any], width: int) -> Any:

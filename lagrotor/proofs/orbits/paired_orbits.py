@@ -24,7 +24,6 @@ from lagrotor.proofs.balls import (
     Balls,
     arb,
     arb_poly,
-    ball,
     ball_data,
     exact,
     exact_data,
@@ -33,7 +32,7 @@ from lagrotor.proofs.balls import (
     rational,
 )
 from lagrotor.proofs.carried_sets import Accuracy
-from lagrotor.proofs.fields import Field, exact_number, of_scene, scene_field, scene_numbers
+from lagrotor.proofs.fields import Field, ball, exact_number, of_scene, scene_field, scene_numbers
 from lagrotor.proofs.orbits.closed_orbits import Kind, OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
 from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened
 from lagrotor.proofs.orbits.families import FamilyProof, prove_family
