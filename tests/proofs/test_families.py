@@ -1,7 +1,6 @@
 """Families of orbits: the truth is inside for every parameter, functions keep their bounds, what is spoiled is found."""
 
 import copy
-import json
 import random
 from dataclasses import replace
 from typing import Any
@@ -16,7 +15,7 @@ from flint import arb, arb_mat, arb_poly, ctx
 
 from lagrotor import Link, Scene
 from lagrotor.errors import DomainError
-from lagrotor.mechanics import System, coordinates
+from lagrotor.mechanics import System
 from lagrotor.proofs import NotProved, check, precession
 from lagrotor.proofs.balls import exact, precision, upper
 from lagrotor.proofs.checker import family_checking, orbit_checking
@@ -27,6 +26,7 @@ from lagrotor.proofs.orbits.families import FamilyProof, prove_family
 from lagrotor.proofs.orbits.taylor_models import MotionNearRest, NearRest, Order, TaylorModel
 from lagrotor.proofs.stepping import Motion
 from lagrotor.proofs.tape import paced
+from tests.proofs.gallery import PENDULUM, RATE, THETA, C, plain
 
 ORDER = Order(9, 7)
 FUNCTIONS = {
@@ -113,11 +113,6 @@ def test_both_programs_enclose_the_inverse_of_a_matrix_of_models() -> None:
                     a, b = mine[i][j], other[i][j]
                     assert abs(a.poly(eps) - true[i, j]) <= a.rest < 1e-4
                     assert abs(b.terms[0](eps) - true[i, j]) <= b.rest < 1e-4
-
-
-C = coordinates("theta")
-(THETA,), (RATE,) = C.q, C.v
-PENDULUM = System(C, RATE**2 / 2 + sp.cos(THETA))
 
 
 def pendulum_family(low: str, high: str) -> tuple[FamilyProof, dict[str, Any]]:
@@ -283,7 +278,7 @@ def test_a_family_of_the_pair_holds_its_orbits(family: Any) -> None:
     for r0 in ("0.4499999", "0.4600001", ("0.455", "0.4600001")):  # beside the interval, though not beside its pieces
         with pytest.raises(DomainError, match="is not shown to lie in"):
             family.frequency_at(r0)
-    words = check(json.loads(json.dumps(family.certificate)))
+    words = check(plain(family))
     assert "for every r0 in [0.45, 0.46], a paired precession" in words and "they are one smooth curve" in words
 
 
@@ -311,7 +306,7 @@ SPOILS = {
 @pytest.mark.slow
 @pytest.mark.parametrize("what", SPOILS)
 def test_a_spoiled_family_is_refused(family: Any, what: str) -> None:
-    certificate = copy.deepcopy(json.loads(json.dumps(family.certificate)))
+    certificate = copy.deepcopy(plain(family))
     SPOILS[what](certificate)
     with pytest.raises(NotProved, match=what):
         check(certificate)
@@ -331,7 +326,7 @@ def test_that_half_a_turn_has_four_ones_is_held_against_its_square(
 @pytest.mark.parametrize(("r0", "tol"), [(("0.3", "0.31"), 1e-13), (("0.2", "0.205"), 1e-14)])
 def test_narrow_pieces_show_that_their_orbits_are_hyperbolic(r0: tuple[str, str], tol: float) -> None:
     found = precession(Scene((10, -10)), r0, tol)
-    assert found.kind == "hyperbolic" and "hyperbolic" in check(json.loads(json.dumps(found.certificate)))
+    assert found.kind == "hyperbolic" and "hyperbolic" in check(plain(found))
 
 
 def test_a_pair_of_amplitudes_that_is_none_is_refused() -> None:
@@ -344,7 +339,7 @@ def test_a_pair_of_amplitudes_that_is_none_is_refused() -> None:
 def test_the_precession_exists_for_all_amplitudes_up_to_three_fifths() -> None:
     """The numbers of docs/proofs.md, a hole, a missing beginning; a heavy bar over a shorter interval."""
     family = precession(Scene((10, -10)), (0, "0.6"), 1e-11)
-    certificate = json.loads(json.dumps(family.certificate))
+    certificate = plain(family)
     assert "for every r0 in (0, 0.6]" in check(certificate) and len(certificate["pieces"]) == 5
     for r0 in ("1e-9", "0.05", "0.33", "0.59"):
         assert family.frequency_at(r0).overlaps(precession(Scene((10, -10)), r0).frequency)
