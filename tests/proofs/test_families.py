@@ -64,55 +64,56 @@ def sheet(rows: list[list[float]], rest: float) -> family_checking.Sheet:
     return family_checking.Sheet([arb_poly([arb(c) for c in row]) for row in rows], arb(rest), ORDER.n, ORDER.p)
 
 
+POINTS = [(arb(1), arb(1)), (arb(1), arb("-0.99")), (arb("0.6"), arb("0.9")), (arb("0.9"), arb("-0.8"))]
+
+
+def check_bounds(mine: TaylorModel, other: family_checking.Sheet, truth: Any, idle: float) -> None:
+    """Both bounds hold the distance from the truth at points (s, ε); the search's is needed, and at most `idle` times that."""
+    needed, width = arb(0), ORDER.width
+    for s, eps in POINTS:
+        coeffs, true = mine.poly.coeffs(), truth(s, eps)
+        first = abs(true - value([coeffs[k : k + width] for k in range(0, len(coeffs), width)], s, eps))
+        assert first <= mine.rest
+        assert abs(true - value([poly.coeffs() for poly in other.terms], s, eps)) <= other.rest
+        needed = needed.max(upper(first))
+    assert needed > 0 and mine.rest < idle * needed
+
+
 @pytest.mark.parametrize("name", FUNCTIONS)
 @pytest.mark.parametrize("rest", [0.0, 1e-6])
 def test_both_programs_keep_the_bounds_of_their_functions(name: str, rest: float) -> None:
     """At random points, also where the arguments differ from their polynomials by all that their rests allow."""
-    search, second, truth = FUNCTIONS[name]
+    search, second, of = FUNCTIONS[name]
     rng = random.Random(name)
     with precision(80, ORDER.p + 1):
         for _ in range(3):
             a, b = table(rng, 2.0), table(rng, 0.3)
-            mine, other = search(model(a, rest), model(b, rest)), second(sheet(a, rest), sheet(b, rest))
-            needed = arb(0)
-            for s, eps in [(arb(1), arb(1)), (arb(1), arb(-1)), (arb("0.6"), arb("0.9")), (arb("0.9"), arb("-0.8"))]:
+
+            def truth(s: Any, eps: Any, a: Any = a, b: Any = b) -> Any:
                 off = rng.choice([-1, 1]) * rest
-                true = truth(value(a, s, eps) + off, value(b, s, eps) + off)
-                coeffs, width = mine.poly.coeffs(), ORDER.width
-                blocks = [coeffs[k : k + width] for k in range(0, len(coeffs), width)]
-                first = abs(true - value(blocks, s, eps))
-                assert first <= mine.rest
-                assert abs(true - value([poly.coeffs() for poly in other.terms], s, eps)) <= other.rest
-                needed = needed.max(upper(first))
-            assert needed > 0 and mine.rest < 100 * needed  # The bound is needed, and it is not idle.
+                return of(value(a, s, eps) + off, value(b, s, eps) + off)
+
+            first, other = search(model(a, rest), model(b, rest)), second(sheet(a, rest), sheet(b, rest))
+            check_bounds(first, other, truth, 100)
 
 
 def test_both_programs_enclose_the_inverse_of_a_matrix_of_models() -> None:
-    rng = random.Random(5)
+    rng, size, rest = random.Random(5), range(3), arb(1e-9)
     with precision(80, ORDER.p + 1):
         rows = [
-            [[[rng.uniform(-1, 1) * 0.2**j + 3 * (i == k and not j) for j in range(ORDER.p + 1)]] for k in range(3)]
-            for i in range(3)
+            [arb_poly([rng.uniform(-1, 1) * 0.2**j + 3 * (i == k and not j) for j in range(ORDER.p + 1)]) for k in size]
+            for i in size
         ]
-        flat = Order(1, ORDER.p)
-        D = [[TaylorModel(arb_poly([arb(c) for c in table[0]]), arb(1e-9), flat) for table in row] for row in rows]
-        mine = families.inverse_models(D)
-        sheets = [
-            [family_checking.Sheet([arb_poly([arb(c) for c in table[0]])], arb(1e-9), 1, ORDER.p) for table in row]
-            for row in rows
-        ]
+        mine = families.inverse_models([[TaylorModel(f, rest, Order(1, ORDER.p)) for f in row] for row in rows])
+        sheets = [[family_checking.Sheet([f], rest, 1, ORDER.p) for f in row] for row in rows]
         other = family_checking.inverse_of_sheets(sheets)
         assert mine is not None
         for eps in (arb(-1), arb("0.3"), arb(1)):
-            true = arb_mat(
-                [[value(table, arb(0), eps) + rng.choice([-1, 1]) * arb(1e-9) for table in row] for row in rows]
-            )
-            true = true.inv()
-            for i in range(3):
-                for j in range(3):
-                    a, b = mine[i][j], other[i][j]
-                    assert abs(a.poly(eps) - true[i, j]) <= a.rest < 1e-4
-                    assert abs(b.terms[0](eps) - true[i, j]) <= b.rest < 1e-4
+            true = arb_mat([[f(eps) + rng.choice([-1, 1]) * rest for f in row] for row in rows]).inv()
+            for i, j in ((i, j) for i in size for j in size):
+                a, b = mine[i][j], other[i][j]
+                assert abs(a.poly(eps) - true[i, j]) <= a.rest < 1e-4
+                assert abs(b.terms[0](eps) - true[i, j]) <= b.rest < 1e-4
 
 
 def pendulum_family(low: str, high: str) -> tuple[FamilyProof, dict[str, Any]]:
@@ -233,22 +234,13 @@ def test_both_programs_keep_the_bounds_of_functions_near_a_rest(name: str, rest:
                 other = family_checking._joined(name, one, split, sheet_u)[1]
             else:
                 other = family_checking._moved(name, split, sheet_u)[1]
-            needed = arb(0)
-            for s, eps in [
-                (arb(1), arb(1)),
-                (arb(1), arb("-0.99")),
-                (arb("0.6"), arb("0.9")),
-                (arb("0.9"), arb("-0.8")),
-            ]:
-                moved = value(w, s, eps) + rng.choice([-1, 1]) * rest
+
+            def true(s: Any, eps: Any, w: Any = w) -> Any:
                 wide = (1 + eps) * arb(0.1)
-                true = (truth(arb(at) + wide * moved) - truth(arb(at))) / wide
-                coeffs, width = mine.poly.coeffs(), ORDER.width
-                first = abs(true - value([coeffs[k : k + width] for k in range(0, len(coeffs), width)], s, eps))
-                assert first <= mine.rest
-                assert abs(true - value([poly.coeffs() for poly in other.terms], s, eps)) <= other.rest
-                needed = needed.max(upper(first))
-            assert needed > 0 and mine.rest < 1000 * needed
+                moved = value(w, s, eps) + rng.choice([-1, 1]) * rest
+                return (truth(arb(at) + wide * moved) - truth(arb(at))) / wide
+
+            check_bounds(mine, other, true, 1000)
 
 
 def test_a_family_that_is_none_is_not_proved(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -391,55 +391,36 @@ def test_no_name_of_the_statements_can_be_taken_by_another_thing(forged: str) ->
 # ---- what the terms say
 
 
-def test_a_denominator_a_root_and_a_logarithm_have_their_conditions() -> None:
-    assert conditions_of_value([1 / (x + y)]) == [("<>", x + y)]
-    assert conditions_of_value([sp.sqrt(x)]) == [("<=", x)] and conditions_of_value([1 / sp.sqrt(x)]) == [("<", x)]
-    assert conditions_of_value([x ** sp.Rational(3, 2)]) == [("<=", x)]
-    assert conditions_of_value([sp.log(x)]) == [("<", x)] and conditions_of_value([x**y]) == [("<", x)]
-    assert conditions_of_value([sp.tan(x)]) == [("<>", sp.cos(x))] and conditions_of_value([sp.cot(x)]) == [
-        ("<>", sp.sin(x))
-    ]
-    assert conditions_of_value([sp.asin(x)]) == [("<=", 1 - x), ("<=", 1 + x)]
-    assert conditions_of_value([x**-2, 1 / R, sp.sqrt(R), sp.sqrt(2)]) == [("<>", x)]
-    assert conditions_of_value([1 / (x - 1 / y)]) == [("<>", y), ("<>", x - 1 / y)]
-
-
-HOSTILE = [
-    "R",
-    "sin",
-    "PI",
-    "forall",
-    "I",
-    "exp",
-    "x'",
-    "a b",
-    "premise_1",
-    "known_1",
-    "Rinv",
-    "θ",
-    "*)",
-    "by_cofactors",
-    "1",
+CONDITIONS: list[tuple[Any, list[tuple[str, Any]]]] = [
+    (1 / (x + y), [("<>", x + y)]),
+    (sp.sqrt(x), [("<=", x)]),
+    (1 / sp.sqrt(x), [("<", x)]),
+    (x ** sp.Rational(3, 2), [("<=", x)]),
+    (sp.log(x), [("<", x)]),
+    (x**y, [("<", x)]),
+    (sp.tan(x), [("<>", sp.cos(x))]),
+    (sp.cot(x), [("<>", sp.sin(x))]),
+    (sp.asin(x), [("<=", 1 - x), ("<=", 1 + x)]),
+    (1 / (x - 1 / y), [("<>", y), ("<>", x - 1 / y)]),
+    (x**-2 + 1 / R + sp.sqrt(R) + sp.sqrt(2), [("<>", x)]),
 ]
+
+
+def test_a_denominator_a_root_and_a_logarithm_have_their_conditions() -> None:
+    assert [conditions_of_value([e]) for e, _ in CONDITIONS] == [found for _, found in CONDITIONS]
+
+
+FOREIGN = ["R", "sin", "PI", "forall", "I", "exp", "premise_1", "known_1", "Rinv", "by_cofactors"]
+HOSTILE = [*FOREIGN, "x'", "a b", "θ", "*)", "1"]
 
 
 def test_no_letter_hides_a_word_of_the_terms_and_no_two_have_one_name() -> None:
     letters = [sp.Symbol(name) for name in HOSTILE]
-    names = Terms(letters).names
-    assert len(set(names.values())) == len(letters)
-    assert not set(names.values()) & {
-        "R",
-        "sin",
-        "PI",
-        "forall",
-        "I",
-        "exp",
-        "premise_1",
-        "known_1",
-        "Rinv",
-        "by_cofactors",
-    }
-    assert all(re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII) for name in names.values())
+    names = Terms(letters).names.values()
+    assert len(set(names)) == len(letters) and not set(names) & set(FOREIGN)
+    assert all(re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII) for name in names)
+    with pytest.raises(NotExactError, match="two letters are called g"):
+        Terms([sp.Symbol("g") + sp.Symbol("g", positive=True)])
 
 
 @coq
@@ -451,11 +432,6 @@ def test_letters_with_hostile_names_are_only_letters() -> None:
     assert line.theorems and failures(text, (line,)) == {}
     text, line = of(sp.Symbol("PI", real=True), sp.pi)  # the letter is not the number
     assert line.verdict == "refuted" and failures(text, (line,)) == {}
-
-
-def test_two_letters_of_one_name_are_refused() -> None:
-    with pytest.raises(NotExactError, match="two letters are called g"):
-        Terms([sp.Symbol("g") + sp.Symbol("g", positive=True)])
 
 
 @pytest.mark.parametrize(
