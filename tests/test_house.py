@@ -248,6 +248,20 @@ def test_only_its_check_is_taken_from_the_program_that_verifies() -> None:
     assert taken == {"check"}
 
 
+def test_the_program_that_verifies_takes_no_arithmetic_from_the_search() -> None:
+    """The table of operations, the equations of what a theorem names, and its words."""
+    taken = {
+        alias.name
+        for module, path in MODULES.items()
+        if module.startswith(ALONE)
+        for node in nodes(path)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(LEAF)
+        for alias in node.names
+        if not (node.module or "").startswith(ALONE)
+    }
+    assert taken == {"OPERATIONS", "Field", "field_of", "structure_program", "theorem_of"}
+
+
 CLAIMS = "lagrotor/paper/rotor_pair/claims"
 PLACES = {
     **dict.fromkeys(("shock", "drift", "toppling", "twist", "natural_rate"), ("lagrotor/theory", CLAIMS)),
