@@ -1,4 +1,4 @@
-"""What the paper states of motions, as theorems with their certificates; the numbers of docs/proofs.md."""
+"""Theorems beside the claims, which prove theirs in `tests/paper/test_claims.py`; the numbers of docs/proofs.md."""
 
 import re
 import tomllib
@@ -12,17 +12,8 @@ import sympy as sp
 
 pytest.importorskip("flint", reason="the extra `proof` is not installed")
 
-from lagrotor import Link, Scene, Shock, Structure, natural_rate, precession_orbit
-from lagrotor.pair.notation import AXES
-from lagrotor.proofs import NotProved, check, crossing, enclose, no_crossing, precession
-
-X1, _, Z1 = AXES.q[:3]
-BAR = Link(1, 1, 1)
-
-
-def shocked(spins: tuple[float, float], force: tuple[float, float, float]) -> Scene:
-    """The paper's pulse, ten widths after the start."""
-    return Scene(spins, link=BAR, shock=Shock(force, 0.2, 1 / 50))
+from lagrotor import Scene, Structure, natural_rate, precession_orbit
+from lagrotor.proofs import check, crossing, no_crossing, precession
 
 
 def test_the_precession_of_figure_21_turns_more_slowly_than_the_printed_rate() -> None:
@@ -49,33 +40,6 @@ def test_the_numbers_of_the_page_are_those_on_record() -> None:
     assert len(rows) == sum("theorems" in x for x in record.values() if isinstance(x, dict))
     assert not [(claim, x) for claim, said in rows for x in decimals.findall(said) if not stands(x, claim)]
     assert not stands("1.244", "C02") and not stands("16.185", "C20")
-
-
-@pytest.mark.slow
-def test_opposite_spins_topple_after_the_shock_across_the_bar() -> None:
-    """C11: |x| passes 1/2, and not in the 8 s after the shock's peak, as long as the paper's run."""
-    scene = shocked((10, -10), (0, -50, 0))
-    fall = crossing(scene, event=X1**2 - sp.Rational(1, 4), before=10)
-    assert fall.first and 8 < float(fall.time.mid()) - 0.2 < 9.5
-    assert "first passes zero" in check(fall.certificate)
-    assert no_crossing(scene, event=X1**2 - sp.Rational(1, 4), until="8.2").theorem
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("sign", [1, -1])
-def test_the_drift_after_a_shock_along_the_bar_has_one_sign(sign: int) -> None:
-    """C11: after ±x the pair turns to the same side of the joint line."""
-    turned = enclose(shocked((10, -10), (50 * sign, 0, 0)), t=4, tol=1e-20).states[2]
-    assert turned < 0
-
-
-@pytest.mark.slow
-def test_without_spin_the_pair_topples() -> None:
-    """C10: a tilt of 60° is passed before 2.5 s."""
-    fall = crossing(shocked((0, 0), (50, 0, 0)), event=Z1 - sp.Rational(1, 2), before="2.5")
-    assert fall.first and "first passes zero" in check(fall.certificate)
-    with pytest.raises(NotProved):
-        crossing(shocked((0, 0), (50, 0, 0)), event=Z1 - sp.Rational(1, 2), before="1.5")
 
 
 @pytest.mark.slow
