@@ -9,7 +9,7 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from os import cpu_count
@@ -92,6 +92,8 @@ def _row(each: dict[str, Any]) -> CertifiedEquation:
 
 # The seconds after which a file counts as rejected.
 _LONGEST = 300
+# Files are compiled together, in so many parts for each core.
+_BATCHES = 4
 # Words that a sentence begins with after the preamble: nothing is assumed, no notation is changed, and no name is taken but
 # those of lines, since a lemma `sin` would be another sine in all that follows.
 _SENTENCES = frozenset(["Theorem", "Proof", "Qed"])
@@ -131,12 +133,20 @@ def check_certificates(folder: Path, begins: Callable[[str], None] = lambda name
         lines = sum(bool(line.theorems) for row in rows for line in row.lines)
         raise LagrotorError(f"nothing was checked, {lines} lines were skipped: {why}")
 
-    def checked(row: CertifiedEquation) -> list[Checked]:
-        begins(row.id)
-        return list(_lines(row, _failures(row, read_text(folder / row.file) if row.file else "")))
+    texts = [read_text(folder / row.file) if row.file else "" for row in rows]
+    cores = cpu_count() or 1
+    place = sorted(range(len(rows)), key=lambda i: len(texts[i]))
+    batches = [place[first :: _BATCHES * cores] for first in range(_BATCHES * cores)]
 
-    with ThreadPoolExecutor(cpu_count() or 1) as pool:
-        return [each for lines in pool.map(checked, rows) for each in lines]
+    def checked(batch: list[int]) -> dict[int, list[Checked]]:
+        for i in batch:
+            begins(rows[i].id)
+        failures = _failures_of([(rows[i], texts[i]) for i in batch])
+        return {i: list(_lines(rows[i], failed)) for i, failed in zip(batch, failures, strict=True)}
+
+    with ThreadPoolExecutor(cores) as pool:
+        found = {i: lines for part in pool.map(checked, batches) for i, lines in part.items()}
+    return [each for i in range(len(rows)) for each in found[i]]
 
 
 def _lines(row: CertifiedEquation, failed: Mapping[str, str]) -> Iterator[Checked]:
@@ -147,6 +157,26 @@ def _lines(row: CertifiedEquation, failed: Mapping[str, str]) -> Iterator[Checke
             yield Checked(row.id, line, "rejected", wrong)
         else:
             yield Checked(row.id, line, "accepted")
+
+
+def _failures_of(files: Sequence[tuple[CertifiedEquation, str]]) -> list[dict[str, str]]:
+    """Of each file its theorems that are rejected, with the reason; "" for the whole file.
+
+    Coq takes longer to load its libraries than to check most files: these are compiled together, each as a module, and one by
+    one where one of them is rejected.
+    """
+    wrong = [_malformed(row, text) for row, text in files]
+    sound = [(row, text) for (row, text), reason in zip(files, wrong, strict=True) if text and not reason]
+    together = PREAMBLE
+    for row, text in sound:
+        name = row.file.removesuffix(".v")
+        together += f"\nModule {name}.\n{text.partition(PREAMBLE)[2]}\nEnd {name}.\n"
+    with tempfile.TemporaryDirectory() as folder:
+        accepted = len(sound) > 1 and not _compiled(Path(folder), "together.v", together)
+    return [
+        {"": reason} if reason else {} if accepted or not text else _failures(row, text)
+        for (row, text), reason in zip(files, wrong, strict=True)
+    ]
 
 
 def _malformed(row: CertifiedEquation, text: str) -> str:
@@ -160,15 +190,10 @@ def _malformed(row: CertifiedEquation, text: str) -> str:
 
 
 def _failures(row: CertifiedEquation, text: str) -> dict[str, str]:
-    """Return theorem → why it is rejected, "" for the whole file.
-
-    A theorem that Coq rejects is left out of the next attempt.
-    """
+    """Theorem -> why Coq rejects it; "" for the whole file. A theorem that is rejected is left out of the next attempt."""
     failed: dict[str, str] = {}
-    if wrong := _malformed(row, text):
-        return {"": wrong}
     with tempfile.TemporaryDirectory() as folder:
-        while text and (error := _compiled(Path(folder), row.file, text)):
+        while error := _compiled(Path(folder), row.file, text):
             place = re.match(r"line (\d+)", error)
             before = "\n".join(text.split("\n")[: int(place[1])]) if place else ""
             begun = re.findall(r"^Theorem (\w+)", before, re.MULTILINE)

@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -59,7 +60,7 @@ def coq_is_here() -> None:
 
 def failures(text: str, lines: tuple[CertifiedLine, ...]) -> Mapping[str, str]:
     row = CertifiedEquation("1.1", "", "equation_1_1.v", lines)
-    return checked_by_coq._failures(row, text)
+    return checked_by_coq._failures_of([(row, text)])[0]
 
 
 IDENTITIES: list[tuple[Any, Any, Any]] = [
@@ -274,7 +275,6 @@ def test_a_file_with_an_axiom_a_notation_or_an_open_proof_is_refused() -> None:
     ):
         assert failures(text + "\n" + added, (line,))[""]
     assert failures(text.replace("Qed.", "Admitted."), (line,))
-    assert "does not hold one" in failures(text.replace("line_1", "line_2"), (line,))[""]
     assert foreign_word(f"(* Axiom *) (* (* Axiom a *) *)\n{PREAMBLE}(* Axiom *)") == ""
     assert foreign_word(f"{PREAMBLE}(* *) Axiom a : False. (* *)") == "Axiom"
 
@@ -309,6 +309,27 @@ def test_a_proof_that_is_given_up_is_refused_wherever_that_stands(script: str) -
 @pytest.mark.parametrize("script", GIVEN_UP)
 def test_coq_itself_takes_a_proof_that_is_given_up(script: str, tmp_path: Path) -> None:
     assert checked_by_coq._compiled(tmp_path, "twin.v", given_up(script)[0]) == ""
+
+
+@coq
+@pytest.mark.slow
+def test_files_that_are_checked_together_are_rejected_one_by_one(tmp_path: Path) -> None:
+    """Ten equations, of which the third, the fifth and the seventh are false: one theorem, one sentence, one name."""
+    texts, rows = [], []
+    for place in range(1, 11):
+        entry = replace(ENTRY, id=f"1.{place}")
+        text, line = of(x + place * y, place * y + x, entry=entry)
+        texts.append(text)
+        rows.append(CertifiedEquation(entry.id, "holds", file_name(entry.id), (line,)))
+    texts[2] = texts[2].replace("= 3 * y + x", "= 4 * y + x").replace("= x + 3 * y", "= x + 4 * y")
+    texts[4] = texts[4].replace("Qed.", "- Admitted.")
+    texts[6] = texts[6].replace("line_1", "line_2")
+    found = checked_by_coq._failures_of(list(zip(rows, texts, strict=True)))
+    assert [bool(each) for each in found] == [place in (3, 5, 7) for place in range(1, 11)]
+    assert list(found[2]) == ["line_1"] and found[4][""].startswith("the file holds")
+    assert "does not hold one" in found[6][""]
+    found = checked_by_coq._failures_of([pair for place, pair in enumerate(zip(rows, texts, strict=True)) if place < 2])
+    assert found == [{}, {}]
 
 
 @pytest.mark.parametrize(
