@@ -1,4 +1,4 @@
-"""A structure's equations of motion with exact numbers: what `written_out` writes for floats, recorded as stages."""
+"""A structure's equations of motion with exact numbers: what `compiled_motion` writes for floats, recorded as stages."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
@@ -17,8 +17,8 @@ from lagrotor.proofs.balls import rational
 from lagrotor.proofs.statements import as_upright
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Coefficients, coefficients_in
-from lagrotor.structures.exact.forces import off_constraints, rates_of_constraints
-from lagrotor.structures.exact.written_out import structure_accelerations
+from lagrotor.structures.exact.compiled_motion import structure_accelerations
+from lagrotor.structures.exact.exact_motion import off_constraints, rates_of_constraints
 
 _OPERATIONS: dict[str, Callable[..., sp.Expr]] = {
     "+": add,

@@ -17,8 +17,7 @@ from lagrotor.numerics.arrays import finite_array
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.closing import close_bars
-from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.exact.forces import off_constraints, pulls
+from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion, off_constraints, pulls
 from lagrotor.structures.small_motion import Modes, SmallMotion, left_by, modes_of
 
 _STEP = 1e-3  # of the differences, whose error is its fourth power times 10⁻² or so

@@ -19,8 +19,8 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, friction_undoes, spin_threshold, stiffness_in_masses
 from lagrotor.structures.exact.closing import start_state
+from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.exact.exact_motion import exact_motion
-from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.holding import hold_time
 from lagrotor.structures.resonances import (
     MOST_DOF,

@@ -11,7 +11,7 @@ from lagrotor.errors import InputError
 from lagrotor.structures import exact_motion, local_hamiltonian
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.document import structure_of, toml_of
-from lagrotor.structures.exact.written_out import right_hand_side
+from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.resonances import normal_form_of
 
 

@@ -13,7 +13,7 @@ from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, 
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.numerics import measured_order
 from lagrotor.structures import exact_motion, example, holding, local_hamiltonian, measured_fall, resonant_factors
-from lagrotor.structures.exact.forces import off_constraints
+from lagrotor.structures.exact.exact_motion import off_constraints
 from lagrotor.structures.resonances import _new_coordinates, _outweighs, normal_form_of, trusted_push
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
