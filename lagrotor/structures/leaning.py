@@ -72,8 +72,7 @@ def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
     T = constraint_tangents(motion, r)
     M, stiff, along, C = _linear(motion, r, T)
     rubbed = (C + C.T) / 2 * bool(motion.c.friction.any() or motion.c.damping.any())
-    rounding = _AT_REST * np.abs(C).max() / (np.abs(rubbed).max(initial=0.0) or 1.0)
-    linear = SmallMotion(M, rubbed, (C - C.T) / 2, along * stiff @ along.T, T, motion.c.rate, rounding=rounding)
+    linear = SmallMotion(M, rubbed, (C - C.T) / 2, along * stiff @ along.T, T, motion.c.rate)
     return modes_of(linear, linear, components=3)
 
 
