@@ -12,8 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from benchmarks.structure_comparison import MASSLESS, staircase
-from lagrotor.benchmark.runner import Array
-from lagrotor.benchmark.work_check import check_work
+from lagrotor.benchmark.runner import Array, check_work
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
 from lagrotor.process import begin_process

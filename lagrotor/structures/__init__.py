@@ -7,6 +7,8 @@ from lagrotor.faces import face
 if TYPE_CHECKING:
     from lagrotor.structures.critical_spins import sign_patterns as sign_patterns
     from lagrotor.structures.exact.exact_motion import exact_motion as exact_motion
+    from lagrotor.structures.exact.held_to_exact import bounded_motion as bounded_motion
+    from lagrotor.structures.exact.held_to_exact import measured_growth as measured_growth
     from lagrotor.structures.exact.structure_run import StructureRun as StructureRun
     from lagrotor.structures.gallery import GALLERY as GALLERY
     from lagrotor.structures.gallery import example as example
@@ -18,9 +20,7 @@ if TYPE_CHECKING:
     from lagrotor.structures.response import spins_win_white_noise as spins_win_white_noise
     from lagrotor.structures.response import spins_win_worst_case as spins_win_worst_case
     from lagrotor.structures.response import spins_worst_case as spins_worst_case
-    from lagrotor.structures.standing import bounded_motion as bounded_motion
     from lagrotor.structures.standing import measured_fall as measured_fall
-    from lagrotor.structures.standing import measured_growth as measured_growth
     from lagrotor.structures.structure import read_structure as read_structure
     from lagrotor.structures.structure import write_structure as write_structure
     from lagrotor.structures.upright_hamiltonian import local_hamiltonian as local_hamiltonian

@@ -1,8 +1,7 @@
 """Whether a structure stands upright, to first order and beyond, why not, and the least factor on its spins to first order.
 
 To first order the theorems of `critical_spins` decide. What spins hold against weight has precessions of negative energy, and
-resonances of third and fourth order between them let it fall all the same: see `resonances`. Exact runs measure each of it:
-`measured_growth`, `bounded_motion`, `measured_fall`.
+resonances of third and fourth order between them let it fall all the same: see `resonances`.
 """
 
 from dataclasses import dataclass, replace
@@ -22,7 +21,6 @@ from lagrotor.structures.critical_spins import critical_spin, friction_undoes, s
 from lagrotor.structures.exact.closing import start_state
 from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.exact.exact_motion import exact_motion
-from lagrotor.structures.exact.structure_run import simulate_structure
 from lagrotor.structures.holding import hold_time
 from lagrotor.structures.resonances import (
     MOST_DOF,
@@ -37,7 +35,7 @@ from lagrotor.structures.resonances import (
     trusted_push,
     window_of,
 )
-from lagrotor.structures.small_motion import SmallMotion, check_rates, check_upright, modes, small_motion
+from lagrotor.structures.small_motion import SmallMotion, check_rates, modes, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
@@ -334,55 +332,3 @@ def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-
     if run.status < 0:
         raise IntegrationError(f"measured_fall: {run.message}")
     return float(run.t[-1]) / rate if run.status == 1 else inf
-
-
-def measured_growth(s: Assembly, folds: float = 3.0) -> float:
-    """Growth rate (1/s) of the exact motion that starts as the fastest growing mode, over `folds` growth times.
-
-    The amplitude is the projection on that mode's left vector, so that no other mode contributes.
-
-    Raises:
-        InputError: where nothing grows, and where upright breaks a bar's length.
-    """
-    check_upright(s, "measured_growth")
-    linear, normal = small_motion(s), modes(s)
-    root = normal.growth[0] + 1j * normal.rates[0]
-    if not root.real > 0:
-        raise InputError("measured_growth: nothing grows about upright")
-    shape = 1e-5 * normal.shapes[0]
-    run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-8)
-    roots, left = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
-    w = left[:, np.argmin(np.abs(roots - root))]
-    first, last = (abs(w @ state) for state in _coordinates_of_run(linear, run.axes, run.rates).T)
-    return float(np.log(last / first) * root.real / folds)
-
-
-def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
-    """(largest tilt, distance from the linear motion), both over the start's, in an exact run.
-
-    The run lasts `turns` periods of the slowest mode, from a random start of size 10⁻⁶.
-
-    Raises:
-        InputError: where upright breaks a bar's length.
-    """
-    from scipy.linalg import expm
-
-    check_upright(s, "bounded_motion")
-    linear, normal = small_motion(s), modes(s)
-    rates = normal.rates[normal.rates > 0]
-    t = np.linspace(0, 2 * np.pi * turns / rates.min(), 400)
-    draw = np.random.default_rng(0).standard_normal((linear.dof,))
-    run = simulate_structure(s, t, 1e-6 * (linear.basis @ draw).reshape(-1, 2) / np.abs(draw).max(), tol=1e-10)
-    exact = _coordinates_of_run(linear, run.axes, run.rates)
-    step, states = expm(replace(linear, rate=1.0).first_order * t[1]), [exact[:, 0]]
-    for _ in t[1:]:
-        states.append(step @ states[-1])
-    n = linear.dof
-    size = np.abs(exact[:n, 0]).max()
-    return float(np.abs(exact[:n]).max() / size), float(np.abs(exact[:n] - np.array(states).T[:n]).max() / size)
-
-
-def _coordinates_of_run(linear: SmallMotion, axes: Array, rates: Array) -> Array:
-    """(q, q') of a run, (2n, times)."""
-    parts = [part[..., :2].swapaxes(0, 1).reshape(part.shape[1], -1) @ linear.basis for part in (axes, rates)]
-    return np.hstack(parts).T
