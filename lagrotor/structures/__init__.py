@@ -1,4 +1,19 @@
-"""Any number of rotors and bars: standing under load, response, waves, the exact motion."""
+"""Any number of rotors and bars: standing under load, response, waves, the exact motion.
+
+The types in the order in which data passes through them:
+
+- `Structure` (an `Assembly` with methods) has the joints, bars, spins and loads; `read_structure` reads one from TOML. `Pattern`
+  repeats a cell of rotors without end, and its `piece` is a `Structure`.
+- `Coefficients` has its numbers in arrays. All equations of motion are made from them.
+- `SmallMotion` is the linear system about upright. `Modes`, `Standing`, `response` and the bands of a pattern follow from it.
+  Where the fastest rate is more than 10⁶ times the slowest, `modes` and `stands` refuse it.
+- `local_hamiltonian` expands the exact Lagrangian about upright. `Resonance`, `PrecessionLaw` and `hold_time` follow from its
+  normal form.
+- `ExactMotion` is the right-hand side of large motion; `Structure.simulate` integrates it to a `StructureRun`.
+
+A new load is a field of `Assembly`, a number in `Coefficients`, and a term in `exact.exact_motion.forces`, in
+`small_motion.matrices` and in `upright_hamiltonian.potential_of`.
+"""
 
 from typing import TYPE_CHECKING
 
