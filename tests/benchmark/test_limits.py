@@ -11,6 +11,7 @@ import pytest
 from lagrotor import Scene, simulate
 from lagrotor.benchmark import throughput
 from lagrotor.benchmark.limits import coordinate_singularities as coordinates
+from lagrotor.benchmark.limits import error_map, numerical_drift
 from lagrotor.benchmark.limits import range_of_validity as reach
 from lagrotor.benchmark.limits.coordinate_singularities import (
     euler_limits,
@@ -31,7 +32,7 @@ from lagrotor.benchmark.limits.range_of_validity import (
     spin_limits,
 )
 from lagrotor.benchmark.limits.step_size import LIMITS, step_limits
-from lagrotor.benchmark.limits.threshold import Limit, error_map, numerical_drift, threshold
+from lagrotor.benchmark.limits.threshold import Limit, threshold
 from lagrotor.benchmark.scipy_solvers import SOLVERS, run_by
 from lagrotor.benchmark.throughput import displaced_family
 from lagrotor.commands.command_line import main
