@@ -21,7 +21,7 @@ from benchmarks.mechanisms.comparison import SAME, _clock, _time_of
 from benchmarks.mechanisms.sympy_tools import kane, lagrange
 from benchmarks.mechanisms.tool import forget_all, in_own_process
 from lagrotor.benchmark.records import BODIES_AND_LAGRANGIANS, LINKS, MechanismKind, stamp
-from lagrotor.benchmark.work_check import check_work
+from lagrotor.benchmark.runner import check_work
 from lagrotor.files import write_text
 from lagrotor.mechanics import Frame, System, coordinates
 

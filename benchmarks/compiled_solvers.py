@@ -10,8 +10,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrotor.benchmark.chart_constants import LSODA_LEAST
-from lagrotor.benchmark.runner import Method, Runner, tips
+from lagrotor.benchmark.runner import LSODA_LEAST, Method, Runner, tips
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.models import minimal
 from lagrotor.numerics.codegen import reduce_common

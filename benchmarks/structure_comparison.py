@@ -21,8 +21,7 @@ from benchmarks.machine import machine, versions
 from benchmarks.peers.multibody_engines import ENGINES
 from benchmarks.peers.rig import Rig
 from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, STRUCTURES, Timed, stamp
-from lagrotor.benchmark.runner import Array, Runner
-from lagrotor.benchmark.work_check import check_work
+from lagrotor.benchmark.runner import Array, Runner, check_work
 from lagrotor.errors import IntegrationError
 from lagrotor.files import write_text
 from lagrotor.numerics.integrate import Engine

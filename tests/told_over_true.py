@@ -19,7 +19,7 @@ from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.numerics.calibrated import LOST
 from lagrotor.structures import exact_motion
 from lagrotor.structures.exact.closing import start_state
-from lagrotor.structures.exact.written_out import right_hand_side
+from lagrotor.structures.exact.compiled_motion import right_hand_side
 
 FINE = np.arange(1, 65) / 64
 ROUNDED = 1e-13  # a true error below which told over true says nothing of the estimate: it is rounding

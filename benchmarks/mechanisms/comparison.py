@@ -21,8 +21,7 @@ from benchmarks.mechanisms.own_tools import OWN
 from benchmarks.mechanisms.sympy_tools import SYMPY
 from benchmarks.mechanisms.tool import Ready, Rhs, Tool, forget_all, in_own_process
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Measured, MechanismKind
-from lagrotor.benchmark.runner import TOLERANCES
-from lagrotor.benchmark.work_check import check_work
+from lagrotor.benchmark.runner import TOLERANCES, check_work
 from lagrotor.errors import IntegrationError
 from lagrotor.mechanics.running.programs import motion_program
 from lagrotor.numerics.codegen import operations

@@ -5,17 +5,17 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import groupby
+from math import inf
 from statistics import median
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
-from lagrotor.benchmark.chart_constants import LONGEST_RUN, SAMPLE
-from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import LagrotorError
 from lagrotor.models import minimal, spheres
 from lagrotor.models.model import integrate_model
 from lagrotor.numerics.arrays import Array as Array
+from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
 
@@ -24,6 +24,45 @@ Prepare = Callable[[Scene, Array], Runner]
 Family = Literal["closed", "core", "fast", "scipy", "springs", "candidate", "peer", "trap"]
 
 TOLERANCES = tuple(10.0**-n for n in range(3, 14))
+LONGEST_RUN = Calibrated(
+    2.0,
+    "s of one run, after which a method is not run at a finer setting; up to a tenth of it runs are repeated",
+    "all methods on four scenes: the slowest, implicit ones take minutes at 1e-13",
+    "test_runner.py::test_a_method_that_takes_long_is_not_run_at_finer_settings",
+)
+LONGEST_QUICK_RUN = Calibrated(
+    0.2,
+    "the same of `lagrotor chart --quick`",
+    "all methods on four scenes: the whole then takes about half a minute",
+    "test_scenes_and_methods.py::test_what_is_left_out_is_listed",
+)
+SAMPLE = Calibrated(
+    0.01,
+    "s for which a run is repeated to time it: one of a millisecond by itself depends on what ran before it",
+    "the minimal model, whose runs take 3 to 30 ms: ten samples of it agree to 5 %",
+    "test_runner.py::test_a_short_run_is_repeated_until_a_sample_is_full_and_a_long_one_is_not",
+)
+LSODA_LEAST = Calibrated(
+    3e-14,
+    "tolerance below which LSODA does not start",
+    "scipy's odeint and ode",
+    "test_limits.py::test_solvers_keep_an_orbit",
+)
+
+
+def check_work(
+    run: str, evaluations: float, states: Any, error: float = 0.0, bound: float = inf, least: float = 1.0
+) -> None:
+    """Refuse a run that did not do the work which a benchmark reports, with a LagrotorError.
+
+    The run took at least so many evaluations, its states (…, n, …) change along axis 1, and its error is within the bound.
+    """
+    motion = float((states.max(axis=1) - states.min(axis=1)).max())
+    if not (evaluations >= least and motion > 0 and error <= bound):
+        raise LagrotorError(
+            f"{run}: the benchmark did not do its work: {evaluations:g} evaluations (at least {least:.3g}), "
+            f"motion {motion:.3g}, error {error:.3g} (at most {bound:.3g})"
+        )
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from lagrotor.benchmark.chart_constants import LONGEST_QUICK_RUN, LONGEST_RUN
 from lagrotor.benchmark.runner import (
+    LONGEST_QUICK_RUN,
+    LONGEST_RUN,
     TOLERANCES,
     Benchmark,
     Case,

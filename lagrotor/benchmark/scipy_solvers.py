@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from lagrotor.benchmark.chart_constants import LSODA_LEAST
-from lagrotor.benchmark.runner import Method, Prepare, Runner, tips
+from lagrotor.benchmark.runner import LSODA_LEAST, Method, Prepare, Runner, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.model import problem_of

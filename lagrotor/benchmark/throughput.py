@@ -10,7 +10,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from lagrotor.benchmark.work_check import check_work
+from lagrotor.benchmark.runner import check_work
 from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.simulate import simulate

@@ -34,8 +34,8 @@ def add_structure_commands(command: Command) -> None:
 
 def structure_command(given: argparse.Namespace) -> int:
     from lagrotor.commands.terminal import table
-    from lagrotor.structures.document import read_structure
     from lagrotor.structures.gallery import GALLERY, example
+    from lagrotor.structures.structure import read_structure
 
     if given.structure == "list":
         listed = {name: each.says for name, each in GALLERY.items()}
@@ -61,7 +61,7 @@ def _write(s: Any, out: Path, duration: float) -> None:
     import numpy as np
 
     from lagrotor.files import write_beside
-    from lagrotor.structures.document import write_structure
+    from lagrotor.structures.structure import write_structure
 
     if out.suffix == ".toml":
         write_structure(s, out)

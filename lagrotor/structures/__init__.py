@@ -1,18 +1,26 @@
-"""Any number of rotors and bars: standing under load, response, waves, the exact motion."""
+"""Any number of rotors and bars: standing under load, response, waves, the exact motion.
+
+The types in the order in which data passes through them:
+
+- `Structure` (an `Assembly` with methods) has the joints, bars, spins and loads; `read_structure` reads one from TOML. `Pattern`
+  repeats a cell of rotors without end, and its `piece` is a `Structure`.
+- `Coefficients` has its numbers in arrays. All equations of motion are made from them.
+- `SmallMotion` is the linear system about upright. `Modes`, `Standing`, `response` and the bands of a pattern follow from it.
+  Where the fastest rate is more than 10⁶ times the slowest, `modes` and `stands` refuse it.
+- `local_hamiltonian` expands the exact Lagrangian about upright. `Resonance`, `PrecessionLaw` and `hold_time` follow from its
+  normal form.
+- `ExactMotion` is the right-hand side of large motion; `Structure.simulate` integrates it to a `StructureRun`.
+
+A new load is a field of `Assembly`, a number in `Coefficients`, and a term in `exact.exact_motion.forces`, in
+`small_motion.matrices` and in `upright_hamiltonian.potential_of`.
+"""
 
 from typing import TYPE_CHECKING
 
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
-    from lagrotor.structures.absorbers import mass_worst_case as mass_worst_case
-    from lagrotor.structures.absorbers import spins_white_noise as spins_white_noise
-    from lagrotor.structures.absorbers import spins_win_white_noise as spins_win_white_noise
-    from lagrotor.structures.absorbers import spins_win_worst_case as spins_win_worst_case
-    from lagrotor.structures.absorbers import spins_worst_case as spins_worst_case
     from lagrotor.structures.critical_spins import sign_patterns as sign_patterns
-    from lagrotor.structures.document import read_structure as read_structure
-    from lagrotor.structures.document import write_structure as write_structure
     from lagrotor.structures.exact.exact_motion import exact_motion as exact_motion
     from lagrotor.structures.exact.held_to_exact import bounded_motion as bounded_motion
     from lagrotor.structures.exact.held_to_exact import measured_growth as measured_growth
@@ -22,7 +30,14 @@ if TYPE_CHECKING:
     from lagrotor.structures.pictures import draw_plan as draw_plan
     from lagrotor.structures.resonances import Resonance as Resonance
     from lagrotor.structures.resonances import resonant_factors as resonant_factors
+    from lagrotor.structures.response import mass_worst_case as mass_worst_case
+    from lagrotor.structures.response import spins_white_noise as spins_white_noise
+    from lagrotor.structures.response import spins_win_white_noise as spins_win_white_noise
+    from lagrotor.structures.response import spins_win_worst_case as spins_win_worst_case
+    from lagrotor.structures.response import spins_worst_case as spins_worst_case
     from lagrotor.structures.standing import measured_fall as measured_fall
+    from lagrotor.structures.structure import read_structure as read_structure
+    from lagrotor.structures.structure import write_structure as write_structure
     from lagrotor.structures.upright_hamiltonian import local_hamiltonian as local_hamiltonian
     from lagrotor.structures.waves.chern import border_packet as border_packet
     from lagrotor.structures.waves.chern import chern_numbers as chern_numbers

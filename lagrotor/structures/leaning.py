@@ -17,8 +17,7 @@ from lagrotor.numerics.arrays import finite_array
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.closing import close_bars
-from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.exact.forces import off_constraints, pulls
+from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion, off_constraints, pulls
 from lagrotor.structures.small_motion import Modes, SmallMotion, left_by, modes_of
 
 _STEP = 1e-3  # of the differences, whose error is its fourth power times 10⁻² or so
@@ -73,8 +72,7 @@ def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
     T = constraint_tangents(motion, r)
     M, stiff, along, C = _linear(motion, r, T)
     rubbed = (C + C.T) / 2 * bool(motion.c.friction.any() or motion.c.damping.any())
-    rounding = _AT_REST * np.abs(C).max() / (np.abs(rubbed).max(initial=0.0) or 1.0)
-    linear = SmallMotion(M, rubbed, (C - C.T) / 2, along * stiff @ along.T, T, motion.c.rate, rounding=rounding)
+    linear = SmallMotion(M, rubbed, (C - C.T) / 2, along * stiff @ along.T, T, motion.c.rate)
     return modes_of(linear, linear, components=3)
 
 

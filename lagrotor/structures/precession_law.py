@@ -29,7 +29,7 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.resonances import MOST_DOF, normal_form_of, signed_rates
 from lagrotor.structures.small_motion import small_motion
-from lagrotor.structures.steady_precession import precessing_mode, steady_precession
+from lagrotor.structures.steady_precession import precessing_mode
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 _NEAR = 0.1  # of the largest rate: detunings up to which terms of two other modes are kept
@@ -75,17 +75,6 @@ class PrecessionLaw(Shown):
         """The log of the largest modulus of a multiplier, per turn; 0 where it is below 1e-9, the rounding of a modulus."""
         most = float(np.log(np.abs(self.multipliers_at(tilt)).max(initial=1.0)))
         return most if most > _ROUNDING else 0.0
-
-    def errors_at(self, tilt: float) -> tuple[float, float]:
-        """How far the rate (rad/s) and the multipliers, the farthest, are from the exact orbit's at that tilt, whose own
-        errors are added.
-
-        Raises InputError as `steady_precession`.
-        """
-        orbit, multipliers = steady_precession(self.structure, self.mode, tilt), self.multipliers_at(tilt)
-        exact = 2 * pi / orbit.period
-        off = np.abs(np.subtract.outer(orbit.multipliers[2:], multipliers)).min(1) + orbit.errors[2:]
-        return abs(exact - self.rate_at(tilt)) + orbit.mismatch * exact, float(off.max(initial=0.0))
 
     @property
     def edge(self) -> float:
@@ -170,8 +159,7 @@ class PrecessionLaw(Shown):
 def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
     """The law of the precessions that `steady_precession` finds, of a mode of `modes()`, at small tilts.
 
-    What it leaves is small beside the terms it has where the mode's harmonics are well away from other rates; `errors_at`
-    measures it on the exact orbit.
+    The law is accurate where no multiple of the mode's rate is near another rate; `steady_precession` has the exact orbit.
 
     Args:
         s: without friction, upright at rest.

@@ -34,7 +34,7 @@ from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.critical_spins import spin_threshold
-from lagrotor.structures.small_motion import SmallMotion, check_upright, small_motion
+from lagrotor.structures.small_motion import WIDEST, SmallMotion, check_upright, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 Of = Literal["rates", "tilts"]  # what a push gives all axes: rates from upright, rad/s, or tilts (sines) at rest
@@ -49,12 +49,9 @@ _TRUSTED = 0.1  # the sine of a tilt
 _EQUAL = 1e-6  # of a rate
 _ON_BARS = 1e-6  # of the largest rate: what the bars do not allow
 _MOST_STEPS = 8  # of the search for the edge of a window
-_SLOW = 1e-4  # of the largest rate: of slower ones the normal form loses digits, which slower spins have
-_SLOWEST = 1e-6  # of the largest rate: a slower one is zero in the normal form
-_FAST = 1e-2  # how near to the spins, or to one over them, rates change with them
 _FAR = 0.2  # of a resonant factor: how far its slope there is relied on
 _STOPPED = "no: its own terms stop it; how far it grows before is not known"
-_FASTEST = 1e9  # times the critical factor: beyond, no spins are sought
+_FASTEST = 300.0  # times the critical factor: beyond, no spins are sought
 _WIDE = 1.5  # times: intervals whose ends' distances from the critical factor are further apart are checked between
 _CHECKED = 0.125  # of the distance from the critical factor: how near an end is found
 _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow ones
@@ -158,9 +155,8 @@ def resonances(
 ) -> tuple[Resonance, ...]:
     """The resonances that the spins, multiplied by a factor, are near, those that the smallest pushes of that kind meet first.
 
-    None where the energy is definite. Of fast spins they are estimated by those of slower ones. Raises InputError where a
-    mode grows or has the rate zero, friction acts, or the degrees of freedom are too many, SingularError where a rate is below
-    10⁻⁶ of another and not all are as the spins or as one over them.
+    None where the energy is definite. Raises InputError where a mode grows or has the rate zero, friction acts, the degrees of
+    freedom are too many, SingularError where a rate is more than 10⁶ times another.
     """
     check_kind_of_push(of)
     check_upright(s, "resonances")
@@ -175,14 +171,12 @@ def resonances(
         return ()
     if linear.dof > MOST_DOF:
         raise InputError(f"resonances: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
-    if (slow := np.abs(rates).min() / np.abs(rates).max()) < _SLOW:
-        by_slower = _by_slower_spins(s, rates, factor, sqrt(_SLOW / slow), orders, of)
-        if by_slower is not None:
-            return by_slower
-        if slow < _SLOWEST:
-            raise SingularError(
-                f"resonances: a rate is {slow:.1g} of the fastest, which is zero in the normal form: take slower spins"
-            )
+    slowest, fastest = np.abs(rates).min(), np.abs(rates).max()
+    if fastest > WIDEST * slowest:
+        raise SingularError(
+            f"resonances: the fastest rate, {fastest:.3g} rad/s, is more than 10⁶ times the slowest, {slowest:.1g} rad/s, which "
+            "is lost beside it: take slower spins"
+        )
     slope = _slopes(linear, factor)
     found = [r for d in orders for r in _of_order(s, rates, slope, factor, d, of)]
     return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
@@ -191,28 +185,6 @@ def resonances(
 def first_resonance(s: Assembly, of: Of = "rates") -> Resonance | None:
     """The one that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
     return next((r for r in resonances(s, of=of) if r.falls), None)
-
-
-def _by_slower_spins(
-    s: Assembly, rates: Array, factor: float, times: float, orders: Sequence[int], of: Of
-) -> tuple[Resonance, ...] | None:
-    """The resonances by those of spins that many times slower, None unless all rates are as the spins or as one over them.
-
-    The slow motion of fast spins, C q' + ∂V/∂q = 0 to first order in slow over fast rates, is the same from the same tilts, in
-    times as spin; rates leave it at tilts as 1/spin.
-    """
-    slower = signed_rates(small_motion(s), factor / times)
-    change = np.sort(np.abs(rates)) / np.sort(np.abs(slower)) if len(slower) else np.zeros(1)
-    if not (np.minimum(np.abs(change / times - 1), np.abs(change * times - 1)) < _FAST).all():
-        return None
-    reach = 1 / times if of == "rates" else 1.0
-    return tuple(
-        replace(
-            r, rates=rates, at=factor, detuning=r.detuning / times, per_factor=r.per_factor / times**2,
-            growth=r.growth / times, largest=r.largest / times, reach=r.reach * reach,
-        )
-        for r in resonances(s, factor / times, orders, of)
-    )  # fmt: skip
 
 
 def _of_order(

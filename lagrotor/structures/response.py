@@ -3,15 +3,30 @@
     X = R Z (−ω² M + i ω C + K)⁻¹ Zᵀ f,   f_i = R_i F_i − S_i a_ground,
 
 for F e^(iωt) on the tips and the ground's acceleration a e^(iωt). Exact for small motion.
+
+How well spins quieten a sway, and a tuned mass: optimal brace and damper in closed form, and who wins.
+
+A sway of mass M and stiffness K = M Ω² is coupled by the spins (g) to a motion of inertia m that a brace k_z and a damper
+c hold:
+
+    M x'' + K x + g z' = F,   m z'' + c z' + k_z z − g x' = 0,   γ² = g²/(M m Ω²).
+
+For the pair under equal or opposite spins ± G, with tips of inertia a: M = m = 2a, g = 2G, γ = G/(a Ω), z the mean y or the
+yaw. Brace k_z = m Ω² f², damper c = 2 ζ m Ω. In the worst case both peaks of |X| are equally high, at the least height that
+any brace and damper leave, which Den Hartog's fixed points (Mechanical Vibrations, 1956, § 3.3) only bound from below. Derived
+in derivations/n2_shaken.py; the tuned mass is that of Nishihara & Asami (J. Vib. Acoust. 124, 576, 2002) and Warburton
+(Earthquake Eng. Struct. Dyn. 10, 1982).
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lagrotor.errors import InputError
+from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Complex, coefficients
+from lagrotor.structures.coefficients import Array, Complex, coefficients
 from lagrotor.structures.small_motion import check_upright, small_motion
 
 
@@ -57,3 +72,97 @@ def _forces(force: ArrayLike, at: int | None, N: int) -> Complex:
     amplitudes = np.zeros((N, 2), dtype=complex)
     amplitudes[at] = finite_array("response: force", force, (2,), complex)
     return amplitudes
+
+
+@dataclass(frozen=True, eq=False)
+class Absorber:
+    """f², the brace's tuning; ζ, the damper; value: the peak, the largest |X K/F| over all rates, or the mean square.
+
+    The mean square, under white noise, is that of x K/F in units of π S Ω, S the force's two-sided spectral density: without an
+    absorber and with a damping ratio ζ of its own, 1/(2ζ).
+    """
+
+    tuning: Array
+    damping: Array
+    value: Array
+
+
+def _worst_case(d: Array) -> tuple[Array, Array]:
+    """γ² and 1 − ρ of the best brace and damper, ρ² = 1 − 1/peak²; d = 1 − f²/ρ goes from 0 to 1 as γ from 0 to √2."""
+    over = 8 - 8 * d - d**2 + 2 * d**3
+    return 2 * d * (2 - d) ** 2 * (4 - 3 * d) / over, d * (8 - 11 * d + 4 * d**2) / over
+
+
+def _d_where(quantity: int, values: Array) -> Array:
+    """d at which a quantity of `_worst_case` has the values; both grow with it."""
+    from scipy.optimize import brentq
+
+    solve = np.vectorize(
+        lambda value: brentq(lambda d: _worst_case(d)[quantity] - value, 0, 1, xtol=1e-30), otypes=[float]
+    )
+    return np.asarray(solve(values))
+
+
+def spins_worst_case(gamma: ArrayLike) -> Absorber:
+    """The spins' best brace and damper in the worst case, exactly; value is the peak, and no other pair has a lower one.
+
+    With N = 8 − 8d − d² + 2d³ and 0 < d < 1 from γ² = 2d (2 − d)² (4 − 3d)/N:  1 − ρ = d (8 − 11d + 4d²)/N, f² = (1 − d) ρ,
+    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ these are f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ.
+
+    Raises:
+        DomainError: unless 0 < γ < √2.
+    """
+    d = _d_where(0, _in_domain("gamma", gamma, 2**0.5) ** 2)
+    below = _worst_case(d)[1]
+    return Absorber((1 - d) * (1 - below), np.sqrt(below * (3 - 2 * d) / 2), 1 / np.sqrt(below * (2 - below)))
+
+
+def spins_white_noise(gamma: ArrayLike) -> Absorber:
+    """The spins' best brace and damper under white noise: f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4.
+
+    The mean square is sqrt(4/γ² − 1).
+
+    Raises:
+        DomainError: unless 0 < γ < √2.
+    """
+    g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
+    return Absorber(1 - g2 / 2, np.sqrt(g2 * (4 - g2)) / 4, np.sqrt(4 / g2 - 1))
+
+
+def mass_worst_case(mu: ArrayLike) -> Absorber:
+    """The best tuned mass in the worst case, exactly (Nishihara & Asami), with s = sqrt(4 + 3μ), ζ of the mass' own rate:
+
+        f² = 24/((s − 1)² (3s² + 4s + 4)),   ζ² = 9μ (3s + 2)/(16 (s + 2)(s² − 1)),
+        peak = (3s² + 4s + 4)/(3 sqrt(μ (s + 2)(3s + 2))),
+
+    μ the ratio of masses; Den Hartog's fixed points lie at sqrt(1 + 2/μ).
+
+    Raises:
+        DomainError: unless μ > 0.
+    """
+    m = _in_domain("mu", mu, np.inf)
+    s = np.sqrt(4 + 3 * m)
+    form = 3 * s**2 + 4 * s + 4
+    damping = np.sqrt(9 * m * (3 * s + 2) / (s + 2) / (s**2 - 1)) / 4
+    return Absorber(24 / ((s - 1) ** 2 * form), damping, form / (3 * np.sqrt(m * (s + 2) * (3 * s + 2))))
+
+
+def spins_win_worst_case(mu: ArrayLike) -> Array:
+    """γ from which on the spins' peak is lower than a tuned mass': sqrt(μ) for a small one."""
+    inverse = mass_worst_case(mu).value ** -2.0
+    return np.asarray(np.sqrt(_worst_case(_d_where(1, inverse / (1 + np.sqrt(1 - inverse))))[0]))
+
+
+def spins_win_white_noise(mu: ArrayLike) -> Array:
+    """γ from which on the spins do better than a tuned mass under white noise: 2 sqrt(μ (1 + μ))/(2 + μ). The best tuned mass has
+    the mean square sqrt((4 + 3μ)/(μ (1 + μ))) (Warburton)."""
+    m = _in_domain("mu", mu, np.inf)
+    return np.asarray(2 * np.sqrt(m * (1 + m)) / (2 + m))
+
+
+def _in_domain(name: str, given: ArrayLike, below: float) -> Array:
+    """What is given as an array, refused outside its domain."""
+    x = np.asarray(given, dtype=float)
+    if not ((x > 0) & (x < below)).all():
+        raise DomainError(f"{name} = {given!r} must lie between 0 and {below:g}")
+    return x

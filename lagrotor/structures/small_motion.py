@@ -9,7 +9,6 @@ they leave. Merkin, Introduction to the Theory of Stability, ch. 6; rigidity mat
 (1993).
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any
@@ -23,16 +22,15 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, Complex, coefficients
 
 Matrix = NDArray[Any]  # real of a structure, complex of a pattern
-_Inverse = Callable[[], tuple[Matrix, float]]  # 1/(W − h) of a matrix W, and h
 
-_ZERO = 1e-6  # of a root, and of the structure's rate beside a double root zero, which is found to half of a double's digits
-_SLOWEST = 1e-9  # of the structure's rate: of slower waves of fast spins the digits are lost
-_APART = 1e4  # the fastest over the slowest root, from which on the slow ones are those of the inverse
-_SHIFT = 0.6  # of the slow rates
-_ROUNDED = 1e-14  # of what a matrix does: less is rounding
-_DAMPED = 1e-10  # of a root with friction, whose real part is then that of the energy's balance
+# Shares of a root beside which its real or imaginary part is rounding: double roots are known to half of a double's digits.
+_ZERO = 1e-6
+_DAMPED = 1e-10  # the same of a root with friction, whose real part need not be zero
+_ROUNDED = 1e-13  # of the fastest root: a smaller real part is rounding
+WIDEST = 1e6  # the fastest over the slowest rate, beyond which the slow one has lost too many digits
+_SLOWEST = 1e-9  # of a pattern's rate: a slower wave is zero
 _ALIKE = 1e-6  # of a size: one that differs by less is as large
-_NEUTRAL = 1e-12  # of the masses and the pull squared: a smaller stiffness is what is left of a sum of zero
+_NEUTRAL = 1e-12  # of the masses and the pull squared: a smaller stiffness is rounding of a sum of zero
 _DEPENDENT = 1e-10  # of the bars' largest singular value: one below it is zero
 
 
@@ -43,10 +41,8 @@ class Modes(Shown):
     Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
     energy_signs (n,): that of ω² ū·M u + ū·K u, −1 of an oscillation with less energy than rest; 0 of what grows or has no rate.
     left_out (n,): by how much (rad/s) the inertia lowers each rate to first order, where it is left out; else 0. Below zero where
-    it raises it, under weight. lost (n,): growth and decay (1/s) below it are rounding, and given as 0; without friction that is
-    1e-6 of the rate beside another of that rate. It does not tell of growth at a rate between others some 1e8 times slower and
-    faster, known to 1e-3 of itself (in one of 3,000 random structures to 0.2), nor of a real decay below 1e-6 of the next root
-    beside a motion that nothing holds, which is given as 0. Of modes_about shapes (n, N, 3) are changes of the axes.
+    it raises it, under weight. Growth below 1e-13 of the fastest root is rounding, and zero here. Of modes_about shapes (n, N, 3)
+    are changes of the axes.
     """
 
     rates: Array
@@ -55,7 +51,6 @@ class Modes(Shown):
     topple: int
     energy_signs: NDArray[np.int64]
     left_out: Array
-    lost: Array
 
     def summary(self) -> dict[str, str]:
         """Rate and growth of each mode, the fastest growing first, and how many topple, name → words."""
@@ -63,7 +58,6 @@ class Modes(Shown):
         signs = {1: "", 0: "", -1: ", of negative energy"}
         rows = {
             f"mode {i + 1}": f"{self.rates[i]:.6g} rad/s, growth {self.growth[i]:.3g} 1/s{signs[int(self.energy_signs[i])]}"
-            + (f", {self.lost[i]:.1g} 1/s lost" if self.lost[i] > abs(self.growth[i]) else "")
             for i in most
         }
         rest = {"further ones": str(len(self.rates) - 12)} if len(self.rates) > 12 else {}
@@ -74,8 +68,7 @@ class Modes(Shown):
 class SmallMotion:
     """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the degrees of freedom q, u = basis q, basis (2 N, n).
 
-    pull: `Coefficients.pull`, beside whose square the stiffness over the mass is rounded; 0 where it is not known. rounding: of
-    the damping, in parts of its largest.
+    pull: `Coefficients.pull`, beside whose square the stiffness over the mass is rounded; 0 where it is not known.
 
     Of waves at many wave numbers each has an axis more, and so have the roots: (n_q, n, n), (n_q, 2 n).
     """
@@ -87,7 +80,6 @@ class SmallMotion:
     basis: Matrix
     rate: float
     pull: float = 0.0
-    rounding: float = _ROUNDED
 
     @property
     def dof(self) -> int:
@@ -129,50 +121,11 @@ class SmallMotion:
         if not self.mass.any():
             return self._of_first_order
         if self._definite:
-            H, inverse, over_R, over_L = self._hermitian
-            rates, x = _at_both_ends(np.linalg.eigh, H, inverse)
-            s, q, velocity = (
-                -1j * rates,
-                _dagger(over_R) @ x[..., : self.dof, :],
-                _dagger(over_L) @ x[..., self.dof :, :],
-            )
-        else:
-            s, x = _at_both_ends(np.linalg.eig, self.first_order, self._inverse)
-            q, velocity = x[..., : self.dof, :] + 0j, x[..., self.dof :, :]
-        if s.ndim > 1:
-            return self._in_seconds(s), velocity if self._definite else q
-        unspun = np.sqrt(np.abs(self.stiffness).max(initial=0.0) / np.abs(self.mass).max()) / self.rate
-        quick = np.abs(s) > max(unspun, _ZERO)  # then velocity / s is rounded less than q
-        vectors = np.where(quick, velocity / np.where(s == 0, 1, s), q)
-        s = self._in_seconds(s)
-        if self.damping.any():  # real parts that are small beside the imaginary ones are those of the energy's balance
-            growth, lost = self.energy_balance(s, vectors)
-            known = (np.abs(s.real) < _ZERO * np.abs(s)) & (lost < _ZERO * np.abs(s))
-            s = np.where(known, np.where(np.abs(growth) > lost, growth, 0), s.real) + 1j * s.imag
-        return s, vectors
-
-    def energy_balance(self, s: Complex, vectors: Complex) -> tuple[Array, Array]:
-        """What friction lets oscillations of roots s (m,) and vectors (n, m) grow by to first order, and how much of it is lost
-        in rounding, (m,) in 1/s: σ = −ω² ū·C u/(ω² ū·M u + ū·K u), twice the energy below.
-
-        What friction takes is no difference of large numbers: small growth beside fast rates keeps its digits.
-        """
-        kinetic, rubbed, elastic = _forms(vectors, self.mass, self.damping, self.stiffness)
-        square, sizes = s.imag**2, np.abs(s)
-        apart = np.abs(s[:, None] - s) + np.diag(np.full(len(s), np.inf))
-        nearest = np.maximum(apart.min(1, initial=np.inf), 1e-300)
-        if not self.damping.any():
-            together = (square > 0) & (nearest < 10 * _ZERO * sizes) & (not self._definite)
-            return 0 * sizes, np.where(together, _ZERO * sizes, 0)
-        least = sizes.min(where=sizes > 0, initial=np.inf)
-        mixed = np.minimum(10 * _ROUNDED * np.minimum(sizes.max(initial=0), sizes**2 / least) / nearest, 1)
-        most, moved = np.linalg.norm(self.damping, 2) * _forms(vectors, np.eye(self.dof))[0], np.abs(vectors)
-        noise = self.rounding * _forms(moved, np.abs(self.damping))[0] + (mixed**2 + _ROUNDED * self.rounding) * most
-        energy = square * kinetic + elastic
-        sharp = (square > 0) & (np.abs(energy) > _ZERO * (square * kinetic + np.abs(elastic)))  # not at critical spins
-        over = square / np.where(sharp, energy, 1)
-        lost = np.where(sharp, np.abs(over) * noise, np.where(square > 0, _ZERO * sizes, 0))
-        return np.where(sharp, -over * rubbed, 0), lost
+            H, over_L = self._hermitian
+            rates, x = np.linalg.eigh(H)
+            return self._in_seconds(-1j * rates), _dagger(over_L) @ x[..., self.dof :, :]
+        s, x = np.linalg.eig(self.first_order)
+        return self._in_seconds(s), x[..., : self.dof, :] + 0j
 
     @property
     def _of_first_order(self) -> tuple[Complex, Complex]:
@@ -205,22 +158,15 @@ class SmallMotion:
         return bool((sizes[..., 0] > _DEPENDENT * np.abs(sizes).max(-1)).all())
 
     @property
-    def _hermitian(self) -> tuple[Complex, _Inverse, Matrix, Matrix]:
+    def _hermitian(self) -> tuple[Complex, Matrix]:
         """The lower half of H, i x' = H x in units of the rate for x = (R† q, L† q') with K = R R† and M = L L†, so that
-        |x|² is twice the energy; that of its inverse; 1/R, 1/L."""
+        |x|² is twice the energy; 1/L."""
         n = self.dof
         L, R = np.linalg.cholesky(self.mass), np.linalg.cholesky(self.stiffness / self.rate**2)
-        over_L, over_R, turning = np.linalg.inv(L), np.linalg.inv(R), self.gyroscopic / self.rate
-
-        def lower(above: Any, below: Matrix, beside: Any) -> Complex:
-            H = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
-            H[..., :n, :n], H[..., n:, :n], H[..., n:, n:] = above, below, beside
-            return -1j * H
-
-        def inverse() -> tuple[Complex, float]:
-            return lower(-over_R @ turning @ _dagger(over_R), _dagger(over_R @ L), 0), 0.0
-
-        return lower(0, over_L @ R, over_L @ turning @ _dagger(over_L)), inverse, over_R, over_L
+        over_L = np.linalg.inv(L)
+        H = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
+        H[..., n:, :n], H[..., n:, n:] = over_L @ R, over_L @ self.gyroscopic / self.rate @ _dagger(over_L)
+        return -1j * H, over_L
 
     @property
     def first_order(self) -> Matrix:
@@ -231,16 +177,6 @@ class SmallMotion:
         W[..., :n, n:] = np.eye(n)
         W[..., n:, :] = np.linalg.solve(self.mass, below)
         return W
-
-    def _inverse(self) -> tuple[Matrix, float]:
-        """1/(W − h) and h: 0, or among the slow rates where some stiffness is zero."""
-        C, K = (self.gyroscopic + self.damping) / self.rate, self.stiffness / self.rate**2
-        sizes, turning = np.abs(np.linalg.eigvalsh(K)), np.abs(C).max(initial=0.0)
-        slow = sizes.max() / turning if turning and sizes.any() else 1.0
-        h = 0.0 if (sizes > _DEPENDENT * sizes.max()).all() else _SHIFT * float(slow)
-        M, one = self.mass, np.eye(self.dof)
-        above = -np.linalg.solve(K + h * C + h * h * M, np.hstack([C + h * M, M]))
-        return np.vstack([above, np.hstack([one, 0 * one]) + h * above]), h
 
     def _in_seconds(self, s: Matrix) -> Complex:
         sizes = np.abs(np.linalg.eigvalsh(self.stiffness)) if self.dof else np.ones(1)
@@ -253,6 +189,7 @@ class SmallMotion:
             s[creeping[np.abs(s[creeping]) < _ZERO * (np.abs(s[held[0]]) if len(held) else 1.0)]] = 0
         near = np.maximum(np.abs(s), np.where(neutral, 1.0, _SLOWEST if s.ndim > 1 else 0.0))
         still = np.abs(s.real) < (_DAMPED if self.damping.any() else _ZERO) * near
+        still |= np.abs(s.real) < _ROUNDED * np.abs(s).max(initial=0.0)
         return np.asarray(
             self.rate * (np.where(still, 0, s.real) + 1j * np.where(np.abs(s.imag) < _ZERO * near, 0, s.imag))
         )
@@ -282,6 +219,16 @@ class SmallMotion:
         return float(max(self.roots.real.max(), 0.0))
 
     @property
+    def extremes(self) -> tuple[float, float]:
+        """The slowest root that is not zero and the fastest, in rad/s; of the zero ones the stiffness says how many there are."""
+        if not self.dof:
+            return 1.0, 1.0
+        sizes = np.sort(np.abs(np.linalg.eigvals(self.first_order)))
+        free, unturned, _ = self._neutral
+        left = sizes[free + unturned :]  # friction alone acts on the roots between, which may be as slow as they like
+        return (self.rate * float(left[0]), self.rate * float(left[-1])) if len(left) else (1.0, 1.0)
+
+    @property
     def drifts(self) -> bool:
         """Whether some displacement neither returns nor grows but goes on at its speed: K v = 0, and neither friction nor
         spins act between v and the others that K leaves free, so that zero is a double root of one motion."""
@@ -309,26 +256,21 @@ def check_upright(s: Assembly, where: str) -> None:
         )
 
 
-def _at_both_ends(solve: Callable[[Matrix], Any], matrix: Matrix, inverse: _Inverse) -> tuple[Matrix, Matrix]:
-    """Eigenvalues s and vectors of a matrix, the slow ones of fast spins those of 1/(matrix − h): each to its own digits.
+def check_rates(s: Assembly, where: str) -> SmallMotion:
+    """Return the linear system of a structure whose rates double precision can tell apart.
 
-    Of a matrix they are known to rounding of the largest, of its inverse to that of the smallest.
+    Raises InputError, named after the caller, where upright breaks a bar's length and where the fastest rate is more than 10⁶
+    times the slowest.
     """
-    s, x = solve(matrix)
-    if s.ndim > 1 or not len(s):
-        return s, x
-    below, h = inverse()
-    r, y = solve(below)
-    t = np.where(r == 0, np.inf, h + 1 / np.where(r == 0, 1, r))
-    least = np.abs(t).min(where=np.abs(t) > _ZERO * h, initial=np.inf)
-    if not np.abs(s).max() > _APART * least:
-        return s, x
-    middle = np.sqrt(np.abs(s).max() * least)
-    edges = np.sort([middle / 10, *np.clip(np.abs(s), middle / 10, 10 * middle), 10 * middle])
-    widest = int((edges[1:] / edges[:-1]).argmax())  # no root lies there
-    fast = np.abs(s) > np.sqrt(edges[widest] * edges[widest + 1])
-    slow = np.argsort(np.abs(t), kind="stable")[: np.count_nonzero(~fast)]
-    return np.append(t[slow], s[fast]), np.hstack([y[:, slow], x[:, fast]])
+    check_upright(s, where)
+    linear = small_motion(s)
+    slowest, fastest = linear.extremes
+    if fastest > WIDEST * slowest:
+        raise InputError(
+            f"{where}: the fastest rate, {fastest:.3g} rad/s, is more than 10⁶ times the slowest, {slowest:.1g} rad/s, which "
+            "double precision loses beside it: take slower spins, stiffer springs, or the limit modes(inertia=False)"
+        )
+    return linear
 
 
 def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
@@ -397,13 +339,13 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
     inertia: False for the limit of fast spins, in which C u' + K u = 0: slow precessions alone, their rates too large by
     `left_out` and by what is of fourth order in 1/spin of themselves. Nash et al., PNAS 112, 14495 (2015).
 
-    Raises InputError where a bar is not as long as its tips are apart when upright and where inertia is neither True nor False,
-    SingularError without inertia where no spin acts.
+    Raises InputError where a bar is not as long as its tips are apart when upright, where inertia is neither True nor False, and
+    with inertia where the fastest rate is more than 10⁶ times the slowest; SingularError without inertia where no spin acts.
     """
     check_upright(s, "modes")
     if not isinstance(inertia, bool):
         raise InputError(f"modes: inertia = {inertia!r} must be True or False")
-    whole = small_motion(s)
+    whole = check_rates(s, "modes") if inertia else small_motion(s)
     return modes_of(whole, whole if inertia else whole.without_inertia)
 
 
@@ -430,5 +372,4 @@ def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Mo
         rates, u = roots[kept].imag, vectors[:, kept]
         heavy, turned = ((u.conj() * (form @ u)).sum(0) for form in (whole.mass, whole.gyroscopic))
         np.divide(rates**2 * heavy.real, turned.imag, out=left_out, where=rates > 0)
-    lost = linear.energy_balance(roots, vectors)[1][kept]
-    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out, lost)
+    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out)

@@ -19,8 +19,8 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, friction_undoes, spin_threshold, stiffness_in_masses
 from lagrotor.structures.exact.closing import start_state
+from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.exact.exact_motion import exact_motion
-from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.holding import hold_time
 from lagrotor.structures.resonances import (
     MOST_DOF,
@@ -35,7 +35,7 @@ from lagrotor.structures.resonances import (
     trusted_push,
     window_of,
 )
-from lagrotor.structures.small_motion import SmallMotion, check_upright, modes, small_motion
+from lagrotor.structures.small_motion import SmallMotion, check_rates, modes, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
@@ -249,10 +249,10 @@ def stands(s: Assembly) -> Standing:
 
     Raises InputError where upright breaks a bar's length, and where it falls more slowly than is resolved: an odd number of
     degrees of freedom that fall without spin do so at any (Kelvin), and so does what friction acts on (Tait and Chetaev, too).
-    What friction reaches by less than `critical_spin` counts, or lets grow by less than `Modes.lost`, stands here.
+    Raises InputError, too, where the fastest rate is more than 10⁶ times the slowest. What friction reaches by less than
+    `critical_spin` counts stands here.
     """
-    check_upright(s, "stands")
-    linear, normal, factor = small_motion(s), modes(s), critical_spin(s)
+    linear, normal, factor = check_rates(s, "stands"), modes(s), critical_spin(s)
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     falling = int((K < -1e-12).sum())
     growth = 0.0 if len(K) and K[0] > 1e-12 else linear.growth  # energy that is least when upright grows nowhere

@@ -27,8 +27,8 @@ from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.closing import close_bars
+from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.exact.written_out import right_hand_side
 from lagrotor.structures.leaning import constraint_tangents
 from lagrotor.structures.small_motion import check_upright, first_largest, modes
 

@@ -11,8 +11,17 @@ import pytest
 
 from lagrotor import Scene
 from lagrotor.benchmark import runner as measure
-from lagrotor.benchmark.chart_constants import SAMPLE
-from lagrotor.benchmark.runner import Case, ChartPoint, Failure, Method, benchmark, failure_sentences, front, work_at
+from lagrotor.benchmark.runner import (
+    SAMPLE,
+    Case,
+    ChartPoint,
+    Failure,
+    Method,
+    benchmark,
+    failure_sentences,
+    front,
+    work_at,
+)
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
 from lagrotor.commands.benchmark_commands import chart_data, chart_tables
 from lagrotor.errors import LagrotorError

@@ -12,9 +12,8 @@ from benchmarks.mechanisms import comparison, deciding
 from lagrotor import Scene
 from lagrotor.benchmark import throughput
 from lagrotor.benchmark.limits import coordinate_singularities, error_map, numerical_drift, range_of_validity, step_size
-from lagrotor.benchmark.runner import Case, Method, benchmark, reference
+from lagrotor.benchmark.runner import Case, Method, benchmark, check_work, reference
 from lagrotor.benchmark.scenes_and_methods import CASES, METHODS
-from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import LagrotorError
 from lagrotor.models import paper_system
 from lagrotor.pair import DAMPING, LIGHT, STIFFNESS

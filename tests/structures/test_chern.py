@@ -15,7 +15,7 @@ from lagrotor.structures import (
     straight_row,
     way_round,
 )
-from lagrotor.structures.waves.bloch import bloch
+from lagrotor.structures.waves.dispersion import bloch
 
 SPRINGS = {"spring": 50.0, "hinge": 200.0}
 BARS = {"move": (0.3, 0.3), "hinge": 200.0}

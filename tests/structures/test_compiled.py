@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lagrotor import Brace, Link, Structure
+from lagrotor import Brace, Structure
 from lagrotor.errors import InputError, IntegrationError, LagrotorWarning
 from lagrotor.structures import exact_motion
 from lagrotor.structures.exact import compiled_motion
+from lagrotor.structures.exact.compiled_motion import structure_accelerations
 from lagrotor.structures.exact.exact_motion import LineWatch
-from lagrotor.structures.exact.written_out import structure_accelerations
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from tests.structures.test_exact_motion import LOADED, nine, started
@@ -78,18 +78,6 @@ def test_a_run_of_any_structure_is_that_of_the_core(heyoka, s, tol) -> None:
     assert same(s, tol)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("link", [Link(), Link(1, 0.3, 0.1)], ids=["massless", "heavy"])
-def test_a_chain_of_4096_rotors_runs(heyoka, link) -> None:
-    from tests.structures.test_cost import chain
-
-    s = chain(4096, link)
-    rates = np.zeros((4096, 2))
-    rates[:2] = 1e-3
-    fast, core = (s.simulate([0.0, 0.05], rates=rates, tol=1e-6, engine=engine) for engine in ("fast", "core"))
-    assert np.abs(fast.axes - core.axes).max() < 1e-10 and np.abs(fast.axes[0, 1, :2]).max() > 1e-5
-
-
 def test_the_compiled_right_hand_side_is_that_of_the_exact_motion(heyoka) -> None:
     s = replace(LOADED["a braced corner of unequal rotors"], spin_friction=0.4)
     motion = exact_motion(s, lambda t: np.full((3, 3), np.cos(t)), lambda t: np.array([np.sin(t), 0.1, 0.2]))
@@ -98,39 +86,6 @@ def test_the_compiled_right_hand_side_is_that_of_the_exact_motion(heyoka) -> Non
     found = compiled_motion.compiled_right_hand_side(s, motion)(0.7, y)
     assert np.abs(found - motion.rhs(0.7, y)).max() < 1e-12 * np.abs(found).max()
     assert np.abs(found - motion.rhs(0.8, y)).max() > 1e-4
-
-
-LINES = {  # a chain numbered at random, braced; a ring; two chains and a rotor alone, driven
-    "chain": Structure(
-        [(0, 0), (3, 0), (1, 0), (4, 1), (2, 0)], [(0, 2), (4, 2), (1, 4), (1, 3)], braces=[Brace(0, 3, 9, 1)]
-    ),
-    "ring": Structure([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)], link=Link(1, 0.3, 0.1)),
-    "two": Structure(
-        [(k, 0.1 * k * k) for k in range(6)], [(0, 1), (2, 3), (3, 4)], hinge=1, link=Link(1, 0.3), spin_friction=0.4
-    ),
-}
-
-
-@pytest.mark.parametrize("name", LINES)
-def test_so_is_that_in_segments(heyoka, name: str, monkeypatch) -> None:
-    monkeypatch.setattr(compiled_motion, "LENGTH", 2)
-    N, driven = len(LINES[name].joints), name == "two"
-    s = replace(LINES[name], spins=[3.0 * k - 4 for k in range(N)], gravity=2, friction=0.3)
-    motion = exact_motion(s, *[lambda t: np.full((N, 3), np.cos(t)), lambda t: np.array([t, 0.1, 0])] * driven)
-    r, v = np.random.default_rng(4).standard_normal((2, N, 3))
-    y = np.concatenate([(r / np.linalg.norm(r, axis=1, keepdims=True)).ravel(), v.ravel()])
-    found = compiled_motion.right_hand_side_in_segments(motion)(0.7, y)
-    assert np.abs(found - motion.rhs(0.7, y)).max() < 1e-12 * np.abs(found).max()
-    assert np.abs(found - motion.rhs(0.8, y)).max() > 1e-4 or not driven
-
-
-def test_a_singular_position_gives_nan_in_segments(heyoka) -> None:
-    motion = exact_motion(Structure([(0, 0), (1, 0)], [(0, 1)]))
-    rhs, y = compiled_motion.right_hand_side_in_segments(motion), np.zeros(12)
-    y[[2, 5]] = 1
-    assert np.isfinite(rhs(0.0, y)).all()
-    y[:6] = [1, 0, 0, 1, 0, 0]
-    assert not np.isfinite(rhs(0.0, y)).all()
 
 
 def test_a_driven_run_of_the_fast_extra_is_that_of_the_core(heyoka) -> None:
@@ -145,12 +100,15 @@ def test_an_engine_that_is_none_is_refused() -> None:
         Structure([(0, 0)], spins=20).simulate([0.0, 1.0], engine="quick")
 
 
-def test_a_wide_grid_is_refused() -> None:
+def test_more_rotors_than_compile_in_half_a_minute_are_refused() -> None:
     L = 16
     bars = [(i, i + 1) for i in range(L * L) if i % L < L - 1] + [(i, i + L) for i in range(L * L - L)]
-    s = Structure([(i % L, i // L) for i in range(L * L)], bars, 20.0, braces=[Brace(0, 1, 1.0)])
-    with pytest.raises(InputError, match=r"up to 100 rotors .*, not of 256"):
-        s.simulate([0.0, 1.0], engine="fast")
+    net = Structure([(i % L, i // L) for i in range(L * L)], bars, 20.0, braces=[Brace(0, 1, 1.0)])
+    with pytest.raises(InputError, match=r"nets of up to 100, not 256 rotors: use engine='core'"):
+        net.simulate([0.0, 1.0], engine="fast")
+    row = Structure([((k + 1) // 2, k // 2) for k in range(513)], [(k, k + 1) for k in range(512)], 10.0)
+    with pytest.raises(InputError, match=r"up to 512 rotors and nets .*, not 513 rotors: use engine='core'"):
+        row.simulate([0.0, 1.0], engine="fast")
 
 
 @pytest.mark.parametrize(("engine", "tol"), [("core", 1e-2), ("core", 1e-6), ("fast", 1e-6)])

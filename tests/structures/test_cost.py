@@ -8,10 +8,8 @@ import pytest
 
 from lagrotor import Link, Structure
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact import compiled_motion
-from lagrotor.structures.exact.forces import pulls
-from lagrotor.structures.exact.saddle import saddle
-from lagrotor.structures.exact.written_out import eliminate_in_levels, structure_accelerations
+from lagrotor.structures.exact.compiled_motion import eliminate_in_levels, structure_accelerations
+from lagrotor.structures.exact.exact_motion import pulls, saddle
 
 SIZES = (64, 512, 4096)
 
@@ -87,23 +85,6 @@ def test_a_long_chain_moves() -> None:
     assert np.ptp(run.link_length) < 1e-12
 
 
-def segments_of(s: Structure) -> tuple[set[int], float]:
-    """The programs of its segments, and how many numbers they give an evaluation and a rotor."""
-    groups = compiled_motion._groups(exact_motion(s), False)
-    given = sum(g.unknowns.shape[1] * (g.programs.forward.nouts + g.programs.back.nouts) for g in groups)
-    return {id(g.programs) for g in groups}, given / len(s.joints)
-
-
-@pytest.mark.parametrize("shape", [chain, ring])
-def test_a_long_one_is_more_of_the_same_segments(shape) -> None:
-    """The same programs for any number, which give as many numbers a rotor. Twin: heavy bars take others, and more."""
-    pytest.importorskip("heyoka", reason="the fast extra is not installed")
-    (few, work), (many, more) = (segments_of(shape(n, Link())) for n in (1024, 4096))
-    assert few == many and more == pytest.approx(work, rel=1e-3)
-    heavy, dearer = segments_of(shape(1024, Link(1, 0.3, 0.1)))
-    assert heavy.isdisjoint(few) and dearer > 1.1 * work
-
-
 class Counted:
     """A number that counts what is done to it."""
 
@@ -151,7 +132,7 @@ def test_the_operations_of_an_evaluation_grow_at_most_2_2_times_a_doubling(shape
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", [chain, ring])
 def test_they_do_up_to_512_rotors(shape) -> None:
-    """Beyond, a chain is solved in compiled_motion."""
+    """The fast extra compiles no more."""
     assert max(ratios(shape, Link(), range(3, 10))) < 2.2
 
 
@@ -179,9 +160,7 @@ def test_in_a_chain_operations_wait_for_log_n_others() -> None:
     """What waits compiles slowly. Solved from one end to the other, a chain of 1,024 would wait 64 times as long as of 16."""
 
     def longest(n: int) -> int:
-        found = eliminate_in_levels([Depth()] * n, {(k, k + 1): Depth() for k in range(n - 1)}, [Depth()] * n, n).solve(
-            {}
-        )
+        found = eliminate_in_levels([Depth()] * n, {(k, k + 1): Depth() for k in range(n - 1)}, [Depth()] * n, n)
         return max(each.depth for each in found)
 
     assert longest(1024) < 3 * longest(16)
@@ -189,7 +168,7 @@ def test_in_a_chain_operations_wait_for_log_n_others() -> None:
 
 def test_a_constraint_is_not_eliminated_before_what_it_holds() -> None:
     """A point of mass 2 on a line: its constraint has the fewest neighbours, and no pivot of its own."""
-    x = eliminate_in_levels([2.0, 2.0, 0.0], {(0, 1): 0.5, (0, 2): 1.0}, [1.0, 1.0, 0.0], 2).solve({})
+    x = eliminate_in_levels([2.0, 2.0, 0.0], {(0, 1): 0.5, (0, 2): 1.0}, [1.0, 1.0, 0.0], 2)
     assert x == pytest.approx([0, 0.5, 0.75])
     with pytest.raises(ZeroDivisionError):
-        eliminate_in_levels([2.0, 2.0, 0.0], {(0, 1): 0.5, (0, 2): 1.0}, [1.0, 1.0, 0.0], 3).solve({})
+        eliminate_in_levels([2.0, 2.0, 0.0], {(0, 1): 0.5, (0, 2): 1.0}, [1.0, 1.0, 0.0], 3)

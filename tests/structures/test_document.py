@@ -8,7 +8,7 @@ from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.structures import GALLERY, example, read_structure, write_structure
-from lagrotor.structures.document import structure_of, toml_of
+from lagrotor.structures.structure import structure_of, toml_of
 
 STANDS = {
     "top": True, "pair": False, "loaded-pair": False, "braced-pair": True, "corner": True, "row": False, "square": True,

@@ -12,7 +12,7 @@ from lagrotor import Brace, Link, Rotor, Scene, Structure, simulate
 from lagrotor.errors import InputError, LagrotorWarning, SingularError
 from lagrotor.numerics import estimated_run
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact.written_out import right_hand_side
+from lagrotor.structures.exact.compiled_motion import right_hand_side
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from tests.structures.oracle import accelerations_by_energies, by_lagrange

@@ -35,7 +35,6 @@ def test_what_it_leaves_of_exact_orbits_is_of_fourth_order() -> None:
         apart = np.abs(np.subtract.outer(orbit.multipliers[2:], law.multipliers_at(tilt))).min(1).max()
         symmetric = law.rate + law.shift * tilt**2  # twin: without what the tilt is off the amplitude
         left.append((abs(rate - law.rate_at(tilt)), apart, abs(rate - symmetric)))
-        assert law.errors_at(tilt) == pytest.approx(left[-1][:2], rel=0.05)
     orders = [measured_order(tilts, part) for part in zip(*left, strict=True)]
     assert orders == pytest.approx([4, 4, 3], abs=0.1)
 

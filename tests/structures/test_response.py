@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from lagrotor import Brace, Link, Rotor, Structure
+from lagrotor import Brace, Link, Rotor, Structure, structures
 from lagrotor.errors import DomainError, InputError
-from lagrotor.structures import absorbers
 
 HELD = {"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)], "gravity": 9.81, "load": [1, 0, 2], "hinge": 60.0}
 SHAKEN = Structure(
@@ -68,15 +67,15 @@ def weighted(w, mu, f2, zeta):
     return 1 / (1 - w**2 - mu * w**2 * own / (own - w**2))
 
 
-WORST_CASES = [(absorbers.spins_worst_case, transfer, x) for x in (0.05, 0.3, 1.0, 1.35)]
-WORST_CASES += [(absorbers.mass_worst_case, weighted, x) for x in (0.004, 0.1, 3.0)]
+WORST_CASES = [(structures.spins_worst_case, transfer, x) for x in (0.05, 0.3, 1.0, 1.35)]
+WORST_CASES += [(structures.mass_worst_case, weighted, x) for x in (0.004, 0.1, 3.0)]
 
 
 @pytest.mark.parametrize(("law", "response", "ratio"), WORST_CASES)
 def test_the_worst_case_is_the_peak_and_no_other_is_lower(law, response, ratio) -> None:
     from scipy.optimize import minimize
 
-    best, width = law(ratio), ratio if law is absorbers.spins_worst_case else np.sqrt(ratio)
+    best, width = law(ratio), ratio if law is structures.spins_worst_case else np.sqrt(ratio)
     rates = np.linspace(max(1e-4, 1 - 3 * width), 1 + 3 * width, 6_001)
 
     def peak(x):
@@ -95,15 +94,15 @@ def test_fixed_points_bound_the_worst_case_from_below() -> None:
     """By γ²/64 and μ/64 of Den Hartog's height."""
     ratio = np.array([0.02, 0.04])
     for above in (
-        absorbers.spins_worst_case(ratio).value / (np.sqrt(2) / ratio) - 1,
-        absorbers.mass_worst_case(ratio**2).value / np.sqrt(1 + 2 / ratio**2) - 1,
+        structures.spins_worst_case(ratio).value / (np.sqrt(2) / ratio) - 1,
+        structures.mass_worst_case(ratio**2).value / np.sqrt(1 + 2 / ratio**2) - 1,
     ):
         assert above / ratio**2 == pytest.approx(1 / 64, rel=0.01)
 
 
 @pytest.mark.parametrize("gamma", [0.05, 0.3, 1.0])
 def test_the_mean_square_is_at_its_least(gamma) -> None:
-    best = absorbers.spins_white_noise(gamma)
+    best = structures.spins_white_noise(gamma)
 
     def mean(f2, zeta):
         rate = np.tan((np.arange(20_000) + 0.5) * np.pi / 40_000)  # 0 … infinity, equal steps of the angle
@@ -116,17 +115,17 @@ def test_the_mean_square_is_at_its_least(gamma) -> None:
 
 @pytest.mark.parametrize("mu", [0.005, 0.02, 0.1])
 def test_spins_and_mass_are_even_where_it_is_said(mu) -> None:
-    worst, noise = absorbers.spins_win_worst_case(mu), absorbers.spins_win_white_noise(mu)
-    assert absorbers.spins_worst_case(worst).value == pytest.approx(absorbers.mass_worst_case(mu).value)
-    assert absorbers.spins_white_noise(noise).value == pytest.approx(np.sqrt((4 + 3 * mu) / (mu * (1 + mu))))
-    assert absorbers.spins_worst_case(1.01 * worst).value < absorbers.mass_worst_case(mu).value
+    worst, noise = structures.spins_win_worst_case(mu), structures.spins_win_white_noise(mu)
+    assert structures.spins_worst_case(worst).value == pytest.approx(structures.mass_worst_case(mu).value)
+    assert structures.spins_white_noise(noise).value == pytest.approx(np.sqrt((4 + 3 * mu) / (mu * (1 + mu))))
+    assert structures.spins_worst_case(1.01 * worst).value < structures.mass_worst_case(mu).value
 
 
 def test_a_domain_is_kept() -> None:
     for function, value in (
-        (absorbers.spins_worst_case, 1.5),
-        (absorbers.spins_white_noise, 0),
-        (absorbers.mass_worst_case, -1),
+        (structures.spins_worst_case, 1.5),
+        (structures.spins_white_noise, 0),
+        (structures.mass_worst_case, -1),
     ):
         with pytest.raises(DomainError):
             function(value)

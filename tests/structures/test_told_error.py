@@ -12,7 +12,7 @@ from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.numerics import estimated_run
 from lagrotor.structures import exact_motion
 from lagrotor.structures.exact.closing import start_state
-from lagrotor.structures.exact.written_out import right_hand_side
+from lagrotor.structures.exact.compiled_motion import right_hand_side
 from tests.structures.extended import exact
 
 PLANS = (

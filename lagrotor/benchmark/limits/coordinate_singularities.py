@@ -6,8 +6,8 @@ from math import cos, sin, sqrt
 import numpy as np
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
+from lagrotor.benchmark.runner import check_work
 from lagrotor.benchmark.scipy_solvers import run_by
-from lagrotor.benchmark.work_check import check_work
 from lagrotor.errors import IntegrationError
 from lagrotor.models import euler, minimal, spheres
 from lagrotor.models.minimal import scenes_from_states

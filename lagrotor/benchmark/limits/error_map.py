@@ -5,7 +5,7 @@ from math import pi
 
 import numpy as np
 
-from lagrotor.benchmark.work_check import check_work
+from lagrotor.benchmark.runner import check_work
 from lagrotor.errors import InputError
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.sweeps.ensemble import sweep

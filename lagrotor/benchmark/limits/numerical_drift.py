@@ -6,8 +6,8 @@ from math import pi
 import numpy as np
 
 from lagrotor.benchmark.limits.threshold import Limit
+from lagrotor.benchmark.runner import check_work
 from lagrotor.benchmark.scipy_solvers import run_by
-from lagrotor.benchmark.work_check import check_work
 from lagrotor.models import spheres
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.shooting import exact_orbit

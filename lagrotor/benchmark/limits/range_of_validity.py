@@ -7,7 +7,7 @@ from math import exp, log, pi
 import numpy as np
 
 from lagrotor.benchmark.limits.threshold import Limit, threshold
-from lagrotor.benchmark.work_check import check_work
+from lagrotor.benchmark.runner import check_work
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import integrate_model
 from lagrotor.models.orbits.floquet import floquet_of

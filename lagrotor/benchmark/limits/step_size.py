@@ -10,7 +10,7 @@ from lagrotor.benchmark.limits.coordinate_singularities import euler_limits, joi
 from lagrotor.benchmark.limits.numerical_drift import drift_limits, long_limits
 from lagrotor.benchmark.limits.range_of_validity import amplitude_limits, horizon_limits, spin_limits
 from lagrotor.benchmark.limits.threshold import Limit
-from lagrotor.benchmark.work_check import check_work
+from lagrotor.benchmark.runner import check_work
 from lagrotor.errors import LagrotorWarning
 from lagrotor.models.spring_link.rigid_body import RigidBody
 from lagrotor.models.spring_link.run import run_steps

@@ -7,8 +7,7 @@ from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
-from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.exact.forces import off_constraints, pulls, stretches
+from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion, off_constraints, pulls, stretches
 
 _DENSE = 400  # unknowns up to which ranks are found by singular values
 _DEPENDENT = 1e-9  # of the largest: a smaller singular value (beyond _DENSE: pivot) is zero

@@ -6,34 +6,237 @@ with |r_i|² = 1 and |X_j − X_i|² = ell² (X_i = p_i + R_i r_i), f_i the forc
 equations are those in the ground's frame. The hinge's energy is kappa theta²/2, friction is −c r_i', and the axial momentum
 decays by its own friction, G_i(t) = G_i exp(−c_s t / I3). For N = 2 without load: `lagrotor.models.spheres`.
 
+Every evaluation solves one linear system, the masses bordered by the gradients of the constraints, at linear cost:
+
+    [ A⊗1  Gᵀ ] [ r''  ]   [ F ]      G: rows r_i (unit length) and ∓ R d (a bar, d from tip to tip)
+    [ G    0  ] [ lam  ] = [ c ]
+
+The unknowns of a rotor and of its bars stand together, the rotors in the order of reverse Cuthill and McKee (1969), so that
+chains and rings give a narrow band whatever their length: LU with pivoting in the band (LAPACK's gbsv). Where the band is
+wide (grids), sparse LU.
+
 Where a bar is in line with both its axes the constraints are dependent: the motion has no unique continuation, and an integrator
 that steps over the place goes on along one of them without notice. The direction of the bar across an axis, d × r, turns round
 where the two are in line. If it turns round at both ends from one state of a run to the next, the place lies between them.
+
+In the functions of forces and constraints r and v are the axes and their rates, (N, 3), 1/s, and G the axial momenta (N,). They
+are arrays of floats, or of objects: symbols, or numbers that record or are compiled, whose square roots `root` takes.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import lru_cache
+from math import comb
 from typing import Any
 
 import numpy as np
 
 from lagrotor.numerics.segment import RightHandSide, StopError
 from lagrotor.structures.assembly import Assembly
-from lagrotor.structures.coefficients import Array, Coefficients, coefficients
-from lagrotor.structures.exact.forces import (
-    along_bars,
-    cross_product,
-    forces,
-    off_constraints,
-    pulls,
-    rates_of_constraints,
-    right_side,
-    stretches,
-)
-from lagrotor.structures.exact.saddle import Saddle, saddle
+from lagrotor.structures.coefficients import Array, Coefficients, Index, coefficients
 
+_NEXT, _AFTER = [1, 2, 0], [2, 0, 1]
+_TERMS = 17  # of the series of the arc sine, which leave 4e-14 where an axis hangs down, 1e-16 below 2 rad
+Root = Callable[[Array], Array]
 Drive = Callable[[float], Array]
+_WIDEST = 60  # half bandwidth beyond which sparse LU is faster
 _ROWS = 1_000  # of the systems that are solved together
+
+
+def cross_product(a: Array, b: Array) -> Array:
+    """a × b, (…, 3)."""
+    return a[..., _NEXT] * b[..., _AFTER] - a[..., _AFTER] * b[..., _NEXT]
+
+
+def forces(c: Coefficients, r: Array, v: Array, G: Array, root: Root = np.sqrt) -> Array:
+    """What spins, friction, weight, hinges and braces exert on the axes, (N, 3), N m."""
+    F = G[:, None] * cross_product(r, v)
+    if c.friction.any():
+        F = F - c.friction[:, None] * v
+    if c.gravity:
+        F[:, 2] -= c.gravity * c.S
+    if c.hinge.any():
+        F[:, 2] += c.hinge * _angle_by_sine(r, root)
+    return F + brace_forces(c, r, v, root) if len(c.stiffness) else F
+
+
+def brace_forces(c: Coefficients, r: Array, v: Array, root: Root = np.sqrt) -> Array:
+    """What braces exert on the axes, (N, 3), N m."""
+    tip, joined = c.brace_tip, c.brace_to >= 0
+    other, F = c.brace_to[joined], np.zeros_like(r)
+    swing = c.R[tip, None] * v[tip]
+    swing[joined] -= c.R[other, None] * v[other]
+    along, stretch = stretches(c, r, root)
+    pull = (c.stiffness * stretch + c.damping * (along * swing).sum(1))[:, None] * along
+    np.subtract.at(F, tip, c.R[tip, None] * pull)
+    np.add.at(F, other, c.R[other, None] * pull[joined])
+    return F
+
+
+def stretches(c: Coefficients, r: Array, root: Root = np.sqrt) -> tuple[Array, Array]:
+    """Along which unit vectors the braces pull, (…, braces, 3), and by how much they are longer, m; r (…, N, 3)."""
+    joined = c.brace_to[:, None] >= 0
+    foot = np.where(joined, c.feet[c.brace_to], c.brace_point)
+    d = c.feet[c.brace_tip] - foot + (c.R[c.brace_tip, None] * r[..., c.brace_tip, :])
+    d = d - np.where(joined, c.R[c.brace_to, None], 0.0) * r[..., c.brace_to, :]
+    guided, length = np.any(c.brace_along, axis=1), root((d * d).sum(-1))
+    along = np.where(guided[:, None], c.brace_along, d / np.where(guided, 1.0, length)[..., None])
+    return along, np.where(guided, (along * d).sum(-1), length) - c.brace_length
+
+
+def _angle_by_sine(r: Array, root: Root) -> Any:
+    """theta / sin(theta), regular where an axis is upright.
+
+    Where square roots are all there is: theta = 8 b, and b / sin(b) is the arc sine's series in sin(b)²;
+    sin(8 b) = 8 sin(b) cos(b) cos(2 b) cos(4 b).
+    """
+    if root is np.sqrt:
+        return 1 / np.sinc(np.arctan2(np.hypot(r[:, 0], r[:, 1]), r[:, 2]) / np.pi)
+    half = root((1.0 + r[:, 2]) / 2.0)
+    quarter = root((1.0 + half) / 2.0)
+    square, series = (1.0 - quarter) / 2.0, 0.0
+    for n in reversed(range(_TERMS)):
+        series = series * square + comb(2 * n, n) / 4**n / (2 * n + 1)
+    return series / (half * quarter * root((1.0 + quarter) / 2.0))
+
+
+def along_bars(c: Coefficients, r: Array) -> Array:
+    """d from tip i to tip j of the bars, m, (…, B, 3); r (…, N, 3)."""
+    return c.feet[c.j] - c.feet[c.i] + _swing(c, r)
+
+
+def _swing(c: Coefficients, v: Array) -> Array:
+    """d' of the bars."""
+    return c.R[c.j, None] * v[..., c.j, :] - c.R[c.i, None] * v[..., c.i, :]
+
+
+def pulls(c: Coefficients, r: Array) -> tuple[Array, Array]:
+    """−R_i d and R_j d of the bars (…, B, 3): half the gradients of |d|²; r (…, N, 3)."""
+    d = along_bars(c, r)
+    return -c.R[c.i, None] * d, c.R[c.j, None] * d
+
+
+def off_constraints(c: Coefficients, r: Array) -> Array:
+    """How far the constraints are from zero, [|r|² − 1 (N), |d|² − ell² (B)], halved, (…, N + B); r (…, N, 3)."""
+    d = along_bars(c, r)
+    return np.concatenate([(r * r).sum(-1) - 1, (d * d).sum(-1) - c.ell**2], axis=-1) / 2
+
+
+def rates_of_constraints(c: Coefficients, r: Array, v: Array) -> Array:
+    """Their rates, [r · r', d · d'], (…, N + B)."""
+    return np.concatenate([(r * v).sum(-1), (along_bars(c, r) * _swing(c, v)).sum(-1)], axis=-1)
+
+
+def right_side(c: Coefficients, F: Array, v: Array) -> Array:
+    """Of the equations for [r'' (3 N), multipliers of the axes (N) and of the bars (B)], with F (N, 3) on the axes."""
+    swing = _swing(c, v)
+    return np.concatenate([F.ravel(), -(v * v).sum(1), -(swing * swing).sum(1)])
+
+
+@dataclass(frozen=True, eq=False)
+class Saddle:
+    """Where the entries stand. order (n,): from [r'' (3 N), lam (N), bars (B)] to rows; band: half bandwidth.
+
+    base: the entries that do not change, at `fixed`; `moving`: places of r, and of the two ends' R d, each twice.
+    """
+
+    order: Index
+    band: int
+    fixed: tuple[Index, Index, Array]
+    moving: tuple[Index, Index]
+    base: Array
+    places: Index
+
+    def solve(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
+        """The unknowns (s, n, k) of s states with axes r (s, N, 3), gradients of the bars by r_i and r_j (s, B, 3), and right
+        sides (s, n, k).
+
+        A singular system gives NaN, for its own state only.
+        """
+        states, n, k = right.shape
+        entries = np.concatenate([each.reshape(states, -1) for each in (r, *pulls)], axis=1)
+        b = np.empty_like(right)
+        b[:, self.order] = right
+        if self.band > _WIDEST:
+            x = np.array([self._solve_sparse(*each) for each in zip(entries, b, strict=True)]).reshape(right.shape)
+        else:
+            ab = np.repeat(self.base.reshape(1, -1), states, axis=0)
+            ab[:, self.places] = np.concatenate([entries, entries], axis=1)
+            x = in_band(self.band, ab.reshape(states * n, -1), b.reshape(-1, k).copy()).reshape(right.shape)
+            if states > 1 and not np.isfinite(x).all():  # one of them is singular, and they were solved as one
+                each = (slice(i, i + 1) for i in range(states))
+                return np.concatenate([self.solve(r[i], (pulls[0][i], pulls[1][i]), right[i]) for i in each])
+        return np.asarray(x[:, self.order])
+
+    def _solve_sparse(self, entries: Array, b: Array) -> Array:
+        from scipy.sparse import csc_matrix
+        from scipy.sparse.linalg import splu
+
+        rows, columns = (np.concatenate([self.fixed[k], self.moving[k]]) for k in (0, 1))
+        values = np.concatenate([self.fixed[2], entries, entries])
+        n = len(self.order)
+        try:
+            return np.asarray(splu(csc_matrix((values, (rows, columns)), shape=(n, n))).solve(b))
+        except RuntimeError:  # exactly singular
+            return np.full_like(b, np.nan)
+
+
+@lru_cache(maxsize=64)
+def saddle(s: Assembly) -> Saddle:
+    """The pattern of a structure's linear system."""
+    c = coefficients(s)
+    N, B = len(c.R), len(c.i)
+    order = _order(N, c.i, c.j)
+    axis = np.arange(3 * N).reshape(N, 3)
+    unit, bar = 3 * N + np.arange(N), 4 * N + np.arange(B)
+    heavy = c.coupling != 0
+    i, j = axis[c.i[heavy]], axis[c.j[heavy]]
+    rows = np.concatenate([axis.ravel(), i.ravel(), j.ravel()])
+    columns = np.concatenate([axis.ravel(), j.ravel(), i.ravel()])
+    off = np.repeat(c.coupling[heavy], 3)
+    values = np.concatenate([np.repeat(c.A, 3), off, off])
+    across = np.concatenate([axis.ravel(), axis[c.i].ravel(), axis[c.j].ravel()])
+    down = np.concatenate([np.repeat(unit, 3), np.repeat(bar, 3), np.repeat(bar, 3)])
+    fixed = order[rows], order[columns], values
+    moving = order[np.concatenate([across, down])], order[np.concatenate([down, across])]
+    band = int(max(np.abs(fixed[0] - fixed[1]).max(), np.abs(moving[0] - moving[1]).max()))
+    width = 3 * band + 1
+    base = np.zeros((len(order), width) if band <= _WIDEST else (0, width))
+    if len(base):
+        base[fixed[1], 2 * band + fixed[0] - fixed[1]] = values
+    places = moving[1] * width + 2 * band + moving[0] - moving[1]
+    return Saddle(order, band, fixed, moving, base, places)
+
+
+def _order(N: int, i: Index, j: Index) -> Index:
+    """Row of each unknown: rotors as reverse Cuthill–McKee orders them, a bar between its two rotors."""
+    place = narrow_order(N, i, j)
+    key = np.concatenate([np.repeat(place, 3).astype(float), place, (place[i] + place[j]) / 2])
+    order = np.empty(len(key), dtype=np.intp)
+    order[np.argsort(key, kind="stable")] = np.arange(len(key))
+    return order
+
+
+def narrow_order(N: int, i: Index, j: Index) -> Index:
+    """Place of each of N that are joined by the pairs i, j, in the order of reverse Cuthill and McKee."""
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+    graph: Any = csr_matrix((np.ones(2 * len(i)), (np.concatenate([i, j]), np.concatenate([j, i]))), shape=(N, N))
+    place = np.empty(N, dtype=np.intp)
+    place[reverse_cuthill_mckee(graph, symmetric_mode=True)] = np.arange(N)
+    return place
+
+
+def in_band(band: int, ab: Array, b: Array) -> Array:
+    """The solution for the right side b of a band, entry (i, j) of it at ab[j, 2 band + i − j]; NaN where it is singular.
+
+    Overwrites ab and b.
+    """
+    from scipy.linalg.lapack import dgbsv
+
+    _, _, x, info = dgbsv(band, band, ab.T, b, overwrite_ab=1, overwrite_b=1)
+    return np.full_like(b, np.nan) if info else x
 
 
 @dataclass(frozen=True, eq=False)

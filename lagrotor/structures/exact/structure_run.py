@@ -19,8 +19,8 @@ from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.closing import start_state
+from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, LineWatch, bar_in_line, exact_motion
-from lagrotor.structures.exact.written_out import right_hand_side
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -18,9 +18,8 @@ from lagrotor.errors import InputError
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.exact.structure_run import StructureRun
 from lagrotor.structures.structure import Structure
-from lagrotor.structures.waves.bloch import Bloch, bloch
 from lagrotor.structures.waves.cell import Cell
-from lagrotor.structures.waves.dispersion import Dispersion, dispersion
+from lagrotor.structures.waves.dispersion import Bloch, Dispersion, bloch, dispersion
 
 _APART = 1e-6  # of the highest rate: bands nearer to each other at some wave number belong to one group
 _STARTS = 4  # local minima of a grid that are followed

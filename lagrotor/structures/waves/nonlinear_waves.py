@@ -28,9 +28,8 @@ from lagrotor.shown import Shown
 from lagrotor.structures.coefficients import Array, Coefficients, Complex
 from lagrotor.structures.exact.structure_run import StructureRun
 from lagrotor.structures.upright_hamiltonian import Row, axis_of, combined, on_bars, over_length, potential_of, turned
-from lagrotor.structures.waves.bloch import Bloch, bloch, cell_coefficients
 from lagrotor.structures.waves.cell import Cell
-from lagrotor.structures.waves.dispersion import dispersion
+from lagrotor.structures.waves.dispersion import Bloch, bloch, cell_coefficients, dispersion
 
 _ZERO = 1e-9  # of the largest: what is smaller is none
 _POINTS = 181  # wave numbers between which triads are sought
