@@ -77,7 +77,7 @@ def heavy_top() -> System:
 
 def kepler(dimensions: int = 3) -> System:
     """Return a mass m in the potential −k/r."""
-    c = coordinates("x y z".split()[:dimensions])
+    c = coordinates(["x", "y", "z"][:dimensions])
     return System(c, m * sum(v**2 for v in c.v) / 2 + k / sp.sqrt(sum(q**2 for q in c.q)))
 
 

@@ -27,8 +27,9 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.equations import degrees_of_freedom as degrees_of_freedom
     from lagrotor.mechanics.equations import reaction as reaction
     from lagrotor.mechanics.equilibria import Equilibrium as Equilibrium
-    from lagrotor.mechanics.exponents import characteristic_exponents as characteristic_exponents
     from lagrotor.mechanics.fourier import FourierSeries as FourierSeries
+    from lagrotor.mechanics.fourier import GrowingSeries as GrowingSeries
+    from lagrotor.mechanics.fourier import Unknowns as Unknowns
     from lagrotor.mechanics.lagrangian import Coordinates as Coordinates
     from lagrotor.mechanics.lagrangian import accelerations as accelerations
     from lagrotor.mechanics.lagrangian import bias as bias
@@ -41,9 +42,6 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.lagrangian import total_derivative as total_derivative
     from lagrotor.mechanics.linear_modes import LinearSystem as LinearSystem
     from lagrotor.mechanics.linear_modes import Mode as Mode
-    from lagrotor.mechanics.order_by_order import GrowingSeries as GrowingSeries
-    from lagrotor.mechanics.order_by_order import Unknowns as Unknowns
-    from lagrotor.mechanics.perturbation import lindstedt_poincare as lindstedt_poincare
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix as MonodromyMatrix
     from lagrotor.mechanics.running.programs import motion_program as motion_program
     from lagrotor.mechanics.running.root_loci import RootLocus as RootLocus
@@ -58,5 +56,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.systems import System as System
     from lagrotor.mechanics.weakly_nonlinear import AveragedMotion as AveragedMotion
     from lagrotor.mechanics.weakly_nonlinear import Oscillation as Oscillation
+    from lagrotor.mechanics.weakly_nonlinear import characteristic_exponents as characteristic_exponents
+    from lagrotor.mechanics.weakly_nonlinear import lindstedt_poincare as lindstedt_poincare
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -206,7 +206,7 @@ def test_lagrangians_that_differ_by_a_factor_or_a_derivative_are_the_same_system
 
 def test_what_moves_otherwise_is_refuted_at_a_point_before_anything_is_inverted(monkeypatch) -> None:
     """By enclosures that are apart: the witness is a state at which the accelerations differ."""
-    monkeypatch.setattr("lagrotor.mechanics.sameness.constrained_accelerations", None)
+    monkeypatch.setattr("lagrotor.mechanics.symmetry.constrained_accelerations", None)
     c = coordinates("a b d")
     turned = [sum(c.v[: i + 1]) * sp.cos(sum(c.q[: i + 1])) for i in range(3)]
     L = sum(v**2 for v in c.v) + sum(turned) ** 2 - m * sp.cos(sum(c.q))
@@ -221,7 +221,7 @@ def test_mass_matrices_too_large_to_be_inverted_are_undecided(monkeypatch) -> No
     L, other = sum(v**2 for v in c.v), c.v[0] ** 2 + 2 * c.v[1] ** 2 + 3 * c.v[2] ** 2
     assert System(c, L).same_as(System(c, other)).answer == "zero"
     for name, value in (("_MOST", 2), ("_MOST_OPERATIONS", -1)):
-        monkeypatch.setattr(f"lagrotor.mechanics.sameness.{name}", value)
+        monkeypatch.setattr(f"lagrotor.mechanics.symmetry.{name}", value)
     decision = System(c, L).same_as(System(c, other))
     assert decision.answer == "undecided" and "too large" in decision.reason
 

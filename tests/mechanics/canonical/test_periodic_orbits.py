@@ -12,9 +12,9 @@ from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics import System, coordinates, map_normal_form, t
-from lagrotor.mechanics.canonical import periodic_orbits
-from lagrotor.mechanics.canonical.jets import jet_space
+from lagrotor.mechanics.canonical import return_maps
 from lagrotor.mechanics.canonical.polynomials import linear_form, poisson_bracket, polynomial, variable
+from lagrotor.mechanics.canonical.taylor_series import jet_space
 from lagrotor.numerics import measured_order
 
 R = sp.Rational
@@ -272,11 +272,11 @@ def test_a_pulse_by_which_an_oscillator_is_driven_is_not_passed_over(monkeypatch
     def off(s):
         pulse = 3 / (width * sp.sqrt(sp.pi)) * sp.exp(-((sp.sin((t - s) * sp.pi / 7) * 7 / sp.pi / width) ** 2))
         H, rest = p**2 / 2 + (1 + pulse) * x**2 / 2, {x: 0, p: 0, t: 0}
-        cosine = np.real(periodic_orbits.return_map_form(H, symbols, rest, 7.0, 2, 1e-6).multipliers[0])
+        cosine = np.real(return_maps.return_map_form(H, symbols, rest, 7.0, 2, 1e-6).multipliers[0])
         return abs(cosine - cos(7) + 1.5 * sin(7))
 
     assert max(map(off, times)) < 4 * width
-    monkeypatch.setattr(periodic_orbits, "brief_windows", lambda *_: ())
+    monkeypatch.setattr(return_maps, "brief_windows", lambda *_: ())
     assert max(map(off, times)) > 0.5  # twin
 
 
