@@ -1,4 +1,19 @@
-"""Analytical mechanics in plain symbols: any Lagrangian system, its equations, symmetries and small motions."""
+"""Analytical mechanics in plain symbols: any Lagrangian system, its equations, symmetries, small motions and runs.
+
+The main types, in the order in which data passes through them:
+
+    Coordinates     q, v = q', a = q'' as independent symbols (`lagrangian`)
+    Frame, Body     a sketch of a mechanism: joints, bodies, contacts and force elements give energies (`bodies`)
+    System          L(q, v, t), constraints, what rolls, dissipation and forces (`systems`, `equations`, `quasi_velocities`)
+    FirstIntegral   Noether's integrals, Routh's reduction, equality of systems (`symmetry`)
+    Equilibrium     places at rest (`equilibria`), the LinearSystem there (`linear_modes`), steady motions (`steady_motions`)
+    Oscillation     series of a periodic motion, AveragedMotion of a slow amplitude (`weakly_nonlinear`, by `fourier`)
+    Hamiltonian     brackets, canonical transformations, NormalForm (`canonical`)
+    SystemRun       a motion in numbers with its error (`running`)
+
+Equations are expressions; nothing numeric is imported before a number is asked for. `System` in `systems` hands on what the other
+modules can do as methods of one line. A new analysis is a function of an `Equations` in a module of its own, and a method there.
+"""
 
 from typing import TYPE_CHECKING
 
