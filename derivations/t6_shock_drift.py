@@ -21,8 +21,8 @@ from sympy import QQ_I
 from lagrotor import Link, Rotor, Scene, Shock, cancelling_force, natural_rate, toppling_after_shock
 from lagrotor.algebra import truncated_series
 from lagrotor.mechanics import birkhoff
-from lagrotor.mechanics.canonical.local_series import LocalSeries
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total
+from lagrotor.mechanics.canonical.taylor_series import LocalSeries
 from lagrotor.models import (
     cancelling_force_error,
     exact_cancelling_force,

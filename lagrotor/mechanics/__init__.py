@@ -1,4 +1,19 @@
-"""Analytical mechanics in plain symbols: any Lagrangian system, its equations, symmetries and small motions."""
+"""Analytical mechanics in plain symbols: any Lagrangian system, its equations, symmetries, small motions and runs.
+
+The main types, in the order in which data passes through them:
+
+    Coordinates     q, v = q', a = q'' as independent symbols (`lagrangian`)
+    Frame, Body     a sketch of a mechanism: joints, bodies, contacts and force elements give energies (`bodies`)
+    System          L(q, v, t), constraints, what rolls, dissipation and forces (`systems`, `equations`, `quasi_velocities`)
+    FirstIntegral   Noether's integrals, Routh's reduction, equality of systems (`symmetry`)
+    Equilibrium     places at rest (`equilibria`), the LinearSystem there (`linear_modes`), steady motions (`steady_motions`)
+    Oscillation     series of a periodic motion, AveragedMotion of a slow amplitude (`weakly_nonlinear`, by `fourier`)
+    Hamiltonian     brackets, canonical transformations, NormalForm (`canonical`)
+    SystemRun       a motion in numbers with its error (`running`)
+
+Equations are expressions; nothing numeric is imported before a number is asked for. `System` in `systems` hands on what the other
+modules can do as methods of one line. A new analysis is a function of an `Equations` in a module of its own, and a method there.
+"""
 
 from typing import TYPE_CHECKING
 
@@ -27,8 +42,9 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.equations import degrees_of_freedom as degrees_of_freedom
     from lagrotor.mechanics.equations import reaction as reaction
     from lagrotor.mechanics.equilibria import Equilibrium as Equilibrium
-    from lagrotor.mechanics.exponents import characteristic_exponents as characteristic_exponents
     from lagrotor.mechanics.fourier import FourierSeries as FourierSeries
+    from lagrotor.mechanics.fourier import GrowingSeries as GrowingSeries
+    from lagrotor.mechanics.fourier import Unknowns as Unknowns
     from lagrotor.mechanics.lagrangian import Coordinates as Coordinates
     from lagrotor.mechanics.lagrangian import accelerations as accelerations
     from lagrotor.mechanics.lagrangian import bias as bias
@@ -41,9 +57,6 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.lagrangian import total_derivative as total_derivative
     from lagrotor.mechanics.linear_modes import LinearSystem as LinearSystem
     from lagrotor.mechanics.linear_modes import Mode as Mode
-    from lagrotor.mechanics.order_by_order import GrowingSeries as GrowingSeries
-    from lagrotor.mechanics.order_by_order import Unknowns as Unknowns
-    from lagrotor.mechanics.perturbation import lindstedt_poincare as lindstedt_poincare
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix as MonodromyMatrix
     from lagrotor.mechanics.running.programs import motion_program as motion_program
     from lagrotor.mechanics.running.root_loci import RootLocus as RootLocus
@@ -58,5 +71,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.systems import System as System
     from lagrotor.mechanics.weakly_nonlinear import AveragedMotion as AveragedMotion
     from lagrotor.mechanics.weakly_nonlinear import Oscillation as Oscillation
+    from lagrotor.mechanics.weakly_nonlinear import characteristic_exponents as characteristic_exponents
+    from lagrotor.mechanics.weakly_nonlinear import lindstedt_poincare as lindstedt_poincare
 
 __getattr__, __dir__, __all__ = face(__name__)

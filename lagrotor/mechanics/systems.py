@@ -8,7 +8,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics import equilibria, linear_modes, sameness, steady_motions, symmetry, typeset, weakly_nonlinear
+from lagrotor.mechanics import equilibria, glossary, linear_modes, steady_motions, symmetry, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
@@ -64,12 +64,12 @@ class System(Equations):
     routh = symmetry.routh
     hamiltonian = hamiltonians.hamiltonian
     equilibria = equilibria.equilibria
-    same_as = sameness.same_as
-    in_coordinates = sameness.in_coordinates
+    same_as = symmetry.same_as
+    in_coordinates = symmetry.in_coordinates
     lindstedt_poincare = weakly_nonlinear.oscillation
     averaged = weakly_nonlinear.averaged
-    latex = typeset.in_latex
-    _repr_markdown_ = typeset.in_markdown
+    latex = glossary.in_latex
+    _repr_markdown_ = glossary.in_markdown
 
     @overload
     def linearise(self, at: "Mapping[Any, Any] | Equilibrium") -> "linear_modes.LinearSystem": ...

@@ -1,7 +1,15 @@
-"""Weakly nonlinear motion of a system with one coordinate: periodic orbits as series, and the slow change of an amplitude.
+"""Weakly nonlinear motion: periodic orbits as series, their characteristic exponents, and the slow change of an amplitude.
 
 Lindstedt–Poincaré: q = q₀ + Σ εⁿ xₙ(Φ), Φ' = ω₀ (1 + Σ wₙ εⁿ), of a motion that is the same backward. ε is a parameter of the
 system, and the amplitude A then any, or, where the system has no such letter, ε is the amplitude itself.
+
+Characteristic exponents: where a system at rest has two displacements that stay (p_0 and q_0, exponent zero), an orbit of
+small amplitude eps lets them act on each other. A perturbation of the orbit is sought as
+
+    xi p(Phi) + eta q(Phi),    d xi/d Phi = A eta,    d eta/d Phi = B xi,
+
+with p and q periodic. Put into the equations of motion, linear in the perturbation, this fixes p, q, A and B order by
+order in eps; no root is taken. The exponents per radian of phase are ± sqrt(A B).
 
 Averaging: q = a cos νt + b sin νt, q' = ν (−a sin νt + b cos νt), and with F = q'' + ν² q = ε f₁ + ε² f₂ + …
 
@@ -13,11 +21,11 @@ With y = (a, b), y' = ε g₁(y, t) + ε² g₂(y, t) and u₁ the integral of g
 
 q is known to O(εⁿ) through times of 1/ε by the terms through εⁿ. Multiple scales to the same order have the same slow equations.
 
-Nayfeh & Mook, Nonlinear Oscillations, 2.3; Sanders, Verhulst & Murdock, Averaging Methods in Nonlinear Dynamical Systems,
+Nayfeh & Mook, Nonlinear Oscillations, 2.3, 5.3; Sanders, Verhulst & Murdock, Averaging Methods in Nonlinear Dynamical Systems,
 chs. 2, 4.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from math import lcm
@@ -26,14 +34,386 @@ from typing import Any
 
 import sympy as sp
 from sympy.polys.domains.domain import Domain
+from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.algebra import decide_zero, truncated_series
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Unknowns, Waves, constant_series
 from lagrotor.mechanics.lagrangian import t
-from lagrotor.mechanics.perturbation import lindstedt_poincare
+
+Residual = Callable[[Sequence[Series], Series], list[Series]]
+Column = dict[tuple[int, int], Coefficient]  # (equation, harmonic): value
+Solver = Callable[[Sequence[Waves], int, Coefficient], tuple[list[Coefficient], Coefficient]]
+_ROUNDING = 1e-6  # of a floating-point order's largest coefficient: what need not vanish of what should
+
+
+@dataclass(frozen=True)
+class PeriodicSeries:
+    """A periodic orbit: unknowns as Fourier series in (eps, Phi), and the frequency, sum_n omega_n eps^n, all known through
+    eps^known_through."""
+
+    unknowns: tuple[FourierSeries, ...]
+    frequency: FourierSeries
+
+    @property
+    def known_through(self) -> int:
+        """The order through which every term is known."""
+        return min(series.order for series in (*self.unknowns, self.frequency))
+
+    def at_rest(self, field: Domain) -> "PeriodicSeries":
+        """Its terms of order 0, exact also where the series is one of floating-point numbers."""
+        still = [
+            FourierSeries({(0, h): field.convert(v) for h, v in series.harmonics(0).items()}, series.order)
+            for series in (*self.unknowns, self.frequency)
+        ]
+        return PeriodicSeries(tuple(still[:-1]), still[-1])
+
+
+def lindstedt_poincare(
+    residual: Residual,
+    rest: Sequence[Coefficient],
+    mode: Sequence[Mapping[int, Coefficient]],
+    order: int,
+    field: Domain,
+    amplitude: int = 0,
+    numeric: Residual | None = None,
+    begins_at: int = 1,
+) -> PeriodicSeries:
+    """The series of the periodic orbit that starts as rest + eps mode, with frequency 1 + omega_2 eps² + ….
+
+    At order n the coefficients of eps^n enter linearly, harmonic by harmonic, by the operator of the linear mode; where
+    that is singular (the mode's own harmonic) the frequency's correction omega_{n − begins_at} makes the system solvable.
+
+    Args:
+        residual: (unknowns, frequency) → the equations of motion as Fourier series, zero on the orbit; derivatives by the
+            phase, time derivatives carried by the frequency.
+        rest: unknowns at equilibrium.
+        mode: {harmonic: coefficient} of each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's
+            parity by its sign; an unknown without a first-order part is a cosine series.
+        order: through eps^order.
+        field: that of the coefficients.
+        amplitude: the number of the unknown whose value at Phi = 0, less rest, is eps.
+        numeric: the same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
+        begins_at: the power of eps of the mode; 0 where eps is another small quantity, at which the equations are linear, and the
+            mode an amplitude.
+
+    Raises:
+        SingularError: when it is not: a resonance with another mode.
+    """
+    one = field.one
+    sines = [bool(m) and min(m) < 0 for m in mode]
+    begins = [
+        constant_series(r, order) + FourierSeries({(begins_at, h): v for h, v in m.items()}, order)
+        for r, m in zip(rest, mode, strict=True)
+    ]
+    value = field.convert if numeric is None else float
+    growing = Unknowns()
+    *unknowns, frequency = (growing.series(begin.convert(value)) for begin in (*begins, constant_series(one, order)))
+    equations = (numeric or residual)(unknowns, frequency)
+    operators = _columns(residual, rest, sines, order, one)
+    drift, solvers = _frequency_column(residual, begins, one, begins_at), dict[int, Solver]()
+    for n in range(begins_at + 1, order + begins_at + 1):
+        now, at_zero = [equation.at(n) for equation in equations], value(field.zero)
+        # The mode's own harmonic last: it takes what the amplitude's definition leaves. It alone gives the last frequency.
+        others = {abs(h) for waves in now for h in waves} - {1} if n <= order else set()
+        for h in (*sorted(others, reverse=True), 1):
+            if h not in operators:
+                operators = _columns(residual, rest, sines, 2 * h, one)
+            if h not in solvers:
+                extra, fixed = (drift, amplitude) if h == 1 else (None, None)
+                solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)
+            values, shift = solvers[h](now, h, -at_zero)
+            for j, coefficient in enumerate(values):
+                growing.put(unknowns[j], n, -h if sines[j] else h, coefficient)
+            at_zero += 0 if sines[amplitude] else values[amplitude]
+            if shift:
+                growing.put(frequency, n - begins_at, 0, shift)
+                growing.forget(n - begins_at)
+        growing.forget(n)
+    return PeriodicSeries(tuple(growing.through(u, order) for u in unknowns), growing.through(frequency, order))
+
+
+def _columns(
+    residual: Residual, rest: Sequence[Coefficient], sines: Sequence[bool], order: int, one: Coefficient
+) -> dict[int, list[Column]]:
+    """Harmonic h → the linear operator there: for each unknown the equations' response to a unit of it.
+
+    At rest no harmonic acts on another, so that all are put in together.
+    """
+    still, columns = [constant_series(r, 1) for r in rest], dict[int, list[Column]]()
+    for j, sine in enumerate(sines):
+        moved = list(still)
+        moved[j] = moved[j] + waves(sine, order, 1, one)
+        for h, column in by_harmonic(residual(moved, constant_series(one, 1)), order, 1).items():
+            columns.setdefault(h, []).append(column)
+    return columns
+
+
+def waves(sine: bool, most: int, power: int, one: Coefficient) -> FourierSeries:
+    """eps**power times the sum of the cosines, or the sines, of all harmonics up to `most`."""
+    return FourierSeries({(power, -h if sine else h): one for h in range(int(sine), most + 1)}, power)
+
+
+def by_harmonic(equations: Sequence[FourierSeries], most: int, power: int) -> dict[int, Column]:
+    """Harmonic h up to `most` → the coefficients of eps**power there."""
+    columns: dict[int, Column] = {h: {} for h in range(most + 1)}
+    for i, equation in enumerate(equations):
+        for key, v in equation.harmonics(power).items():
+            columns[abs(key)][i, key] = v
+    return columns
+
+
+def _frequency_column(
+    residual: Residual, unknowns: Sequence[FourierSeries], one: Coefficient, begins_at: int
+) -> dict[tuple[int, int], Coefficient]:
+    """The response of the mode to a unit change of frequency; exact, as the equations are quadratic in it."""
+    first = [u.through(begins_at) for u in unknowns]
+    up, down = (residual(first, constant_series(value, 1)) for value in (one + one, one - one))
+    column = {}
+    for i, (more, less) in enumerate(zip(up, down, strict=True)):
+        for key, v in (more - less).harmonics(begins_at).items():
+            column[i, key] = v / 2
+    return column
+
+
+def harmonic_solver(
+    columns: list[Column],
+    extra: Column | None,
+    fixed: int | None,
+    field: Domain,
+    value: Callable[[Any], Coefficient],
+) -> Solver:
+    """What solves one harmonic of the equations for the unknowns, and for the shift of a frequency where `extra` is its column.
+
+    Called with the coefficients of an order, the harmonic, and the value of unknown number `fixed`. The system is reduced
+    exactly, once for all orders, and then `value`d; what nothing determines is zero. Raises SingularError where an order
+    cannot be solved.
+    """
+    system = [*columns, *([extra] if extra is not None else [])]
+    rows = sorted({key for column in system for key in column})
+    table = [[column.get(row, field.zero) for column in system] for row in rows]
+    if fixed is not None:
+        table.append([field.one if j == fixed else field.zero for j in range(len(system))])
+    pivots, turned = _eliminate(table, field, value)
+
+    def solve(now: Sequence[Waves], h: int, at: Coefficient) -> tuple[list[Coefficient], Coefficient]:
+        left = {(i, key): -v for i, waves in enumerate(now) for key, v in waves.items() if abs(key) == h}
+        right = [left.pop(row, 0) for row in rows] + ([] if fixed is None else [at])
+        solved = [sum((e * r for e, r in zip(row, right, strict=True) if e and r), value(field.zero)) for row in turned]
+        largest = max((abs(v) for waves in now for v in waves.values()), default=0) if value is float else 0
+        if any(
+            abs(v) > _ROUNDING * (1 + largest) if value is float else v
+            for v in (*solved[len(pivots) :], *left.values())
+        ):
+            raise SingularError("lindstedt_poincare: an order cannot be solved: the mode is in resonance with another")
+        values = [value(field.zero)] * len(system)
+        for j, solution in zip(pivots, solved, strict=False):
+            values[j] = solution
+        return values[: len(columns)], values[-1] if extra is not None else value(field.zero)
+
+    return solve
+
+
+def _eliminate(
+    table: list[list[Coefficient]], field: Domain, value: Callable[[Any], Coefficient]
+) -> tuple[list[int], list[list[Coefficient]]]:
+    """The unknowns that a system determines, and the matrix that takes its right side to them, then to what must vanish."""
+    n, m = len(table), len(table[0]) if table else 0
+    wide = [row + [field.one if i == j else field.zero for j in range(n)] for i, row in enumerate(table)]
+    if not wide:
+        return [], []
+    reduced, pivots = DomainMatrix(wide, (n, m + n), field).rref()
+    return [j for j in pivots if j < m], [list(map(value, row[m:])) for row in reduced.to_list()]
+
+
+Parts = dict[str, list[FourierSeries]]  # of "p" and "q", one series an unknown
+_OTHER = {"p": "q", "q": "p"}
+
+
+@dataclass(frozen=True)
+class Perturbed:
+    """orbit + xi p + eta q to first order in xi and eta, with xi' = A eta, eta' = B xi.
+
+    It is added, multiplied and differentiated like the series of its parts, so that equations written for an orbit give, put to
+    it, the variational equations too. exchange: the sign that p and q take where the equations use half a period later.
+    """
+
+    orbit: Series
+    p: Series
+    q: Series
+    A: Series
+    B: Series
+    exchange: int
+
+    def _with(self, orbit: Series, p: Series, q: Series) -> "Perturbed":
+        return Perturbed(orbit, p, q, self.A, self.B, self.exchange)
+
+    def __add__(self, other: "Perturbed") -> "Perturbed":
+        return self._with(self.orbit + other.orbit, self.p + other.p, self.q + other.q)
+
+    def __neg__(self) -> "Perturbed":
+        return self.times(-1)
+
+    def __sub__(self, other: "Perturbed") -> "Perturbed":
+        return self + (-other)
+
+    def __mul__(self, other: "Perturbed") -> "Perturbed":
+        first, second = self.orbit, other.orbit
+        return self._with(first * second, first * other.p + self.p * second, first * other.q + self.q * second)
+
+    def times(self, factor: Coefficient) -> "Perturbed":
+        """factor × f."""
+        return self._with(self.orbit.times(factor), self.p.times(factor), self.q.times(factor))
+
+    def derivative(self) -> "Perturbed":
+        """df/dPhi: (p' + B q) xi + (q' + A p) eta."""
+        p, q = self.p.derivative() + self.B * self.q, self.q.derivative() + self.A * self.p
+        return self._with(self.orbit.derivative(), p, q)
+
+    def half_period_later(self) -> "Perturbed":
+        """f(Phi + pi), the perturbation with the sign `exchange`."""
+        p, q = (part.half_period_later().times(self.exchange) for part in (self.p, self.q))
+        return self._with(self.orbit.half_period_later(), p, q)
+
+    def constant(self, value: Coefficient) -> "Perturbed":
+        """The constant `value`."""
+        return self._with(self.orbit.constant(value), self.p.constant(0), self.q.constant(0))
+
+
+@dataclass(frozen=True)
+class ExponentSeries:
+    """A and B as series in the amplitude, and the periodic parts p and q of the perturbations, one for each unknown."""
+
+    A: FourierSeries
+    B: FourierSeries
+    p: tuple[FourierSeries, ...]
+    q: tuple[FourierSeries, ...]
+
+    @property
+    def square(self) -> FourierSeries:
+        """lambda² = A B, per radian of phase: positive for growth, negative for turning."""
+        return self.A * self.B
+
+
+def characteristic_exponents(
+    residual: Residual,
+    orbit: PeriodicSeries,
+    sines: Sequence[bool],
+    neutral: tuple[int, int],
+    order: int,
+    field: Domain,
+    exchange: int = 1,
+    numeric: Residual | None = None,
+) -> ExponentSeries:
+    """A and B through eps**order, for an orbit through at least that order.
+
+    Args:
+        residual: the equations, over `field`, as `lindstedt_poincare` takes them.
+        exchange: the sign that p and q take where the equations use half a period later.
+        sines: which unknowns of the orbit are sine series; p has the same parities, q the opposite ones.
+        neutral: the numbers of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged.
+        numeric: the same equations with floating-point coefficients, for an orbit that has those.
+
+    Raises:
+        SingularError: where an order cannot be solved: another exponent comes close to zero.
+    """
+    variation = _Variation(residual, field, order, exchange)
+    parity = {"p": list(sines), "q": [not sine for sine in sines]}
+    parts: Parts = {part: [FourierSeries({}, order) for _ in sines] for part in "pq"}
+    fixed = dict(zip("pq", neutral, strict=True))
+    for part, i in fixed.items():
+        parts[part][i] = constant_series(field.one, order)
+    rest = orbit.at_rest(field)
+    drift = {part: variation.of_drift(part, parts, rest) for part in "pq"}
+    value = field.convert if numeric is None else float
+    growing = Unknowns()
+    unknowns = {part: [growing.series(series.convert(value)) for series in parts[part]] for part in "pq"}
+    slow = {
+        part: growing.series(FourierSeries({}, order)) for part in "pq"
+    }  # B from the equations' p part, A from their q part
+    equations = variation.put_in(numeric or residual, growing.series, unknowns, slow, orbit)
+    operators = variation.operators(parity, rest)
+    solvers: dict[tuple[str, int], Solver] = {}
+    for n in range(1, order + 1):
+        now = {part: [getattr(equation, part).at(n) for equation in equations] for part in "pq"}
+        for part in "pq":
+            for h in range(n, -1, -2):
+                if (part, h) not in solvers:
+                    extra, mean = (drift[part], fixed[part]) if h == 0 else (None, None)
+                    solvers[part, h] = harmonic_solver(operators[part, h], extra, mean, field, value)
+                values, shift = solvers[part, h](now[part], h, value(field.zero))
+                for j, coefficient in enumerate(values):
+                    growing.put(unknowns[part][j], n, -h if parity[part][j] else h, coefficient)
+                growing.put(slow[part], n, 0, shift)
+        growing.forget(n)
+    p, q = (tuple(growing.through(series, order) for series in unknowns[part]) for part in "pq")
+    return ExponentSeries(growing.through(slow["q"], order), growing.through(slow["p"], order), p, q)
+
+
+@dataclass(frozen=True)
+class _Variation:
+    """The variational equations of `residual` along an orbit."""
+
+    residual: Residual
+    field: Domain
+    order: int
+    exchange: int
+
+    def put_in(
+        self,
+        residual: Residual,
+        series: Callable[[FourierSeries], Series],
+        parts: Mapping[str, Sequence[Series]],
+        slow: Mapping[str, Series],
+        orbit: PeriodicSeries,
+    ) -> list[Perturbed]:
+        """The equations with a perturbation put in whose parts and rates A, B are still to be found; series: of a known one."""
+
+        def at(f: FourierSeries, p: Series, q: Series) -> Perturbed:
+            return Perturbed(series(f), p, q, slow["q"], slow["p"], self.exchange)
+
+        nothing = series(FourierSeries({}, self.order))
+        unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
+        return residual(unknowns, at(orbit.frequency, nothing, nothing))
+
+    def of(self, n: int, parts: Parts, slow: dict[str, FourierSeries], orbit: PeriodicSeries) -> list[Perturbed]:
+        """The equations with the perturbation put in, through eps**n."""
+        kept = {part: [series.through(n) for series in parts[part]] for part in "pq"}
+        rates = {part: series.through(n) for part, series in slow.items()}
+        return self.put_in(self.residual, lambda f: f.through(n), kept, rates, orbit)
+
+    @staticmethod
+    def column(equations: Sequence[Perturbed], part: str, n: int) -> Column:
+        """The coefficients of eps**n in one part of the equations."""
+        return {(i, h): v for i, r in enumerate(equations) for h, v in getattr(r, part).harmonics(n).items()}
+
+    def of_drift(self, part: str, parts: Parts, orbit: PeriodicSeries) -> Column:
+        """The response at rest of the equations' `part` to a unit of the slow rate: by it the other part drives this one."""
+        nothing = FourierSeries({}, self.order)
+        other = {part: [nothing] * len(parts[part]), _OTHER[part]: parts[_OTHER[part]]}
+        slow = {part: constant_series(self.field.one, self.order), _OTHER[part]: nothing}
+        return self.column(self.of(0, other, slow, orbit), part, 0)
+
+    def operators(
+        self, parity: Mapping[str, Sequence[bool]], rest: PeriodicSeries
+    ) -> dict[tuple[str, int], list[Column]]:
+        """(part, harmonic h) → for each unknown the response at rest of the equations' part to a unit of its harmonic h.
+
+        At rest no harmonic acts on another, so that all are put in together.
+        """
+        nothing, columns = FourierSeries({}, self.order), dict[tuple[str, int], list[Column]]()
+        for j in range(len(rest.unknowns)):
+            moved = {part: [nothing] * len(rest.unknowns) for part in "pq"}
+            for part in "pq":
+                moved[part][j] = waves(parity[part][j], self.order, 0, self.field.one)
+            answer = self.of(0, moved, dict.fromkeys("pq", nothing), rest)
+            for part in "pq":
+                for h, column in by_harmonic([getattr(r, part) for r in answer], self.order, 0).items():
+                    columns.setdefault((part, h), []).append(column)
+        return columns
+
 
 _MOST_ORDER = 2  # of averaging
 _MET = 1e-9  # relative: a start that the amplitudes give

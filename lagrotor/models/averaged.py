@@ -125,8 +125,8 @@ def _momenta_at(scene: Scene, q: Array) -> tuple[Array, Array]:
 def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lean: float, order: int) -> Forms:
     import sympy as sp
 
-    from lagrotor.mechanics.canonical.local_series import LocalSeries
     from lagrotor.mechanics.canonical.normal_forms import normal_form_of_series
+    from lagrotor.mechanics.canonical.taylor_series import LocalSeries
     from lagrotor.pair import notation
 
     numbers = dict(zip((getattr(notation, s) for s in ("a", "b", "k", "G_1", "G_2")), (a, b, k, G_1, G_2), strict=True))

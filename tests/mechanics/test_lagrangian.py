@@ -20,37 +20,19 @@ from lagrotor.mechanics import (
     mass_matrix,
     total_derivative,
 )
+from tests.systems import I1, I3, System, double_pendulum, g, heavy_top, l, m, spherical_pendulum
 
-m, l, g, I1, I3 = sp.symbols("m l g I1 I3", positive=True)
-System = Callable[[], tuple[sp.Expr, Coordinates]]
 VALUES = {m: 1.3, l: 0.7, g: 9.81, I1: 0.6, I3: 0.25}
 
 
-def spherical_pendulum() -> tuple[sp.Expr, Coordinates]:
-    c = coordinates("theta phi")
-    (theta, _), (dtheta, dphi) = c.q, c.v
-    return m * l**2 * (dtheta**2 + sp.sin(theta) ** 2 * dphi**2) / 2 + m * g * l * sp.cos(theta), c
-
-
-def heavy_top() -> tuple[sp.Expr, Coordinates]:
-    c = coordinates("theta phi psi")
-    theta, (dtheta, dphi, dpsi) = c.q[0], c.v
-    spin = dpsi + dphi * sp.cos(theta)
-    turning = I1 * (dtheta**2 + dphi**2 * sp.sin(theta) ** 2) + I3 * spin**2
-    return turning / 2 - m * g * l * sp.cos(theta), c
-
-
-def double_pendulum() -> tuple[sp.Expr, Coordinates]:
-    c = coordinates(["alpha", "beta"])
-    (alpha, beta), (da, db) = c.q, c.v
-    T = m * l**2 * (2 * da**2 + db**2 + 2 * da * db * sp.cos(alpha - beta)) / 2
-    return T + m * g * l * (2 * sp.cos(alpha) + sp.cos(beta)), c
-
-
-def magnetic_particle() -> tuple[sp.Expr, Coordinates]:
+def magnetic_particle() -> System:
     c = coordinates("x y")
     (x, y), (vx, vy) = c.q, c.v
-    return m * (vx**2 + vy**2) / 2 + g * (x * vy - y * vx) * x - l * x**2 * y, c
+    return System(c, m * (vx**2 + vy**2) / 2 + g * (x * vy - y * vx) * x - l * x**2 * y)
+
+
+def parts(system: System) -> tuple[sp.Expr, Coordinates]:
+    return system.L, system.c
 
 
 GALLERY = [spherical_pendulum, heavy_top, double_pendulum, magnetic_particle]
@@ -87,7 +69,7 @@ def test_each_coordinate_needs_its_velocity() -> None:
 
 
 def test_spherical_pendulum_has_its_textbook_accelerations() -> None:
-    L, c = spherical_pendulum()
+    L, c = parts(spherical_pendulum())
     theta, (dtheta, dphi) = c.q[0], c.v
     expected = sp.Matrix([
         sp.sin(theta) * sp.cos(theta) * dphi**2 - g / l * sp.sin(theta),
@@ -98,7 +80,7 @@ def test_spherical_pendulum_has_its_textbook_accelerations() -> None:
 
 
 def test_a_top_precesses_steadily_at_the_two_roots_of_its_quadratic() -> None:
-    L, c = heavy_top()
+    L, c = parts(heavy_top())
     theta, (dtheta, dphi, dpsi) = c.q[0], c.v
     tilt, spin = 0.9, 40.0
     parameters = [VALUES[s] for s in (I1, I3, m, g, l)]
@@ -111,8 +93,8 @@ def test_a_top_precesses_steadily_at_the_two_roots_of_its_quadratic() -> None:
 
 
 @pytest.mark.parametrize("system", GALLERY)
-def test_the_affine_form_is_the_euler_lagrange_equation(system: System) -> None:
-    L, c = system()
+def test_the_affine_form_is_the_euler_lagrange_equation(system: Callable[[], System]) -> None:
+    L, c = parts(system())
     affine = mass_matrix(L, c) * sp.Matrix(c.a) + bias(L, c)
     assert (euler_lagrange(L, c) - affine).expand() == sp.zeros(len(c.q), 1)
     assert mass_matrix(L, c).is_symmetric(simplify=False)
@@ -120,8 +102,8 @@ def test_the_affine_form_is_the_euler_lagrange_equation(system: System) -> None:
 
 @pytest.mark.parametrize("system", GALLERY)
 @pytest.mark.parametrize("seed", [2, 3])
-def test_accelerations_agree_with_an_independent_derivation(system: System, seed: int) -> None:
-    L, c = system()
+def test_accelerations_agree_with_an_independent_derivation(system: Callable[[], System], seed: int) -> None:
+    L, c = parts(system())
     state = random_state(c, seed)
     functions = [dynamicsymbols(str(q)) for q in c.q]
     rates = [f.diff(dynamicsymbols._t) for f in functions]
@@ -134,8 +116,8 @@ def test_accelerations_agree_with_an_independent_derivation(system: System, seed
 
 
 @pytest.mark.parametrize("system", GALLERY)
-def test_energy_is_conserved_without_forces_and_fed_by_them(system: System) -> None:
-    L, c = system()
+def test_energy_is_conserved_without_forces_and_fed_by_them(system: Callable[[], System]) -> None:
+    L, c = parts(system())
     state = random_state(c, 4)
     rate = total_derivative(energy(L, c), c)
     push = [sp.Rational(i + 1, 3) for i in range(len(c.q))]
@@ -156,7 +138,7 @@ def test_a_lagrangian_that_is_not_regular_is_refused_by_the_velocity_at_fault() 
 
 
 def test_forces_are_one_for_each_coordinate() -> None:
-    L, c = double_pendulum()
+    L, c = parts(double_pendulum())
     with pytest.raises(InputError, match="1 forces for 2 coordinates"):
         accelerations(L, c, [sp.S.One])
 

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import Frame, LinearSystem, System, coordinates, t
-
-m, l, g, k, R, Omega, I1, I3 = sp.symbols("m l g k R Omega I_1 I_3", positive=True)
+from tests.systems import I1, I3, Omega, R, g, heavy_top, hoop, k, l, m, pendulum
 
 
 def test_linear_modes_of_a_double_pendulum() -> None:
@@ -48,25 +47,6 @@ def test_a_place_that_is_no_equilibrium_is_refused() -> None:
         System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0])).linearise({c.q[0]: 1})
 
 
-def pendulum() -> System:
-    c = coordinates("theta")
-    return System(c, m * l**2 * c.v[0] ** 2 / 2 + m * g * l * sp.cos(c.q[0]))
-
-
-def hoop() -> System:
-    c = coordinates("theta")
-    spun = c.v[0] ** 2 + Omega**2 * sp.sin(c.q[0]) ** 2
-    return System(c, m * R**2 * spun / 2 + m * g * R * sp.cos(c.q[0]))
-
-
-def top() -> System:
-    """A symmetric top: I1 about its tip."""
-    c = coordinates("phi theta psi")
-    theta, (phi_v, theta_v, psi_v) = c.q[1], c.v
-    turning = I1 * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2) + I3 * (psi_v + phi_v * sp.cos(theta)) ** 2
-    return System(c, turning / 2 - m * g * l * sp.cos(theta))
-
-
 def test_a_pendulum_hangs_stably_and_stands_unstably() -> None:
     found = pendulum().equilibria()
     (theta,) = pendulum().c.q
@@ -91,7 +71,7 @@ def test_a_bead_leaves_the_lowest_point_when_the_hoop_turns_faster_than_g_over_R
 def test_a_top_sleeps_when_its_momentum_squared_exceeds_4_I1_m_g_l() -> None:
     """Goldstein §5.7. Upright, both momenta are equal, and the Routhian is 0/0 there: it is reduced first."""
     p = sp.Symbol("p", real=True)
-    upright = top().routh({"phi": p, "psi": p}).linearise({top().c.q[1]: 0})
+    upright = heavy_top().routh({"phi": p, "psi": p}).linearise({heavy_top().c.q[0]: 0})
     assert upright.stable_if == sp.Gt(p**2 - 4 * I1 * m * g * l, 0)
     # The same from two regular angles, where the gyroscopic term is at work.
     c = coordinates("a b psi")
@@ -101,17 +81,17 @@ def test_a_top_sleeps_when_its_momentum_squared_exceeds_4_I1_m_g_l() -> None:
     assert regular.routh({"psi": p}).linearise({a: 0, b: 0}).stable_if == sp.Gt(p**2 - 4 * I1 * m * g * l, 0)
     # Equal momenta are needed: with others the upright place is singular.
     with pytest.raises(SingularError, match="singular at"):
-        top().routh("phi psi").linearise({top().c.q[1]: 0})
+        heavy_top().routh("phi psi").linearise({heavy_top().c.q[0]: 0})
 
 
 def test_steady_precession_is_solved_for_the_momentum_where_the_angle_is_a_quartic() -> None:
-    reduced = top().routh("phi psi")
+    reduced = heavy_top().routh("phi psi")
     with pytest.raises(InputError, match="name another unknown"):
         reduced.equilibria("theta")
     found = reduced.equilibria("p_phi")
     assert reduced.equilibria() == found and len(found) == 2
     # Against the quadratic of the precession rate, I1 cos(theta) n² − p_psi n + m g l = 0 with p_phi = I1 n sin² + p_psi cos.
-    values = {I1: 0.7, m: 1.1, g: 9.81, l: 0.4, sp.Symbol("p_psi", real=True): 5.0, top().c.q[1]: 0.6}
+    values = {I1: 0.7, m: 1.1, g: 9.81, l: 0.4, sp.Symbol("p_psi", real=True): 5.0, heavy_top().c.q[0]: 0.6}
     rates = np.roots([0.7 * np.cos(0.6), -5.0, 1.1 * 9.81 * 0.4])
     expected = sorted(0.7 * n * np.sin(0.6) ** 2 + 5.0 * np.cos(0.6) for n in rates)
     solved = sorted(float(e.at[sp.Symbol("p_phi", real=True)].subs(values)) for e in found)

@@ -20,25 +20,14 @@ from lagrotor.mechanics import (
     momenta,
     total_derivative,
 )
+from tests.systems import I1, I3, g, heavy_top, k, kepler, l, m
 
-m, l, g, k, I1, I3 = sp.symbols("m l g k I1 I3", positive=True)
 VALUES = {m: 1.3, l: 0.7, g: 9.81, k: 2.0, I1: 0.6, I3: 0.25}
 
 TOP = coordinates("theta phi psi")
 PLANE = coordinates("x y")
 SPACE = coordinates("x y z")
 TURN = (-PLANE.q[1], PLANE.q[0])
-
-
-def heavy_top() -> sp.Expr:
-    theta, (dtheta, dphi, dpsi) = TOP.q[0], TOP.v
-    spin = dpsi + dphi * sp.cos(theta)
-    return (I1 * (dtheta**2 + dphi**2 * sp.sin(theta) ** 2) + I3 * spin**2) / 2 - m * g * l * sp.cos(theta)
-
-
-def kepler() -> sp.Expr:
-    (x, y), (vx, vy) = PLANE.q, PLANE.v
-    return m * (vx**2 + vy**2) / 2 + k / sp.sqrt(x**2 + y**2)
 
 
 def falling() -> sp.Expr:
@@ -51,7 +40,7 @@ def random_state(c: Coordinates, seed: int) -> dict[sp.Symbol, float]:
 
 
 def test_the_angles_a_top_does_not_feel_are_cyclic() -> None:
-    assert System(TOP, heavy_top()).cyclic == TOP.q[1:]
+    assert heavy_top().cyclic == TOP.q[1:]
     # Present in the expression, absent from the function.
     x, y = PLANE.q
     hidden = PLANE.v[0] ** 2 + (sp.sin(x) ** 2 + sp.cos(x) ** 2) * PLANE.v[1] ** 2 - y**2
@@ -59,7 +48,7 @@ def test_the_angles_a_top_does_not_feel_are_cyclic() -> None:
 
 
 def test_the_momenta_of_cyclic_angles_are_noether_integrals_and_stay() -> None:
-    L = heavy_top()
+    L = heavy_top().L
     moved = dict(zip(TOP.a, accelerations(L, TOP), strict=True))
     for index, xi in ((1, (0, 1, 0)), (2, (0, 0, 1))):
         integral = System(TOP, L).noether(xi).expression
@@ -72,24 +61,24 @@ def test_the_momenta_of_cyclic_angles_are_noether_integrals_and_stay() -> None:
 
 def test_a_rotated_kepler_orbit_keeps_its_angular_momentum() -> None:
     (x, y), (vx, vy) = PLANE.q, PLANE.v
-    assert (System(PLANE, kepler()).noether(TURN).expression - m * (x * vy - y * vx)).expand() == 0
-    assert System(PLANE, kepler()).invariance(TURN).answer == "zero"
+    assert (kepler(2).noether(TURN).expression - m * (x * vy - y * vx)).expand() == 0
+    assert kepler(2).invariance(TURN).answer == "zero"
 
 
 def test_dilation_gives_the_virial_theorem() -> None:
     """d/dt (p · q) = 2 T − k/r: not zero, and the velocities are carried along with the positions."""
     (x, y), (vx, vy) = PLANE.q, PLANE.v
     virial = m * (vx**2 + vy**2) - k / sp.sqrt(x**2 + y**2)
-    rate = System(PLANE, kepler()).noether_rate(PLANE.q)
+    rate = kepler(2).noether_rate(PLANE.q)
     state = random_state(PLANE, 5)
     assert float((rate - virial).subs(state)) == pytest.approx(0, abs=1e-13)
-    moved = dict(zip(PLANE.a, accelerations(kepler(), PLANE), strict=True))
-    true_rate = total_derivative(momenta(kepler(), PLANE).dot(PLANE.q), PLANE).subs(moved)
+    moved = dict(zip(PLANE.a, accelerations(kepler(2).L, PLANE), strict=True))
+    true_rate = total_derivative(momenta(kepler(2).L, PLANE).dot(PLANE.q), PLANE).subs(moved)
     assert float((true_rate - virial).subs(state)) == pytest.approx(0, abs=1e-13)
 
 
 def test_a_kepler_orbit_in_a_uniform_field_does_not() -> None:
-    pulled = kepler() - g * PLANE.q[1]
+    pulled = kepler(2).L - g * PLANE.q[1]
     assert (System(PLANE, pulled).variation(TURN) + g * PLANE.q[0]).expand() == 0
     assert System(PLANE, pulled).invariance(TURN).answer != "zero"
     with pytest.raises(NotASymmetryError, match="does not leave the motion invariant"):
@@ -124,11 +113,11 @@ def test_a_sphere_keeps_the_rotation_about_the_vertical() -> None:
 
 def test_transformations_have_their_shapes() -> None:
     with pytest.raises(InputError, match="one component"):
-        System(PLANE, kepler()).variation((1,))
+        kepler(2).variation((1,))
     with pytest.raises(InputError, match="free of accelerations"):
-        System(PLANE, kepler()).variation(PLANE.a)
+        kepler(2).variation(PLANE.a)
     with pytest.raises(InputError, match=r"gauge = .* contains x_ddot"):
-        System(PLANE, kepler()).noether(TURN, PLANE.a[0])
+        kepler(2).noether(TURN, PLANE.a[0])
 
 
 def test_the_routhian_of_a_top_is_its_effective_potential() -> None:
@@ -136,7 +125,7 @@ def test_the_routhian_of_a_top_is_its_effective_potential() -> None:
     theta, dtheta = TOP.q[0], TOP.v[0]
     effective = (p_phi - p_psi * sp.cos(theta)) ** 2 / (2 * I1 * sp.sin(theta) ** 2) + p_psi**2 / (2 * I3)
     expected = I1 * dtheta**2 / 2 - effective - m * g * l * sp.cos(theta)
-    difference = System(TOP, heavy_top()).routh("phi psi").L - expected
+    difference = heavy_top().routh("phi psi").L - expected
     assert decide_zero(difference).answer == "zero"
 
 
@@ -153,7 +142,7 @@ def test_the_routhian_of_a_body_is_free_of_the_cyclic_coordinates_and_runs() -> 
 
 @pytest.mark.parametrize("cyclic", [(1,), (2,), (1, 2), (2, 1)])
 def test_the_routhian_moves_the_other_coordinates_as_the_lagrangian_does(cyclic: tuple[int, ...]) -> None:
-    L, kept = heavy_top(), [i for i in range(3) if i not in cyclic]
+    L, kept = heavy_top().L, [i for i in range(3) if i not in cyclic]
     p = sp.symbols(f"p:{len(cyclic)}", real=True)
     reduced_top = System(TOP, L).routh(dict(zip((TOP.q[i] for i in cyclic), p, strict=True)))
     assert not reduced_top.L.free_symbols & {TOP.v[i] for i in cyclic}
@@ -165,7 +154,7 @@ def test_the_routhian_moves_the_other_coordinates_as_the_lagrangian_does(cyclic:
 
 
 def test_only_cyclic_coordinates_are_eliminated() -> None:
-    top = System(TOP, heavy_top())
+    top = heavy_top()
     with pytest.raises(NotASymmetryError, match="depends on theta"):
         top.routh("theta")
     with pytest.raises(InputError, match="p not among"):
@@ -175,14 +164,14 @@ def test_only_cyclic_coordinates_are_eliminated() -> None:
     with pytest.raises(InputError, match="not used yet; rename"):
         top.routh({"phi": TOP.v[1]})
     with pytest.raises(InputError, match="not used yet; rename"):
-        System(TOP, heavy_top() + sp.Symbol("p_phi", real=True)).routh("phi")
+        System(TOP, heavy_top().L + sp.Symbol("p_phi", real=True)).routh("phi")
     free = coordinates("x y")
     with pytest.raises(InputError, match="no coordinate is left"):
         System(free, free.v[0] ** 2 + free.v[1] ** 2).routh("x y")
 
 
 def test_hamiltons_equations_reproduce_the_top() -> None:
-    L, p = heavy_top(), sp.symbols("p:3", real=True)
+    L, p = heavy_top().L, sp.symbols("p:3", real=True)
     H = legendre(L, TOP, p)
     state = random_state(TOP, 4)
     at_p = dict(zip(p, momenta(L, TOP).subs(state), strict=True)) | state
@@ -201,7 +190,7 @@ def test_a_lagrangian_without_a_hamiltonian_in_closed_form_is_refused() -> None:
     with pytest.raises(SingularError, match="does not determine the velocities"):
         legendre((PLANE.v[0] + PLANE.v[1]) ** 2, PLANE, p)
     with pytest.raises(InputError, match="legendre: momenta"):
-        legendre(kepler(), PLANE, p[:1])
+        legendre(kepler(2).L, PLANE, p[:1])
 
 
 small = st.integers(-3, 3)

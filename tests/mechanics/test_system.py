@@ -9,17 +9,13 @@ from hypothesis import strategies as st
 from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.errors import InputError, NotASymmetryError
 from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates, t, total_derivative
+from tests.systems import J, Omega, R, g, hoop, k, l, m, sleigh
 
-m, l, g, k, R, Omega, A, w = sp.symbols("m l g k R Omega A omega", positive=True)
+A, w = sp.symbols("A omega", positive=True)
 ANGLE = coordinates("theta")
 (theta,), (theta_v,), (theta_a,) = ANGLE.q, ANGLE.v, ANGLE.a
 SPACE = coordinates("x y z")
 PARTICLE = m * sum(v**2 for v in SPACE.v) / 2 - m * g * SPACE.q[2]
-
-
-def bead_on_a_hoop() -> System:
-    """A bead on a hoop that turns about the vertical at the rate Omega; theta from the lowest point."""
-    return System(ANGLE, m * R**2 * (theta_v**2 + Omega**2 * sp.sin(theta) ** 2) / 2 + m * g * R * sp.cos(theta))
 
 
 def driven_bead() -> System:
@@ -49,16 +45,16 @@ def test_time_in_the_lagrangian_enters_the_equation_of_motion() -> None:
 
 
 def test_a_bead_seen_from_the_ground_moves_as_the_bead_seen_from_the_hoop() -> None:
-    decision = driven_bead().same_as(bead_on_a_hoop())
+    decision = driven_bead().same_as(hoop())
     assert decision.answer == "zero"
-    slower = bead_on_a_hoop().L.subs(Omega, Omega / 2)
+    slower = hoop().L.subs(Omega, Omega / 2)
     assert driven_bead().power == 0 and kapitza().power != 0  # the time in the first L cancels
     other = driven_bead().same_as(System(ANGLE, slower))
     assert other.answer == "nonzero" and other.witness is not None
 
 
 def test_the_jacobi_integral_of_the_hoop_is_conserved_and_the_energy_is_not() -> None:
-    bead, seen = bead_on_a_hoop(), driven_bead()
+    bead, seen = hoop(), driven_bead()
     assert bead.conserved(bead.energy).answer == "zero"
     assert bead.power == 0
     kinetic_and_potential = bead.energy + m * R**2 * Omega**2 * sp.sin(theta) ** 2
@@ -99,15 +95,6 @@ def test_friction_and_forces_feed_the_energy_by_their_power() -> None:
     assert decide_equal(moved, pendulum.power).answer == "zero"
 
 
-def sleigh() -> System:
-    """Chaplygin's sleigh: a blade at (x, y) along phi, the centre of mass the distance l ahead of it."""
-    c = coordinates("x y phi")
-    (_, _, phi), (x_v, y_v, phi_v) = c.q, c.v
-    J = sp.Symbol("J", positive=True)
-    centre = (x_v - l * phi_v * sp.sin(phi)) ** 2 + (y_v + l * phi_v * sp.cos(phi)) ** 2
-    return System(c, m * centre / 2 + J * phi_v**2 / 2, rolling=(y_v * sp.cos(phi) - x_v * sp.sin(phi),))
-
-
 def test_chaplygins_sleigh_has_its_equations() -> None:
     """Neimark & Fufaev, ch. II: u' = l omega², (J + m l²) omega' = −m l omega u, u the speed along the blade."""
     system = sleigh()
@@ -118,7 +105,6 @@ def test_chaplygins_sleigh_has_its_equations() -> None:
     speed = x_v * sp.cos(phi) + y_v * sp.sin(phi)
     moved = total_derivative(speed, system.c).subs(dict(zip(system.c.a, a, strict=True))).subs(rolling)
     assert decide_equal(moved, l * phi_v**2).answer == "zero"
-    J = sp.Symbol("J", positive=True)
     assert decide_equal(a[2].subs(rolling), -m * l * phi_v * u / (J + m * l**2)).answer == "zero"
     # Holonomic reactions (d/dt of the constraint's gradient taken as a gradient of L) would keep phi' instead.
     assert decide_equal(a[2].subs(rolling), 0).answer == "nonzero"
@@ -145,7 +131,7 @@ def test_a_gauge_term_makes_the_motion_of_the_centre_a_noether_integral() -> Non
 
 
 def test_time_translation_is_the_field_v_with_gauge_L() -> None:
-    bead = bead_on_a_hoop()
+    bead = hoop()
     assert decide_equal(bead.noether(ANGLE.v, gauge=bead.L).expression, bead.energy).answer == "zero"
     driven = kapitza()
     with pytest.raises(NotASymmetryError):
@@ -193,7 +179,7 @@ def test_what_acts_on_the_others_goes_along_with_the_routhian() -> None:
 
 
 def test_lagrangians_that_differ_by_a_factor_or_a_derivative_are_the_same_system() -> None:
-    bead = bead_on_a_hoop()
+    bead = hoop()
     gauge = total_derivative(sp.sin(theta) * t**2, ANGLE)
     assert System(ANGLE, bead.L + gauge).same_as(bead).answer == "zero"
     assert System(ANGLE, 3 * bead.L).same_as(bead).answer == "zero"
@@ -206,7 +192,7 @@ def test_lagrangians_that_differ_by_a_factor_or_a_derivative_are_the_same_system
 
 def test_what_moves_otherwise_is_refuted_at_a_point_before_anything_is_inverted(monkeypatch) -> None:
     """By enclosures that are apart: the witness is a state at which the accelerations differ."""
-    monkeypatch.setattr("lagrotor.mechanics.sameness.constrained_accelerations", None)
+    monkeypatch.setattr("lagrotor.mechanics.symmetry.constrained_accelerations", None)
     c = coordinates("a b d")
     turned = [sum(c.v[: i + 1]) * sp.cos(sum(c.q[: i + 1])) for i in range(3)]
     L = sum(v**2 for v in c.v) + sum(turned) ** 2 - m * sp.cos(sum(c.q))
@@ -221,7 +207,7 @@ def test_mass_matrices_too_large_to_be_inverted_are_undecided(monkeypatch) -> No
     L, other = sum(v**2 for v in c.v), c.v[0] ** 2 + 2 * c.v[1] ** 2 + 3 * c.v[2] ** 2
     assert System(c, L).same_as(System(c, other)).answer == "zero"
     for name, value in (("_MOST", 2), ("_MOST_OPERATIONS", -1)):
-        monkeypatch.setattr(f"lagrotor.mechanics.sameness.{name}", value)
+        monkeypatch.setattr(f"lagrotor.mechanics.symmetry.{name}", value)
     decision = System(c, L).same_as(System(c, other))
     assert decision.answer == "undecided" and "too large" in decision.reason
 
@@ -229,7 +215,7 @@ def test_mass_matrices_too_large_to_be_inverted_are_undecided(monkeypatch) -> No
 def test_systems_in_other_coordinates_are_compared_in_common_ones() -> None:
     c = coordinates("r phi")
     with pytest.raises(InputError, match="in_coordinates"):
-        System(c, c.v[0] ** 2).same_as(bead_on_a_hoop())
+        System(c, c.v[0] ** 2).same_as(hoop())
     with pytest.raises(InputError, match=r"x, y, z neither given nor among"):
         System(SPACE, PARTICLE).in_coordinates(ANGLE, {})
 

@@ -9,8 +9,8 @@ import pytest
 from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical import normal_forms
+from lagrotor.mechanics.canonical.normal_coordinates import normal_coordinates
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
-from lagrotor.mechanics.canonical.symplectic import normal_coordinates
 from lagrotor.numerics import measured_order
 from lagrotor.structures import exact_motion, example, holding, local_hamiltonian, measured_fall, resonant_factors
 from lagrotor.structures.exact.exact_motion import off_constraints

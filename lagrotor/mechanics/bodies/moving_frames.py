@@ -1,4 +1,4 @@
-"""Frames that turn and move with the coordinates, and the velocities of their points.
+"""Frames that turn and move with the coordinates, the velocities of their points, and joints by name.
 
 A frame is reached from its parent by one step: a turn about one of its axes, a shift along them, or a rotation of one's
 own. With the rotation R (components in the frame → in the parent), the shift d and a dot for d/dt, in the frame's axes,
@@ -6,10 +6,18 @@ own. With the rotation R (components in the frame → in the parent), the shift 
     ω = Rᵀ ω_parent + u,        v = Rᵀ (v_parent + ω_parent × d + d'),
 
 u the turn's own rate about its axis (the axial vector of Rᵀ R'). Featherstone, Rigid Body Dynamics Algorithms, ch. 2.
+
+Joints are such steps by name: pin, prismatic, screw, cylindrical, universal, planar, weld; ball and free, which have no pole;
+`coincides` and `keeps_axis` close loops. A ball joint turns by a unit quaternion q = (q0, q1, q2, q3), scalar first. Its
+velocities are those of its angular velocity ω relative to the frame before it, in the turned axes:
+
+    R = 1 + 2 q0 [e]× + 2 [e]×²,  e = (q1, q2, q3),        q' = ½ q ∘ (0, ω),        ω = 2 E(q) q'.
+
+|q| = 1 is a constraint of the system that ω uses up. Altmann, Rotations, Quaternions and Double Groups (1986), ch. 12.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -31,7 +39,7 @@ class MovingFrame:
     """The ground, or a frame reached from its parent.
 
     axis, amount: the step from the parent: a turn by the angle `amount` about axis 0, 1, 2; a shift by the vector
-    `amount` (axis None); or a rotation matrix. quaternion, omega: of a ball joint, see `named_joints`.
+    `amount` (axis None); or a rotation matrix. quaternion, omega: of a ball joint, see `moving_frames`.
     """
 
     c: Coordinates
@@ -194,3 +202,174 @@ def _rotation(given: Any) -> sp.Matrix:
     if decide_zero(R.det(method="berkowitz") - 1).answer == "nonzero":
         raise InputError("turned: this matrix has R Rᵀ = 1 and det R = −1: it reflects; change the sign of one axis")
     return R
+
+
+def weld(frame: Kind, at: Vector = (0, 0, 0), axes: str = "", angles: Any = ()) -> Kind:
+    """A frame fixed to this one: shifted to `at`, then turned by fixed angles about its axes.
+
+    Raises InputError where a coordinate moves it.
+    """
+    place = vector_of("weld: at", at, 3)
+    given = [
+        expression("weld: angle", e) for e in (angles if isinstance(angles, Sequence | sp.MatrixBase) else [angles])
+    ]
+    moving = set().union(*(e.free_symbols for e in (*place, *given))) & {*frame.c.q, *frame.c.v}
+    if moving:
+        raise InputError(
+            f"weld: {', '.join(sorted(map(str, moving)))} moves it: a weld is fixed; take a joint that moves"
+        )
+    shifted = frame.moved(*place)
+    return shifted.turned(axes, given) if axes or given else shifted
+
+
+def pin(frame: Kind, angle: Any, axis: Any = "z") -> Kind:
+    """Turned by an angle about one of its axes, "x", "y" or "z", or about a direction (x, y, z) in them."""
+    return _about("pin", frame, axis, lambda it: it.turned("z", expression("pin: angle", angle)))
+
+
+def prismatic(frame: Kind, length: Any, axis: Any = "z") -> Kind:
+    """Shifted by a length along one of its axes, or along a direction (x, y, z) in them."""
+    along = _direction("prismatic", axis)
+    return frame.moved(*(along * expression("prismatic: length", length)))
+
+
+def cylindrical(frame: Kind, length: Any, angle: Any, axis: Any = "z") -> Kind:
+    """Shifted along an axis, and turned about it."""
+    return _about("cylindrical", frame, axis, lambda it: it.moved(0, 0, length).turned("z", angle))
+
+
+def screw(frame: Kind, angle: Any, pitch: Any, axis: Any = "z") -> Kind:
+    """Turned by an angle about an axis, along which it moves by `pitch` with each turn of 2 π."""
+    turned = expression("screw: angle", angle)
+    way = expression("screw: pitch", pitch) * turned / (2 * sp.pi)
+    return _about("screw", frame, axis, lambda it: it.moved(0, 0, way).turned("z", turned))
+
+
+def universal(frame: Kind, first: Any, second: Any, axes: str = "xy") -> Kind:
+    """Turned about one of its axes and then about another, a Cardan or Hooke joint."""
+    if not isinstance(axes, str) or len(axes) != 2 or len({*axes}) != 2 or {*axes} - {*AXES}:
+        raise InputError(f"universal: axes {axes!r} must be two different letters of x, y, z")
+    return frame.turned(axes, [first, second])
+
+
+def planar(frame: Kind, x: Any, y: Any, angle: Any, normal: Any = "z") -> Kind:
+    """Shifted by x and y in the plane across an axis, and turned about it."""
+    return _about("planar", frame, normal, lambda it: it.moved(x, y, 0).turned("z", angle))
+
+
+def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
+    """Turned by a unit quaternion: four of the coordinates by name, scalar first; omega: names of the angular velocities about
+    the axes of the turned frame, which are velocities of the system in place of those of the four.
+
+    Raises InputError for what is no such name.
+    """
+    q = tuple(_coordinate("ball", frame, name) for name in _names("ball: quaternion", quaternion, 4))
+    names = _names("ball: omega", omega, 3)
+    if len({*q}) < 4 or len({*names}) < 3 or {*names} & {str(s) for s in (*frame.c.q, *frame.c.v, *frame.c.a)}:
+        raise InputError(
+            f"ball: quaternion {quaternion!r} and omega {omega!r}: seven different names, of which those of omega are no "
+            "coordinates'"
+        )
+    if taken := [str(s) for step in frame.to_the_ground for s in {*step.quaternion} & {*q}]:
+        raise InputError(f"ball: {taken[0]} turns another ball joint on the way: give each four coordinates of its own")
+    a, b, c, d = q
+    R = sp.Matrix(
+        [
+            [1 - 2 * (c * c + d * d), 2 * (b * c - a * d), 2 * (b * d + a * c)],
+            [2 * (b * c + a * d), 1 - 2 * (b * b + d * d), 2 * (c * d - a * b)],
+            [2 * (b * d - a * c), 2 * (c * d + a * b), 1 - 2 * (b * b + c * c)],
+        ]
+    )
+    step = type(frame)(frame.c, frame, None, R)
+    return replace(step, quaternion=q, omega=tuple(sp.Symbol(name, real=True) for name in names))
+
+
+def free(frame: Kind, place: Any, quaternion: Any, omega: Any) -> Kind:
+    """Shifted by three coordinates along its axes, and turned as `ball`: six degrees of freedom."""
+    x, y, z = (_coordinate("free", frame, name) for name in _names("free: place", place, 3))
+    return ball_joint(frame.moved(x, y, z), quaternion, omega)
+
+
+def coincides(
+    frame: MovingFrame, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0)
+) -> tuple[sp.Expr, ...]:
+    """Constraints that hold the point `at` of the frame on the point `point` of another: a ball joint that closes a loop.
+
+    Components that vanish identically are left out. Raises InputError where nothing is bound.
+    """
+    _check_frame("coincides", other)
+    apart = frame.place(vector_of("coincides: at", at, 3)) - other.place(vector_of("coincides: point", point, 3))
+    return _bound("coincides", list(apart), frame)
+
+
+def keeps_axis(frame: MovingFrame, other: MovingFrame, axis: Any = "z", of_other: Any = None) -> tuple[sp.Expr, ...]:
+    """Constraints that hold an axis of the frame along one of another: with `coincides`, a pin that closes a loop.
+
+    The axis has no component along two directions across that of the other; it may be opposite to it.
+    """
+    _check_frame("keeps_axis", other)
+    mine = _direction("keeps_axis", axis)
+    theirs = _direction("keeps_axis", axis if of_other is None else of_other)
+    e = frame.place(list(mine)) - frame.place()
+    seen = [other.place(list(v)) - other.place() for v in _axes_to(theirs)[:2]]
+    return _bound("keeps_axis", [e.dot(v) for v in seen], frame)
+
+
+def _check_frame(where: str, other: Any) -> None:
+    if not isinstance(other, MovingFrame):
+        raise InputError(f"{where}: {other!r} must be a Frame, in which the other part of the loop is fixed")
+
+
+def _bound(where: str, given: Sequence[sp.Expr], frame: MovingFrame) -> tuple[sp.Expr, ...]:
+    kept = tuple(e for e in map(sp.expand, given) if e != 0)
+    if not any(e.free_symbols & {*frame.c.q} for e in kept):
+        raise InputError(f"{where}: {', '.join(map(str, given))} = 0 binds no coordinate: give frames that move apart")
+    return kept
+
+
+def _about(where: str, frame: Kind, axis: Any, step: Any) -> Kind:
+    """A step about z, taken about another axis: turned there before and back after it."""
+    if isinstance(axis, str) and axis in ("x", "y", "z"):
+        k = AXES.index(axis)
+        R = sp.Matrix(3, 3, lambda i, j: int((i - j - k - 1) % 3 == 0))  # z → axis k, x and y → those after it
+    else:
+        R = sp.Matrix.hstack(*_axes_to(_direction(where, axis)))
+    if sp.eye(3) == R:
+        moved: Kind = step(frame)
+        return moved
+    done: Kind = step(frame.turned(R)).turned(R.T)
+    return done
+
+
+def _axes_to(e: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix, sp.Matrix]:
+    """Three directions of length one across each other, the last e."""
+    k = min(range(3), key=lambda i: (abs(float(e[i])) if e[i].is_number else 0.5, i))
+    first = sp.eye(3)[:, k] - e * e[k]
+    first = first / sp.sqrt(first.dot(first))
+    return first, e.cross(first), e
+
+
+def _direction(where: str, axis: Any) -> sp.Matrix:
+    if isinstance(axis, str):
+        if axis not in ("x", "y", "z"):
+            raise InputError(f"{where}: axis = {axis!r} must be 'x', 'y' or 'z', or a direction (x, y, z)")
+        return sp.eye(3)[:, AXES.index(axis)]
+    e = sp.Matrix(vector_of(f"{where}: axis", axis, 3))
+    length = sp.sqrt(e.dot(e))
+    if length.is_zero or not all(entry.is_number for entry in e):
+        raise InputError(f"{where}: axis = {axis!r} must be a direction in numbers, not zero")
+    return e / length
+
+
+def _names(where: str, given: Any, number: int) -> list[str]:
+    names = given.replace(",", " ").split() if isinstance(given, str) else given
+    if not isinstance(names, Sequence) or len(names) != number:
+        raise InputError(f"{where} = {given!r} must be {number} names: {' '.join(f'a{i}' for i in range(number))}")
+    return [str(name) for name in names]
+
+
+def _coordinate(where: str, frame: MovingFrame, name: str) -> sp.Symbol:
+    known = {str(q): q for q in frame.c.q}
+    if name not in known:
+        raise InputError(f"{where}: {name} is none of the coordinates {', '.join(known)}: name some of these")
+    return known[name]

@@ -16,7 +16,7 @@ from mpmath import mp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
-from lagrotor.mechanics.bodies import named_joints
+from lagrotor.mechanics.bodies import moving_frames
 from lagrotor.mechanics.bodies.contacts import Contact, contact
 from lagrotor.mechanics.bodies.force_elements import push, torque
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
@@ -139,7 +139,7 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
 class Frame(MovingFrame):
     """Frame(c) is the ground; `turned` and `moved` lead to others; `body` fixes a rigid body to one; `push` and `torque` give the
     generalised forces of a force at one of its points, and of a torque on it. Joints by name lead to others, too, and close
-    loops: see `named_joints`.
+    loops: see `moving_frames`.
 
     c = coordinates("phi theta psi")
     top = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
@@ -149,10 +149,10 @@ class Frame(MovingFrame):
     body = make_body
     push = push
     torque = torque
-    weld, pin, prismatic, screw = named_joints.weld, named_joints.pin, named_joints.prismatic, named_joints.screw
-    cylindrical, universal, planar = named_joints.cylindrical, named_joints.universal, named_joints.planar
-    ball, free = named_joints.ball_joint, named_joints.free
-    coincides, keeps_axis = named_joints.coincides, named_joints.keeps_axis
+    weld, pin, prismatic, screw = moving_frames.weld, moving_frames.pin, moving_frames.prismatic, moving_frames.screw
+    cylindrical, universal, planar = moving_frames.cylindrical, moving_frames.universal, moving_frames.planar
+    ball, free = moving_frames.ball_joint, moving_frames.free
+    coincides, keeps_axis = moving_frames.coincides, moving_frames.keeps_axis
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,8 @@
 """A mechanism as a tree of links, each moved from its parent by a joint of any number of coordinates of its own, and by time.
 
-A joint is a turn about one axis, a shift, both along one axis by the same coordinates (a screw), or a rotation matrix. Its
-velocity relative to the parent, in the link's axes, is linear in the rates of its own coordinates,
+A joint is a turn about one axis, a shift, or a rotation matrix. A screw, whose turn and shift have one coordinate, is no such
+joint: the mass matrix serves a system with one. The joint's velocity relative to the parent, in the link's axes, is linear in
+the rates of its own coordinates,
 
     (u, d') = Σ_j s_j(q, t) v_j + s_t(q, t).
 
@@ -178,14 +179,11 @@ class _Walk:
         self.links: list[TreeLink] = []
         self.masses: list[list[Mass]] = []
         self.known: dict[MovingFrame, Place] = {}
-        self.inside: set[MovingFrame] = set()  # of screws
         self.used: set[sp.Symbol] = set()
 
     def place_of(self, frame: MovingFrame) -> Place:
         if frame.parent is None:
             return -1, sp.zeros(3, 1), sp.eye(3)
-        if frame in self.inside:
-            raise _NoTreeError
         if frame not in self.known:
             self.known[frame] = self.step(frame, *self.place_of(frame.parent))
         return self.known[frame]
@@ -198,11 +196,8 @@ class _Walk:
             return (parent, d + R * frame.amount, R) if is_shift else (parent, d, R * frame.rotation)
         places = sorted(moving & {*self.c.q}, key=self.c.q.index)
         speeds = frame.omega or tuple(self.rate[q] for q in places)
-        if moving & {*self.c.v} or not {*speeds} <= self.number.keys():
+        if moving & {*self.c.v} or not {*speeds} <= self.number.keys() or moving & self.used:
             raise _NoTreeError
-        if moving & self.used:
-            self.join_screw(frame, parent, places, bool(any(d)) or sp.eye(3) != R)
-            return parent, d, R
         self.used |= moving - {t}
         self.turned += speeds
         own = tuple(self.number[u] for u in speeds)
@@ -219,30 +214,6 @@ class _Walk:
         self.links.append(TreeLink(parent, d, R, frame.axis, angle, own, columns[:-1], rate, swing))
         self.masses.append([])
         return len(self.links) - 1, sp.zeros(3, 1), sp.eye(3)
-
-    def join_screw(self, frame: MovingFrame, parent: int, places: list[sp.Symbol], apart: bool) -> None:
-        """A turn about the way of the shift before it, by the same coordinates, joined to that link.
-
-        Raises _NoTreeError for another step.
-        """
-        link, k = self.links[parent], frame.axis
-        ways = [v for _, v in (*link.columns, link.rate)]
-        if (
-            k is None
-            or apart
-            or parent < 0
-            or self.masses[parent]
-            or any(other.parent == parent for other in self.links)
-            or link.coordinates != tuple(self.number[self.rate[q]] for q in places)
-            or link.turns
-            or any(v[i, 0] != 0 for v in ways for i in range(3) if i != k)
-        ):
-            raise _NoTreeError
-        turns = _velocities(frame, [*places, t], [*(self.rate[q] for q in places), sp.S.One])
-        columns = tuple((w, v) for (w, _), (_, v) in zip(turns[0], link.columns, strict=False))
-        rate, swing = ((turn[0], way[1]) for turn, way in zip(turns[1:], (link.rate, link.swing), strict=True))
-        self.links[parent] = replace(link, axis=k, angle=frame.amount, columns=columns, rate=rate, swing=swing)
-        self.inside |= {f for f, place in self.known.items() if place[0] == parent}
 
 
 def _velocities(

@@ -237,7 +237,7 @@ class Hamiltonian:
     ) -> "ReturnMapForm":
         """The start in numbers, without the angles that H does not have: their momenta are parameters."""
         from lagrotor.mechanics.canonical.normal_forms import check_form_order
-        from lagrotor.mechanics.canonical.periodic_orbits import return_map_form
+        from lagrotor.mechanics.canonical.return_maps import return_map_form
 
         check_form_order(order, detuning)
         try:

@@ -23,8 +23,7 @@ from sympy.polys.polyerrors import CoercionFailed
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotExactError, SingularError
-from lagrotor.mechanics.canonical.exact_modes import elements, exact_coordinates
-from lagrotor.mechanics.canonical.local_series import LocalSeries
+from lagrotor.mechanics.canonical.normal_coordinates import elements, exact_coordinates, normal_coordinates
 from lagrotor.mechanics.canonical.polynomials import (
     Coefficients,
     Exponents,
@@ -35,7 +34,7 @@ from lagrotor.mechanics.canonical.polynomials import (
     polynomial,
     total,
 )
-from lagrotor.mechanics.canonical.symplectic import normal_coordinates
+from lagrotor.mechanics.canonical.taylor_series import LocalSeries
 from lagrotor.shown import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers

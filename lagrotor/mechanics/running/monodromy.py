@@ -27,7 +27,7 @@ from lagrotor.mechanics.running.motion import SampledMotion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_motion
 from lagrotor.mechanics.running.scales import clock_windows
 from lagrotor.mechanics.running.state_space import check_smooth, local_slope, motion_slope, point_state, tangent_space
-from lagrotor.mechanics.small_turns import small_states
+from lagrotor.mechanics.steady_motions import small_states
 from lagrotor.numerics.floquet_multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import windows_since

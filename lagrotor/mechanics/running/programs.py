@@ -19,8 +19,7 @@ import sympy as sp
 from lagrotor.algebra.differentiation import along
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, SingularError, near
-from lagrotor.mechanics.bodies.articulated import tree_accelerations
-from lagrotor.mechanics.bodies.joints import joints, tree_energy
+from lagrotor.mechanics.bodies.articulated import joints, tree_accelerations, tree_energy
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.equations import Equations, push_left, rows_left

@@ -8,7 +8,7 @@ from lagrotor.mechanics.constraints import project_position, project_velocity
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import parameter_values, start_program
-from lagrotor.mechanics.small_turns import no_turn
+from lagrotor.mechanics.steady_motions import no_turn
 from lagrotor.numerics.arrays import finite_array, real_array
 
 _OFF = 1e-7  # of 1 and the largest number of a start: how far it may be off its constraints

@@ -30,7 +30,7 @@ from lagrotor.mechanics.running.programs import (
     parameter_values,
 )
 from lagrotor.mechanics.running.starts import consistent, rounding_of_start
-from lagrotor.mechanics.small_turns import small_states, small_turns
+from lagrotor.mechanics.steady_motions import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
 _OTHER = -4  # of the step: another one, which gives the same derivative where there is one

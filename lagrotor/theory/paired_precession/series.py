@@ -23,7 +23,7 @@ from sympy.polys.domains.domain import Domain
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.fourier import FourierSeries, Series
-from lagrotor.mechanics.perturbation import PeriodicSeries, Residual, lindstedt_poincare
+from lagrotor.mechanics.weakly_nonlinear import PeriodicSeries, Residual, lindstedt_poincare
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.notation import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
 from lagrotor.pair.scene import Scene

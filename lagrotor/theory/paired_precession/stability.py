@@ -16,7 +16,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.exponents import ExponentSeries, characteristic_exponents
+from lagrotor.mechanics.weakly_nonlinear import ExponentSeries, characteristic_exponents
 from lagrotor.pair.notation import k, r0, sigma
 from lagrotor.theory.closed_form import Array, ClosedForm
 from lagrotor.theory.paired_precession.remainder import with_error

@@ -13,8 +13,9 @@ from scipy.spatial.transform import Rotation
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, System, coordinates, t, total_derivative
+from tests.systems import I1, I2, I3, J, R, g, l, m, rolling_disc, sleigh
 
-m, M, l, g, R, J, I1, I2, I3 = sp.symbols("m M l g R J I_1 I_2 I_3", positive=True)
+M = sp.Symbol("M", positive=True)
 ANGLES = coordinates("phi theta psi")
 
 
@@ -126,14 +127,6 @@ def test_sketches_that_make_no_sense_are_refused(build, message: str) -> None:
         build()
 
 
-def sleigh() -> System:
-    c = coordinates("x y phi")
-    x, y, phi = c.q
-    blade = Frame(c).moved(x, y).turned("z", phi)
-    runner = blade.body(m, (0, 0, J), centre=(l, 0, 0))
-    return System(c, runner.kinetic, rolling=(blade.velocity()[1],))
-
-
 def test_chaplygins_sleigh_of_a_body_follows_its_closed_solution() -> None:
     """Neimark & Fufaev ch. II: with b² = m l²/(J + m l²): omega = omega_0 sech(s), u = a tanh(s) … on the ellipse
     u² + (J/m + l²) omega² = const, and omega' = −(m l/(J + m l²)) omega u."""
@@ -147,18 +140,6 @@ def test_chaplygins_sleigh_of_a_body_follows_its_closed_solution() -> None:
     assert run.v[:, 2] == pytest.approx(1.5 / np.cosh(rate * times), abs=1e-9)
     assert run.drift.max() < 1e-11
     assert np.ptp(run.energy) < 1e-9
-
-
-def disc() -> tuple[System, Frame]:
-    """A thin disc on a horizontal plane: centre, heading, lean, roll."""
-    c = coordinates("x y z phi theta psi")
-    x, y, z, phi, theta, psi = c.q
-    lean = Frame(c).moved(x, y, z).turned("zx", (phi, theta))
-    wheel = lean.turned("y", psi)
-    body = wheel.body(m, (m * R**2 / 4, m * R**2 / 2, m * R**2 / 4))
-    at_rest = wheel.velocity((0, 0, -R), seen=lean)
-    height = z - R * sp.cos(theta)
-    return System(c, body.kinetic - body.potential((0, 0, -g)), (height,), rolling=tuple(at_rest[:2, 0])), wheel
 
 
 def newton_euler(times: np.ndarray, Q: np.ndarray, spin: np.ndarray, place: np.ndarray) -> np.ndarray:
@@ -192,7 +173,7 @@ def newton_euler(times: np.ndarray, Q: np.ndarray, spin: np.ndarray, place: np.n
 def test_a_rolling_disc_follows_newton_and_euler(engine: str) -> None:
     if engine == "fast":
         pytest.importorskip("heyoka")
-    system, wheel = disc()
+    system, wheel = rolling_disc()
     values, times = {m: 2.0, R: 0.5, g: 9.81}, np.linspace(0, 3, 61)
     q0, v0 = (0, 0, 0.5 * np.cos(0.3), 0.2, 0.3, 0.1), (0, 0, 0, 0.8, 0.4, 5.0)
     q0, v0 = system.consistent(values, q0, v0)

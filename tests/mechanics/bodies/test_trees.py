@@ -20,6 +20,7 @@ from lagrotor.mechanics.bodies.trees import tree_of
 from lagrotor.mechanics.running.programs import energy_program, parameter_values
 from lagrotor.numerics import compile_program, operations
 from lagrotor.numerics.codegen import reduce_common
+from tests.systems import chain
 
 m, l, g, I1, I2, I3, k = sp.symbols("m l g I_1 I_2 I_3 k", positive=True)
 VALUES = {m: 1.3, l: 0.7, g: 9.81, I1: 0.3, I2: 0.4, I3: 0.2, k: 0.5}
@@ -49,17 +50,6 @@ def assert_same_motion(system: System, seed: int = 1) -> None:
     assert energy(system, y) == pytest.approx(energy(plain(system), y), rel=1e-10, abs=1e-10)
 
 
-def pendulum(n: int) -> System:
-    """n points on massless links, relative angles."""
-    c = coordinates([f"q{i}" for i in range(n)])
-    frame, L = Frame(c), sp.S.Zero
-    for q in c.q:
-        frame = frame.turned("y", q)
-        point = frame.body(m, centre=(0, 0, -l))
-        L, frame = L + point.kinetic - point.potential(GRAVITY), frame.moved(0, 0, -l)
-    return System(c, L)
-
-
 def gyroscopes(n: int) -> System:
     """A chain of gyroscopes, each on the tip of the one before, two angles and a spin."""
     c = coordinates([f"{s}{i}" for i in range(n) for s in ("a", "b", "s")])
@@ -73,7 +63,7 @@ def gyroscopes(n: int) -> System:
 
 @pytest.mark.parametrize(
     "system",
-    [pendulum(3), gyroscopes(1), pytest.param(gyroscopes(2), marks=pytest.mark.slow)],
+    [chain(3), gyroscopes(1), pytest.param(gyroscopes(2), marks=pytest.mark.slow)],
     ids=["pendulum", "gyroscope", "two"],
 )
 def test_chains_move_by_the_recursion_as_by_their_mass_matrix(system: System) -> None:
@@ -145,7 +135,7 @@ def test_joints_of_several_coordinates_and_of_time_move_as_their_mass_matrix(nam
 
 def test_terms_linear_in_the_velocities_act_as_forces_on_a_tree() -> None:
     """A magnetic field along z on the end of a double pendulum, and a potential that the time drives."""
-    system = pendulum(2)
+    system = chain(2)
     (a, b), (u, _) = system.c.q, system.c.v
     assert_same_motion(System(system.c, system.lagrangian + k * sp.sin(b) * u * t - k * sp.cos(t) * a**2))
 
@@ -158,7 +148,7 @@ def test_a_joint_that_moves_no_mass_is_refused() -> None:
 
 
 def test_springs_friction_and_forces_act_on_the_joints_of_a_tree() -> None:
-    system = pendulum(3)
+    system = chain(3)
     q, v = system.c.q, system.c.v
     bound = System(
         system.c,
@@ -173,20 +163,20 @@ def test_springs_friction_and_forces_act_on_the_joints_of_a_tree() -> None:
 
 def test_a_loop_closes_a_tree_by_multipliers() -> None:
     """A four-bar linkage as an open chain of three bars whose end is held."""
-    chain = pendulum(3)
-    frame = Frame(chain.c)
-    for q in chain.c.q:
+    rods = chain(3)
+    frame = Frame(rods.c)
+    for q in rods.c.q:
         frame = frame.turned("y", q).moved(0, 0, -l)
     x, _, z = frame.place()
-    assert_same_motion(System(chain.c, chain.lagrangian, (x - l, z + l / 2)))
+    assert_same_motion(System(rods.c, rods.lagrangian, (x - l, z + l / 2)))
 
 
-@pytest.mark.parametrize(("make", "each"), [(pendulum, 54), (gyroscopes, 377)])
+@pytest.mark.parametrize(("make", "each"), [(chain, 54), (gyroscopes, 377)])
 def test_each_link_more_costs_the_same_number_of_operations(make: Callable[[int], System], each: int) -> None:
     """And no more than it did: a pendulum in a plane turns no vectors, a rotor leaves its mass to its axis."""
     counts = [operations(motion_program(make(n)).program) for n in (3, 4, 5)]
     assert np.diff(counts) == pytest.approx(each, abs=1)
-    assert operations(motion_program(plain(pendulum(3))).program) > operations(motion_program(pendulum(3)).program)
+    assert operations(motion_program(plain(chain(3))).program) > operations(motion_program(chain(3)).program)
 
 
 def test_twice_the_links_are_at_most_two_and_a_third_times_the_work() -> None:
@@ -196,7 +186,7 @@ def test_twice_the_links_are_at_most_two_and_a_third_times_the_work() -> None:
     """
     context = get_context("fork")
     receiver, sender = context.Pipe(duplex=False)
-    made = (*(partial(pendulum, n) for n in (8, 16)), *(partial(lambda n: plain(pendulum(n)), n) for n in (2, 4)))
+    made = (*(partial(chain, n) for n in (8, 16)), *(partial(lambda n: plain(chain(n)), n) for n in (2, 4)))
     copy = context.Process(target=lambda: sender.send(work(*made)))
     copy.start()
     (few, calls), (twice, doubled), (_, calls_by_mass), (_, doubled_by_mass) = receiver.recv()
@@ -247,7 +237,7 @@ def test_what_is_no_tree_takes_the_mass_matrix() -> None:
 
 
 def test_a_long_chain_keeps_its_energy() -> None:
-    chain = pendulum(12)
+    rods = chain(12)
     start = np.linspace(0.2, 0.1, 12)
-    run = chain.simulate(VALUES, start, 0 * start, np.linspace(0, 2, 21), 1e-9)
+    run = rods.simulate(VALUES, start, 0 * start, np.linspace(0, 2, 21), 1e-9)
     assert np.ptp(run.energy) < 1e-6 * np.abs(run.energy).max()

@@ -10,14 +10,9 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import System, coordinates, energy, rotational_bracket, t
 from lagrotor.pair import bar_curve, mercator_lagrangian, minimal_embedding
 from lagrotor.pair.notation import MERCATOR, MINIMAL
+from tests.systems import g, k, kepler, m
 
-m, g, k, B = sp.symbols("m g k B", positive=True)
-
-
-def kepler():
-    c = coordinates("x y z")
-    r = sp.sqrt(sum(q**2 for q in c.q))
-    return System(c, m * sum(v**2 for v in c.v) / 2 + k / r)
+B = sp.Symbol("B", positive=True)
 
 
 def angular_momentum(h):

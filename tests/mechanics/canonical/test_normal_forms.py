@@ -13,19 +13,13 @@ from lagrotor.mechanics import NormalForm, System, coordinates, libration
 from lagrotor.mechanics.canonical.normal_forms import normal_form_of_series
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, poisson_bracket, polynomial, variable
 from lagrotor.numerics import measured_order
+from tests.systems import henon_heiles, plane_motion
 
 R = sp.Rational
 
 
 def plane(V, magnetic=0):
-    """Unit mass in the plane with potential V(x, y) and the field 2·magnetic."""
-    c = coordinates("x y")
-    (x, y), (u, w) = c.q, c.v
-    return System(c, (u**2 + w**2) / 2 + magnetic * (x * w - y * u) - V(x, y)).hamiltonian()
-
-
-def henon_heiles():
-    return plane(lambda x, y: (x**2 + y**2) / 2 + x**2 * y - y**3 / 3)
+    return plane_motion(V, magnetic).hamiltonian()
 
 
 def transformation(n: NormalForm) -> list[Polynomial]:
@@ -64,7 +58,7 @@ def check_transformation(n: NormalForm, H, x, at) -> None:
 
 def test_henon_heiles_as_gustavson_printed_it():
     """Gustavson 1966, Braun 1973: −5/12 I² + 7/12 L² at order 4, with I = I₁ + I₂ and L² = (2 Im z₁ w₂)²."""
-    n = henon_heiles().normal_form(order=6, at={"x": 0, "y": 0})
+    n = henon_heiles().hamiltonian().normal_form(order=6, at={"x": 0, "y": 0})
     assert n.frequencies == (1, 1) and n.energy_signs == (1, 1) and n.error == 0
     assert {e: n.actions[e] for e in ((2, 0), (0, 2), (1, 1))} == {
         (2, 0): R(-5, 12),
@@ -77,7 +71,7 @@ def test_henon_heiles_as_gustavson_printed_it():
 
 
 def test_in_numbers_it_is_the_same_and_says_its_rounding():
-    exact = henon_heiles().normal_form(order=6, at={"x": 0, "y": 0})
+    exact = henon_heiles().hamiltonian().normal_form(order=6, at={"x": 0, "y": 0})
     c = coordinates("x y")
     (x, y), (u, w) = c.q, c.v
     numbers = System(c, (u**2 + w**2) / 2 - (1.0 * x**2 + y**2) / 2 - x**2 * y + y**3 / 3).hamiltonian()
@@ -91,7 +85,7 @@ def test_in_numbers_it_is_the_same_and_says_its_rounding():
 def test_it_is_a_canonical_transformation_and_the_same_hamiltonian(kind):
     at = {}
     if kind == "henon":
-        h = henon_heiles()
+        h = henon_heiles().hamiltonian()
     elif kind == "fast and slow":
         h = plane(lambda x, y: x**2 / 2 + R(2) * y**2 + x * y**2 / 3 - x**3 / 5 + x**2 * y**2)
     elif kind == "magnetic":
@@ -111,7 +105,7 @@ def test_it_is_a_canonical_transformation_and_the_same_hamiltonian(kind):
 
 
 def test_a_wrong_generator_is_no_normal_form():
-    h = henon_heiles()
+    h = henon_heiles().hamiltonian()
     n = h.normal_form(order=5, at={"x": 0, "y": 0})
     n = type(n)(**{**vars(n), "generators": (n.generators[0].times(2), *n.generators[1:])})
     with pytest.raises(AssertionError):
@@ -194,7 +188,7 @@ def test_a_toda_chain_has_no_resonance_that_hinders_it():
     numbers = {e: complex(c) for e, c in [*n.resonances.items(), *((e * 2, c) for e, c in n.actions.items())]}
     bracket = poisson_bracket(polynomial(numbers, 4), L, np.array([-1j, -1j]), 6)
     assert np.abs(bracket.coefficients).max(initial=0) < 1e-12
-    other = henon_heiles().normal_form(order=6, at={"x": 0, "y": 0})
+    other = henon_heiles().hamiltonian().normal_form(order=6, at={"x": 0, "y": 0})
     numbers = {e: complex(c) for e, c in [*other.resonances.items(), *((e * 2, c) for e, c in other.actions.items())]}
     assert np.abs(poisson_bracket(polynomial(numbers, 4), L, np.array([-1j, -1j]), 6).coefficients).max() > 0.1
 

@@ -12,10 +12,11 @@ from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics import System, coordinates, map_normal_form, t
-from lagrotor.mechanics.canonical import periodic_orbits
-from lagrotor.mechanics.canonical.jets import jet_space
+from lagrotor.mechanics.canonical import return_maps
 from lagrotor.mechanics.canonical.polynomials import linear_form, poisson_bracket, polynomial, variable
+from lagrotor.mechanics.canonical.taylor_series import jet_space
 from lagrotor.numerics import measured_order
+from tests.systems import henon_heiles
 
 R = sp.Rational
 c = coordinates("x y")
@@ -25,10 +26,6 @@ line = coordinates("x")
 
 def plane(V):
     return System(c, (u**2 + w**2) / 2 - V).hamiltonian()
-
-
-def henon_heiles():
-    return plane((x**2 + y**2) / 2 + x**2 * y - y**3 / 3)
 
 
 def henon(a):
@@ -149,7 +146,7 @@ def exact_angle(h, n, size, returns=120):
 
 
 ORBITS = {
-    "Hénon–Heiles, along its axis": (henon_heiles, {x: 0, y: 0, w: 0.45}, 7.1, 0.024),
+    "Hénon–Heiles, along its axis": (lambda: henon_heiles().hamiltonian(), {x: 0, y: 0, w: 0.45}, 7.1, 0.024),
     "a turning pendulum and an oscillator": (
         lambda: plane(-sp.cos(x) + y**2 / 2 - y**2 * sp.cos(x) / 5 + y**4 / 9 - y**3 / 5),
         {x: 0, y: 0, u: 3.6},
@@ -194,7 +191,7 @@ def test_the_angle_of_a_return_is_that_of_the_exact_motion(name):
 
 
 def test_normal_coordinates_are_canonical_and_the_section_has_the_orbits_energy():
-    h = henon_heiles()
+    h = henon_heiles().hamiltonian()
     n = h.normal_form(order=6, at={x: 0, y: 0, w: 0.45}, period=7.1)
     new = [n.original(linear_form(row)) for row in n.vectors]
     bracket = poisson_bracket(new[0], new[1], n.weights, 4) - polynomial({(0, 0): 1.0}, 2)
@@ -272,11 +269,11 @@ def test_a_pulse_by_which_an_oscillator_is_driven_is_not_passed_over(monkeypatch
     def off(s):
         pulse = 3 / (width * sp.sqrt(sp.pi)) * sp.exp(-((sp.sin((t - s) * sp.pi / 7) * 7 / sp.pi / width) ** 2))
         H, rest = p**2 / 2 + (1 + pulse) * x**2 / 2, {x: 0, p: 0, t: 0}
-        cosine = np.real(periodic_orbits.return_map_form(H, symbols, rest, 7.0, 2, 1e-6).multipliers[0])
+        cosine = np.real(return_maps.return_map_form(H, symbols, rest, 7.0, 2, 1e-6).multipliers[0])
         return abs(cosine - cos(7) + 1.5 * sin(7))
 
     assert max(map(off, times)) < 4 * width
-    monkeypatch.setattr(periodic_orbits, "brief_windows", lambda *_: ())
+    monkeypatch.setattr(return_maps, "brief_windows", lambda *_: ())
     assert max(map(off, times)) > 0.5  # twin
 
 
@@ -325,7 +322,11 @@ def test_the_start_may_be_off_and_letters_have_values():
     g = sp.Symbol("g", positive=True)
     h = plane((x**2 + y**2) / 2 + g * (x**2 * y - y**3 / 3))
     near = h.normal_form(order=4, at={x: 0.02, y: 0.01, w: 0.45}, period=6.9, values={g: 1})
-    exact = henon_heiles().normal_form(order=4, at={x: 0, y: 0, w: np.sqrt(0.2025 + 5e-4 + 2 * 2e-4**2)}, period=7.1)
+    exact = (
+        henon_heiles()
+        .hamiltonian()
+        .normal_form(order=4, at={x: 0, y: 0, w: np.sqrt(0.2025 + 5e-4 + 2 * 2e-4**2)}, period=7.1)
+    )
     assert near.orbit[x] == pytest.approx(0, abs=1e-10)
     assert near.frequencies[0] == pytest.approx(exact.frequencies[0], rel=1e-2)
     with pytest.raises(InputError, match="g without a value"):
@@ -347,7 +348,9 @@ REFUSED = [
 def test_what_is_no_orbit_is_refused(options, changed, error, match):
     at = {"x": 0, "y": 0, "y_dot": 0.45} | {{"w": "y_dot"}.get(k, k): e for k, e in changed.items()}
     with pytest.raises(error, match=match):
-        henon_heiles().normal_form(**({"order": 4} | options), at={k: e for k, e in at.items() if e is not None})
+        henon_heiles().hamiltonian().normal_form(
+            **({"order": 4} | options), at={k: e for k, e in at.items() if e is not None}
+        )
 
 
 def test_symmetries_and_single_degrees_of_freedom_are_refused():

@@ -1,16 +1,20 @@
-"""Truncated power series in several variables as numbers that a compiled program can be run on: jet transport.
+"""Taylor series in several variables, of expressions and of programs.
 
-A `TruncatedSeries` holds all coefficients through a degree, lowest degrees first. Sums and products are those of polynomials; a
-function is expanded about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!, of which v, without a constant,
-leaves finitely many terms. The motion of a series is the motion with all its derivatives by the start: the variational
-equations to any order.
+`LocalSeries` gives the Taylor polynomial of an expression about a point, exact or in floating-point numbers. A `TruncatedSeries`
+holds all coefficients through a degree, lowest degrees first, as a number that a compiled program runs on: jet transport. Its
+motion is the motion with all its derivatives by the start, the variational equations to any order. Both expand a function about
+the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!, of which v, without a constant, leaves finitely many terms.
+
 Berz, Modern Map Methods in Particle Beam Physics, ch. 2; Jorba & Zou, Experimental Mathematics 14 (2005) 99.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import combinations_with_replacement
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -19,12 +23,85 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
-from lagrotor.mechanics.canonical.polynomials import Polynomial
+from lagrotor.mechanics.canonical.polynomials import Polynomial, by_squaring, constant, total
 from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import compile_program
 
-_Z = sp.Symbol("z", real=True)
+_Z = sp.Symbol("_argument")  # a symbol, since a Dummy has no name in compiled code
+_CORNERED = (sp.Abs, sp.sign, sp.Heaviside, sp.floor, sp.ceiling, sp.re, sp.im, sp.conjugate, sp.arg)
+
+
+@dataclass(frozen=True)
+class LocalSeries:
+    """Polynomials of expressions at x = at[x] + moved[x] for each x of `moved`, polynomials without constant terms.
+
+    value: a number of sympy as a coefficient. Raises DomainError where an expression is not analytic at the point.
+    """
+
+    at: Mapping[sp.Symbol, sp.Expr]
+    moved: Mapping[sp.Symbol, Polynomial]
+    order: int
+    value: Callable[[sp.Expr], Any]
+    known: dict[sp.Expr, Polynomial] = field(default_factory=dict)
+
+    def of(self, e: sp.Expr) -> Polynomial:
+        """The polynomial of an expression, through the order."""
+        if e not in self.known:
+            self.known[e] = self._expanded(e)
+        return self.known[e]
+
+    def _expanded(self, e: sp.Expr) -> Polynomial:
+        if not e.free_symbols & self.moved.keys():
+            return self._number(e)
+        if e in self.moved:
+            return self.moved[e] + self._number(e)
+        if isinstance(e, sp.Add):
+            return total([self.of(part) for part in e.args])
+        if isinstance(e, sp.Mul):
+            first, *rest = map(self.of, e.args)
+            for factor in rest:
+                first = first.product(factor, self.order)
+            return first
+        if isinstance(e, sp.Pow):
+            return self._power(e)
+        if len(e.args) == 1 and not isinstance(e, _CORNERED):
+            return self._composed(e.func(_Z), e.args[0])
+        raise DomainError(f"normal_form: {e} is not expanded: write it by analytic functions of one argument")
+
+    def _power(self, e: sp.Expr) -> Polynomial:
+        if e.exp.is_Integer and e.exp > 0:
+            return self.of(e.base).power(int(e.exp), self.order)
+        if e.exp.free_symbols & self.moved.keys():
+            return self._composed(sp.exp(_Z), e.exp * sp.log(e.base))
+        return self._composed(_Z**e.exp, e.base)
+
+    def _composed(self, f: sp.Expr, inner: sp.Expr) -> Polynomial:
+        """f(inner): Horner's rule in what of `inner` vanishes at the point."""
+        u, v = inner.xreplace(self.at), self.of(inner)
+        v = v.where(v.exponents.sum(1) > 0)
+        *lower, result = (
+            self._number(_derivative(f, m).xreplace({_Z: u}) / sp.factorial(m)) for m in range(self.order + 1)
+        )
+        for coefficient in reversed(lower):
+            result = result.product(v, self.order) + coefficient
+        return result
+
+    def _number(self, e: sp.Expr) -> Polynomial:
+        at_point = e.xreplace(self.at)
+        if at_point.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
+            raise DomainError(
+                f"normal_form: {e} is singular at {dict(self.at)}: use coordinates that are regular there"
+            )
+        some = next(iter(self.moved.values()))
+        return constant(self.value(at_point), some.variables, some.coefficients.dtype)
+
+
+@lru_cache(maxsize=4096)
+def _derivative(f: sp.Expr, m: int) -> sp.Expr:
+    return f if m == 0 else _derivative(f, m - 1).diff(_Z)
+
+
 _NAMES = {
     "arcsin": "asin",
     "arccos": "acos",
@@ -54,11 +131,11 @@ class JetSpace:
         """The coefficients of a product through the degree."""
         return np.add.reduceat(a[self.left] * b[self.right], self.begins)
 
-    def constant(self, value: float) -> "TruncatedSeries":
+    def constant(self, value: float) -> TruncatedSeries:
         """A number."""
         return TruncatedSeries(np.append(value, np.zeros(len(self.exponents) - 1)), self)
 
-    def variable(self, k: int) -> "TruncatedSeries":
+    def variable(self, k: int) -> TruncatedSeries:
         """x_k."""
         unit = np.arange(self.exponents.shape[1]) == k
         return TruncatedSeries((self.exponents == unit).all(axis=1).astype(float), self)
@@ -99,7 +176,7 @@ class TruncatedSeries(NDArrayOperatorsMixin):
         """The terms that are not zero."""
         return Polynomial(self.space.exponents, self.coefficients + 0j).where(self.coefficients != 0)
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> "TruncatedSeries":
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> TruncatedSeries:
         name = ufunc.__name__
         if len(inputs) == 1:
             return TruncatedSeries(-self.coefficients, self.space) if name == "negative" else self._composed(name)
@@ -125,13 +202,12 @@ class TruncatedSeries(NDArrayOperatorsMixin):
             )
         raise _not_analytic(name)
 
-    def _power(self, n: float) -> "TruncatedSeries":
+    def _power(self, n: float) -> TruncatedSeries:
         if n != int(n) or n < 0:
             return self._composed("power", float(n))
-        half = self._power(n // 2) if n > 1 else self.space.constant(1.0)
-        return half * half * self if n % 2 else half * half
+        return by_squaring(self, int(n), mul) if n else self.space.constant(1.0)
 
-    def _composed(self, name: str, *more: float) -> "TruncatedSeries":
+    def _composed(self, name: str, *more: float) -> TruncatedSeries:
         """f of this jet by Horner's rule in what of it is not constant."""
         f = _taylor(name, self.space.degree, *more)
         try:
@@ -152,12 +228,9 @@ def _not_analytic(name: str) -> DomainError:
 
 
 @lru_cache(maxsize=64)
-def _taylor(name: str, degree: int, *more: float) -> Callable[[float], list[float]]:
-    """u → f^(m)(u)/m!, m = 0 … degree."""
-    if name == "power":
-        factors = np.cumprod([1.0, *((more[0] - m + 1) / m for m in range(1, degree + 1))])
-        return lambda u: [float(c * u ** (more[0] - m)) for m, c in enumerate(factors.tolist())]
-    if name not in _SMOOTH:
+def _taylor(name: str, degree: int, n: float = 1.0) -> Callable[[float], list[float]]:
+    """Return u → f^(m)(u)/m!, m = 0 … degree, for a function of numpy by its name, or the power n."""
+    if name != "power" and name not in _SMOOTH:
         raise _not_analytic(name)
-    f = getattr(sp, _NAMES.get(name, name))(_Z)
-    return compile_program(Program((_Z,), (), tuple(sp.diff(f, _Z, m) / sp.factorial(m) for m in range(degree + 1))))
+    f = _Z ** (int(n) if n == int(n) else n) if name == "power" else getattr(sp, _NAMES.get(name, name))(_Z)
+    return compile_program(Program((_Z,), (), tuple(_derivative(f, m) / sp.factorial(m) for m in range(degree + 1))))
