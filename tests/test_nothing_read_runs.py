@@ -524,7 +524,6 @@ READERS = {
     "paper/latex/init.py": "LaTeX",
     "paper/latex/token_stream.py": "LaTeX",
     "paper/theorems.py": "theorem",
-    "paper/title_page.py": "paper.toml",
     "report/cite.py": "own",
     "report/formulas/font.py": "own",
     "report/interactive/interactive.py": "own",

@@ -16,22 +16,22 @@ from lagrotor.pair import ansatz_A, lagrangians
 from lagrotor.pair.notation import I3, ROTOR, J, ell, k, r0, sigma, theta_0
 from lagrotor.paper import Audit, Stated, Statement, Verdict, decide, proof, scripts, stating
 from lagrotor.paper.premises import relation_text
-from lagrotor.paper.rotor_pair import shared_premises
-from lagrotor.paper.rotor_pair.ansatz_premises import (
+from lagrotor.paper.rotor_pair import premises
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.premises import (
     breach,
     no_bar_force,
     one_inclination,
     opposite_azimuths,
     opposite_spin_angles,
 )
-from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 ABOUT, MASSLESS, EQUAL = (
-    shared_premises.ABOUT_JOINT.says,
-    shared_premises.MASSLESS_BAR.says,
-    shared_premises.EQUAL_INERTIAS.says,
+    premises.ABOUT_JOINT.says,
+    premises.MASSLESS_BAR.says,
+    premises.EQUAL_INERTIAS.says,
 )
-UNITS = {shared_premises.BAR_AS_LONG_AS_ROTORS.says, shared_premises.UNIT_LENGTH.says}
+UNITS = {premises.BAR_AS_LONG_AS_ROTORS.says, premises.UNIT_LENGTH.says}
 AZIMUTHS, SPIN_ANGLES = opposite_azimuths().says, opposite_spin_angles().says
 # What each equation of the pair assumes, no more and no less.
 ASSUMED = {
@@ -86,7 +86,7 @@ def test_what_is_refuted_is_refuted_with_every_premise_granted(stated: dict[str,
     alone = decide(replace(stated["5.16"], relations=(value_of_A,), correction=()))
     assert value_of_A.quantity == "A"
     assert (alone.verdict, alone.order) == ("holds-to-order", 1), "only B is wrong"
-    assert shared_premises.OPPOSITE_SPINS in alone.premises
+    assert premises.OPPOSITE_SPINS in alone.premises
 
 
 @pytest.mark.parametrize("identifier", ["5.20", *(pytest.param(i, marks=pytest.mark.slow) for i in ("5.21", "5.22"))])
@@ -197,7 +197,7 @@ def test_the_corrected_inclinations_are_those_of_the_exact_orbit(stated: dict[st
     values = {
         sigma: (big + coupled) / (big - coupled),
         ell: 1.3,
-        shared_premises.R: 1,
+        premises.R: 1,
         k: 1.3,
         theta_0: np.arcsin(0.02),
     }

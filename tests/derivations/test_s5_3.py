@@ -15,7 +15,7 @@ from lagrotor.pair.notation import J, K, R, ell, k, m, omega, sigma
 from lagrotor.paper import Premise, Stated, Statement, decide, proof, scripts, stating
 from lagrotor.paper.rotor_pair.claims.natural_rates import coefficient
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.rotor_pair.shared_premises import (
+from lagrotor.paper.rotor_pair.premises import (
     EQUAL_SPINS,
     HEAVY_BAR,
     LIGHT_BAR_PREMISE,

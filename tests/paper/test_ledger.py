@@ -8,10 +8,10 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.pair.notation import I1, I3, ROTOR, J, r0
 from lagrotor.paper import Premise, Relation, Statement, chain, decide, judge, letters, verdict
+from lagrotor.paper.audit import verdict_data
 from lagrotor.paper.record import changes, reaches_result, record_text, recorded
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.rotor_pair.shared_premises import about_parameters
-from lagrotor.paper.verdict_text import verdict_data
+from lagrotor.paper.rotor_pair.premises import about_parameters
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)
