@@ -14,7 +14,7 @@ from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order, swing
 from lagrotor.pair import ansatz_A, lagrangians
 from lagrotor.pair.notation import I3, ROTOR, J, ell, k, r0, sigma, theta_0
-from lagrotor.paper import Audit, Stated, Statement, Verdict, decide, proof, scripts, stating
+from lagrotor.paper import Audit, Statement, Verdict, decide
 from lagrotor.paper.premises import relation_text
 from lagrotor.paper.rotor_pair import premises
 from lagrotor.paper.rotor_pair.own_paper import PAPER
@@ -103,18 +103,21 @@ def test_a_changed_correction_is_refuted(stated: dict[str, Statement], identifie
         assert decide(replace(statement, correction=wrong)).correction_verdict == "refuted"
 
 
-def changed(monkeypatch: pytest.MonkeyPatch, stem: str, name: str, change: Callable[[Any], Any]) -> dict[str, str]:
-    """Verdicts of a script after a function of the pair's Lagrangian is changed; proofs, which would refuse, let pass."""
-    monkeypatch.setattr(lagrangians, name, change(getattr(lagrangians, name)))
-    monkeypatch.setattr(proof, "prove", lambda *sides, **more: None)
-    monkeypatch.setattr(stating, "needs_premises", lambda *compared: False)
-    script = scripts.run_file(PAPER.scripts.path("derivations", stem))
-    return {s.id: decide(PAPER.statement(s)).verdict for s in script.shown(Stated)}
+@pytest.fixture
+def changed(
+    monkeypatch: pytest.MonkeyPatch, changed_physics: Callable[..., dict[str, Verdict]]
+) -> Callable[..., dict[str, str]]:
+    """Verdicts of a script after a function of the pair's Lagrangian is changed."""
+
+    def verdicts(stem: str, name: str, change: Callable[[Any], Any]) -> dict[str, str]:
+        monkeypatch.setattr(lagrangians, name, change(getattr(lagrangians, name)))
+        return {identifier: found.verdict for identifier, found in changed_physics([], stem).items()}
+
+    return verdicts
 
 
-def test_spin_against_the_precession_flips_the_lagrangians(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_spin_against_the_precession_flips_the_lagrangians(changed: Callable[..., dict[str, str]]) -> None:
     found = changed(
-        monkeypatch,
         "s5_2b_pair",
         "_rotor_energy",
         lambda energy: lambda inertia, q, q_v, phi_v, psi_v: energy(inertia, q, q_v, phi_v, -psi_v),
@@ -122,9 +125,8 @@ def test_spin_against_the_precession_flips_the_lagrangians(monkeypatch: pytest.M
     assert found == {"5.07": "refuted", "5.08": "refuted", "5.09": "holds", "5.10": "refuted", "5.11": "refuted"}
 
 
-def test_with_a_second_constraint_an_angle_less_is_free(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_with_a_second_constraint_an_angle_less_is_free(changed: Callable[..., dict[str, str]]) -> None:
     found = changed(
-        monkeypatch,
         "s5_2b_pair",
         "pair_with_bar",
         lambda pair: lambda: replace(pair(), constraints=(*pair().constraints, pair().c.q[0] - sp.pi / 5)),
@@ -133,9 +135,9 @@ def test_with_a_second_constraint_an_angle_less_is_free(monkeypatch: pytest.Monk
     assert found["5.07"] == "holds-if", "the constraint is no part of the Lagrangian"
 
 
-def test_axes_of_another_length_change_the_projection(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_axes_of_another_length_change_the_projection(changed: Callable[..., dict[str, str]]) -> None:
     stretched = sp.diag(2, 3, 1)
-    found = changed(monkeypatch, "s5_2e_bar_length", "axis", lambda axis: lambda *angles: stretched * axis(*angles))
+    found = changed("s5_2e_bar_length", "axis", lambda axis: lambda *angles: stretched * axis(*angles))
     assert found == dict.fromkeys(("5.17", "5.18", "5.19"), "refuted")
 
 
