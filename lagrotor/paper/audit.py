@@ -4,7 +4,7 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
@@ -13,9 +13,6 @@ from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import from_latex, readable
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict, point_text, verdict_table
-
-if TYPE_CHECKING:
-    from lagrotor.paper.papers import Paper
 
 NOT_YET = "not-yet-judged"
 
@@ -66,7 +63,7 @@ class Audit:
 _LONGEST = 120  # characters of a difference that is shown in a line
 
 
-def in_words(verdict: Verdict, paper: "Paper") -> str:
+def in_words(verdict: Verdict, paper: Any) -> str:
     """A verdict as a terminal shows it: printed, wrong, right, premises, domain, where it is derived."""
     statement, entry = verdict.statement, paper.equation(verdict.id)
     order = (
@@ -166,7 +163,7 @@ def _sides(relations: tuple[Relation, ...], side: str) -> str | None:
     return r" \quad ".join(found) or None
 
 
-def verdict_data(verdict: Verdict, paper: "Paper") -> dict[str, Any]:
+def verdict_data(verdict: Verdict, paper: Any) -> dict[str, Any]:
     """One verdict as the JSON object of `lagrotor audit --json`."""
     statement, entry = verdict.statement, paper.equation(verdict.id)
     return {
@@ -237,7 +234,7 @@ def waiting(entry: Equation) -> dict[str, Any]:
     return {**printed, "verdict": NOT_YET}
 
 
-def verdicts_json(verdicts: Iterable[Verdict], paper: "Paper", not_yet: Iterable[str] = ()) -> str:
+def verdicts_json(verdicts: Iterable[Verdict], paper: Any, not_yet: Iterable[str] = ()) -> str:
     """Verdicts as a JSON list, then the equations that are not yet judged."""
     rows = [verdict_data(verdict, paper) for verdict in verdicts] + [waiting(paper.equation(i)) for i in not_yet]
     return json.dumps(rows, indent=1, ensure_ascii=False)
