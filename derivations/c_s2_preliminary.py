@@ -9,7 +9,7 @@
 # What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/shocked_pair.py`.
 
 # %%
-from lagrotor.paper.rotor_pair.claims.shocked_pair import C01, C02
+from lagrotor.paper.rotor_pair.claims.shock_toppling_and_twist import C01, C02
 from lagrotor.paper.rotor_pair.runs import shocked_scene
 
 shocked_scene((10, 10), (50, 0, 0))

@@ -10,7 +10,7 @@
 # `correction.py`.
 
 # %%
-from lagrotor.paper.rotor_pair.claims.precession import C14, C15, C16, C17
+from lagrotor.paper.rotor_pair.claims.precession_and_drift import C14, C15, C16, C17
 
 # %% [markdown]
 # ## C14: degrees of freedom

@@ -9,7 +9,7 @@
 # What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/precession.py`.
 
 # %%
-from lagrotor.paper.rotor_pair.claims.precession import C18, C19
+from lagrotor.paper.rotor_pair.claims.precession_and_drift import C18, C19
 
 # %% [markdown]
 # ## C18: pinched valleys and peaks

@@ -10,7 +10,7 @@
 
 # %%
 from lagrotor.paper import Remark
-from lagrotor.paper.rotor_pair.claims.precession import C24
+from lagrotor.paper.rotor_pair.claims.precession_and_drift import C24
 from lagrotor.paper.rotor_pair.premises import TWO_MODES
 
 # %% [markdown]
