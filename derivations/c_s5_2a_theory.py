@@ -10,8 +10,7 @@
 # `correction.py`.
 
 # %%
-from lagrotor.paper.rotor_pair.claims.ansatz import C15, C16, C17
-from lagrotor.paper.rotor_pair.claims.degrees_of_freedom import C14
+from lagrotor.paper.rotor_pair.claims.precession_and_drift import C14, C15, C16, C17
 
 # %% [markdown]
 # ## C14: degrees of freedom

@@ -11,9 +11,8 @@
 # `twist_and_displacement.py` in `lagrotor/paper/rotor_pair/claims/`.
 
 # %%
-from lagrotor.paper.rotor_pair.claims.toppling_after_shock import C10, C11
-from lagrotor.paper.rotor_pair.claims.twist_and_displacement import C12, C13
-from lagrotor.paper.rotor_pair.shocked_runs import shocked_scene
+from lagrotor.paper.rotor_pair.claims.shock_toppling_and_twist import C10, C11, C12, C13
+from lagrotor.paper.rotor_pair.runs import shocked_scene
 
 shocked_scene((10, -10), (50, 0, 0))
 

@@ -6,12 +6,12 @@
 # **Assumptions.** The bar of section 4.1; a shock of 0.5 N along x and 0.3 N along y, so small that its square does not
 # show.
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/degrees_of_freedom.py`.
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/precession.py`.
 
 # %%
 from lagrotor.paper import Remark
-from lagrotor.paper.rotor_pair.claims.degrees_of_freedom import C24
-from lagrotor.paper.rotor_pair.shared_premises import TWO_MODES
+from lagrotor.paper.rotor_pair.claims.precession_and_drift import C24
+from lagrotor.paper.rotor_pair.premises import TWO_MODES
 
 # %% [markdown]
 # ## C24

@@ -17,9 +17,9 @@ from lagrotor.mechanics import accelerations, total_derivative
 from lagrotor.pair import axis, rotor_lagrangian
 from lagrotor.pair.notation import I3, ROTOR, J, R, m, omega_1, omega_2
 from lagrotor.paper import Formula, Premise, prove, verdict
-from lagrotor.paper.form import Form, form
-from lagrotor.paper.letters import rotation, vector
-from lagrotor.paper.rotor_pair.shared_premises import about_parameters
+from lagrotor.paper.grammar import rotation, vector
+from lagrotor.paper.proof import Form, form
+from lagrotor.paper.rotor_pair.premises import about_parameters
 
 theta, phi, psi = ROTOR.q
 theta_v, phi_v, psi_v = ROTOR.v

@@ -17,7 +17,7 @@ from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair import axes_pair
 from lagrotor.pair.notation import AXES, G_1, G_2, I3, Omega, R, a, b, k, omega_1, omega_2, t
 from lagrotor.paper import Formula, Remark, prove
-from lagrotor.paper.letters import vector
+from lagrotor.paper.grammar import vector
 
 eps = sp.Symbol("epsilon", positive=True)
 F = vector("F")

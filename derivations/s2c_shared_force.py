@@ -15,10 +15,10 @@ import sympy as sp
 
 from lagrotor.pair.notation import I3, J, R, m, omega_1, omega_2
 from lagrotor.paper import Formula, Premise, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import cross, vector
+from lagrotor.paper.grammar import cross, vector
+from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.rotor_pair.shared_premises import EQUAL_SPINS
+from lagrotor.paper.rotor_pair.premises import EQUAL_SPINS
 
 rotors = PAPER.scripts.run("derivations", "s2a_angular_momentum")
 pair = PAPER.scripts.run("derivations", "s2b_linear_pair")

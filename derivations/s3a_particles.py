@@ -16,8 +16,8 @@ from itertools import permutations
 import sympy as sp
 
 from lagrotor.paper import Formula, Premise, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import cross, rate, vector
+from lagrotor.paper.grammar import cross, rate, vector
+from lagrotor.paper.proof import form
 
 NUMBERS = (1, 2, 3)
 m1, m2, m3 = masses = sp.symbols("m_1 m_2 m_3", positive=True)

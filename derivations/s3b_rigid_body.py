@@ -18,8 +18,8 @@ from lagrotor.algebra import hessian
 from lagrotor.mechanics import total_derivative
 from lagrotor.pair.notation import ROTOR
 from lagrotor.paper import Formula, Premise, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import cross, rotation, symmetric, vector
+from lagrotor.paper.grammar import cross, rotation, symmetric, vector
+from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 particles = PAPER.scripts.run("derivations", "s3a_particles")

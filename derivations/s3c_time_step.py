@@ -15,8 +15,8 @@ import sympy as sp
 from lagrotor.algebra import agreement_order
 from lagrotor.pair.notation import M
 from lagrotor.paper import Formula, Premise, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import cross, cross_matrix, inverse, vector
+from lagrotor.paper.grammar import cross, cross_matrix, inverse, vector
+from lagrotor.paper.proof import form
 
 dt = sp.Symbol("Delta_t", positive=True)
 

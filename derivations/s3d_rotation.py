@@ -17,8 +17,8 @@ import sympy as sp
 from lagrotor.pair import axis
 from lagrotor.pair.notation import PAIR, ROTOR
 from lagrotor.paper import Formula, Premise, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import cross_matrix, inverse, rotation, vector
+from lagrotor.paper.grammar import cross_matrix, inverse, rotation, vector
+from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 body = PAPER.scripts.run("derivations", "s3b_rigid_body")

@@ -15,8 +15,8 @@ import sympy as sp
 from lagrotor.pair import axis
 from lagrotor.pair.notation import ROTOR
 from lagrotor.paper import Formula, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import rate, vector
+from lagrotor.paper.grammar import rate, vector
+from lagrotor.paper.proof import form
 
 S, D, s = sp.symbols("S D s", positive=True)
 theta, phi, _ = ROTOR.q

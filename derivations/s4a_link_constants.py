@@ -11,7 +11,7 @@
 import sympy as sp
 
 from lagrotor.paper import Formula, Remark, prove, verdict
-from lagrotor.paper.form import form
+from lagrotor.paper.proof import form
 
 M, n, omega_s, m_eff = sp.symbols("M n omega_s m_eff", positive=True)
 kilogram, second, metre = sp.symbols("kilogram second metre", positive=True)

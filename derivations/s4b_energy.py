@@ -15,8 +15,8 @@ import sympy as sp
 
 from lagrotor.mechanics import coordinates, energy
 from lagrotor.paper import Formula, Premise, parameter_premise, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import components, cross, dot, symmetric, vector
+from lagrotor.paper.grammar import components, cross, dot, symmetric, vector
+from lagrotor.paper.proof import form
 
 M_1, M_2, M_3 = masses = sp.symbols("M_1 M_2 M_3", positive=True)
 velocities, turns = ([vector(f"{name}_{i}") for i in (1, 2, 3)] for name in ("U", "Omega"))

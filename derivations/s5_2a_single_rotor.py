@@ -18,9 +18,9 @@ from lagrotor.mechanics import System, accelerations, momenta, total_derivative
 from lagrotor.pair import J_OF, rotor_lagrangian
 from lagrotor.pair.notation import I1, I3, M_3, ROTOR, J, M, M_z, R, omega
 from lagrotor.paper import Formula, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import rotation
-from lagrotor.paper.rotor_pair.shared_premises import ABOUT_JOINT, EQUAL_INERTIAS
+from lagrotor.paper.grammar import rotation
+from lagrotor.paper.proof import form
+from lagrotor.paper.rotor_pair.premises import ABOUT_JOINT, EQUAL_INERTIAS
 
 theta, phi, psi = ROTOR.q
 theta_v, phi_v, psi_v = ROTOR.v

@@ -16,12 +16,13 @@ from lagrotor.mechanics import degrees_of_freedom, total_derivative
 from lagrotor.pair import axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.notation import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
 from lagrotor.paper import Formula, Remark, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.rotor_pair.ansatz_premises import opposite_azimuths, opposite_spin_angles
-from lagrotor.paper.rotor_pair.shared_premises import (
+from lagrotor.paper.proof import form
+from lagrotor.paper.rotor_pair.premises import (
     ABOUT_JOINT,
     MASSLESS_BAR,
     in_parameters,
+    opposite_azimuths,
+    opposite_spin_angles,
 )
 from lagrotor.theory import paired_series
 

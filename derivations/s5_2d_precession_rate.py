@@ -16,11 +16,17 @@ from lagrotor.mechanics import momenta
 from lagrotor.pair import ansatz_integrals, axis, pair_with_bar
 from lagrotor.pair.notation import ANSATZ, G_1, G_2, I3, PAIR, A, B, G, J, a, b, omega, omega_1, omega_2
 from lagrotor.paper import Premise, Remark, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import rate as moving
-from lagrotor.paper.rotor_pair.ansatz_premises import no_bar_force, opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.grammar import rate as moving
+from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.rotor_pair.shared_premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS
+from lagrotor.paper.rotor_pair.premises import (
+    EQUAL_INERTIAS,
+    MASSLESS_BAR,
+    OPPOSITE_SPINS,
+    no_bar_force,
+    opposite_azimuths,
+    opposite_spin_angles,
+)
 from lagrotor.theory.natural_frequency import natural_frequency
 
 theta_1, theta_2 = ANSATZ.q[:2]

@@ -21,9 +21,9 @@ from lagrotor.numerics import measured_order
 from lagrotor.pair import rotor_lagrangian
 from lagrotor.pair.notation import ANSATZ, I3, ROTOR, A, B, G, J, Phi, R, ell, k, r0, sigma, theta_0
 from lagrotor.paper import Formula, Series, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.rotor_pair.shared_premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
-from lagrotor.paper.rotor_pair.shocked_runs import PAPER_R0
+from lagrotor.paper.proof import form
+from lagrotor.paper.rotor_pair.premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
+from lagrotor.paper.rotor_pair.runs import PAPER_R0
 from lagrotor.theory import pair_precession_rate, paired_series
 
 cosine, sine = sp.cos(Phi), sp.sin(Phi)

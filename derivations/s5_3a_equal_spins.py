@@ -17,8 +17,8 @@ from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair import INERTIAS, axes_pair, rotor_lagrangian
 from lagrotor.pair.notation import AXES, G_1, G_2, I3, ROTOR, G, J, Omega, Phi, R, a, b, m, omega, omega_1, omega_2
 from lagrotor.paper import Premise, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.rotor_pair.shared_premises import EQUAL_SPINS, ONE_KILOGRAM_BAR, PAPERS_ROTOR, in_parameters
+from lagrotor.paper.proof import form
+from lagrotor.paper.rotor_pair.premises import EQUAL_SPINS, ONE_KILOGRAM_BAR, PAPERS_ROTOR, in_parameters
 from lagrotor.theory.natural_frequency import natural_frequency
 
 # %% [markdown]

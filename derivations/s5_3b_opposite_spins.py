@@ -41,9 +41,9 @@ from lagrotor.pair.notation import (
     sigma,
 )
 from lagrotor.paper import Formula, Premise, Remark, Series, prove, verdict
-from lagrotor.paper.form import form
+from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.claims.natural_rates import coefficient
-from lagrotor.paper.rotor_pair.shared_premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, in_parameters
+from lagrotor.paper.rotor_pair.premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, in_parameters
 from lagrotor.theory.natural_frequency import natural_frequency
 
 theta = ROTOR.q[0]

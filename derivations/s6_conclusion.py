@@ -18,8 +18,8 @@ from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair import axes_pair, pair_with_bar
 from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, q, r0, sigma
 from lagrotor.paper import Formula, Remark, Series, prove, verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.rotor_pair.shared_premises import HEAVY_BAR, PAPERS_ROTOR, in_parameters
+from lagrotor.paper.proof import form
+from lagrotor.paper.rotor_pair.premises import HEAVY_BAR, PAPERS_ROTOR, in_parameters
 from lagrotor.theory import linear_pair
 
 # %% [markdown]

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor.drawing import BAR, INK, RADIUS, ROTORS, Camera
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.paper.rotor_pair.shocked_runs import paper_run
+from lagrotor.paper.rotor_pair.runs import paper_run
 from lagrotor.pictures import bare, draw_wheel, ground
 
 SCENE = SCENES["same-spin"].scene

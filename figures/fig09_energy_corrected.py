@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from lagrotor import simulate
 from lagrotor.drawing import EXACT_COLOUR, MODEL_COLOUR
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.paper.rotor_pair.shocked_runs import paper_run
+from lagrotor.paper.rotor_pair.runs import paper_run
 
 SCENE = SCENES["same-spin"].scene
 TITLE = "Energy with the bar in its place"

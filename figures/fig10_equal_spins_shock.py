@@ -14,7 +14,7 @@ from lagrotor import simulate
 from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR
 from lagrotor.models import paper_system, step_limit
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.paper.rotor_pair.shocked_runs import paper_run, pulse
+from lagrotor.paper.rotor_pair.runs import paper_run, pulse
 
 SCENE = SCENES["same-spin-shock"].scene
 TITLE = "Equal spins, shock along the bar"

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import simulate
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
-from lagrotor.paper.rotor_pair.shocked_runs import centre_numbers, centre_off, centre_runs
+from lagrotor.paper.rotor_pair.runs import centre_numbers, centre_off, centre_runs
 from lagrotor.pictures import shock_figure
 
 SCENE = SCENES["no-spin"].scene

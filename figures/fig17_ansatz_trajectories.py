@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import Scene, simulate
 from lagrotor.drawing import EXACT_COLOUR, PAPER_COLOUR
 from lagrotor.models import exact_orbit
-from lagrotor.paper.rotor_pair.printed_curves import ansatz_axes
+from lagrotor.paper.rotor_pair.runs import ansatz_axes
 from lagrotor.pictures import orbits_from_above, over_one_turn
 
 R0, TOL, SHOWN = 0.204, 1e-11, (0, 22, 60, 90)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import Scene, simulate
 from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, with_residual
 from lagrotor.models import exact_orbit
-from lagrotor.paper.rotor_pair.printed_curves import ansatz_axes, paper_axes, series_axes
+from lagrotor.paper.rotor_pair.runs import ansatz_axes, paper_axes, series_axes
 from lagrotor.pictures import over_one_turn
 
 R0, TOL = 0.204, 1e-11

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import Scene
 from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
 from lagrotor.models import exact_orbit
-from lagrotor.paper.rotor_pair.printed_curves import against_orbit, paper_axes, series_axes
+from lagrotor.paper.rotor_pair.runs import against_orbit, paper_axes, series_axes
 from lagrotor.pictures import distance_over_one_turn, orbits_from_above
 
 R0, TOL = 0.204, 1e-11

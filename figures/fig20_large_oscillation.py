@@ -14,7 +14,7 @@ from lagrotor import Scene, natural_rate
 from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR
 from lagrotor.models import exact_orbit
 from lagrotor.pair.notation import Phi, r0
-from lagrotor.paper.rotor_pair.printed_curves import against_orbit, paper_axes
+from lagrotor.paper.rotor_pair.runs import against_orbit, paper_axes
 from lagrotor.pictures import distance_over_one_turn, orbits_from_above
 from lagrotor.theory import paired_series
 

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
 from lagrotor.pair import DAMPING, STEP, STIFFNESS
-from lagrotor.paper.rotor_pair.shocked_runs import rate_numbers, rate_runs
+from lagrotor.paper.rotor_pair.runs import rate_numbers, rate_runs
 from lagrotor.pictures import rate_figure
 
 TOL, PRINTED = 1e-10, 16.0

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from lagrotor import Scene, Shock, simulate
 from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR
 from lagrotor.pair import DAMPING, HEAVY_LINK, STEP, STIFFNESS
-from lagrotor.paper.rotor_pair.shocked_runs import paper_run, pulse
+from lagrotor.paper.rotor_pair.runs import paper_run, pulse
 
 TOL = 1e-10
 SCENE = Scene(spins=(20, 20), link=HEAVY_LINK, shock=Shock(force=(40, 0, 0), at=2.0, width=1 / 20, body=1))

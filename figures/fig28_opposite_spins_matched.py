@@ -14,7 +14,7 @@ from lagrotor import Scene, natural_rate, simulate
 from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, PAPER_COLOUR
 from lagrotor.numerics import peak, spectrum
 from lagrotor.pair import DAMPING, HEAVY_LINK, LIGHT, SHOCK_PAIRED, STEP, STIFFNESS
-from lagrotor.paper.rotor_pair.shocked_runs import paper_run
+from lagrotor.paper.rotor_pair.runs import paper_run
 
 TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125
 BARS = {"heavy": HEAVY_LINK, "light": LIGHT}

@@ -523,7 +523,6 @@ READERS = {
     "paper/latex/init.py": "LaTeX",
     "paper/latex/token_stream.py": "LaTeX",
     "paper/theorems.py": "theorem",
-    "paper/title_page.py": "paper.toml",
     "proofs/coq/checked_by_coq.py": "certificates",
     "renamed.py": "own",
     "report/cite.py": "own",

@@ -11,8 +11,8 @@ from lagrotor.errors import InputError, LagrotorError
 from lagrotor.mechanics import System, constrained_accelerations, coordinates, momenta, t
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper import LineVerdict, judge_text
+from lagrotor.paper.grammar import read
 from lagrotor.paper.judgement import letters_in
-from lagrotor.paper.letters import read
 from lagrotor.paper.readable import readable
 from lagrotor.paper.verdicts import AGREES, point_text
 from lagrotor.report.formulas.mathml_latex import mathml

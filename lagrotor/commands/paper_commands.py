@@ -147,8 +147,8 @@ def _paper(given: argparse.Namespace) -> "Paper":
 
 
 def judge_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.audit import line_data
     from lagrotor.paper.judgement import judge_text
-    from lagrotor.paper.verdict_text import line_data
     from lagrotor.paper.verdicts import AGREES
 
     said = judge_text(given.equation, given.given, given.positive, given.small, given.order)
@@ -253,12 +253,12 @@ def derive_command(given: argparse.Namespace) -> int:
 
 
 def check_command(given: argparse.Namespace) -> int:
+    from lagrotor.paper.catalogue import toml
     from lagrotor.paper.latex.check import FAULT, FOUND, HOLDS, NOT_JUDGED, REFUTED, WRONG, Check, check_source
     from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.markup import read_source
     from lagrotor.paper.latex.notation import Notation, declared_notation
     from lagrotor.paper.readable import readable
-    from lagrotor.paper.title_page import toml
 
     rows, displayed = [], 0
     for file in given.sources:
@@ -338,8 +338,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
 
 
 def audit_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper import verdict_text
-    from lagrotor.paper.audit import NOT_YET
+    from lagrotor.paper.audit import NOT_YET, in_words, verdicts_json
     from lagrotor.paper.catalogue import known_id
     from lagrotor.paper.readable import readable
     from lagrotor.report.content import count_list, word
@@ -356,9 +355,9 @@ def audit_command(given: argparse.Namespace) -> int:
         shown = [paper.audit(i, step) for i in identifiers] if found is None else list(found)
     waiting = found.waiting if found is not None else ()
     if given.json:
-        print(verdict_text.verdicts_json(shown, paper, waiting))
+        print(verdicts_json(shown, paper, waiting))
     elif identifiers:
-        words = "\n\n".join(verdict_text.in_words(verdict, paper) for verdict in shown)
+        words = "\n\n".join(in_words(verdict, paper) for verdict in shown)
         print("\n".join(wrap(line, 13) for line in words.split("\n")))
     else:
         titles = {i: entry.title for i, entry in paper.equations.items()}

@@ -58,7 +58,7 @@ class RecordedAnswer(pytest.Item):
 
     def _found(self) -> "tuple[Verdict | Result | None, str]":
         """What is found now, and why."""
-        from lagrotor.paper.verdict_text import in_words
+        from lagrotor.paper.audit import in_words
 
         if self.name in self.paper.scripts.stating:
             verdict = self.paper.audit(self.name)

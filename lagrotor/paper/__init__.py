@@ -1,7 +1,14 @@
 """The test of printed mathematics, for any paper.
 
-`Paper` is a folder; `judge` needs none. A derivation uses `prove`, `verdict`, `Premise`, `Formula`, `Remark`, `Table`; the test
-of a claim `ClaimTest`, `Finding`, `Part`; and `symbols.py` `Glossary`.
+Data pass through these types in this order. `Paper` is a folder, a `Catalogue` of equations, claims and figures in TOML, with
+its scripts and its record. `grammar` reads a printed line as sympy objects. A derivation shows formulas, forms and steps
+(`proof`: `Formula`, `Form`, `prove`), and states an equation by `verdict` (`stating`). `statement` puts it beside the print,
+as a `Statement` of `Relation`s under `Premise`s. `hypotheses` makes one set of the premises; the `ledger` decides each line
+and gives a `Verdict` of `LineVerdict`s, with a `Theorem` where there is one. `Audit` holds the verdicts of a paper, in words
+and as data. `ClaimTest` runs a claim that is made in words. `record` compares verdicts and claims with those on record.
+
+`judge` and `judge_text` need no paper. `latex` reads LaTeX. To add a paper, write its folder (`lagrotor init`); to add a
+function that every print may call, add it to `grammar.FUNCTIONS`.
 """
 
 from typing import TYPE_CHECKING

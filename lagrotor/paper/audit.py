@@ -1,12 +1,18 @@
-"""What an audit gives: the verdicts of a paper in its order, and which of its equations are not yet judged."""
+"""The result of an audit: the verdicts of a paper in its order, in words for a terminal and as data for machines."""
 
+import json
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from lagrotor.errors import InputError
+from lagrotor.mechanics.glossary import latex
+from lagrotor.paper.catalogue import Equation
+from lagrotor.paper.premises import Premise, relation_text
+from lagrotor.paper.readable import from_latex, readable
 from lagrotor.paper.tables import Table
-from lagrotor.paper.verdicts import Verdict, verdict_table
+from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict, point_text, verdict_table
 
 NOT_YET = "not-yet-judged"
 
@@ -52,3 +58,183 @@ class Audit:
         table = verdict_table(self.verdicts)
         rows = tuple((identifier, NOT_YET, "") for identifier in self.waiting)
         return Table(table.title, table.head, (*table.rows, *rows))._repr_html_()
+
+
+_LONGEST = 120  # characters of a difference that is shown in a line
+
+
+def in_words(verdict: Verdict, paper: Any) -> str:
+    """A verdict as a terminal shows it: printed, wrong, right, premises, domain, where it is derived."""
+    statement, entry = verdict.statement, paper.equation(verdict.id)
+    order = (
+        f" through order {verdict.order} in {readable(str(verdict.small))}"
+        if verdict.verdict == "holds-to-order"
+        else ""
+    )
+    rows: list[tuple[str, str]] = []
+    rows += [("printed", line) for line in _printed(entry)]
+    rows += [("wrong", readable(statement.wrong))] if statement.wrong and verdict.verdict == "refuted" else []
+    wrong = [line for line in verdict.lines if line.verdict in ("refuted", "undecided")]
+    rows += [("line", ": ".join(filter(None, (line_text(line), point_text(line))))) for line in wrong]
+    rows += [("stated if", readable(premise.with_formula)) for premise in verdict.refuted_under]
+    rows += [("right", line) for line in _lines(statement.correction)]
+    rows += [("derived", line) for line in _lines(uncorrected(verdict), "derived")]
+    rows += [("letters", _unsaid(name)) for name in _not_derived(uncorrected(verdict))]
+    rows += [("correction", verdict.correction_verdict)] if verdict.correction_verdict else []
+    needed = "right if" if verdict.verdict == "refuted" else "if"
+    rows += [(needed, readable(premise.with_formula)) for premise in verdict.premises]
+    rows += [("domain", relation_text(relation)) for relation in verdict.domain]
+    rows += [("dimensions", text) for text in dimension_texts(verdict)]
+    rows += [("proved", theorem.text) for theorem in verdict.theorems]
+    rows += [("evidence", line) for line in verdict.evidence if verdict.verdict in ("measured", "undecided")]
+    if verdict.reaches_result is not None:
+        reach = (
+            "a result of the paper falls with it" if verdict.reaches_result else "no result of the paper depends on it"
+        )
+        rows.append(("reach", reach))
+    rows += [("read", readable(entry.reading))] if entry.reading else []
+    rows.append(("derived in", paper.derived_in(verdict.id) or "?"))
+    head = f"{entry.id}  {readable(entry.title)}: {verdict.verdict}{order}"
+    return "\n".join([head, *(f"  {name:<11}{text}" for name, text in rows)])
+
+
+def _not_derived(relations: Iterable[Relation]) -> list[str]:
+    """The names of letters of prints that nothing derived has."""
+
+    def names(side: Any) -> set[str]:
+        return {str(s) for s in getattr(side, "expression", side).free_symbols}
+
+    return sorted({name for r in relations for name in names(r.printed) - names(r.derived)})
+
+
+def _unsaid(name: str) -> str:
+    return (
+        f"{readable(name)} is printed, and not derived: where the text says what it stands for, write "
+        f'letters = {{ {name} = "…" }}'
+    )
+
+
+def _printed(entry: Equation) -> list[str]:
+    """The lines of the catalogue, quantity = member = …, in plain text."""
+    return [" = ".join([from_latex(row["quantity"]), *map(readable, row.get("members", ()))]) for row in entry.line]
+
+
+def line_text(line: LineVerdict) -> str:
+    """What was decided of one member of a line, in plain text, and why."""
+    text = f"{from_latex(line.relation.quantity)}: {line.verdict}".removeprefix(": ")
+    shown = "" if line.difference is None or line.reason else readable(str(line.difference))
+    reason = f"differs by {shown}" if 0 < len(shown) <= _LONGEST else line.reason
+    return f"{text}: {reason}" if reason else text
+
+
+def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
+    """What the units say of the lines of an equation: of those that agree in one sentence, of each other one by name."""
+    alike, apart = dict[str, None](), dict[str, None]()
+    for line in verdict.lines:
+        found, quantity = line.dimensions, from_latex(line.relation.quantity)
+        if found and found.answer == "consistent":
+            alike[found.says] = None
+        elif found:
+            apart[f"{quantity}: {found.answer}: {found.says}"] = None
+    return (*([f"the same on both sides: {'; '.join(alike)}"] if alike else []), *apart)
+
+
+def uncorrected(verdict: Verdict) -> list[Relation]:
+    """The refuted lines of which no correction is given: what was derived of them is shown instead."""
+    right = {relation.quantity for relation in verdict.statement.correction}
+    refuted = (line.relation for line in verdict.lines if line.verdict == "refuted")
+    return [relation for relation in refuted if relation.quantity not in right]
+
+
+def _lines(relations: Iterable[Relation], side: str = "printed") -> list[str]:
+    """quantity = expression for each relation, in plain text."""
+    lines = []
+    for relation in relations:
+        small, order = relation.known or (relation.small, relation.claimed)
+        rest = f" + O({small}**{order + 1})" if small is not None else ""
+        right = from_latex(relation.written) if relation.written else readable(str(getattr(relation, side)) + rest)
+        lines.append(f"{from_latex(relation.quantity)} = {right}")
+    return list(dict.fromkeys(lines))
+
+
+def _sides(relations: tuple[Relation, ...], side: str) -> str | None:
+    lines = ((r.quantity, r.written or latex(getattr(r, side))) for r in relations)
+    found = dict.fromkeys((f"{quantity} = " if quantity else "") + line for quantity, line in lines)
+    return r" \quad ".join(found) or None
+
+
+def verdict_data(verdict: Verdict, paper: Any) -> dict[str, Any]:
+    """One verdict as the JSON object of `lagrotor audit --json`."""
+    statement, entry = verdict.statement, paper.equation(verdict.id)
+    return {
+        "id": entry.id,
+        "section": entry.section,
+        "title": entry.title,
+        "printed": entry.latex,
+        "reading": entry.reading,
+        "derived": _sides(statement.relations, "derived"),
+        "derived_in": paper.derived_in(entry.id),
+        "verdict": verdict.verdict,
+        "premises": [premise_data(premise) for premise in verdict.premises],
+        "refuted_under": [premise_data(premise) for premise in verdict.refuted_under],
+        "lines": [line_data(line) for line in verdict.lines],
+        "order": verdict.order,
+        "small": latex(verdict.small) if verdict.small else None,
+        "domain": [latex(relation) for relation in verdict.domain],
+        "wrong": statement.wrong,
+        "correction": _sides(statement.correction, "printed"),
+        "correction_verdict": verdict.correction_verdict,
+        "correction_lines": [line_data(line) for line in verdict.correction_lines],
+        "depends_on": list(statement.depends_on),
+        "reaches_result": verdict.reaches_result,
+        "proved": [{"says": each.says, "encloses": each.encloses} for each in verdict.theorems],
+        "evidence": list(verdict.evidence),
+        "seconds": round(verdict.seconds, 4),
+    }
+
+
+def premise_data(premise: Premise) -> dict[str, Any]:
+    """A premise as an object: in words; its equations and conditions; what is small; how far the paper's scene breaks it."""
+    put = [f"{left} = {right}" for left, right in premise.equations] + [str(r) for r in premise.conditions]
+    return {
+        "says": premise.says,
+        "put": put,
+        "small": str(premise.small) if premise.small else None,
+        "broken": premise.broken,
+    }
+
+
+def line_data(line: LineVerdict) -> dict[str, Any]:
+    """The verdict on one member of a line as an object; a witness gives each letter's exact value, or two bounds."""
+    ends = line.enclosure
+    return {
+        "quantity": line.relation.quantity,
+        "printed": str(line.relation.printed),
+        "verdict": line.verdict,
+        "premises": [premise.says for premise in line.premises],
+        "order": line.order,
+        "small": str(line.small) if line.small else None,
+        "domain": [f"{r.lhs} {r.rel_op} {r.rhs}" for r in line.domain],
+        "difference": None if line.difference is None else str(line.difference),
+        "entry": line.place,
+        "witness": None if line.witness is None else {str(s): _exact(value) for s, value in line.witness.items()},
+        "enclosure": None if ends is None else [float(end) for end in ends],
+        "reason": line.reason,
+        "dimensions": None if line.dimensions is None else asdict(line.dimensions),
+    }
+
+
+def _exact(value: Any) -> Any:
+    return [str(end) for end in value] if isinstance(value, tuple) else str(value)
+
+
+def waiting(entry: Equation) -> dict[str, Any]:
+    """An equation that is not yet judged as an object of the same JSON."""
+    printed = {"id": entry.id, "section": entry.section, "title": entry.title, "printed": entry.latex}
+    return {**printed, "verdict": NOT_YET}
+
+
+def verdicts_json(verdicts: Iterable[Verdict], paper: Any, not_yet: Iterable[str] = ()) -> str:
+    """Verdicts as a JSON list, then the equations that are not yet judged."""
+    rows = [verdict_data(verdict, paper) for verdict in verdicts] + [waiting(paper.equation(i)) for i in not_yet]
+    return json.dumps(rows, indent=1, ensure_ascii=False)

@@ -4,23 +4,39 @@ What is decided under a set does not depend on the order or the form of its prem
 the same one is taken first each time, one that a premise replaces before others. Every step is an equivalence, where the
 letters are real and what is divided by is known not to vanish; so a set is contradictory exactly if what is left of it is, and
 a point of what is left satisfies all of it.
+
+`vanishes_on` decides membership in the ideal of the equations that are left, or in its radical. Numerators are read in one ring
+of generators, with the relations of these, g² = square, among the equations. The radical is reached by one more letter t and the
+equation 1 = t N D (Rabinowitsch), which also leaves out where a denominator D vanishes. Cox, Little & O'Shea, Ideals, Varieties,
+and Algorithms, chs. 2, 4. `witness` refutes: it is a point of the hypotheses at which an enclosure keeps the two sides apart.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from itertools import chain, islice
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import sympy as sp
 from sympy.concrete.expr_with_limits import ExprWithLimits
+from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
+from sympy.polys.groebnertools import groebner
+from sympy.polys.orderings import grevlex
+from sympy.polys.rings import PolyElement, PolyRing
 
 from lagrotor.algebra import decide_zero
-from lagrotor.algebra.feasibility import is_infeasible
+from lagrotor.algebra.enclosed_roots import enclosed_root
+from lagrotor.algebra.enclosures import Bounds, are_apart, enclosure, enclosures
+from lagrotor.algebra.evidence import points
+from lagrotor.algebra.feasibility import has_principal_values, is_infeasible
+from lagrotor.algebra.generators import survey
 from lagrotor.algebra.inverses import INVERSES, argument, solved_for
-from lagrotor.algebra.numbering import Numbering, letters_in_order
-from lagrotor.algebra.signs import Region, region, signs
-from lagrotor.errors import InputError
+from lagrotor.algebra.numbering import Numbering, letters_in_order, without_number
+from lagrotor.algebra.proving import evaluated
+from lagrotor.algebra.reading import find_roots, reader
+from lagrotor.algebra.signs import Region, conditions, region, signs
+from lagrotor.errors import InputError, NotExactError
 from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.readable import readable
 
@@ -379,3 +395,225 @@ def _as_assumption(
 def _declared(s: sp.Symbol) -> int:
     """How many signs the letter was declared with: those with none are taken first."""
     return sum(bool(getattr(s, f"is_{kind}")) for kind in _KINDS)
+
+
+# Bases of more, larger or higher polynomials may take hours.
+_MOST_EQUATIONS, _MOST_TERMS, _MOST_DEGREE, _MOST_LETTERS = 6, 60, 6, 9
+
+
+Answer = Literal["zero", "nonzero", "nowhere", "undecided"]
+
+
+def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequence[sp.Expr] = ()) -> Answer:
+    """Whether the difference is zero wherever every equation is, and neither a denominator nor an expression of `apart`.
+
+    "nowhere": there is no such place, even over the complex numbers. "nonzero": it is not in the radical over the complex
+    numbers; of real letters that alone refutes nothing.
+    """
+    try:
+        numerator, relations, units = _in_one_ring(difference, list(equations), list(apart))
+    except NotExactError:
+        return "undecided"
+    found = _used([numerator, *units], relations)
+    if found is None:
+        return "undecided"
+    ring, (target, *others), ideal = found
+    order = ring.clone(order=grevlex)
+    basis = groebner([p.set_ring(order) for p in ideal], order)
+    one_more = PolyRing([*sp.symbols(f"g:{ring.ngens}"), sp.Symbol("t")], ring.domain, grevlex)
+
+    def empty(factors: list[PolyElement]) -> bool:
+        """Whether no point of the equations is off the zeros of all factors."""
+        product = one_more.gens[-1]
+        for p in factors:
+            product *= p.set_ring(order).set_ring(one_more)
+            if len(product) > 4 * _MOST_TERMS:
+                raise NotExactError("The denominators are too large.")
+        return bool(groebner([*(p.set_ring(one_more) for p in basis), product - 1], one_more) == [one_more.one])
+
+    try:
+        if basis == [order.one] or empty(others):
+            return "nowhere"
+        return "zero" if not target.set_ring(order).rem(basis) or empty([target, *others]) else "nonzero"
+    except NotExactError:
+        return "undecided"
+
+
+def _in_one_ring(
+    difference: sp.Expr, equations: list[sp.Expr], apart: list[sp.Expr]
+) -> tuple[PolyElement, list[PolyElement], list[PolyElement]]:
+    """The numerators of the difference and of the equations, with the relations of the generators, and what is not zero."""
+    together = [difference, *equations, *apart]
+    found = survey(sp.Add(*(sp.Dummy() * e for e in together)))
+    roots = find_roots(found)
+    if roots.unsigned:
+        raise NotExactError("The sign of a root may differ from region to region.")
+    reading = reader(found, roots)
+    ring = reading.ring
+    quotients = [reading.quotient(e) for e in together]
+    squares = [ring.polynomials.gens[i] ** 2 - square for i, square in ring.squares.items()]
+    numerators = [q.numerator for q in quotients]
+    factors = {f for q in quotients for f in q.factors}
+    n = 1 + len(equations)
+    return numerators[0], [*numerators[1:n], *squares], [*numerators[n:], *factors]
+
+
+def _used(
+    targets: list[PolyElement], relations: list[PolyElement]
+) -> tuple[PolyRing, list[PolyElement], list[PolyElement]] | None:
+    """All of them in a ring of the generators that occur; None where they are too many or too large.
+
+    A generator in no relation that is at most a factor of each target, as the m of m (…), decides nothing and is left out.
+    """
+    everything = [*targets, *relations]
+    powers = [[{m[i] for m in p.itermonoms()} for p in everything] for i in range(targets[0].ring.ngens)]
+    used = [
+        i for i, sets in enumerate(powers) if any(map(any, sets[len(targets) :])) or any(len(each) > 1 for each in sets)
+    ] or [*range(targets[0].ring.ngens)]
+    sizes = [(len(p), max(map(sum, p.itermonoms()), default=0)) for p in everything]
+    if len(relations) > _MOST_EQUATIONS + len(used) or len(used) > _MOST_LETTERS:
+        return None
+    if any(terms > _MOST_TERMS or degree > _MOST_DEGREE for terms, degree in sizes[len(targets) :]):
+        return None
+    if sizes[0][0] > 4 * _MOST_TERMS or sizes[0][1] > 2 * _MOST_DEGREE:
+        return None
+    ring = PolyRing(sp.symbols(f"g:{len(used)}"), sp.QQ)
+    moved = [ring.from_dict({tuple(m[i] for i in used): c for m, c in p.iterterms()}) for p in everything]
+    return ring, moved[: len(targets)], moved[len(targets) :]
+
+
+Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
+_POINTS, _CHECKED = 40, 2
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A point, two rationals of one sign between which the difference of the sides lies, and those of each side there.
+
+    sides: of the printed and of the derived side; None where principal values are meant and that of a side is not real.
+    """
+
+    point: Values
+    enclosure: Bounds
+    sides: tuple[Bounds | None, Bounds | None]
+
+
+def witness(
+    sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
+) -> Witness | None:
+    """Return a point where the hypotheses hold, both sides are real and |left − right| > beyond ≥ 0; None without one.
+
+    principal: of sides with i or complex letters, and of sides that are real nowhere, principal values count; the absolute
+    value of the difference is then enclosed.
+    """
+    there = sp.Tuple(*map(under.on, sides))
+    real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(there)))))
+    found = _apart(sides, real, beyond, False) if sp.false not in real.region else None
+    if found is None and principal and has_principal_values(there, under.left, region(under.inside)):
+        return _apart(sides, under, beyond, True)
+    return found
+
+
+def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool) -> Witness | None:
+    """Return a point of the hypotheses that keeps the sides apart."""
+    signed = under.signed
+    both = tuple(signed.on(side) for side in sides)
+    difference = sides[0] - sides[1]
+    e = evaluated(signed.on(difference))
+    if signed.contradiction or _says_more(e, signed):
+        return None
+    for values in _points((e, *both), signed):
+        between = enclosure(e, values)
+        if principal and between is None:
+            between = enclosure(sp.Abs(e, evaluate=False), values)
+        if between is not None and (between[0] > beyond or between[1] < -beyond):
+            left, right = enclosures(map(evaluated, both), values)
+            if principal or (left and right):
+                return Witness(_of_letters(difference, under, signed, values), between, (left, right))
+    return None
+
+
+def contradicted(left: Any, right: Any, under: Hypotheses) -> Values | None:
+    """Return a point of the hypotheses that keeps two real sides apart that were decided to be equal; None as it should be.
+
+    The sides are enclosed as they came: nothing is put into them.
+    """
+    signed = under.signed
+    for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (left, right)), strict=True):
+        for values in islice(_points([signed.on(a), signed.on(b)], signed), _CHECKED):
+            if are_apart(a, b, {**signed.put, **values}):
+                return values
+    return None
+
+
+def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
+    """Return whether an equation about a function may fix a derivative of it, or an equation that is left holds one."""
+    given = sp.Tuple(*signed.left, *signed.put.values())
+    new = e.atoms(sp.Derivative) - given.atoms(sp.Derivative)
+    functions = given.atoms(AppliedUndef)
+    return any(x.has(AppliedUndef) for x in signed.left) or any(d.has(*functions) for d in new if functions)
+
+
+def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]:
+    """Points of the letters that are left which satisfy all that the hypotheses say."""
+    conditions = *signed.left, *signed.region
+    order = letters_in_order((without_number(compared[0])[1], *compared[1:], *conditions))
+    letters = [s for s in order if any(s in x.free_symbols for x in (*compared, *conditions))]
+    scales = (1, 2) if signed.region else (1,)
+    for at in chain(*(islice(points(letters, _POINTS, sp.Integer(scale)), _POINTS) for scale in scales)):
+        values: Values = dict(at)
+        if signed.left:
+            box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed, order)) else None
+            if box is None:
+                continue
+            values |= box
+        if _as_declared(values) and all(_satisfied(relation, values) for relation in signed.region):
+            yield values
+
+
+def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
+    """A letter for each equation that is left, each once, of those that are in the fewest; empty where there are too few."""
+    found: list[sp.Symbol] = []
+    for e in sorted(signed.left, key=lambda e: len(e.free_symbols)):
+        free = sorted(e.free_symbols - set(found) - set(signed.small), key=order.index)
+        if not free:
+            return []
+        found.append(free[0])
+    return found
+
+
+def _as_declared(values: Values) -> bool:
+    """Return whether the letters that an equation fixes have the signs that they were declared with."""
+    return all(
+        not ((s.is_extended_nonnegative and v[0] <= 0) or (s.is_extended_nonpositive and v[1] >= 0) or s.is_integer)
+        for s, v in values.items()
+        if isinstance(v, tuple)
+    )
+
+
+def _satisfied(relation: Relational, values: Values) -> bool:
+    """Return whether a condition certainly holds at a point."""
+    between = enclosure(sp.sympify(relation.lhs - relation.rhs, strict=True), values)
+    if between is None:
+        return False
+    low, high = between
+    if isinstance(relation, sp.StrictGreaterThan | sp.StrictLessThan):
+        return bool(low > 0 if isinstance(relation, sp.StrictGreaterThan) else high < 0)
+    if isinstance(relation, sp.GreaterThan | sp.LessThan):
+        return bool(low >= 0 if isinstance(relation, sp.GreaterThan) else high <= 0)
+    return bool(low > 0 or high < 0)
+
+
+def _of_letters(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
+    """The point in the letters of the statement: what was eliminated has its value, too."""
+    exact = {s: v for s, v in values.items() if not isinstance(v, tuple)}
+    found: Values = {}
+    for letter in sorted(difference.free_symbols | set(under.put), key=sp.default_sort_key):
+        value = signed.on(letter)
+        if value in values:
+            found[letter] = values[value]
+        elif value.free_symbols <= set(exact):
+            found[letter] = replaced(value, exact)
+        elif (between := enclosure(value, values)) is not None:
+            found[letter] = between
+    return found

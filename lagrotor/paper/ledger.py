@@ -21,14 +21,12 @@ from lagrotor.algebra.scalar import sympified
 from lagrotor.algebra.signs import is_positive
 from lagrotor.errors import InputError, LagrotorError, NotExactError
 from lagrotor.mechanics.glossary import Glossary
-from lagrotor.paper.hypotheses import Hypotheses, hypotheses
-from lagrotor.paper.ideal import vanishes_on
-from lagrotor.paper.letters import read
+from lagrotor.paper.grammar import read
+from lagrotor.paper.hypotheses import Hypotheses, contradicted, hypotheses, vanishes_on, witness
 from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
 from lagrotor.paper.readable import readable
 from lagrotor.paper.units import Dimensions, dimensions
 from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict, check_premises
-from lagrotor.paper.witness import contradicted, witness
 
 # How far a series is looked at beyond the order that is claimed.
 BEYOND = 4

@@ -12,11 +12,10 @@ import sympy as sp
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError, NotProved, ProofError
 from lagrotor.paper.catalogue import Catalogue, Equation
-from lagrotor.paper.form import Form
+from lagrotor.paper.grammar import Letters, Line, components
 from lagrotor.paper.hypotheses import hypotheses
-from lagrotor.paper.letters import Letters, Line, components
 from lagrotor.paper.premises import Premise, with_meanings
-from lagrotor.paper.proof import Formula, left_out
+from lagrotor.paper.proof import Form, Formula, left_out
 from lagrotor.paper.theorems import Theorem, can_prove, verify
 from lagrotor.paper.verdicts import Relation, Series, Side, Statement
 

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from lagrotor.drawing.style import CORRECTION_COLOUR, EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR, PAPER_COLOUR
 from lagrotor.numerics.rotations import Array
-from lagrotor.paper.rotor_pair.shocked_runs import SPECTRUM_FROM
+from lagrotor.paper.rotor_pair.runs import SPECTRUM_FROM
 
 
 def shock_figure(data: dict[str, Array], letter: str) -> Figure:

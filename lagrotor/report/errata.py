@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from lagrotor.mechanics.glossary import latex
+from lagrotor.paper.audit import uncorrected
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.premises import Premise
-from lagrotor.paper.verdict_text import uncorrected
 from lagrotor.paper.verdicts import AGREES, Relation, Verdict
 from lagrotor.report.latex import END, head, latex_prose, tidy
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from lagrotor.paper.audit import dimension_texts, line_text
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.premises import Premise
-from lagrotor.paper.verdict_text import dimension_texts, line_text
 from lagrotor.paper.verdicts import Verdict, point_tex, point_text
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word

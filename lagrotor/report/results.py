@@ -8,7 +8,7 @@ from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
-from lagrotor.paper import title_page
+from lagrotor.paper import catalogue
 from lagrotor.report.content import Report, word
 
 _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
@@ -84,13 +84,13 @@ class _Numbers(Formatter):
         }
         self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
 
-    def has(self, given: title_page.HeadlineEntry) -> bool:
+    def has(self, given: catalogue.HeadlineEntry) -> bool:
         """Whether all that the headline takes its numbers and its formula from is in the report."""
         fields = (match for _, name, _, _ in self.parse(given.text) if (match := _FIELD.fullmatch(name or "")))
         needed = {match[1] for match in fields} | ({given.formula} if given.formula else set())
         return needed <= self.verdicts.keys() | self.measured.keys()
 
-    def headline(self, given: title_page.HeadlineEntry) -> Headline:
+    def headline(self, given: catalogue.HeadlineEntry) -> Headline:
         """The headline with its numbers."""
         known = self.verdicts.keys() | self.measured.keys()
         ids = tuple(identifier for identifier in given.ids if identifier in known)
@@ -113,7 +113,7 @@ class _Numbers(Formatter):
             raise InputError(f"paper.toml: headline: {identifier} does not measure {name!r}: {', '.join(measured)}")
         return measured[name], identifier
 
-    def _formula(self, given: title_page.HeadlineEntry) -> str:
+    def _formula(self, given: catalogue.HeadlineEntry) -> str:
         """The corrected, or else the derived form of an equation, of the named quantity or the first."""
         if not given.formula:
             return ""

@@ -11,7 +11,7 @@ from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 from lagrotor.paper import Premise, decide
-from lagrotor.paper.letters import symmetric
+from lagrotor.paper.grammar import symmetric
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK = (

@@ -14,24 +14,24 @@ from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order, swing
 from lagrotor.pair import ansatz_A, lagrangians
 from lagrotor.pair.notation import I3, ROTOR, J, ell, k, r0, sigma, theta_0
-from lagrotor.paper import Audit, Stated, Statement, Verdict, decide, proof, scripts, stating
+from lagrotor.paper import Audit, Statement, Verdict, decide
 from lagrotor.paper.premises import relation_text
-from lagrotor.paper.rotor_pair import shared_premises
-from lagrotor.paper.rotor_pair.ansatz_premises import (
+from lagrotor.paper.rotor_pair import premises
+from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.premises import (
     breach,
     no_bar_force,
     one_inclination,
     opposite_azimuths,
     opposite_spin_angles,
 )
-from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 ABOUT, MASSLESS, EQUAL = (
-    shared_premises.ABOUT_JOINT.says,
-    shared_premises.MASSLESS_BAR.says,
-    shared_premises.EQUAL_INERTIAS.says,
+    premises.ABOUT_JOINT.says,
+    premises.MASSLESS_BAR.says,
+    premises.EQUAL_INERTIAS.says,
 )
-UNITS = {shared_premises.BAR_AS_LONG_AS_ROTORS.says, shared_premises.UNIT_LENGTH.says}
+UNITS = {premises.BAR_AS_LONG_AS_ROTORS.says, premises.UNIT_LENGTH.says}
 AZIMUTHS, SPIN_ANGLES = opposite_azimuths().says, opposite_spin_angles().says
 # What each equation of the pair assumes, no more and no less.
 ASSUMED = {
@@ -86,7 +86,7 @@ def test_what_is_refuted_is_refuted_with_every_premise_granted(stated: dict[str,
     alone = decide(replace(stated["5.16"], relations=(value_of_A,), correction=()))
     assert value_of_A.quantity == "A"
     assert (alone.verdict, alone.order) == ("holds-to-order", 1), "only B is wrong"
-    assert shared_premises.OPPOSITE_SPINS in alone.premises
+    assert premises.OPPOSITE_SPINS in alone.premises
 
 
 @pytest.mark.parametrize("identifier", ["5.20", *(pytest.param(i, marks=pytest.mark.slow) for i in ("5.21", "5.22"))])
@@ -103,18 +103,21 @@ def test_a_changed_correction_is_refuted(stated: dict[str, Statement], identifie
         assert decide(replace(statement, correction=wrong)).correction_verdict == "refuted"
 
 
-def changed(monkeypatch: pytest.MonkeyPatch, stem: str, name: str, change: Callable[[Any], Any]) -> dict[str, str]:
-    """Verdicts of a script after a function of the pair's Lagrangian is changed; proofs, which would refuse, let pass."""
-    monkeypatch.setattr(lagrangians, name, change(getattr(lagrangians, name)))
-    monkeypatch.setattr(proof, "prove", lambda *sides, **more: None)
-    monkeypatch.setattr(stating, "needs_premises", lambda *compared: False)
-    script = scripts.run_file(PAPER.scripts.path("derivations", stem))
-    return {s.id: decide(PAPER.statement(s)).verdict for s in script.shown(Stated)}
+@pytest.fixture
+def changed(
+    monkeypatch: pytest.MonkeyPatch, changed_physics: Callable[..., dict[str, Verdict]]
+) -> Callable[..., dict[str, str]]:
+    """Verdicts of a script after a function of the pair's Lagrangian is changed."""
+
+    def verdicts(stem: str, name: str, change: Callable[[Any], Any]) -> dict[str, str]:
+        monkeypatch.setattr(lagrangians, name, change(getattr(lagrangians, name)))
+        return {identifier: found.verdict for identifier, found in changed_physics([], stem).items()}
+
+    return verdicts
 
 
-def test_spin_against_the_precession_flips_the_lagrangians(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_spin_against_the_precession_flips_the_lagrangians(changed: Callable[..., dict[str, str]]) -> None:
     found = changed(
-        monkeypatch,
         "s5_2b_pair",
         "_rotor_energy",
         lambda energy: lambda inertia, q, q_v, phi_v, psi_v: energy(inertia, q, q_v, phi_v, -psi_v),
@@ -122,9 +125,8 @@ def test_spin_against_the_precession_flips_the_lagrangians(monkeypatch: pytest.M
     assert found == {"5.07": "refuted", "5.08": "refuted", "5.09": "holds", "5.10": "refuted", "5.11": "refuted"}
 
 
-def test_with_a_second_constraint_an_angle_less_is_free(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_with_a_second_constraint_an_angle_less_is_free(changed: Callable[..., dict[str, str]]) -> None:
     found = changed(
-        monkeypatch,
         "s5_2b_pair",
         "pair_with_bar",
         lambda pair: lambda: replace(pair(), constraints=(*pair().constraints, pair().c.q[0] - sp.pi / 5)),
@@ -133,9 +135,9 @@ def test_with_a_second_constraint_an_angle_less_is_free(monkeypatch: pytest.Monk
     assert found["5.07"] == "holds-if", "the constraint is no part of the Lagrangian"
 
 
-def test_axes_of_another_length_change_the_projection(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_axes_of_another_length_change_the_projection(changed: Callable[..., dict[str, str]]) -> None:
     stretched = sp.diag(2, 3, 1)
-    found = changed(monkeypatch, "s5_2e_bar_length", "axis", lambda axis: lambda *angles: stretched * axis(*angles))
+    found = changed("s5_2e_bar_length", "axis", lambda axis: lambda *angles: stretched * axis(*angles))
     assert found == dict.fromkeys(("5.17", "5.18", "5.19"), "refuted")
 
 
@@ -197,7 +199,7 @@ def test_the_corrected_inclinations_are_those_of_the_exact_orbit(stated: dict[st
     values = {
         sigma: (big + coupled) / (big - coupled),
         ell: 1.3,
-        shared_premises.R: 1,
+        premises.R: 1,
         k: 1.3,
         theta_0: np.arcsin(0.02),
     }

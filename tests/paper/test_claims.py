@@ -12,8 +12,8 @@ import pytest
 from lagrotor import Link, Scene, Shock, simulate
 from lagrotor.paper import claim_tests, papers
 from lagrotor.paper.claim_tests import claim_data
-from lagrotor.paper.letters import read_line
-from lagrotor.paper.rotor_pair.claims.shock_drift_and_centres import Pinched
+from lagrotor.paper.grammar import read_line
+from lagrotor.paper.rotor_pair.claims.precession_and_drift import Pinched
 from lagrotor.paper.rotor_pair.claims.simulator import inverted_each_time
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 

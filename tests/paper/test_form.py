@@ -5,8 +5,8 @@ import sympy as sp
 
 from lagrotor.errors import InputError, ProofError
 from lagrotor.paper import verdict
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import Letters, cross, vector
+from lagrotor.paper.grammar import Letters, cross, vector
+from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 DECLARED = PAPER.letters("3")

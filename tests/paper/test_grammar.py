@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from lagrotor.errors import InputError
 from lagrotor.paper import Paper, judge
-from lagrotor.paper.form import form
-from lagrotor.paper.letters import Letters, read, vector
+from lagrotor.paper.grammar import Letters, read, vector
+from lagrotor.paper.proof import form
 
 x, y = sp.symbols("x y", real=True)
 r = vector("r")

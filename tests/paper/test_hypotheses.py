@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from lagrotor.errors import InputError
 from lagrotor.paper import Premise, Series, Verdict, judge
-from lagrotor.paper.hypotheses import hypotheses
-from lagrotor.paper.ideal import vanishes_on
+from lagrotor.paper.hypotheses import hypotheses, vanishes_on
 
 I1, I3, J, w, M, m1, m2 = sp.symbols("I_1 I_3 J omega M m_1 m_2", positive=True)
 x, y, z, a, b, c, theta = sp.symbols("x y z a b c theta", real=True)

@@ -7,11 +7,11 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.pair.notation import I1, I3, ROTOR, J, r0
-from lagrotor.paper import Premise, Relation, Statement, chain, decide, judge, letters, verdict
+from lagrotor.paper import Premise, Relation, Statement, chain, decide, grammar, judge, verdict
+from lagrotor.paper.audit import verdict_data
 from lagrotor.paper.record import changes, reaches_result, record_text, recorded
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.rotor_pair.shared_premises import about_parameters
-from lagrotor.paper.verdict_text import verdict_data
+from lagrotor.paper.rotor_pair.premises import about_parameters
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)
@@ -170,7 +170,7 @@ def test_a_printed_quantity_must_be_derived_and_a_corrected_one_too() -> None:
 
 
 def test_a_line_that_another_equation_defines_needs_its_statement() -> None:
-    centre = letters.vector("X")
+    centre = grammar.vector("X")
     with pytest.raises(InputError, match=r"3\.03: M is defined in 3\.01: give its statement"):
         on_paper("3.03", centre)
     with pytest.raises(InputError, match=r"X_cm is defined in 3\.03"):
@@ -179,19 +179,19 @@ def test_a_line_that_another_equation_defines_needs_its_statement() -> None:
 
 def test_what_another_equation_defines_may_be_a_vector() -> None:
     mass = verdict("3.01", n)
-    centre = verdict("3.03", letters.column(x, y, 1), uses=[mass])
-    (relation,) = on_paper("3.06", letters.column(0, 0, 0), uses=[centre]).relations
+    centre = verdict("3.03", grammar.column(x, y, 1), uses=[mass])
+    (relation,) = on_paper("3.06", grammar.column(0, 0, 0), uses=[centre]).relations
     assert not {s.name for s in relation.printed.free_symbols} & {"X_cm_x", "X_cm_y", "X_cm_z"}
     assert {x, y} <= relation.printed.free_symbols
 
 
 def test_a_number_that_is_set_equal_to_a_vector_is_refuted() -> None:
-    decided = verdict_of(x, letters.column(x, 0, 0))
+    decided = verdict_of(x, grammar.column(x, 0, 0))
     assert (decided.verdict, decided.evidence) == (
         "refuted",
         ("the left side is a vector, the printed right side a number",),
     )
-    assert verdict_of(letters.column(x, 0, 0), letters.column(x, 0, 0)).verdict == "holds"
+    assert verdict_of(grammar.column(x, 0, 0), grammar.column(x, 0, 0)).verdict == "holds"
 
 
 def test_a_correction_may_rest_on_premises_and_they_are_reported() -> None:

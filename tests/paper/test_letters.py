@@ -6,7 +6,7 @@ import sympy as sp
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import letter_latex
-from lagrotor.paper.letters import components, cross, cross_matrix, declared, inverse, rate, read, symmetric, vector
+from lagrotor.paper.grammar import components, cross, cross_matrix, declared, inverse, rate, read, symmetric, vector
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 r, v, a = vector("r"), vector("v"), vector("a")

@@ -7,8 +7,8 @@ import pytest
 
 from lagrotor.errors import InputError, LagrotorError, ScriptError
 from lagrotor.paper import Paper
+from lagrotor.paper.audit import in_words
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.verdict_text import in_words
 
 PAPERS = beside("papers")
 

@@ -6,7 +6,7 @@ import pytest
 from lagrotor import Scene
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order
-from lagrotor.paper.rotor_pair.printed_curves import against_orbit, ansatz_axes, paper_axes, series_axes
+from lagrotor.paper.rotor_pair.runs import against_orbit, ansatz_axes, paper_axes, series_axes
 
 R0, PHASE = 0.2, np.linspace(0, 2 * np.pi, 49)
 

@@ -9,7 +9,7 @@ from scipy.integrate import trapezoid
 from lagrotor import Scene, Shock, simulate
 from lagrotor.errors import InputError
 from lagrotor.pair import SCENES
-from lagrotor.paper.rotor_pair.shocked_runs import (
+from lagrotor.paper.rotor_pair.runs import (
     after_shock,
     angle_between,
     centre_numbers,

@@ -29,10 +29,10 @@ from lagrotor.paper import (
     verdict,
 )
 from lagrotor.paper import claim_tests as tests_of_claims
+from lagrotor.paper.audit import in_words, verdict_data
 from lagrotor.paper.claim_tests import claim_data
 from lagrotor.paper.record import changes, record_text, recorded, row_of
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.verdict_text import in_words, verdict_data
 from lagrotor.proofs import NotProved, enclose
 
 RATE = "the rate is 1.00"

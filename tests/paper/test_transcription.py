@@ -24,10 +24,10 @@ from lagrotor.pair.notation import (
     theta_0,
 )
 from lagrotor.paper.catalogue import Equation
+from lagrotor.paper.grammar import read
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.tree import text_of
-from lagrotor.paper.letters import read
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 READ = (

@@ -6,11 +6,11 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics import coordinates
 from lagrotor.paper import Glossary, Paper, Premise, Relation, Statement, chain, decide
+from lagrotor.paper.audit import in_words, verdict_data
 from lagrotor.paper.record import row_of
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.units import Dimensions, dimension_of, dimensions, unit_text
-from lagrotor.paper.verdict_text import in_words, verdict_data
 
 GLOSSARY = Glossary()
 m = GLOSSARY.letter("m", "mass", "kg", positive=True)

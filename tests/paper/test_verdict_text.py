@@ -3,9 +3,9 @@
 import pytest
 
 from lagrotor import audit
+from lagrotor.paper.audit import in_words
 from lagrotor.paper.readable import from_latex
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.verdict_text import in_words
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 
 from lagrotor.paper import Audit, Premise, Verdict, decide
+from lagrotor.paper.audit import in_words, verdict_data
 from lagrotor.paper.readable import readable
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.verdict_text import in_words, verdict_data
 from lagrotor.report.content import Report
 from lagrotor.report.errata import errata, latex_document
 from lagrotor.report.facts import facts

@@ -11,8 +11,8 @@ from keyword import iskeyword
 from string import ascii_letters
 from typing import Any
 
+from lagrotor.paper.grammar import FUNCTIONS as CALLED
 from lagrotor.paper.latex.tokens import BRACES, Token, tokenize
-from lagrotor.paper.letters import FUNCTIONS as CALLED
 
 _GREEK_NAMES = (
     "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi omega "

@@ -18,13 +18,12 @@ from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.files import read_text, write_text
-from lagrotor.paper.catalogue import reading_digest
+from lagrotor.paper.catalogue import reading_digest, toml
 from lagrotor.paper.latex.displays import Displayed, Source
 from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.notation import declared_notation
 from lagrotor.paper.latex.readings import Print, paper_notation, read_print
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.title_page import toml
 
 # The worked example that a new folder begins with.
 _EXAMPLE = "papers/pendulum"

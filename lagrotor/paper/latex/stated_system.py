@@ -51,10 +51,10 @@ from lagrotor.mechanics.lagrangian import (
 )
 from lagrotor.mechanics.systems import System
 from lagrotor.paper.catalogue import Catalogue
+from lagrotor.paper.grammar import read
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.readings import paper_notation
 from lagrotor.paper.latex.tree import text_of
-from lagrotor.paper.letters import read
 from lagrotor.paper.premises import Premise
 
 _KEYS = ("coordinates", "L", "constraints", "forces", "where", "derives")

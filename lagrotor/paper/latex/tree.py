@@ -14,7 +14,7 @@ import sympy as sp
 from lagrotor.algebra.proving import evaluated
 from lagrotor.algebra.work import at_most
 from lagrotor.errors import InputError, WorkError
-from lagrotor.paper.letters import FUNCTIONS
+from lagrotor.paper.grammar import FUNCTIONS
 
 
 @dataclass(frozen=True)

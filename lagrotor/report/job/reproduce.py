@@ -14,11 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from lagrotor.files import write_text
-from lagrotor.paper import claim_tests, verdict_text
+from lagrotor.paper import audit, claim_tests
+from lagrotor.paper.catalogue import ReportPart
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.title_page import ReportPart
 from lagrotor.pictures.figures import Picture
 from lagrotor.proofs.coq.checked_by_coq import certify
 from lagrotor.report.content import Report, ShownPart
@@ -184,8 +184,8 @@ def _write(folder: Path, report: Report) -> None:
     write_text(folder / "report.tex", supplement(report))
     write_text(folder / "errata.md", errata_sheet(report))
     write_text(folder / "errata.tex", latex_document(report.verdicts, report.paper))
-    rows = [_timeless(verdict_text.verdict_data(verdict, report.paper)) for verdict in report.verdicts]
-    _write_json(folder / "verdicts.json", rows + list(map(verdict_text.waiting, report.waiting)))
+    rows = [_timeless(audit.verdict_data(verdict, report.paper)) for verdict in report.verdicts]
+    _write_json(folder / "verdicts.json", rows + list(map(audit.waiting, report.waiting)))
     claims = [claim_tests.claim_data(result, report.paper.claims[result.test.id]) for result in report.claims]
     _write_json(folder / "claims.json", list(map(_timeless, claims)))
     _write_json(folder / "measured.json", {picture.stem: picture.measured for picture in report.pictures})

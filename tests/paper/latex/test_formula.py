@@ -5,10 +5,10 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
+from lagrotor.paper.grammar import read
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.notation import Notation, Proposal, declared_notation, propose, with_proposals
 from lagrotor.paper.latex.tree import Letter, Opaque, in_catalogue, letters_of, sympy_expression, text_of, walk
-from lagrotor.paper.letters import read
 
 
 def said(latex: str, *others: str, **table: str | bool) -> str:

@@ -24,7 +24,7 @@ import contextlib, json, os, sys, traceback
 from pathlib import Path
 import matplotlib.backends.backend_agg, matplotlib.backends.backend_svg, matplotlib.figure, matplotlib.style, scipy.integrate
 import PIL.Image, lagrotor.drawing.run_figure, lagrotor.mechanics.running.simulation, lagrotor.models.spring_link.run
-import lagrotor.paper.rotor_pair.claims.parallel_pair, lagrotor.paper.rotor_pair.shared_premises, lagrotor.pictures.diagram
+import lagrotor.paper.rotor_pair.claims.shock_toppling_and_twist, lagrotor.paper.rotor_pair.premises, lagrotor.pictures.diagram
 from lagrotor import *
 with contextlib.suppress(ImportError):  # of the extra report
     import latex2mathml.converter, mdit_py_plugins.dollarmath

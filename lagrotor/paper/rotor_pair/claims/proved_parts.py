@@ -17,7 +17,7 @@ from lagrotor.pair.notation import AXES, a, b
 from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.paper.claim_tests import Part, PrintedNumber
-from lagrotor.paper.rotor_pair.shocked_runs import shocked_scene
+from lagrotor.paper.rotor_pair.runs import shocked_scene
 from lagrotor.paper.theorems import Theorem
 from lagrotor.theory.natural_rate import natural_rate
 

@@ -1,12 +1,16 @@
-"""Runs that claims and figures share, and their numbers: after a shock, by the paper's program beside the exact model (figures 7,
-9 to 13 and 25 to 28); on the precession of a given amplitude."""
+"""Runs that claims and figures share, and their numbers.
+
+They are: a pair after a shock, by the paper's program beside the exact model (figures 7, 9 to 13 and 25 to 28); the precession of
+a given amplitude; the paired precession by the ansatz, by the paper's correction and by the series, beside the exact orbit.
+"""
 
 from functools import cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
-from lagrotor.models.orbits.shooting import exact_orbit
+from lagrotor.models.orbits.shooting import ExactOrbit, exact_orbit
 from lagrotor.models.simulate import simulate
 from lagrotor.models.spring_link.run import SpringRun, run_steps
 from lagrotor.models.spring_link.system import paper_system
@@ -17,8 +21,9 @@ from lagrotor.pair.examples import DAMPING, HEAVY_LINK, LIGHT, STEP, STIFFNESS
 from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link, Scene, Shock
-from lagrotor.pair.trajectory import Trajectory
+from lagrotor.pair.trajectory import Trajectory, ansatz_A
 from lagrotor.theory.natural_frequency import free_precession_rate
+from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories
 
 # The peak of the paper's shocks is at 2 s. They are over by the first of these (s), after which energies are read; the wider
 # ones of section 5 by the second, after which spectra are.
@@ -174,3 +179,45 @@ def once_round(spins: Spins, r0: float, bar: Link) -> Trajectory:
     """One turn of that precession, at 361 times."""
     scene, rate = precession_scene(spins, r0, bar)
     return simulate(scene, np.linspace(0, 2 * np.pi / rate, 361), "minimal", 1e-11)
+
+
+def deviations(run: Trajectory) -> tuple[float, float, float]:
+    """max |φ₁′ + φ₂′| over the mean |φ′|; max |ψ₁′ + ψ₂′| over the spin; swing of A over the part that the motion makes."""
+    (x, y, z), (vx, vy, _) = np.moveaxis(run.axes, -1, 0), np.moveaxis(run.rates, -1, 0)
+    phi = (x * vy - y * vx) / (x**2 + y**2)
+    psi = run.momenta / run.scene.rotor.I3 - phi * z
+    A, at_rest = ansatz_A(run), sum(abs(G) for G in run.scene.momenta)
+    return (
+        float(abs(phi[0] + phi[1]).max() / abs(phi).mean()),
+        float(abs(psi[0] + psi[1]).max() / max(map(abs, run.scene.spins))),
+        float(np.ptp(A) / abs(A.mean() - at_rest)),
+    )
+
+
+def ansatz_axes(sines: ArrayLike, phase: Array) -> Array:
+    """Axes (2, n, 3) of the ansatz phi_1 = −phi_2 = phase (n,), the sines of their inclinations (2,) or (2, n)."""
+    size = np.broadcast_to(np.asarray(sines, dtype=float).reshape(2, -1), (2, len(phase)))
+    azimuths = np.array([phase, -phase])
+    return np.stack([size * np.cos(azimuths), size * np.sin(azimuths), np.sqrt(1 - size**2)], -1)
+
+
+def paper_axes(r0: float, phase: Array) -> Array:
+    """Axes (2, n, 3) by the paper's correction (5.20): inclinations of sine r_0 ∓ r_0² cos(phase)."""
+    change = r0**2 * np.cos(phase)
+    return ansatz_axes(np.array([r0 - change, r0 + change]), phase)
+
+
+def series_axes(order: int, r0: float, phase: Array) -> Array:
+    """Axes (2, n, 3) by the corrected series of this order in r_0, massless bar, ell = R."""
+    return np.array(corrected_trajectories(order)(r0, phase, 1, 1)).reshape(2, 3, -1).swapaxes(1, 2)
+
+
+def against_orbit(orbit: ExactOrbit, phase: Array, curves: dict[str, Array], tol: float) -> dict[str, Array]:
+    """Tips (2, n, 3) in m of `curves`, axes (2, n, 3) by name, and of the orbit, `exact`, at the same phases (n,).
+
+    With each curve `<name>_distance`: how far its tip 1 is from the exact one, (n,) in m.
+    """
+    run = simulate(orbit.scene, phase / orbit.frequency, "minimal", tol)
+    tips = {name: run.joints[:, None] + run.scene.rotor.length * axes for name, axes in curves.items()}
+    away = {f"{name}_distance": np.linalg.norm(curve[0] - run.tips[0], axis=-1) for name, curve in tips.items()}
+    return {"phase": phase, **tips, "exact": run.tips, **away}
