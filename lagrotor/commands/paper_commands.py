@@ -326,11 +326,11 @@ def reproduce_command(given: argparse.Namespace) -> int:
     if made.claims:
         print(f"{_some(sum(made.claims.values()), 'claim')} tested: {count_list(made.claims)}")
     if made.taken == ["report"]:
-        print("all taken from the last run (same inputs); to run it again, delete the folder")
+        print("all taken from the last run (same inputs); to write it again, delete the folder")
     elif made.taken:
         kinds = Counter(name.split()[0] for name in made.taken)
         parts = ", ".join(_some(count, kind) for kind, count in kinds.items())
-        print(f"{parts} taken from the last run (same inputs)")
+        print(f"{parts} taken from earlier runs (same inputs)")
     print(f"{_some(made.figures, 'figure')}; {made.seconds:.1f} s; report: {page}")
     if not converter():
         print("the page shows printed equations as LaTeX source; to see them typeset: pip install 'lagrotor[report]'")

@@ -28,9 +28,8 @@ from lagrotor.paper.readable import readable
 from lagrotor.paper.record import OnRecord, record_text
 from lagrotor.paper.rotor_pair import own_paper
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.pictures import figures
 from lagrotor.report.formulas import mathml_latex
-from lagrotor.report.job import folder, reproduce
+from lagrotor.report.job import cache, folder, reproduce
 
 ROOT = Path(lagrotor.__file__).parent.parent
 SINGLE_ROTOR = ("5.01", "5.02", "5.03", "5.04", "5.05", "5.06")
@@ -74,6 +73,7 @@ def one_paper(tmp_path_factory: pytest.TempPathFactory) -> Paper:
 def work(one_paper: Paper, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The small paper is the package's own; the working folder is empty."""
     monkeypatch.setattr(own_paper, "PAPER", one_paper)
+    monkeypatch.setattr(cache, "cache_folder", lambda: tmp_path / "cache")
     folder = tmp_path / "work"
     folder.mkdir()
     monkeypatch.chdir(folder)
@@ -90,16 +90,19 @@ def changed_paper(work: Path, monkeypatch: pytest.MonkeyPatch) -> Paper:
 
 @pytest.fixture(scope="module")
 def made_once(one_paper: Paper, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The small paper's report."""
-    report = tmp_path_factory.mktemp("made") / "report"
-    reproduce.reproduce(one_paper, report, terminal.progress, 1)
-    return report
+    """A folder with the small paper's report and its cache."""
+    folder = tmp_path_factory.mktemp("made")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(cache, "cache_folder", lambda: folder / "cache")
+        reproduce.reproduce(one_paper, folder / "report", terminal.progress, 1)
+    return folder
 
 
 @pytest.fixture
 def last_report(made_once: Path, work: Path) -> Path:
     """The report of a run before, in the working folder."""
-    return Path(shutil.copytree(made_once, work / "report"))
+    shutil.copytree(made_once / "cache", work.parent / "cache")
+    return Path(shutil.copytree(made_once / "report", work / "report"))
 
 
 def record(verdicts: dict[str, str]) -> None:
@@ -465,11 +468,10 @@ def test_report_is_complete(work: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert main(["reproduce", "--jobs", "1"]) == 0
     report = work / "report"
     kept = {str(path.relative_to(report)) for path in report.rglob("*") if path.is_file()}
-    kept = {name for name in kept if not name.startswith(folder.PRODUCTS)}
     drawn = {f"figures/fig17_stub.{kind}" for kind in ("svg", "png")}
     pages = {name for name in kept if name.startswith("pages/")}
     assert {"pages/page.css", "pages/words.js", "pages/section-5.2.html", "pages/about.html"} <= pages
-    assert kept - pages == folder.CONTENTS - {"figures", "pages", folder.PRODUCTS, folder.CERTIFICATES} | drawn
+    assert kept - pages == folder.CONTENTS - {"figures", "pages", folder.CERTIFICATES} | drawn
     rows = json.loads((report / "verdicts.json").read_text())
     assert {row["id"] for row in rows if row["verdict"] != "not-yet-judged"} == set(found())
     assert {row["id"] for row in rows} == set(PAPER.equations)
@@ -490,7 +492,7 @@ def test_interrupted_report_leaves_the_last_good_one(
     def interrupted(*_: object) -> None:
         raise stop
 
-    monkeypatch.setattr(figures, "draw_figure", interrupted)
+    monkeypatch.setattr(reproduce, "errata_sheet", interrupted)
     if stop is KeyboardInterrupt:
         assert main(["reproduce", "--jobs", "1"]) == 130
         assert capsys.readouterr().err.splitlines()[-1] == "lagrotor: interrupted"
@@ -504,7 +506,7 @@ def test_interrupted_report_leaves_the_last_good_one(
 def test_report_of_an_older_version_may_be_replaced(last_report: Path) -> None:
     """It holds fewer files; but only what is a report."""
     (last_report / "report.tex").unlink()
-    (last_report / folder.MADE).unlink()
+    (last_report / "made.json").touch()
     assert main(["reproduce", "--jobs", "1"]) == 0
     assert (last_report / "report.tex").exists()
     (last_report / "verdicts.json").unlink()
@@ -516,7 +518,7 @@ def test_second_run_says_what_it_takes(last_report: Path, capsys: pytest.Capture
     assert "all taken from the last run (same inputs)" in capsys.readouterr().out
     (last_report / "index.html").write_text("edited")
     assert main(["reproduce", "--jobs", "1"]) == 0
-    assert "\n1 derivation, 1 figure, 1 model taken from the last run (same inputs)\n" in capsys.readouterr().out
+    assert "\n1 figure, 1 model taken from earlier runs (same inputs)\n" in capsys.readouterr().out
 
 
 def test_what_latex_leaves_is_no_obstacle(last_report: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -613,7 +615,7 @@ def test_progress_is_a_line_a_step_or_one_line_in_a_terminal(
     assert main(["reproduce", "--jobs", "1", "--out", "another"]) == 0
     shown = capsys.readouterr().err
     assert shown.count("\n") == 0
-    assert shown.count("\r[") == 4
+    assert shown.count("\r[") == 2, "a derivation and the report"
     assert main(["reproduce", "--jobs", "1", "--out", "another"]) == 0
     assert not capsys.readouterr().err, "nothing to do"
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from lagrotor.errors import InputError
 
-# How long each part took, and from what each was made: the only files that two runs of the same inputs may not share.
-TIMES, MADE, PRODUCTS = "times.json", "made.json", "products"
+TIMES = "times.json"  # how long each part took: the only file that two runs of the same inputs may not share
 CERTIFICATES = "certificates"  # where the job was given `--certify`
 CONTENTS = {
     "index.html",
@@ -25,9 +24,8 @@ CONTENTS = {
     CERTIFICATES,
     "figures",
     TIMES,
-    MADE,
-    PRODUCTS,
 }
+_OF_VERSION_0_2 = {"made.json", "products"}
 # What pdflatex leaves beside the files that it is given: goes with the report that it was made from.
 _COMPILED = {
     f"{stem}.{kind}" for stem in ("report", "errata") for kind in ("aux", "log", "out", "toc", "pdf", "synctex.gz")
@@ -44,7 +42,7 @@ def check_target(target: Path) -> Path:
     if not os.access(folder.parent, os.W_OK):
         raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
     held = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
-    if other := sorted(held - CONTENTS - _COMPILED):
+    if other := sorted(held - CONTENTS - _COMPILED - _OF_VERSION_0_2):
         raise InputError(f"{target} holds {other[0]}, which is no part of a report: choose a new or an empty folder")
     if held and (missing := sorted({"index.html", "verdicts.json"} - held)):
         raise InputError(f"{target} is no report: {missing[0]} is missing: choose a new or an empty folder")
