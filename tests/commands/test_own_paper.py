@@ -16,7 +16,6 @@ import lagrotor
 from lagrotor.commands.command_line import main
 from lagrotor.paper import Paper
 from lagrotor.paper.papers import opened
-from lagrotor.report.job import cache
 
 ROOT = Path(lagrotor.__file__).parent.parent
 
@@ -24,7 +23,6 @@ ROOT = Path(lagrotor.__file__).parent.parent
 @pytest.fixture(autouse=True)
 def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(cache, "cache_folder", lambda: tmp_path.with_name("cache"))
     return tmp_path
 
 
