@@ -33,7 +33,7 @@ from lagrotor.paper.papers import opened
 from lagrotor.proofs.coq.certificate import PREAMBLE
 from lagrotor.proofs.coq.checked_by_coq import CERTIFICATE_LIST, foreign_word, read_certificates
 from lagrotor.report.job import cache as report_cache
-from lagrotor.report.page.derivation_pages import markdown_html
+from lagrotor.report.page.pieces import markdown_html
 from lagrotor.structures import read_structure
 
 ROOT = Path(lagrotor.__file__).parent
@@ -424,7 +424,7 @@ HTML = [
 
 @pytest.mark.parametrize("text", HTML)
 def test_nothing_in_a_papers_texts_runs_in_its_page(text: str, tmp_path: Path) -> None:
-    from lagrotor.report.page.page_pieces import prose, typeset
+    from lagrotor.report.page.pieces import prose, typeset
 
     shown = [markdown_html(text), prose(text), typeset(text.strip("$"))]
     shown += [Scene(spins=(1.0, -1.0))._repr_html_(), judge(sp.Symbol(text), sp.Symbol(text) + 1)._repr_html_()]
@@ -465,16 +465,16 @@ READERS = {
     "paper/theorems.py": "theorem",
     "paper/title_page.py": "paper.toml",
     "proofs/coq/checked_by_coq.py": "certificates",
-    "report/cite.py": "own",
+    "report/content.py": "own",
     "report/formulas/font.py": "own",
-    "report/interactive/interactive.py": "own",
+    "report/page/interactive.py": "own",
     "report/job/cache.py": "products",
     "report/job/folder.py": "own",
     "report/job/reach.py": "program",
     "report/job/reproduce.py": "products",
     "report/job/steps.py": "paper.toml",
-    "report/page/embed.py": "own",
     "report/page/pages.py": "own",
+    "report/page/pieces.py": "own",
     "structures/exact/structure_run.py": "arrays",
 }
 _NAMES = {

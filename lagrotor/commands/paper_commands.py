@@ -13,8 +13,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lagrotor.commands.options import Command, check_folder
-from lagrotor.commands.terminal import progress, say, table, wrap
+from lagrotor.commands.terminal import Command, check_folder, progress, say, table, wrap
 from lagrotor.errors import InputError
 
 if TYPE_CHECKING:
@@ -350,7 +349,7 @@ def audit_command(given: argparse.Namespace) -> int:
     with progress(len(identifiers) or len(paper.stating_scripts)) as step:
         found = None
         if not identifiers:
-            from lagrotor.report.job.whole_audit import audit_in_processes
+            from lagrotor.report.job.steps import audit_in_processes
 
             found = audit_in_processes(paper, step)
         shown = [paper.audit(i, step) for i in identifiers] if found is None else list(found)

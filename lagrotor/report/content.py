@@ -1,5 +1,6 @@
-"""What a report says and in which order, before it is put into HTML or Markdown."""
+"""The contents of a report and their order, before they are put into HTML or Markdown."""
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -7,6 +8,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
+from lagrotor.paper import scripts
 from lagrotor.paper.audit import NOT_YET
 from lagrotor.paper.catalogue import Equation, is_claim
 from lagrotor.paper.claim_tests import Result
@@ -200,3 +202,25 @@ def derived_heading(relations: Iterable[Relation]) -> str:
 def as_read(entry: Equation) -> tuple[str, ...]:
     """The printed lines as sympy reads them from the catalogue, quantity = member = member …."""
     return tuple(" = ".join([from_latex(row["quantity"]), *row.get("members", ())]) for row in entry.line)
+
+
+def citation() -> tuple[list[str], str]:
+    """(sentences: how to cite, the references), (a BibTeX entry)."""
+    head, _, listed = scripts.beside("CITATION.cff").read_text(encoding="utf-8").partition("references:")
+    field = dict(re.findall(r"^(\w+): *(.+)$", head, re.MULTILINE))
+    title, authors = field["title"].strip('"'), " and ".join(_names(head))
+    sentences = [field["message"]]
+    for block in re.split(r"^  - type: ", listed, flags=re.MULTILINE)[1:]:
+        work, year = re.search(r"title: *(.+)", block), re.search(r"year: *(\d+)", block)
+        if work:
+            what = work[1].strip('"') + (f", {year[1]}" if year else "")
+            sentences.append(f"{', '.join(_names(block))}: {what}.")
+    entry = f"@software{{lagrotor,\n  author = {{{{{authors}}}}},\n  title = {{{{{title}}}}},\n"
+    return sentences, f"{entry}  version = {{{field['version']}}},\n  license = {{{field['license']}}}\n}}"
+
+
+def _names(block: str) -> list[str]:
+    """The authors of a block, given name first."""
+    whole = re.findall(r"^ +- name: *(.+)$", block, re.MULTILINE)
+    parts = re.findall(r"family-names: *(.+)\n +given-names: *(.+)", block)
+    return [*whole, *(f"{given} {family}" for family, given in parts)]

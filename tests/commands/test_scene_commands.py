@@ -10,8 +10,7 @@ import pytest
 from lagrotor import Scene, paired_scene, read_scene, simulate
 from lagrotor.commands import command_line
 from lagrotor.commands.command_line import main
-from lagrotor.commands.options import Parser
-from lagrotor.commands.terminal import show_time, wrap
+from lagrotor.commands.terminal import Parser, show_time, wrap
 from lagrotor.errors import LagrotorWarning
 
 PAIR = ["--spins", "10", "-10"]

@@ -14,7 +14,7 @@ from lagrotor.process import begin_process
 
 Task = TypeVar("Task")
 # Loaded once, before the processes part: what judging takes, and what all steps, figures and runs among them, take.
-JUDGING = ("lagrotor.report.job.whole_audit",)
+JUDGING = ("lagrotor.report.job.steps",)
 ALL = ("lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate")
 # New objects before a search for garbage: more than half of a paper's steps leave, most of them expressions that sympy keeps.
 # A process takes half as much memory again, for searches that would find little.

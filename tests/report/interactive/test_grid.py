@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Structure
-from lagrotor.report.interactive import interactive as module
-from lagrotor.report.interactive.interactive import grid_section
+from lagrotor.report.page import interactive as module
 from lagrotor.report.page import pages
+from lagrotor.report.page.interactive import grid_section
 from tests.report.interactive.in_node import NODE, value_of
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-import lagrotor.report.interactive.interactive as model
+import lagrotor.report.page.interactive as model
 from lagrotor import Link, Rotor, Scene, Shock, natural_rate, paired_scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.models import exact_orbit
@@ -26,7 +26,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.numerics import compile_program, measured_order
 from lagrotor.pair.notation import Phi, omega, r0, theta_0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.interactive.interactive import (
+from lagrotor.report.page.interactive import (
     PAGE_ORDER,
     interactive,
     javascript_formulas,
@@ -354,9 +354,7 @@ def test_the_fragment_is_one_section_that_needs_nothing_else() -> None:
 
 
 def test_the_fragment_is_the_same_in_every_process() -> None:
-    code = (
-        "from lagrotor.report.interactive.interactive import interactive; import sys; sys.stdout.write(interactive())"
-    )
+    code = "from lagrotor.report.page.interactive import interactive; import sys; sys.stdout.write(interactive())"
     ran = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, encoding="utf-8",
         env={**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": str(Path(model.__file__).parents[3]), "PYTHONUTF8": "1"},

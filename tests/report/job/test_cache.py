@@ -10,7 +10,7 @@ import pytest
 
 from lagrotor.paper.papers import opened
 from lagrotor.paper.scripts import beside
-from lagrotor.pictures.figures import Picture
+from lagrotor.pictures import Picture
 from lagrotor.report.job import cache as cache_module
 from lagrotor.report.job.cache import Cache, cache_folder, picture_as_json, picture_from_json
 

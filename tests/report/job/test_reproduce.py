@@ -24,7 +24,7 @@ import contextlib, json, os, sys, traceback
 from pathlib import Path
 import matplotlib.backends.backend_agg, matplotlib.backends.backend_svg, matplotlib.figure, matplotlib.style, scipy.integrate
 import PIL.Image, lagrotor.drawing.run_figure, lagrotor.mechanics.running.simulation, lagrotor.models.spring_link.run
-import lagrotor.paper.rotor_pair.claims.parallel_pair, lagrotor.paper.rotor_pair.shared_premises, lagrotor.pictures.diagram
+import lagrotor.paper.rotor_pair.claims.parallel_pair, lagrotor.paper.rotor_pair.shared_premises, lagrotor.pictures.panels
 from lagrotor import *
 with contextlib.suppress(ImportError):  # of the extra report
     import latex2mathml.converter, mdit_py_plugins.dollarmath
@@ -33,10 +33,10 @@ from lagrotor.paper import claim_tests, papers
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.scripts import Scripts
 from lagrotor.pictures import figures
-from lagrotor.report import content, results
+from lagrotor.report import content, facts
 from lagrotor.report.job import cache, reach, reproduce
-from lagrotor.report.page import page_sections
-from lagrotor.report.interactive import interactive
+from lagrotor.report.page import sections as page_sections
+from lagrotor.report.page import interactive
 """
 SUBSET = """
 kept = {"s3e_link", "s5_2a_single_rotor", "c_s2_preliminary", "fig14_euler_angles", "fig16_top_view"}

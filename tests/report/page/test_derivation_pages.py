@@ -7,7 +7,7 @@ import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.scripts import Script, ScriptCell
-from lagrotor.report.page.derivation_pages import derivation_html, markdown_html, title
+from lagrotor.report.page.pieces import derivation_html, markdown_html, title
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
 

@@ -34,9 +34,9 @@ from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.job.folder import CONTENTS
-from lagrotor.report.page import page_pieces
-from lagrotor.report.page.page_sections import sections
+from lagrotor.report.page import pieces
 from lagrotor.report.page.pages import pages, whole_page
+from lagrotor.report.page.sections import sections
 from lagrotor.report.text_forms import markdown
 
 HOSTILE = '<script>alert("1 & 2")</script> | `a` *b* _c_'
@@ -348,9 +348,9 @@ def test_page_shows_the_source_as_printed(report: Report) -> None:
 
 
 def test_source_stands_in_for_what_cannot_be_typeset(report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(page_pieces, "mathml", lambda source, display=True: None)
+    monkeypatch.setattr(pieces, "mathml", lambda source, display=True: None)
     assert "install latex2mathml" not in whole_page(report), "it is there, and cannot set them"
-    monkeypatch.setattr(page_pieces, "converter", lambda: "")
+    monkeypatch.setattr(pieces, "converter", lambda: "")
     assert "install latex2mathml" in whole_page(report)
     assert faults(whole_page(report)) == []
 
