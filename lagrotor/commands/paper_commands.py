@@ -305,12 +305,8 @@ def _some(count: int, what: str) -> str:
 
 
 def reproduce_command(given: argparse.Namespace) -> int:
-    from lagrotor.report.job.processes import load_at_the_side
-
     if given.jobs is not None and given.jobs < 1:
         raise InputError(f"--jobs {given.jobs} must be at least 1: it is how many processes run")
-    if given.jobs != 1 and not given.out.exists():  # nothing to take from: every step will run
-        load_at_the_side()
     from lagrotor.report.content import count_list
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.job.reproduce import reproduce

@@ -17,7 +17,7 @@ from lagrotor.paper.proof import Remark
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures import figures
-from lagrotor.report.job.processes import JUDGING, cores, results, values
+from lagrotor.report.job.processes import cores, results, values
 from lagrotor.report.job.reach import scripts_named, source_digest, values_taken
 from lagrotor.report.page.pieces import derivation_html, title
 
@@ -122,7 +122,7 @@ def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None
             ({needed: judgements[needed][1] for needed in needs[stem]},) if needs[stem] <= judgements.keys() else None
         )
 
-    for stem, product in results(stems, partial(_judge_script, paper), jobs, progress, given, JUDGING):
+    for stem, product in results(stems, partial(_judge_script, paper), jobs, progress, given):
         judgements[stem] = product
     return paper.audit_of(verdict for stem in stems for verdict in judgements[stem][0])
 
