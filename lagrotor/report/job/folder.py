@@ -7,24 +7,11 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from lagrotor.errors import InputError
+from lagrotor.report.content import BESIDE
 
 TIMES = "times.json"  # how long each part took: the only file that two runs of the same inputs may not share
 CERTIFICATES = "certificates"  # where the job was given `--certify`
-CONTENTS = {
-    "index.html",
-    "pages",
-    "whole.html",
-    "report.md",
-    "report.tex",
-    "verdicts.json",
-    "claims.json",
-    "measured.json",
-    "errata.md",
-    "errata.tex",
-    CERTIFICATES,
-    "figures",
-    TIMES,
-}
+CONTENTS = {*BESIDE, "pages", "figures", "errata.tex", CERTIFICATES, TIMES}
 _OF_VERSION_0_2 = {"made.json", "products"}
 # What pdflatex leaves beside the files that it is given: goes with the report that it was made from.
 _COMPILED = {
