@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """Those that read equations, and those that test a paper."""
+    """Add the commands that read equations and those that test a paper."""
     _add_reading_commands(command)
     _add_testing_commands(command)
 

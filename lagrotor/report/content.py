@@ -84,12 +84,12 @@ class Report:
 
     @property
     def title(self) -> str:
-        """What the report is: a re-examination of the paper, which it names."""
+        """The title of the report, which names the paper."""
         return f'A re-examination of "{self.paper.title}"'
 
     @property
     def how_to_read(self) -> str:
-        """What the report does with equations, claims and figures, and by what they go."""
+        """The sentences that say how equations, claims and figures were examined, and how they are numbered."""
         claims, figures = list(self.paper.claims)[:1], self.paper.figures
         does = "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact "
         does += "decision procedure" + ("; each claim made in words is tested by a run" if claims else "")
@@ -114,14 +114,14 @@ class Report:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many equations have each verdict, in the order of `MEANINGS`, those with none left out."""
+        """The number of equations with each verdict, in the order of `MEANINGS`, without zeros."""
         counted: Counter[str] = Counter(verdict.verdict for verdict in self.verdicts)
         counted[NOT_YET] = len(self.waiting)
         return {answer: counted[answer] for answer in MEANINGS if counted[answer]}
 
     @property
     def outcomes(self) -> dict[str, int]:
-        """How many claims have each outcome, in the order of `CLAIM_MEANINGS`, those with none left out."""
+        """The number of claims with each outcome, in the order of `CLAIM_MEANINGS`, without zeros."""
         counted: Counter[str] = Counter(result.finding.outcome for result in self.claims)
         return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
 
@@ -144,7 +144,7 @@ class Report:
 
 
 def anchor(identifier: str) -> str:
-    """Where an equation ("5.07"), a claim ("C08") or a figure ("figure 19") is on the page."""
+    """Return the place on the page of an equation ("5.07"), a claim ("C08") or a figure ("figure 19")."""
     if identifier.startswith("figure "):
         return identifier.replace(" ", "-")
     return f"claim-{identifier}" if is_claim(identifier) else f"eq-{identifier}"

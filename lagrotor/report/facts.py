@@ -34,7 +34,7 @@ class Fact:
 
 
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
-    """What is said of a verdict besides the two formulas; only what applies."""
+    """Return the facts of a verdict that stand below its two formulas."""
     statement = verdict.statement
     is_refuted = verdict.verdict == "refuted"
     if verdict.refuted_under:
@@ -106,7 +106,7 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
 
 
 def note(verdict: Verdict) -> str:
-    """What a table says beside the verdict's word: why it is refuted or undecided, or the order and the condition in short."""
+    """Return the note beside a verdict in a table: the reason of a refutation, or the order and the condition in short."""
     if verdict.verdict == "refuted":
         points = (point_text(line) for line in verdict.lines if line.verdict == "refuted")
         return verdict.statement.wrong or next(filter(None, points), "")
@@ -140,7 +140,7 @@ def opening(report: Report) -> list[tuple[str, str]]:
 
 
 def balance(report: Report) -> str:
-    """How many equations hold and how many are refuted, and what becomes of those."""
+    """Return the sentences that count the equations that hold, those refuted and those corrected."""
     if not report.verdicts:
         return f"No equation is judged yet, of {len(report.waiting)}."
     counts = report.counts
@@ -193,7 +193,7 @@ class _Numbers(Formatter):
         self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
 
     def has(self, given: title_page.HeadlineEntry) -> bool:
-        """Whether all that the headline takes its numbers and its formula from is in the report."""
+        """Return whether the report has every number and formula of the headline."""
         fields = (match for _, name, _, _ in self.parse(given.text) if (match := _FIELD.fullmatch(name or "")))
         needed = {match[1] for match in fields} | ({given.formula} if given.formula else set())
         return needed <= self.verdicts.keys() | self.measured.keys()

@@ -76,7 +76,7 @@ Line: TypeAlias = list[Span]  # with a blank between each two
 
 @dataclass(frozen=True)
 class Heading:
-    """Of a section, or of an entry, which has a name besides its title."""
+    """The heading of a section, or of an entry, which has a name besides its title."""
 
     place: str
     title: str
@@ -110,7 +110,7 @@ Block: TypeAlias = "Line | Heading | Display | Rows | Verbatim | Picture"
 
 
 def opening_blocks(report: Report) -> Iterator[Block]:
-    """What stands above the sections."""
+    """Yield the blocks above the sections."""
     for label, text in opening(report):
         yield [Bold(label), text]
     yield [report.how_to_read]

@@ -20,7 +20,7 @@ _COMPILED = {
 
 
 def check_target(target: Path) -> Path:
-    """The folder with its links followed; raises InputError unless it can be made, or is empty, or is a report."""
+    """Return the folder with its links followed. Raises InputError unless it can be made, or is empty, or is a report."""
     folder = target.resolve()
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{target} is a file: choose a folder")
@@ -37,7 +37,7 @@ def check_target(target: Path) -> Path:
 
 
 def _alive(process: str) -> bool:
-    """Whether a process of that number is running."""
+    """Return whether a process of that number is running."""
     try:
         os.kill(int(process), 0)
     except (ValueError, OverflowError, ProcessLookupError):
@@ -49,7 +49,7 @@ def _alive(process: str) -> bool:
 
 @contextmanager
 def _alone(target: Path) -> Iterator[None]:
-    """No other run writes into `target` meanwhile. Raises InputError where one does."""
+    """Lock `target` against other runs. Raises InputError where another run has locked it."""
     lock = target.with_name(f".{target.name}.lock")
     while True:
         try:

@@ -39,7 +39,7 @@ StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 
 @dataclass(frozen=True)
 class JobOutcome:
-    """What a run found, in numbers: verdict → how many, claims likewise; a sentence for each change; what was taken.
+    """The result of a run: the number of equations with each verdict, of claims with each outcome, a sentence for each change.
 
     taken: names of the steps whose product is from an earlier run; ["report"] when the whole report is.
     """
@@ -171,7 +171,7 @@ def _report(paper: Paper, products: dict[str, Any]) -> Report:
 
 
 def _part(part: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ShownPart:
-    """What a part of the report shows."""
+    """Return the tables, remarks and figures of a part of the report."""
     return ShownPart(
         part.name,
         part.heading,

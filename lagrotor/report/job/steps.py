@@ -24,8 +24,8 @@ from lagrotor.report.page.pieces import derivation_html, title
 
 @dataclass(frozen=True)
 class Derived:
-    """What a derivation gives: verdicts, what it found besides, tables, itself as a part of the page, and the values that
-    other scripts take from it, by name."""
+    """The result of a derivation: verdicts, remarks, tables, its part of the page, and the values that other scripts take
+    from it, by name."""
 
     stem: str
     title: str

@@ -204,7 +204,7 @@ def _document(
 
 
 def _words(file: str, shown: Iterable[Section]) -> list[tuple[str, str, str, str]]:
-    """What can be found: (where it is, its number or name, its heading, all its words) of each entry and each section's rest."""
+    """Return the rows of the search: (address, number or name, heading, all words) of each entry, then of the section."""
     rows = []
     for section in shown:
         rest = section.html

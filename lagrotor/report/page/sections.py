@@ -52,7 +52,7 @@ _WIDEST = 2_000
 
 
 def equation_entry(verdict: Verdict, report: Report) -> str:
-    """As printed beside as derived; what is said of it; folds with the source and the steps."""
+    """Return an equation as printed beside the derived one, its facts, and a fold with its source."""
     entry, statement = report.paper.equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
     derived = "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition: nothing to derive.</p>"
@@ -140,7 +140,7 @@ def headline_entry(headline: Headline, report: Report) -> str:
 
 
 def count_entry(answer: str, count: int, meaning: str) -> str:
-    """How often a verdict was given, and what it means."""
+    """Return the number of equations with a verdict, and the meaning of the verdict."""
     return f"<li><b>{count}</b> {badge(answer)} <span>{escape(meaning)}</span></li>"
 
 
@@ -167,7 +167,7 @@ def sections(report: Report) -> list[Section]:
 
 
 def introduction(report: Report) -> str:
-    """What stands above the sections: three lines of what is right and wrong, where the paper has them."""
+    """Return the opening lines of `paper.toml`, which stand above the sections."""
     lines = "".join(f"<li><b>{escape(label)}</b> {prose(text)}</li>" for label, text in opening(report))
     return f'<ul class="opening">{lines}</ul>' if lines else ""
 
