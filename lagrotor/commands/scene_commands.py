@@ -159,7 +159,7 @@ _VARIED: dict[str, tuple[str, _Change]] = {
     "link-mass": ("mass of the bar, kg", _bar_field("mass")),
     "link-inertia": ("inertia of the bar, kg m²", _bar_field("inertia")),
 }
-_MOST = 100_000
+_MOST = 100_000  # runs of a sweep, which are all in memory at once
 _TOLERANCE = "target for the estimated largest error of an axis over the run"
 
 
@@ -234,7 +234,7 @@ def sweep_command(given: argparse.Namespace) -> int:
     return 1 if len(ensemble.failed) else 0
 
 
-_MOST_SAMPLES = 10_000_000
+_MOST_SAMPLES = 10_000_000  # about 2 GB of memory
 
 
 def add_scene_commands(command: Command) -> None:

@@ -41,7 +41,7 @@ def check_folder(folder: Path) -> None:
         raise InputError(f"--out: the folder {folder} cannot be written to: choose another")
 
 
-_NARROWEST, _WIDTH = 20, 100
+_NARROWEST, _WIDTH = 20, 100  # columns: the least of a wrapped text; the width where there is no terminal
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

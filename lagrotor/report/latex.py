@@ -57,7 +57,7 @@ _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 _LETTER = re.compile(rf"(\w)([{''.join(_DOTS)}]?)([{''.join(_LOW)}]*)")
 # sin{\left(\theta_1 \right)}: an argument that is one letter needs no brackets.
 _LONE = re.compile(r"\{\\left\((\\?[A-Za-z]+(?:_\{?\w+\}?)?) \\right\)\}")
-_LONG_WORD = 18
+_LONG_WORD = 18  # characters of a word beyond which TeX may break it
 # Characters of a formula beyond which nobody reads it on paper.
 _LONGEST = 2_500
 
