@@ -160,9 +160,9 @@ def on_post_page(output: str, page: Any, config: Any) -> str:
 
 
 def on_post_build(config: Any) -> None:
-    """The report beside the documentation, without what it keeps for its next run; the reader's edition where it is made."""
+    """The report beside the documentation, without its durations; the reader's edition where it is made."""
     if REPORT.is_dir():
-        without = shutil.ignore_patterns("products", "made.json", "times.json")
+        without = shutil.ignore_patterns("times.json")
         shutil.copytree(REPORT, Path(config.site_dir) / "report", ignore=without)
     if (ROOT / "reader").is_dir():
         shutil.copytree(ROOT / "reader", Path(config.site_dir) / "reader")

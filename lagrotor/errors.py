@@ -1,4 +1,4 @@
-"""What can go wrong, said once: each message names where, the value, the reason and the way out."""
+"""The exceptions of the package. Each message names the place, the value, the reason and the remedy."""
 
 from collections.abc import Iterable
 

@@ -69,7 +69,7 @@ def read_text(path: str | Path, otherwise: str = "") -> str:
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
-    """What a TOML file holds. Raises InputError where it cannot be read."""
+    """Return the content of a TOML file. Raises InputError where it cannot be read."""
     try:
         return tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:

@@ -1,4 +1,4 @@
-"""What each process of a long computation begins with."""
+"""The settings with which each process of a long computation begins."""
 
 import gc
 import os

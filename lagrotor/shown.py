@@ -1,4 +1,4 @@
-"""What people see of a result: numbers in powers of ten, and its `summary`, name → words, in lines or as a table."""
+"""The printed form of a result: numbers in powers of ten; its `summary`, name → words, in lines or as a table."""
 
 from abc import ABC, abstractmethod
 from html import escape
@@ -24,7 +24,7 @@ class Shown(ABC):
 
     @abstractmethod
     def summary(self) -> dict[str, str]:
-        """What the result is and what it found, name → words."""
+        """Return the result in words, by name."""
 
     def __repr__(self) -> str:
         rows = self.summary()

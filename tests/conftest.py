@@ -2,6 +2,9 @@
 what hypothesis draws."""
 
 import gc
+import os
+import tempfile
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -10,6 +13,11 @@ from hypothesis import settings
 from lagrotor.process import begin_process
 
 begin_process()
+
+# Reports that tests make stay out of the user's cache; matplotlib, which lists its fonts there, keeps its place.
+_CACHE = tempfile.TemporaryDirectory(prefix="lagrotor-cache-")
+os.environ.setdefault("MPLCONFIGDIR", str(Path.home() / ".cache" / "matplotlib"))
+os.environ["XDG_CACHE_HOME"] = _CACHE.name
 
 # The same values each time; the slow tests draw others, and keep what fails. `--hypothesis-profile` chooses.
 settings.register_profile("repeatable", derandomize=True, deadline=None)

@@ -2,7 +2,6 @@
 
 import ast
 import json
-import os
 import pickle
 import re
 import subprocess
@@ -33,10 +32,8 @@ from lagrotor.paper.latex.stated_system import write_derivation
 from lagrotor.paper.papers import opened
 from lagrotor.proofs.coq.certificate import PREAMBLE
 from lagrotor.proofs.coq.checked_by_coq import CERTIFICATE_LIST, foreign_word, read_certificates
-from lagrotor.report.job import kept as kept_products
-from lagrotor.report.job.folder import PRODUCTS
-from lagrotor.report.job.kept import Kept
-from lagrotor.report.page.derivation_pages import markdown_html
+from lagrotor.report.job import cache as report_cache
+from lagrotor.report.page.pieces import markdown_html
 from lagrotor.structures import read_structure
 
 ROOT = Path(lagrotor.__file__).parent
@@ -357,79 +354,22 @@ class Call:
         """Pickle asks whether what it is to call can be called."""
 
 
-def hostile_pickles(mark: Path) -> list[bytes]:
-    """Pickles that leave the mark: by a function, by sympy's parser, by classes of numpy's and lagrotor's alone."""
-    call = python(mark)[0]
-    source = f"def f(): pass\n{call}"
-    calls = [Call(eval, call), Call(sp.sympify, call), Call(Call(GeneratedFunction, np.str_, ()), source)]
-    return [pickle.dumps(each) for each in calls]
-
-
-@pytest.mark.parametrize("place", range(3))
-def test_no_product_runs_that_another_user_made(place: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The twin is the same folder under the key with which it was sealed."""
-    mark, key = tmp_path / "ran", b"a stranger's"
-    monkeypatch.setattr(kept_products, "_key", lambda: key)
-    made = Kept(tmp_path, tmp_path)
-    made.keep("claim C01", "inputs", 1)
-    (tmp_path / PRODUCTS / "claim-C01.pickle").write_bytes(data := hostile_pickles(mark)[place])
-    files = {f"{PRODUCTS}/claim-C01.pickle": kept_products.digest(data)}
-    made._parts["claim C01"] = {"seal": made._seal("inputs", files), "files": files}
-    made.write()
-    Kept(tmp_path, tmp_path).last("claim C01", "inputs")
-    assert mark.exists()
-    mark.unlink()
-    key = b"this user's"
-    assert Kept(tmp_path, tmp_path).last("claim C01", "inputs") is None
-    assert not mark.exists()
-
-
-def test_a_part_of_the_last_report_does_not_stand_for_another(tmp_path: Path) -> None:
-    """A seal that is right, beside a product of that name which it does not cover."""
-    mark = tmp_path / "ran"
-    made = Kept(tmp_path, tmp_path)
-    made.keep("claim C01", "inputs", 1)
-    made._parts["claim C02"] = made._parts["claim C01"]
-    made.write()
-    (tmp_path / PRODUCTS / "claim-C02.pickle").write_bytes(hostile_pickles(mark)[0])
-    again = Kept(tmp_path, tmp_path)
-    assert (again.last("claim C01", "inputs"), again.last("claim C02", "inputs")) == (1, None)
-    assert not mark.exists()
-
-
-def test_a_product_of_another_paper_is_not_taken(tmp_path: Path) -> None:
-    papers = [opened((ROOT.parent / "papers" / name).resolve()) for name in ("pendulum", "hoop")]
-    made = Kept(tmp_path, tmp_path, papers[0])
-    made.keep("claim C01", "inputs", papers[0])
-    made.write()
-    assert Kept(tmp_path, tmp_path, papers[0]).last("claim C01", "inputs") == papers[0]
-    assert Kept(tmp_path, tmp_path, papers[1]).last("claim C01", "inputs") is None
-
-
-def test_the_key_of_the_seals_is_this_users_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    fresh = kept_products._key.__wrapped__
-    file = tmp_path / "lagrotor" / "report.key"
-    assert fresh() == fresh() == file.read_bytes() and file.stat().st_mode & 0o777 == 0o600
-    file.write_bytes(b"short")  # a key cut short is made again
-    assert fresh() == fresh() == file.read_bytes() and len(fresh()) == 32
-    monkeypatch.setenv("XDG_STATE_HOME", os.devnull)
-    assert fresh() != fresh() and len(fresh()) == 32
-
-
-def test_no_key_is_taken_from_the_working_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A folder that came with a report, a key and its seals; the twin is the same key in the user's folder."""
-    fresh, brought = kept_products._key.__wrapped__, b"k" * 32
-    for folder in (tmp_path / "came", tmp_path / "home" / ".local" / "state"):
-        (folder / "lagrotor").mkdir(parents=True)
-        (folder / "lagrotor" / "report.key").write_bytes(brought)
-    monkeypatch.chdir(tmp_path / "came")
-    monkeypatch.setattr(Path, "home", lambda: tmp_path)
-    for states in (".", "", "../came"):
-        monkeypatch.setenv("XDG_STATE_HOME", states)
-        assert fresh() != brought
-    monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
-    assert fresh() == brought
+def test_no_product_of_the_cache_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pickles and Python in the place of a product; the twin is `pickle.loads`."""
+    monkeypatch.setattr(report_cache, "cache_folder", lambda: tmp_path / "cache")
+    mark, cache = tmp_path / "ran", report_cache.Cache(opened((ROOT.parent / "papers" / "pendulum").resolve()))
+    cache.keep("claim C01", "inputs", 1)
+    (file,) = (tmp_path / "cache").rglob("*.json")
+    source = f"def f(): pass\n{python(mark)[0]}"
+    for call in (Call(eval, python(mark)[0]), Call(Call(GeneratedFunction, np.str_, ()), source)):
+        for text in (pickle.dumps(call), *(text.encode() for text in python(mark))):
+            file.write_bytes(text)
+            assert cache.take("claim C01", "inputs") is None
+        assert not mark.exists()
+        with suppress(Exception):
+            pickle.loads(pickle.dumps(call))
+        assert mark.exists()
+        mark.unlink()
 
 
 def test_no_file_of_arrays_runs(tmp_path: Path) -> None:
@@ -484,7 +424,7 @@ HTML = [
 
 @pytest.mark.parametrize("text", HTML)
 def test_nothing_in_a_papers_texts_runs_in_its_page(text: str, tmp_path: Path) -> None:
-    from lagrotor.report.page.page_pieces import prose, typeset
+    from lagrotor.report.page.pieces import prose, typeset
 
     shown = [markdown_html(text), prose(text), typeset(text.strip("$"))]
     shown += [Scene(spins=(1.0, -1.0))._repr_html_(), judge(sp.Symbol(text), sp.Symbol(text) + 1)._repr_html_()]
@@ -525,16 +465,16 @@ READERS = {
     "paper/theorems.py": "theorem",
     "proofs/coq/checked_by_coq.py": "certificates",
     "renamed.py": "own",
-    "report/cite.py": "own",
+    "report/content.py": "own",
     "report/formulas/font.py": "own",
-    "report/interactive/interactive.py": "own",
+    "report/page/interactive.py": "own",
+    "report/job/cache.py": "products",
     "report/job/folder.py": "own",
-    "report/job/kept.py": "products",
     "report/job/reach.py": "program",
     "report/job/reproduce.py": "products",
     "report/job/steps.py": "paper.toml",
-    "report/page/embed.py": "own",
     "report/page/pages.py": "own",
+    "report/page/pieces.py": "own",
     "structures/exact/structure_run.py": "arrays",
 }
 _NAMES = {

@@ -23,7 +23,7 @@ from printed import examples_of
 from lagrotor.about import __version__
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.formulas.font import font_face
-from lagrotor.report.job.whole_audit import audit_in_processes
+from lagrotor.report.job.steps import audit_in_processes
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
 INPUTS = ROOT / ".cache" / "edition"

@@ -8,8 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lagrotor.commands.options import Command, check_folder
-from lagrotor.commands.terminal import progress, table
+from lagrotor.commands.terminal import Command, check_folder, progress, table
 
 if TYPE_CHECKING:
     from lagrotor.benchmark.runner import Benchmark

@@ -13,8 +13,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lagrotor.commands.options import Command, check_folder
-from lagrotor.commands.terminal import progress, say, table, wrap
+from lagrotor.commands.terminal import Command, check_folder, progress, say, table, wrap
 from lagrotor.errors import InputError
 
 if TYPE_CHECKING:
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """Those that read equations, and those that test a paper."""
+    """Add the commands that read equations and those that test a paper."""
     _add_reading_commands(command)
     _add_testing_commands(command)
 
@@ -306,12 +305,8 @@ def _some(count: int, what: str) -> str:
 
 
 def reproduce_command(given: argparse.Namespace) -> int:
-    from lagrotor.report.job.processes import load_at_the_side
-
     if given.jobs is not None and given.jobs < 1:
         raise InputError(f"--jobs {given.jobs} must be at least 1: it is how many processes run")
-    if given.jobs != 1 and not given.out.exists():  # nothing to take from: every step will run
-        load_at_the_side()
     from lagrotor.report.content import count_list
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.job.reproduce import reproduce
@@ -326,11 +321,11 @@ def reproduce_command(given: argparse.Namespace) -> int:
     if made.claims:
         print(f"{_some(sum(made.claims.values()), 'claim')} tested: {count_list(made.claims)}")
     if made.taken == ["report"]:
-        print("all taken from the last run (same inputs); to run it again, delete the folder")
+        print("all taken from the last run (same inputs); to write it again, delete the folder")
     elif made.taken:
         kinds = Counter(name.split()[0] for name in made.taken)
         parts = ", ".join(_some(count, kind) for kind, count in kinds.items())
-        print(f"{parts} taken from the last run (same inputs)")
+        print(f"{parts} taken from earlier runs (same inputs)")
     print(f"{_some(made.figures, 'figure')}; {made.seconds:.1f} s; report: {page}")
     if not converter():
         print("the page shows printed equations as LaTeX source; to see them typeset: pip install 'lagrotor[report]'")
@@ -349,7 +344,7 @@ def audit_command(given: argparse.Namespace) -> int:
     with progress(len(identifiers) or len(paper.stating_scripts)) as step:
         found = None
         if not identifiers:
-            from lagrotor.report.job.whole_audit import audit_in_processes
+            from lagrotor.report.job.steps import audit_in_processes
 
             found = audit_in_processes(paper, step)
         shown = [paper.audit(i, step) for i in identifiers] if found is None else list(found)

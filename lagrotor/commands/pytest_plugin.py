@@ -57,7 +57,7 @@ class RecordedAnswer(pytest.Item):
             raise ChangedError("\n".join([*changes, why]))
 
     def _found(self) -> "tuple[Verdict | Result | None, str]":
-        """What is found now, and why."""
+        """Return the present answer and its reason."""
         from lagrotor.paper.audit import in_words
 
         if self.name in self.paper.scripts.stating:
@@ -77,7 +77,7 @@ class RecordedAnswer(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Where the equation is printed."""
+        """Return the place where the equation is printed."""
         return self.paper.folder / "equations.toml", None, f"{self.paper.folder.name} {self.name}"
 
 

@@ -1,33 +1,142 @@
-"""The commands that are given a scene: simulate, sweep, animate, rate. Everything is refused before work starts."""
+"""The commands for a scene (simulate, sweep, animate, rate) or a structure; bad input is refused before work starts."""
 
 import argparse
 import json
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from lagrotor.commands.options import (
-    Command,
-    add_pair,
-    add_shock,
-    add_start,
-    check_file,
-    check_folder,
-    scene_from_options,
-    shock_from_options,
-)
+from lagrotor.commands.terminal import Command, check_folder, progress, show_time, table
 from lagrotor.errors import InputError
-from lagrotor.files import FILMS
+from lagrotor.files import FILMS, PICTURES
 from lagrotor.pair.examples import SCENES
-from lagrotor.pair.scene import Scene
+from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+
+
+def _numbers(group: Any, name: str, letters: tuple[str, ...], says: str, **more: Any) -> None:
+    group.add_argument(name, nargs=len(letters), type=float, metavar=letters, help=says, **more)
+
+
+def add_pair(parser: argparse.ArgumentParser) -> None:
+    """The options of spins, rotors and bar."""
+    group = parser.add_argument_group("rotors and bar")
+    _numbers(group, "--spins", ("W1", "W2"), "axial angular velocities, rad/s")
+    group.add_argument("--scene", type=Path, metavar="FILE", help="the whole scene from a TOML file instead")
+    for name, usual, says in (
+        ("--rotor-mass", Rotor.mass, "mass of a rotor, kg"),
+        ("--rotor-length", Rotor.length, "length of a rotor's axis, m"),
+        ("--I1", Rotor.I1, "transverse inertia about the centre, kg m²"),
+        ("--I3", Rotor.I3, "axial inertia, kg m²"),
+        ("--link-length", Link.length, "length of the bar, m"),
+        ("--link-mass", Link.mass, "mass of the bar, kg"),
+        ("--link-inertia", Link.inertia, "transverse inertia of the bar, kg m²"),
+    ):
+        group.add_argument(name, type=float, metavar="X", help=f"{says} (default: {usual:g})")
+    group.add_argument("--no-link", action="store_true", help="a pair without a bar")
+
+
+def add_start(parser: argparse.ArgumentParser) -> None:
+    """The options of where the pair starts."""
+    group = parser.add_argument_group("start")
+    _numbers(group, "--axes", ("X1", "Y1", "Z1", "X2", "Y2", "Z2"), "unit vectors at t = 0 (default: upright)")
+    _numbers(group, "--rates", ("X1", "Y1", "Z1", "X2", "Y2", "Z2"), "their rates at t = 0, 1/s (default: at rest)")
+
+
+def add_shock(parser: argparse.ArgumentParser) -> None:
+    """The shock's options."""
+    group = parser.add_argument_group("shock: force exp(-((t - time)/width)^2) on the tip of one rotor")
+    _numbers(group, "--shock", ("FX", "FY", "FZ"), "force, N; needs --shock-time and --shock-width")
+    group.add_argument("--shock-time", type=float, metavar="S", help="centre of the pulse, s")
+    group.add_argument("--shock-width", type=float, metavar="S", help="width of the pulse, s")
+    group.add_argument("--shock-body", type=int, metavar="N", help="rotor 1 (left) or 2 (default: 1)")
+
+
+def scene_from_options(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
+    """The scene that the options describe, or that of the file. Raises InputError for one that makes no sense."""
+    if given.scene:
+        return _scene_of_file(given, shock)
+    if given.spins is None:
+        raise InputError("--spins W1 W2 is missing: give the axial angular velocities in rad/s, or --scene FILE")
+    start = {
+        name: (tuple(values[:3]), tuple(values[3:]))
+        for name in ("axes", "rates")
+        if (values := vars(given).get(name)) is not None  # rate takes no start
+    }
+    return Scene(
+        spins=tuple(given.spins),
+        rotor=Rotor(**_fields(given, ROTOR_OPTIONS)),
+        link=_link(given),
+        shock=shock,
+        **start,
+    )
+
+
+# Field → the option's name in what was parsed.
+ROTOR_OPTIONS = {"mass": "rotor_mass", "length": "rotor_length", "I1": "I1", "I3": "I3"}
+LINK_OPTIONS = {"length": "link_length", "mass": "link_mass", "inertia": "link_inertia"}
+
+
+def _fields(given: argparse.Namespace, options: dict[str, str]) -> dict[str, float]:
+    """The fields whose options were given."""
+    return {name: value for name, option in options.items() if (value := getattr(given, option)) is not None}
+
+
+def _scene_of_file(given: argparse.Namespace, shock: Shock | None) -> Scene:
+    """The scene of --scene FILE. Raises InputError where other options describe one too."""
+    from lagrotor.pair.scene_document import read_scene
+
+    named = {"--spins": given.spins, "--shock": shock, "--no-link": given.no_link or None}
+    named |= {
+        f"--{option.replace('_', '-')}": getattr(given, option)
+        for option in (*ROTOR_OPTIONS.values(), *LINK_OPTIONS.values())
+    }
+    named |= {f"--{name}": vars(given).get(name) for name in ("axes", "rates")}
+    if both := [name for name, value in named.items() if value is not None]:
+        raise InputError(f"--scene and {both[0]}: the file has the whole scene; change it there")
+    return read_scene(given.scene)
+
+
+def _link(given: argparse.Namespace) -> Link | None:
+    """The bar, if any. Raises InputError for one that is described and left out."""
+    bar = _fields(given, LINK_OPTIONS)
+    if given.no_link and bar:
+        raise InputError(f"--no-link and --link-{next(iter(bar))}: a pair without a bar has none; leave one out")
+    return None if given.no_link else Link(**bar)
+
+
+def shock_from_options(given: argparse.Namespace) -> Shock | None:
+    """The shock that the options describe, if any. Raises InputError when a part of it is missing."""
+    parts = {"--shock-time": given.shock_time, "--shock-width": given.shock_width}
+    if given.shock is None:
+        if lonely := [
+            name for name, value in (parts | {"--shock-body": given.shock_body}).items() if value is not None
+        ]:
+            raise InputError(f"{lonely[0]} without --shock: give the force too")
+        return None
+    if missing := [name for name, value in parts.items() if value is None]:
+        raise InputError(f"--shock needs {' and '.join(missing)}")
+    body = 1 if given.shock_body is None else given.shock_body
+    return Shock(tuple(given.shock), given.shock_time, given.shock_width, body)
+
+
+def check_file(path: Path) -> None:
+    """Raises InputError unless a run can be written there."""
+    endings = (".npz", ".csv", *PICTURES, *FILMS)
+    if path.suffix not in endings:
+        raise InputError(f"--out {path}: the name must end in {', '.join(endings)}")
+    if path.is_dir():
+        raise InputError(f"--out {path} is a folder: give a file")
+    check_folder(path.parent)
+
 
 # What can be varied: name → (what it is, the scene with that value).
 _Change = Callable[[Scene, float], Scene]
 
 
-def _link(field: str) -> _Change:
+def _bar_field(field: str) -> _Change:
     def change(scene: Scene, value: float) -> Scene:
         if scene.link is None:
             raise InputError(f"--vary link-{field}: a pair without a bar has none; leave out --no-link")
@@ -46,11 +155,11 @@ _VARIED: dict[str, tuple[str, _Change]] = {
     "paired": ("amplitude of the paired precession", _on_precession),
     "spin1": ("spin of rotor 1, rad/s", lambda scene, value: replace(scene, spins=(value, scene.spins[1]))),
     "spin2": ("spin of rotor 2, rad/s", lambda scene, value: replace(scene, spins=(scene.spins[0], value))),
-    "link-length": ("length of the bar, m", _link("length")),
-    "link-mass": ("mass of the bar, kg", _link("mass")),
-    "link-inertia": ("inertia of the bar, kg m²", _link("inertia")),
+    "link-length": ("length of the bar, m", _bar_field("length")),
+    "link-mass": ("mass of the bar, kg", _bar_field("mass")),
+    "link-inertia": ("inertia of the bar, kg m²", _bar_field("inertia")),
 }
-_MOST = 100_000
+_MOST = 100_000  # runs of a sweep, which are all in memory at once
 _TOLERANCE = "target for the estimated largest error of an axis over the run"
 
 
@@ -94,7 +203,6 @@ def sweep_command(given: argparse.Namespace) -> int:
 
     import numpy as np
 
-    from lagrotor.commands.terminal import progress, table
     from lagrotor.files import write_text
     from lagrotor.models.sweeps.ensemble import sweep
 
@@ -126,7 +234,7 @@ def sweep_command(given: argparse.Namespace) -> int:
     return 1 if len(ensemble.failed) else 0
 
 
-_MOST_SAMPLES = 10_000_000
+_MOST_SAMPLES = 10_000_000  # about 2 GB of memory
 
 
 def add_scene_commands(command: Command) -> None:
@@ -194,7 +302,6 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
 
 
 def animate_command(given: argparse.Namespace) -> int:
-    from lagrotor.commands.terminal import progress
     from lagrotor.drawing.film import check_film
 
     ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
@@ -231,7 +338,6 @@ def simulate_command(given: argparse.Namespace) -> int:
 
     import numpy as np
 
-    from lagrotor.commands.terminal import show_time
     from lagrotor.models.simulate import simulate
 
     times = np.linspace(0.0, given.t_end, given.samples)
@@ -276,8 +382,6 @@ def _scene_with_start(scene: Scene, given: argparse.Namespace) -> Scene:
 
 
 def _run_table(run: dict[str, Any]) -> str:
-    from lagrotor.commands.terminal import table
-
     def point(tip: list[float]) -> str:
         return "  ".join(f"{x:.9f}" for x in tip)
 
@@ -296,7 +400,6 @@ def _run_table(run: dict[str, Any]) -> str:
 def rate_command(given: argparse.Namespace) -> int:
     scene = scene_from_options(given)
 
-    from lagrotor.commands.terminal import table
     from lagrotor.theory.natural_rate import natural_rate, natural_rate_limits
 
     rate, limits = natural_rate(scene), natural_rate_limits(scene) if scene.link else {}
@@ -313,3 +416,110 @@ def rate_command(given: argparse.Namespace) -> int:
         rows = [(name, limit.formula, f"{limit.rate:.12g}", limit.says) for name, limit in limits.items()]
         print(table(("limit", "formula", "rad/s", "what is changed"), rows))
     return 0
+
+
+_ENDINGS = (*PICTURES, *FILMS, ".toml")
+_json = partial(json.dumps, indent=1, ensure_ascii=False)
+
+
+def add_structure_commands(command: Command) -> None:
+    """structure."""
+    added = command(
+        "structure",
+        structure_command,
+        "whether a structure of rotors and bars stands, and its modes",
+        "lagrotor structure corner --out corner.png",
+    )
+    says = "a TOML file with joints, bars, spins …, or a name of the gallery, such as corner; list names them"
+    added.add_argument("structure", metavar="FILE", help=says)
+    added.add_argument(
+        "--out", type=Path, metavar="FILE", help="write a picture, a film (.gif, .mp4) or the .toml itself"
+    )
+    added.add_argument("--t-end", type=float, metavar="S", help="length of the film, s (default: the gallery's, or 5)")
+    added.add_argument("--json", action="store_true", help="print a JSON object")
+
+
+def structure_command(given: argparse.Namespace) -> int:
+    from lagrotor.structures.structure import read_structure
+    from lagrotor.structures.gallery import GALLERY, example
+
+    if given.structure == "list":
+        listed = {name: each.says for name, each in GALLERY.items()}
+        print(_json(listed) if given.json else table(("name", "what it shows"), list(listed.items())))
+        return 0
+    if given.out and given.out.suffix not in _ENDINGS:
+        raise InputError(f"--out {given.out}: the name must end in {', '.join(_ENDINGS)}")
+    if given.out:
+        check_folder(given.out.parent)
+    s = read_structure(given.structure) if given.structure.endswith(".toml") else example(given.structure)
+    if given.out:
+        ready = GALLERY.get(given.structure)
+        usual = ready.duration if ready else 5.0
+        _write(s, given.out, usual if given.t_end is None else given.t_end)
+    summary = _summary(s)
+    print(_json(summary) if given.json else _table(summary))
+    if given.out and not given.json:
+        print(given.out)
+    return 0
+
+
+def _write(s: Any, out: Path, duration: float) -> None:
+    import numpy as np
+
+    from lagrotor.files import write_beside
+    from lagrotor.structures.structure import write_structure
+
+    if out.suffix == ".toml":
+        write_structure(s, out)
+    elif out.suffix in PICTURES:
+        write_beside(out, lambda file: s.plot().savefig(file, format=out.suffix[1:]))
+    else:
+        from lagrotor.drawing.film import check_film
+
+        check_film(out, duration, 25.0)
+        tilt = 0.05 * np.random.default_rng(1).standard_normal((len(s.joints), 2))
+        s.simulate(np.linspace(0, duration, math.ceil(100 * duration) + 1), tilt, tol=1e-6).animate(out)
+
+
+def _summary(s: Any) -> dict[str, Any]:
+    rotors, bars = len(s.joints), len(s.bars)
+    summary: dict[str, Any] = {"rotors": rotors, "bars": bars, "degrees_of_freedom": 2 * rotors - bars}
+    if not s.natural:
+        why = "upright, a bar is not as long as its tips are apart; a film shows how it moves (--out FILE.gif)"
+        return summary | {"stands": None, "why": why}
+    standing, modes = s.stands(), s.modes()
+    return summary | {
+        "stands": standing.stands,
+        "kind": standing.kind,
+        "why": standing.why,
+        "growth": standing.growth,
+        "critical_spin": standing.critical_spin if standing.critical_spin < math.inf else None,
+        "topple": modes.topple,
+        "modes": [
+            {"rate": float(w), "growth": float(g), "energy_sign": int(sign)}
+            for w, g, sign in zip(modes.rates, modes.growth, modes.energy_signs, strict=True)
+        ],
+    }
+
+
+def _table(summary: dict[str, Any]) -> str:
+    verdict = {True: "yes", False: "no", None: "not judged"}[summary["stands"]]
+    rows = [("stands", f"{verdict}: {summary['why']}")]
+    count = f"{summary['degrees_of_freedom']}; rotors: {summary['rotors']}, bars: {summary['bars']}"
+    if summary["stands"] is None:
+        return table(("structure", ""), [*rows, ("degrees of freedom", count)])
+    factor = summary["critical_spin"]
+    least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
+    modes = enumerate(summary["modes"], 1)
+    kind = "never at these spins" if summary["kind"] == "never" and factor else summary["kind"]
+    rows.insert(0, ("standing", kind))
+    rows += [
+        ("least spin, to first order", least),
+        ("degrees of freedom", f"{count}; modes that grow: {summary['topple']}"),
+    ]
+    energies = {1: "", 0: "", -1: ", of negative energy"}
+    rows += [
+        (f"mode {k}", f"{m['rate']:.6g} rad/s, growth {m['growth']:.4g} 1/s{energies[m['energy_sign']]}")
+        for k, m in modes
+    ]
+    return table(("structure", ""), rows)

@@ -1,13 +1,47 @@
-"""What people see in a terminal: tables as wide as it is, refusals in a line, and progress while they wait."""
+"""The terminal: a parser that refuses in one line, tables as wide as the terminal is, and progress while people wait."""
 
+import argparse
+import os
+import re
 import shutil
 import sys
 import textwrap
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NoReturn
 
-_NARROWEST, _WIDTH = 20, 100
+from lagrotor.errors import InputError, near
+
+# Adds a command: its name, what runs it, what it does, an example.
+Command = Callable[[str, Callable[[argparse.Namespace], int], str, str], argparse.ArgumentParser]
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse, but a refusal is an InputError, and -1e-3 and -inf are numbers, not options."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings)
+        self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
+
+    def error(self, message: str) -> NoReturn:
+        choice = re.search(r"invalid choice: (.*) \(choose from (.*)\)", message)
+        hint = near(choice[1].strip("'"), re.findall(r"[\w-]+", choice[2])) if choice else ""
+        raise InputError(f"{message}{hint}; see {self.prog} --help")
+
+
+def check_folder(folder: Path) -> None:
+    """Raises InputError unless files can be written into the folder."""
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"--out: {folder} is a file: give a folder")
+    if not folder.is_dir():
+        raise InputError(f"--out: there is no folder {folder}: make it first")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"--out: the folder {folder} cannot be written to: choose another")
+
+
+_NARROWEST, _WIDTH = 20, 100  # columns: the least of a wrapped text; the width where there is no terminal
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

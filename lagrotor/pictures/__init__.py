@@ -5,19 +5,19 @@ from typing import TYPE_CHECKING
 from lagrotor.faces import face
 
 if TYPE_CHECKING:
-    from lagrotor.pictures.diagram import arc as arc
-    from lagrotor.pictures.diagram import arc_between as arc_between
-    from lagrotor.pictures.diagram import arrow as arrow
-    from lagrotor.pictures.diagram import bare as bare
-    from lagrotor.pictures.diagram import canvas as canvas
-    from lagrotor.pictures.diagram import draw_wheel as draw_wheel
-    from lagrotor.pictures.diagram import ground as ground
-    from lagrotor.pictures.diagram import label as label
-    from lagrotor.pictures.diagram import path_arrow as path_arrow
     from lagrotor.pictures.figures import Picture as Picture
+    from lagrotor.pictures.panels import arc as arc
+    from lagrotor.pictures.panels import arc_between as arc_between
+    from lagrotor.pictures.panels import arrow as arrow
+    from lagrotor.pictures.panels import bare as bare
+    from lagrotor.pictures.panels import canvas as canvas
     from lagrotor.pictures.panels import distance_over_one_turn as distance_over_one_turn
+    from lagrotor.pictures.panels import draw_wheel as draw_wheel
+    from lagrotor.pictures.panels import ground as ground
+    from lagrotor.pictures.panels import label as label
     from lagrotor.pictures.panels import orbits_from_above as orbits_from_above
     from lagrotor.pictures.panels import over_one_turn as over_one_turn
+    from lagrotor.pictures.panels import path_arrow as path_arrow
     from lagrotor.pictures.panels import rate_figure as rate_figure
     from lagrotor.pictures.panels import shock_figure as shock_figure
 

@@ -1,5 +1,6 @@
-"""What a report says and in which order, before it is put into HTML or Markdown."""
+"""The contents of a report and their order, before they are put into HTML or Markdown."""
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -7,6 +8,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
+from lagrotor.paper import scripts
 from lagrotor.paper.audit import NOT_YET
 from lagrotor.paper.catalogue import Equation, is_claim
 from lagrotor.paper.claim_tests import Result
@@ -82,12 +84,12 @@ class Report:
 
     @property
     def title(self) -> str:
-        """What the report is: a re-examination of the paper, which it names."""
+        """The title of the report, which names the paper."""
         return f'A re-examination of "{self.paper.title}"'
 
     @property
     def how_to_read(self) -> str:
-        """What the report does with equations, claims and figures, and by what they go."""
+        """The sentences that say how equations, claims and figures were examined, and how they are numbered."""
         claims, figures = list(self.paper.claims)[:1], self.paper.figures
         does = "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact "
         does += "decision procedure" + ("; each claim made in words is tested by a run" if claims else "")
@@ -112,14 +114,14 @@ class Report:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many equations have each verdict, in the order of `MEANINGS`, those with none left out."""
+        """The number of equations with each verdict, in the order of `MEANINGS`, without zeros."""
         counted: Counter[str] = Counter(verdict.verdict for verdict in self.verdicts)
         counted[NOT_YET] = len(self.waiting)
         return {answer: counted[answer] for answer in MEANINGS if counted[answer]}
 
     @property
     def outcomes(self) -> dict[str, int]:
-        """How many claims have each outcome, in the order of `CLAIM_MEANINGS`, those with none left out."""
+        """The number of claims with each outcome, in the order of `CLAIM_MEANINGS`, without zeros."""
         counted: Counter[str] = Counter(result.finding.outcome for result in self.claims)
         return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
 
@@ -142,7 +144,7 @@ class Report:
 
 
 def anchor(identifier: str) -> str:
-    """Where an equation ("5.07"), a claim ("C08") or a figure ("figure 19") is on the page."""
+    """Return the place on the page of an equation ("5.07"), a claim ("C08") or a figure ("figure 19")."""
     if identifier.startswith("figure "):
         return identifier.replace(" ", "-")
     return f"claim-{identifier}" if is_claim(identifier) else f"eq-{identifier}"
@@ -200,3 +202,25 @@ def derived_heading(relations: Iterable[Relation]) -> str:
 def as_read(entry: Equation) -> tuple[str, ...]:
     """The printed lines as sympy reads them from the catalogue, quantity = member = member …."""
     return tuple(" = ".join([from_latex(row["quantity"]), *row.get("members", ())]) for row in entry.line)
+
+
+def citation() -> tuple[list[str], str]:
+    """(sentences: how to cite, the references), (a BibTeX entry)."""
+    head, _, listed = scripts.beside("CITATION.cff").read_text(encoding="utf-8").partition("references:")
+    field = dict(re.findall(r"^(\w+): *(.+)$", head, re.MULTILINE))
+    title, authors = field["title"].strip('"'), " and ".join(_names(head))
+    sentences = [field["message"]]
+    for block in re.split(r"^  - type: ", listed, flags=re.MULTILINE)[1:]:
+        work, year = re.search(r"title: *(.+)", block), re.search(r"year: *(\d+)", block)
+        if work:
+            what = work[1].strip('"') + (f", {year[1]}" if year else "")
+            sentences.append(f"{', '.join(_names(block))}: {what}.")
+    entry = f"@software{{lagrotor,\n  author = {{{{{authors}}}}},\n  title = {{{{{title}}}}},\n"
+    return sentences, f"{entry}  version = {{{field['version']}}},\n  license = {{{field['license']}}}\n}}"
+
+
+def _names(block: str) -> list[str]:
+    """The authors of a block, given name first."""
+    whole = re.findall(r"^ +- name: *(.+)$", block, re.MULTILINE)
+    parts = re.findall(r"family-names: *(.+)\n +given-names: *(.+)", block)
+    return [*whole, *(f"{given} {family}" for family, given in parts)]

@@ -33,7 +33,7 @@ class Erratum:
 
     @property
     def reach(self) -> str:
-        """What becomes of the paper's results, in words."""
+        """The effect of the error on the paper's results, in words."""
         if self.survives:
             return "no result of the paper depends on this error"
         return "a result of the paper that depends on it, or is it, is refuted too"
@@ -75,7 +75,7 @@ def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
 
 
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
-    """What should be printed, in LaTeX: lines of the correction that hold; of refuted lines without one what was derived."""
+    """Return the correct lines in LaTeX: those of the correction that hold, and the derived line where there is no correction."""
     right = (line.relation for line in verdict.correction_lines if line.verdict in AGREES)
     lines = [_line(relation, relation.printed) for relation in right]
     return tuple(dict.fromkeys([*lines, *(_line(relation, relation.derived) for relation in uncorrected(verdict))]))
@@ -108,7 +108,7 @@ def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
 
 
 def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> Iterator[str]:
-    """What the sheet says before its items."""
+    """Yield the sentences above the items of the sheet."""
     differ = "1 differs" if len(errors) == 1 else f"{len(errors)} differ"
     yield (
         f"Of the {len(verdicts)} equations that were read as printed and derived anew, {differ} from what follows from "

@@ -1,10 +1,18 @@
-"""What the report says of a verdict, a claim and a figure besides formulas: labelled lines."""
+"""The sentences of a report: the facts of each equation, claim and figure; the balance of the verdicts; the results that
+`paper.toml` puts first, with their numbers.
+"""
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from string import Formatter
+from typing import Any
 
 import sympy as sp
 
+from lagrotor.errors import InputError
+from lagrotor.mechanics.glossary import latex
+from lagrotor.paper import catalogue
 from lagrotor.paper.audit import dimension_texts, line_text
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.premises import Premise
@@ -26,7 +34,7 @@ class Fact:
 
 
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
-    """What is said of a verdict besides the two formulas; only what applies."""
+    """Return the facts of a verdict that stand below its two formulas."""
     statement = verdict.statement
     is_refuted = verdict.verdict == "refuted"
     if verdict.refuted_under:
@@ -98,7 +106,7 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
 
 
 def note(verdict: Verdict) -> str:
-    """What a table says beside the verdict's word: why it is refuted or undecided, or the order and the condition in short."""
+    """Return the note beside a verdict in a table: the reason of a refutation, or the order and the condition in short."""
     if verdict.verdict == "refuted":
         points = (point_text(line) for line in verdict.lines if line.verdict == "refuted")
         return verdict.statement.wrong or next(filter(None, points), "")
@@ -109,3 +117,118 @@ def note(verdict: Verdict) -> str:
         parts.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
     broken = any(premise.broken for premise in verdict.premises)
     return "; ".join(parts) + (". The paper's own scene does not meet this." if broken else "")
+
+
+_FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
+
+
+@dataclass(frozen=True)
+class Headline:
+    """One result: what it says in a line, the sentence with its numbers, a formula in LaTeX, where it is shown, its figure."""
+
+    title: str
+    text: str
+    ids: tuple[str, ...]
+    formula: str = ""
+    figure: str = ""
+
+
+def opening(report: Report) -> list[tuple[str, str]]:
+    """The lines that the report opens with: (label, sentence)."""
+    numbers = _Numbers(report)
+    return [(line.label, numbers.format(line.text)) for line in report.paper.about.opening]
+
+
+def balance(report: Report) -> str:
+    """Return the sentences that count the equations that hold, those refuted and those corrected."""
+    if not report.verdicts:
+        return f"No equation is judged yet, of {len(report.waiting)}."
+    counts = report.counts
+    ways = {
+        "holds": "exactly",
+        "holds-if": "under a condition that is named",
+        "holds-to-order": "to the order that is named",
+    }
+    hold = {answer: counts[answer] for answer in ways if answer in counts}
+    fallen = [verdict for verdict in report.verdicts if verdict.verdict == "refuted"]
+    corrected = sum(v.correction_verdict in ways for v in fallen)
+    reaching = sum(bool(v.reaches_result) for v in fallen)
+    undecided, waiting = counts.get("undecided", 0), len(report.waiting)
+    other = len(report.verdicts) - sum(hold.values()) - len(fallen) - undecided
+    text = f"Of {len(report.verdicts)} equations {sum(hold.values())} hold"
+    text += f": {', '.join(f'{n} {ways[answer]}' for answer, n in hold.items())}. " if hold else ". "
+    if fallen:
+        text += f"{len(fallen)} {'is' if len(fallen) == 1 else 'are'} refuted"
+        if corrected == len(fallen):
+            text += ", each with a correction that itself holds"
+        elif corrected:
+            text += f"; for {corrected} of these a correction is given that itself holds"
+        text += f"; results of the paper depend on {reaching or 'none'} of them."
+    else:
+        text += "None is refuted."
+    text += f" {undecided} {'is' if undecided == 1 else 'are'} undecided." if undecided else ""
+    text += f" The other {other} give a name or a measured number." if other else ""
+    return text + (f" {waiting} more {'is' if waiting == 1 else 'are'} not yet judged." if waiting else "")
+
+
+def headlines(report: Report) -> list[Headline]:
+    """The results that the paper puts first, those whose equations, claims and figures are in the report."""
+    numbers = _Numbers(report)
+    return [numbers.headline(each) for each in report.paper.about.headline if numbers.has(each)]
+
+
+class _Numbers(Formatter):
+    """Fills in what is in braces: {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1}, {2.1[correction]}."""
+
+    def __init__(self, report: Report) -> None:
+        self.verdicts = {verdict.id: verdict for verdict in report.verdicts}
+        self.measured: dict[str, Mapping[str, float]] = {r.test.id: r.measured for r in report.claims}
+        hold = ("holds", "holds-if", "holds-to-order")
+        self.counts = {
+            "equations": len(report.verdicts),
+            "claims": len(report.claims),
+            "holding": sum(report.counts.get(answer, 0) for answer in hold),
+            "refuted": report.counts.get("refuted", 0),
+        }
+        self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
+
+    def has(self, given: catalogue.HeadlineEntry) -> bool:
+        """Return whether the report has every number and formula of the headline."""
+        fields = (match for _, name, _, _ in self.parse(given.text) if (match := _FIELD.fullmatch(name or "")))
+        needed = {match[1] for match in fields} | ({given.formula} if given.formula else set())
+        return needed <= self.verdicts.keys() | self.measured.keys()
+
+    def headline(self, given: catalogue.HeadlineEntry) -> Headline:
+        """The headline with its numbers."""
+        known = self.verdicts.keys() | self.measured.keys()
+        ids = tuple(identifier for identifier in given.ids if identifier in known)
+        return Headline(given.title, self.format(given.text), ids, self._formula(given), given.figure)
+
+    def get_field(self, field_name: str, args: Any, kwargs: Any) -> tuple[Any, str]:
+        """The value of what is in braces. Raises InputError for a number that a test does not measure."""
+        if field_name in self.counts:
+            return self.counts[field_name], field_name
+        match = _FIELD.fullmatch(field_name)
+        identifier, name = (match[1], match[2] or "") if match else (field_name, "")
+        if identifier in self.verdicts:
+            verdict = self.verdicts[identifier]
+            answer = verdict.correction_verdict if name == "correction" else verdict.verdict
+            return word(answer or "undecided"), identifier
+        if identifier not in self.measured:
+            raise InputError(f"paper.toml: {{{field_name}}} is no equation, claim or figure of the report")
+        measured = self.measured[identifier]
+        if name not in measured:
+            raise InputError(f"paper.toml: headline: {identifier} does not measure {name!r}: {', '.join(measured)}")
+        return measured[name], identifier
+
+    def _formula(self, given: catalogue.HeadlineEntry) -> str:
+        """The corrected, or else the derived form of an equation, of the named quantity or the first."""
+        if not given.formula:
+            return ""
+        statement = self.verdicts[given.formula].statement
+        corrected = [(r.quantity, r.written or latex(r.printed)) for r in statement.correction]
+        derived = [(r.quantity, r.written or latex(r.derived)) for r in statement.relations]
+        for quantity, line in corrected or derived:
+            if given.quantity in ("", quantity):
+                return f"{quantity} = {line}"
+        raise InputError(f"paper.toml: headline: {given.formula} has no quantity {given.quantity!r}")

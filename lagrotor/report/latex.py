@@ -1,4 +1,4 @@
-"""What the LaTeX files of the report share: one head, text and formulas in ASCII, tables, and long formulas in lines."""
+"""The parts that the LaTeX files of the report share: the head, text and formulas in ASCII, tables, long formulas in lines."""
 
 import re
 import unicodedata
@@ -57,13 +57,13 @@ _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 _LETTER = re.compile(rf"(\w)([{''.join(_DOTS)}]?)([{''.join(_LOW)}]*)")
 # sin{\left(\theta_1 \right)}: an argument that is one letter needs no brackets.
 _LONE = re.compile(r"\{\\left\((\\?[A-Za-z]+(?:_\{?\w+\}?)?) \\right\)\}")
-_LONG_WORD = 18
+_LONG_WORD = 18  # characters of a word beyond which TeX may break it
 # Characters of a formula beyond which nobody reads it on paper.
 _LONGEST = 2_500
 
 
 def head(title: str, preamble: str = "") -> str:
-    """What a document begins with, packages of the paper's own formulas too; its title as plain ASCII, for the PDF's viewer."""
+    """Return the head of a document, with the packages that the paper's formulas need, and its title in ASCII."""
     about = rf"\hypersetup{{pdftitle={{{latex_prose(title)}}},pdfauthor={{The lagrotor developers}}}}"
     return f"{_HEAD}{preamble and preamble.strip() + chr(10)}{about}\n\\begin{{document}}\n"
 

@@ -1,28 +1,40 @@
-"""The report's blocks as Markdown with LaTeX between dollar signs, as code hosts draw it, and as one LaTeX file, a supplement to
-a paper: ASCII, compiled by pdflatex, its pictures in `figures/`."""
+"""The report from top to bottom as blocks, and these as Markdown and as LaTeX.
+
+Markdown has LaTeX between dollar signs, as code hosts draw it. The LaTeX file is a supplement to a paper: ASCII, compiled by
+pdflatex, its pictures in `figures/`.
+"""
 
 import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
+from typing import TypeAlias
 
 import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
+from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.readable import readable
-from lagrotor.report.blocks import (
-    Block,
-    Bold,
-    Display,
-    File,
-    Heading,
-    Links,
-    Rows,
-    Span,
-    Verbatim,
-    errata_blocks,
-    opening_blocks,
-    section_blocks,
+from lagrotor.paper.tables import Cell, FigureLink
+from lagrotor.paper.verdicts import Verdict
+from lagrotor.pictures.figures import Picture
+from lagrotor.report.content import (
+    BESIDE,
+    CLAIM_MEANINGS,
+    MEANINGS,
+    SUBTITLE,
+    Report,
+    ShownPart,
+    anchor,
+    citation,
+    contents,
+    derived_heading,
+    derived_lines,
+    notation,
+    word,
 )
-from lagrotor.report.content import SUBTITLE, Report, anchor, contents
+from lagrotor.report.errata import errata, premise_formulas
+from lagrotor.report.facts import Fact, balance, facts, figure_facts, headlines, linked_facts, note, opening
 from lagrotor.report.latex import (
     END,
     displayed_expression,
@@ -32,6 +44,221 @@ from lagrotor.report.latex import (
     latex_prose,
     latex_table,
 )
+
+
+@dataclass(frozen=True)
+class Bold:
+    """A label, or a title without a place of its own."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Links:
+    """To equations, claims or figures."""
+
+    ids: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class File:
+    """A file of the report's folder."""
+
+    address: str
+    name: str
+
+
+Span: TypeAlias = (
+    "str | sp.Basic | Bold | Links | File | tuple[Span, ...]"  # of a line or a cell; a tuple: one below the other
+)
+Line: TypeAlias = list[Span]  # with a blank between each two
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The heading of a section, or of an entry, which has a name besides its title."""
+
+    place: str
+    title: str
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Display:
+    """A formula on its own line, from its LaTeX or as an expression."""
+
+    formula: str | sp.Basic
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table."""
+
+    head: tuple[str, ...]
+    rows: Sequence[tuple[Span, ...]]
+
+
+@dataclass(frozen=True)
+class Verbatim:
+    """Text as it is, or what a paper says."""
+
+    text: str
+    quoted: bool = False
+
+
+Block: TypeAlias = "Line | Heading | Display | Rows | Verbatim | Picture"
+
+
+def opening_blocks(report: Report) -> Iterator[Block]:
+    """Yield the blocks above the sections."""
+    for label, text in opening(report):
+        yield [Bold(label), text]
+    yield [report.how_to_read]
+
+
+def section_blocks(report: Report) -> Iterator[Block]:
+    """Every section under its heading."""
+    for name, heading in contents(report):
+        yield Heading(name, heading)
+        if name in _PARTS:
+            yield from _PARTS[name](report)
+        elif name.startswith("section-"):
+            for verdict in report.sections[name.removeprefix("section-")]:
+                yield from _equation(verdict, report)
+        else:
+            yield from _shown(report.part(name), report)
+
+
+def _summary(report: Report) -> Iterator[Block]:
+    if report.changes:
+        yield [Bold("Changed against the record."), "; ".join(report.changes)]
+    yield [balance(report)]
+    if fallen := [v.id for v in report.verdicts if v.verdict == "refuted"]:
+        yield ["Refuted:", Links(tuple(fallen))]
+    for number, headline in enumerate(headlines(report), 1):
+        yield [Bold(f"{number}. {headline.title}."), headline.text]
+        if headline.formula:
+            yield Display(headline.formula)
+        if headline.ids:
+            yield ["Shown in", Links(headline.ids)]
+    for what, counts, meanings in (
+        ("Equations", report.counts, MEANINGS),
+        ("Claims", report.outcomes, CLAIM_MEANINGS),
+    ):
+        rows = [(word(answer), str(count), meanings[answer]) for answer, count in counts.items()]
+        yield Rows((what, "How many", "What it means"), rows)
+
+
+def _verdicts(report: Report) -> Iterator[Block]:
+    rows = [(Links((v.id,)), report.paper.equation(v.id).title, word(v.verdict), note(v)) for v in report.verdicts]
+    yield Rows(("Equation", "Title", "Verdict", "Why, or under what condition"), rows)
+
+
+def errata_blocks(report: Report) -> Iterator[Block]:
+    """The errata sheet; nothing where nothing is refuted."""
+    for e in errata(report.verdicts, report.paper):
+        yield Heading(f"erratum-{e.id}", e.title, f"Erratum {e.id}:")
+        yield [e.wrong]
+        yield [Bold("Printed.")]
+        yield Display(e.printed)
+        yield [Bold(f"Correct ({e.verdict_of_correction}).")]
+        yield from map(Display, e.corrected)
+        for label, premises in e.conditions:
+            yield [Bold(f"{label}:"), "; ".join(p.sentence for p in premises)]
+            yield from map(Display, premise_formulas(premises))
+        yield ["Used by:", Links(e.used_by) if e.used_by else "none", f"– {e.reach}."]
+
+
+def _equation(verdict: Verdict, report: Report) -> Iterator[Block]:
+    entry, relations = report.paper.equation(verdict.id), verdict.statement.relations
+    yield Heading(anchor(verdict.id), f"{entry.title}: {word(verdict.verdict)}", verdict.id)
+    yield [Bold("As printed.")]
+    yield Display(entry.latex)
+    if derived := derived_lines(relations):
+        yield [Bold(f"{derived_heading(relations)}.")]
+        yield from map(Display, derived)
+    yield from _facts(facts(verdict, report))
+
+
+def _facts(listed: Iterable[Fact]) -> Iterator[Block]:
+    for fact in listed:
+        letters = [letter for letter in fact.formulas if letter.is_Symbol]
+        yield [Bold(f"{fact.label}."), *fact.texts, Links(fact.ids), *letters]
+        yield from (Display(formula) for formula in fact.formulas if not formula.is_Symbol)
+        yield from map(Display, fact.sources)
+
+
+def _claim(result: Result, report: Report) -> Iterator[Block]:
+    entry, finding = report.paper.claims[result.test.id], result.finding
+    yield Heading(anchor(entry.id), f"section {entry.section}: {word(finding.outcome)}", entry.id)
+    yield Verbatim(entry.text, quoted=True)
+    yield [finding.explanation]
+    if finding.condition:
+        yield [Bold("If:"), finding.condition]
+    yield from _facts(linked_facts(result, report))
+    yield _numbers(f"Measured ({result.test.model})", result.measured)
+
+
+def _numbers(title: str, measured: Mapping[str, float]) -> Rows:
+    return Rows((title, "Value"), [(name.replace("_", " "), f"{value:.6g}") for name, value in measured.items()])
+
+
+def _shown(part: ShownPart, report: Report) -> Iterator[Block]:
+    for table in part.tables:
+        yield [Bold(f"{table.title}.")]
+        yield Rows(table.head, [tuple(_cell(cell, report) for cell in row) for row in table.rows])
+        yield [table.note]
+    for title, text in part.remarks:
+        yield [Bold(f"{title}."), text]
+    for picture in part.pictures:
+        key = f"figure {picture.key}"
+        yield Heading(anchor(key), picture.title, f"{key.capitalize()}:")
+        yield picture
+        yield [picture.caption]
+        yield from _facts(figure_facts(picture, report))
+        yield _numbers("Measured", picture.measured)
+
+
+def _cell(cell: Cell, report: Report) -> Span:
+    if not isinstance(cell, FigureLink):
+        return cell
+    key = f"figure {cell.key}"
+    return Links((key,)) if any(picture.key == cell.key for picture in report.pictures) else key
+
+
+def _derivations(report: Report) -> Iterator[Block]:
+    rows = [(name, File(f"pages/derivation-{stem}.html", f"{stem}.py")) for stem, name, _ in report.derivations]
+    yield Rows(("Derivation", "Script"), rows)
+
+
+def _cite(_: Report) -> Iterator[Block]:
+    sentences, entry = citation()
+    for sentence in sentences:
+        yield [sentence]
+    yield Verbatim(entry)
+
+
+def _made(report: Report) -> Iterator[Block]:
+    yield ["The same inputs give the same file, byte for byte; how long each part took is in times.json."]
+    yield Rows(("In the same folder", "What it is"), [(File(file, file), what) for file, what in BESIDE.items()])
+    yield Rows(("What", "Version"), list(report.versions))
+    yield Rows(("Input", "SHA-256"), list(report.inputs))
+
+
+_PARTS: dict[str, Callable[[Report], Iterator[Block]]] = {
+    "model": lambda _: iter(
+        [["Sliders and both tips in motion, in a browser:", File("index.html#model", "index.html")]]
+    ),
+    "summary": _summary,
+    "verdicts": _verdicts,
+    "notation": lambda report: iter([Rows(("Symbol", "Meaning", "Unit"), list(notation(report)))]),
+    "errata": errata_blocks,
+    "claims": lambda report: (block for result in report.claims for block in _claim(result, report)),
+    "derivations": _derivations,
+    "waiting": lambda report: iter([Rows(("Equation", "Title"), [(e.id, e.title) for e in report.waiting])]),
+    "cite": _cite,
+    "made": _made,
+}
 
 
 def markdown(report: Report) -> str:

@@ -37,4 +37,3 @@ def test_fish_and_zsh_are_told_the_same_commands(capsys: pytest.CaptureFixture[s
     fish, zsh = script("fish", capsys), script("zsh", capsys)
     assert "-a judge -d 'judge one equation'" in fish and "seen_subcommand_from judge' -l given" in fish
     assert zsh.startswith("autoload") and "    judge) words=" in zsh
-    assert main(["completion", "tcsh"]) == 2

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.pictures import figures, lean_svg
-from lagrotor.pictures.figures import draw_figure
+from lagrotor.pictures import figures
+from lagrotor.pictures.figures import draw_figure, lean_svg
 
 DRAWN = ("3", "18")  # a diagram with arrows, curves on axes
 STEP = re.compile(r"([MLQCzmlqc])([^MLQCzmlqc]*)")
@@ -46,7 +46,7 @@ def paths(svg: str) -> list[np.ndarray]:
 
 def test_every_path_is_where_it_was(sources: list[str]) -> None:
     for source in sources:
-        was, now = paths(source), paths(lean_svg.lean_svg(source))
+        was, now = paths(source), paths(lean_svg(source))
         assert len(was) == len(now) > 10
         for a, b in zip(was, now, strict=True):
             assert a.shape == b.shape
@@ -54,15 +54,15 @@ def test_every_path_is_where_it_was(sources: list[str]) -> None:
 
 
 def test_a_coarser_rounding_is_seen(sources: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lean_svg, "_DECIMALS", 1)
+    monkeypatch.setattr(figures, "_DECIMALS", 1)
     source = sources[-1]
-    off = [np.abs(a - b).max() for a, b in zip(paths(source), paths(lean_svg.lean_svg(source)), strict=True)]
+    off = [np.abs(a - b).max() for a, b in zip(paths(source), paths(lean_svg(source)), strict=True)]
     assert max(off) > 0.0051
 
 
 def test_ids_are_kept_where_they_are_used(sources: list[str]) -> None:
     for source in sources:
-        tree = ElementTree.fromstring(lean_svg.lean_svg(source))
+        tree = ElementTree.fromstring(lean_svg(source))
         text = ElementTree.tostring(tree, encoding="unicode")
         ids = {node.get("id") for node in tree.iter()} - {None}
         assert set(re.findall(r'href="#([^"]+)|url\(#([^)]+)', text)) and ids
@@ -71,5 +71,5 @@ def test_ids_are_kept_where_they_are_used(sources: list[str]) -> None:
 
 def test_a_saved_figure_is_lean(sources: list[str], tmp_path: Path) -> None:
     saved = draw_figure(DRAWN[0], tmp_path, PAPER.scripts).svg.read_text()
-    assert saved == lean_svg.lean_svg(sources[0])
+    assert saved == lean_svg(sources[0])
     assert len(saved) < 0.75 * len(sources[0])

@@ -12,8 +12,8 @@ from lagrotor.report.content import Report
 from lagrotor.report.errata import errata, latex_document
 from lagrotor.report.facts import facts
 from lagrotor.report.latex import latex_prose
-from lagrotor.report.page.page_parts import equation_entry, erratum_entry
-from lagrotor.report.page.page_pieces import prose
+from lagrotor.report.page.pieces import prose
+from lagrotor.report.page.sections import equation_entry, erratum_entry
 from lagrotor.report.text_forms import errata_sheet
 
 

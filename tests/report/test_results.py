@@ -9,9 +9,8 @@ from lagrotor.pair.notation import M, R
 from lagrotor.paper import ClaimTest, Finding, Result, Statement, chain, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
-from lagrotor.report.cite import citation
-from lagrotor.report.content import Report
-from lagrotor.report.results import balance, headlines
+from lagrotor.report.content import Report, citation
+from lagrotor.report.facts import balance, headlines
 
 MEASURED = {
     "C16": {"corrected_shortest": 1.0811, "corrected_longest": 1.0822},

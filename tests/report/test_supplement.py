@@ -6,59 +6,24 @@ import subprocess
 from dataclasses import replace
 from pathlib import Path
 
-import matplotlib.image
-import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor.pair.notation import M, r0
-from lagrotor.paper import FigureLink, Relation, Statement, Table, chain, claim_tests, decide
+from lagrotor.pair.notation import M
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.pictures import Picture
-from lagrotor.report.content import Report, ShownPart, contents
+from lagrotor.report.content import Report, contents
 from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_prose, latex_table
 from lagrotor.report.text_forms import supplement
+from tests.report.hostile import LONG, long_report, short_report
 
 HOSTILE = r'<script>alert("1 & 2")</script> | `a` *b* _c_ 50% #1 $x$ {y} ~ ^ \end{document} ±θ²≤☃'
-LONG = sp.Add(*sp.symbols("x_1:60"))
 
 
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
-    folder = tmp_path_factory.mktemp("supplement")
-    (folder / "figures").mkdir()
-    png = folder / "figures" / "fig17_stub.png"
-    matplotlib.image.imsave(png, np.zeros((40, 60)))
-    judged = [decide(statement) for statement in PAPER.statements("s5_2a_single_rotor")]
-    corrected = Statement(
-        "5.20",
-        chain(sp.cos(r0), sp.Integer(1) + r0, small=r0, claimed=1),
-        correction=(Relation(sp.cos(r0), sp.cos(r0), quantity="c"),),
-        wrong=HOSTILE,
-        depends_on=("5.06",),
-        evidence=(HOSTILE,),
-    )
-    judged.append(replace(decide(corrected), reaches_result=True))
-    paper = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, png.with_suffix(".svg"), png, {HOSTILE: 1.25})
-    past = replace(paper, key="t6", measured={}, png=png.with_name("missing_one.png"))
-    finding = claim_tests.Finding((claim_tests.Part(HOSTILE, False, HOSTILE),), HOSTILE)
-    test = claim_tests.ClaimTest("C08", (1.0, 1.0), {}, "minimal", dict, lambda numbers: finding)
-    row = (HOSTILE, ("holds:", sp.Eq(r0, M**2), sp.Eq(r0, LONG / M)), FigureLink("t6"), FigureLink("t7"))
-    side = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
-    return Report(
-        PAPER,
-        tuple(judged),
-        (paper, past),
-        (HOSTILE,),
-        claims=(claim_tests.Result(test, {"a_name": 1 / 3}, finding, 1.0),),
-        parts=(
-            ShownPart("findings", "Findings", remarks=((HOSTILE, HOSTILE),)),
-            ShownPart("figures", "Figures", pictures=(paper,)),
-            ShownPart("past", "Past the paper", (side,), ((HOSTILE, HOSTILE),), (past,)),
-        ),
-        versions=(("sympy", "1.14"),),
-        inputs=(("equations.toml", "0123456789abcdef" * 4),),
-    )
+    report = short_report(HOSTILE, tmp_path_factory.mktemp("supplement"))
+    missing = replace(report.pictures[0], png=report.pictures[0].png.with_name("missing_one.png"))
+    return long_report(replace(report, pictures=(*report.pictures, replace(missing, key="t2"))), HOSTILE)
 
 
 def compiled(source: str, folder: Path, passes: int = 1) -> str:
@@ -98,16 +63,16 @@ def test_nothing_is_left_out(report: Report) -> None:
     for entry in report.waiting:
         assert entry.id in text
     for part in (
-        PAPER.claims["C08"].text.split()[0],
+        PAPER.claims["C16"].text.split()[0],
         "holds if",
         "judged by the same rules: holds",
         "Reaches the result",
         "agrees through order 0 in",
         r"\drawn{figures/fig17_stub.png}",
         r"\hyperlink{figure-t6}{figure t6}",
-        "0.333333",
+        "1.5",
         "sympy",
-        "012345678",
+        "0a0a0a0a",
         "@software",
         r"pdfauthor={The lagrotor developers}",
         "measured.json & the numbers",

@@ -7,27 +7,12 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from lagrotor.errors import InputError
+from lagrotor.report.content import BESIDE
 
-# How long each part took, and from what each was made: the only files that two runs of the same inputs may not share.
-TIMES, MADE, PRODUCTS = "times.json", "made.json", "products"
+TIMES = "times.json"  # how long each part took: the only file that two runs of the same inputs may not share
 CERTIFICATES = "certificates"  # where the job was given `--certify`
-CONTENTS = {
-    "index.html",
-    "pages",
-    "whole.html",
-    "report.md",
-    "report.tex",
-    "verdicts.json",
-    "claims.json",
-    "measured.json",
-    "errata.md",
-    "errata.tex",
-    CERTIFICATES,
-    "figures",
-    TIMES,
-    MADE,
-    PRODUCTS,
-}
+CONTENTS = {*BESIDE, "pages", "figures", "errata.tex", CERTIFICATES, TIMES}
+_OF_VERSION_0_2 = {"made.json", "products"}
 # What pdflatex leaves beside the files that it is given: goes with the report that it was made from.
 _COMPILED = {
     f"{stem}.{kind}" for stem in ("report", "errata") for kind in ("aux", "log", "out", "toc", "pdf", "synctex.gz")
@@ -35,7 +20,7 @@ _COMPILED = {
 
 
 def check_target(target: Path) -> Path:
-    """The folder with its links followed; raises InputError unless it can be made, or is empty, or is a report."""
+    """Return the folder with its links followed. Raises InputError unless it can be made, or is empty, or is a report."""
     folder = target.resolve()
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{target} is a file: choose a folder")
@@ -44,7 +29,7 @@ def check_target(target: Path) -> Path:
     if not os.access(folder.parent, os.W_OK):
         raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
     held = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
-    if other := sorted(held - CONTENTS - _COMPILED):
+    if other := sorted(held - CONTENTS - _COMPILED - _OF_VERSION_0_2):
         raise InputError(f"{target} holds {other[0]}, which is no part of a report: choose a new or an empty folder")
     if held and (missing := sorted({"index.html", "verdicts.json"} - held)):
         raise InputError(f"{target} is no report: {missing[0]} is missing: choose a new or an empty folder")
@@ -52,7 +37,7 @@ def check_target(target: Path) -> Path:
 
 
 def _alive(process: str) -> bool:
-    """Whether a process of that number is running."""
+    """Return whether a process of that number is running."""
     try:
         os.kill(int(process), 0)
     except (ValueError, OverflowError, ProcessLookupError):
@@ -64,7 +49,7 @@ def _alive(process: str) -> bool:
 
 @contextmanager
 def _alone(target: Path) -> Iterator[None]:
-    """No other run writes into `target` meanwhile. Raises InputError where one does."""
+    """Lock `target` against other runs. Raises InputError where another run has locked it."""
     lock = target.with_name(f".{target.name}.lock")
     while True:
         try:

@@ -5,7 +5,7 @@ import os
 import pickle
 import signal
 import sys
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
@@ -13,9 +13,8 @@ from typing import Any, TypeVar
 from lagrotor.process import begin_process
 
 Task = TypeVar("Task")
-# Loaded once, before the processes part: what judging takes, and what all steps, figures and runs among them, take.
-JUDGING = ("lagrotor.report.job.whole_audit",)
-ALL = ("lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate")
+# Loaded once, before the processes part.
+_LOADED = ["lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate"]
 # New objects before a search for garbage: more than half of a paper's steps leave, most of them expressions that sympy keeps.
 # A process takes half as much memory again, for searches that would find little.
 _OBJECTS = 2_000_000
@@ -28,28 +27,16 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def load_at_the_side(loaded: Sequence[str] = ALL) -> None:
-    """Begin to load what each process of `results` begins with, while this one still loads what it needs itself."""
-    if "forkserver" in multiprocessing.get_all_start_methods() and cores() > 1:
-        from multiprocessing import forkserver
-
-        forkserver.set_forkserver_preload(list(loaded))
-        with _no_interrupts():
-            forkserver.ensure_running()
-
-
 def results(
     tasks: Iterable[Task],
     run: Callable[..., Any],
     jobs: int,
     begins: Callable[[Task], None],
     given: Callable[[Task], Any] = lambda task: (),
-    loaded: Sequence[str] = ALL,
 ) -> Iterator[tuple[Task, Any]]:
     """(task, run(task, *given(task))) as each ends; `begins` is called with a task before it runs. jobs = 1: in this process.
 
-    given: what a task takes from the results of others; None while they are not there, and the task waits. loaded: modules
-    that each process begins with.
+    given: what a task takes from the results of others; None while they are not there, and the task waits.
     """
     left, running = list(tasks), dict[Future[Any], Task]()
     if jobs == 1:
@@ -58,7 +45,7 @@ def results(
             begins(task)
             yield task, run(task, *more)
         return
-    with _pool(jobs, loaded) as pool:
+    with _pool(jobs) as pool:
         while left or running:
             while len(running) < jobs and any(given(task) is not None for task in left):
                 task, more = _next(left, given)
@@ -89,20 +76,6 @@ def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:
 
 
 @contextmanager
-def _no_interrupts() -> Iterator[None]:
-    """An interrupt does not reach a process that is started here: its parent handles it."""
-    try:
-        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    except ValueError:  # not in the main thread: the caller keeps its signals
-        yield
-        return
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-@contextmanager
 def _interrupts_wait() -> Iterator[None]:
     """An interrupt comes when this is done: a process that is being started is not yet one that the pool can end."""
     if not hasattr(signal, "pthread_sigmask"):
@@ -121,12 +94,12 @@ def _begin() -> None:
 
 
 @contextmanager
-def _pool(jobs: int, loaded: Sequence[str]) -> Iterator[ProcessPoolExecutor]:
+def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
     """Processes that leave interrupts to their parent, and that end with it."""
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
     if hasattr(context, "set_forkserver_preload"):
-        context.set_forkserver_preload(list(loaded))
+        context.set_forkserver_preload(_LOADED)
     pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_begin)
     try:
         yield pool

@@ -1,4 +1,4 @@
-"""What a script is made from: its own text, every module of the package that it reaches, the data beside them, other scripts.
+"""The files that a script depends on: its own, modules of the package, the data beside them, other scripts.
 
 The digest of all this, with the versions of the tools, is what a product of the last run must agree with to be taken again.
 """
@@ -37,7 +37,7 @@ def digest(*parts: bytes | str) -> str:
 
 @cache
 def versions() -> dict[str, str]:
-    """What a run is made with."""
+    """Return the versions of Python, of lagrotor and of its dependencies."""
     return {"Python": platform.python_version(), "lagrotor": __version__} | {name: version(name) for name in _TOOLS}
 
 
@@ -146,7 +146,7 @@ def _place(file: Path, paper: Paper) -> str:
 
 
 def inputs(paper: Paper) -> dict[str, str]:
-    """What a whole run is made from: name → SHA-256."""
+    """Return the SHA-256 of each kind of input of a whole run, by name."""
     package = {f for f in _PACKAGE.rglob("*") if f.is_file() and "__pycache__" not in f.parts}
     package -= {f for kind in ("derivations", "figures", "papers") for f in (_PACKAGE / kind).rglob("*")}
     own = {f for f in paper.folder.iterdir() if f.is_file()}

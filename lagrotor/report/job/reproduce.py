@@ -1,7 +1,8 @@
 """The main job: judge every equation, test every claim, draw every figure, write the report, and only then replace the last one.
 
-The steps do not depend on each other's order: they run in as many processes as there are cores, and what each gave in the last
-run is taken where nothing that it is made from has changed. The report is the same bytes whatever the number of processes.
+The steps do not depend on each other's order: they run in as many processes as there are cores. A claim's numbers and a figure
+are taken from an earlier run where nothing that they are made from has changed. The report is the same bytes whatever the
+number of processes.
 """
 
 import json
@@ -25,11 +26,11 @@ from lagrotor.report.content import Report, ShownPart
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter
 from lagrotor.report.job import reach
+from lagrotor.report.job.cache import Cache, picture_as_json, picture_from_json
 from lagrotor.report.job.folder import CERTIFICATES, TIMES, check_target, replacement
-from lagrotor.report.job.kept import Kept
 from lagrotor.report.job.processes import cores, results
 from lagrotor.report.job.reach import digest
-from lagrotor.report.job.steps import Derived, JobStep, steps
+from lagrotor.report.job.steps import Derived, JobStep, derive, draw_step, steps
 from lagrotor.report.page.pages import FOLDER, pages, whole_page
 from lagrotor.report.text_forms import errata_sheet, markdown, supplement
 
@@ -38,9 +39,9 @@ StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 
 @dataclass(frozen=True)
 class JobOutcome:
-    """What a run found, in numbers: verdict → how many, claims likewise; a sentence for each change; what was taken.
+    """The result of a run: the number of equations with each verdict, of claims with each outcome, a sentence for each change.
 
-    taken: names of the steps whose product is that of the last run; ["report"] when all of it is.
+    taken: names of the steps whose product is from an earlier run; ["report"] when the whole report is.
     """
 
     equations: dict[str, int]
@@ -55,7 +56,7 @@ class JobOutcome:
 def reproduce(
     paper: Paper, target: Path, progress: StepProgress, jobs: int | None = None, certificates: bool = False
 ) -> JobOutcome:
-    """Judge, draw and write everything into the folder `target`, taking from the last report what has not changed.
+    """Judge, draw and write everything into the folder `target`; products that have not changed come from the cache.
 
     jobs: how many processes; None: as many as there are cores, one in a debugger. certificates: with the proofs of the exact
     verdicts as files of Coq. `progress(total)` gives the function that
@@ -67,56 +68,68 @@ def reproduce(
         [reach.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter(), certificates]
     )
     whole = digest(made_from, *map(str, reach.versions().items()), beside("CITATION.cff").read_bytes())
-    if found := Kept(old, old, paper).last("report", whole):
-        return JobOutcome(**found, taken=["report"], seconds=time.perf_counter() - began)
+    cache = Cache(paper)
+    last = cache.take("report", whole)
+    if last and last["files"].items() <= _digests(old).items():
+        return JobOutcome(**last["outcome"], taken=["report"], seconds=time.perf_counter() - began)
     with replacement(target) as new:
-        kept = Kept(old, new, paper)
         (new / "figures").mkdir()
-        products, seconds = _make(kept, list(steps(paper)), progress, jobs or cores())
-        report = _report(paper, products, new / "figures")
+        products, seconds, taken = _make(cache, list(steps(paper)), new / "figures", progress, jobs or cores(), old)
+        report = _report(paper, products)
         start = time.perf_counter()
         if certificates:
             rows = certify(report.verdicts, paper, new / CERTIFICATES)
             report = replace(report, certificates={row.id: f"{CERTIFICATES}/{row.file}" for row in rows if row.file})
         _write(new, report)
-        found = {
+        outcome: dict[str, Any] = {
             "equations": report.counts,
             "waiting": len(report.waiting),
             "claims": report.outcomes,
             "figures": len(report.pictures),
             "changes": list(report.changes),
         }
-        kept.keep("report", whole, found, (path for path in new.rglob("*") if path.is_file()))
-        kept.write()
+        cache.keep("report", whole, {"outcome": outcome, "files": _digests(new)})
         seconds["report"] = round(time.perf_counter() - start, 3)
-        _write_json(new / TIMES, {"seconds": seconds, "taken from the last run": kept.taken})
-    return JobOutcome(**found, taken=kept.taken, seconds=time.perf_counter() - began)
+        _write_json(new / TIMES, {"seconds": seconds, "taken from earlier runs": taken})
+    return JobOutcome(**outcome, taken=taken, seconds=time.perf_counter() - began)
+
+
+def _digests(folder: Path) -> dict[str, str]:
+    """Return the digest of each file of a report, by its place; without that of the times."""
+    files = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*") if path.is_file()}
+    return {name: digest(path.read_bytes()) for name, path in files.items() if name != TIMES}
 
 
 def _make(
-    kept: Kept, wanted: list[JobStep], progress: StepProgress, jobs: int
-) -> tuple[dict[str, Any], dict[str, float]]:
-    """Every step's product by name, in the order of the steps, and how long each that was made took, in s."""
+    cache: Cache, wanted: list[JobStep], folder: Path, progress: StepProgress, jobs: int, old: Path
+) -> tuple[dict[str, Any], dict[str, float], list[str]]:
+    """Make every step's product, or take it from the cache.
+
+    Returns the products by name in the order of the steps, the time (s) of each that was made, and the names of the others.
+    """
     products: dict[str, Any] = dict.fromkeys(step.name for step in wanted)
-    products |= {step.name: kept.take(step.name, step.made_from) for step in wanted if step.name in kept}
-    left = sorted((step for step in wanted if products[step.name] is None), key=_longest_first(kept.old))
+    for step in wanted:
+        if step.run is not derive and (product := cache.take(step.name, step.made_from)) is not None:
+            products[step.name] = picture_from_json(product, folder) if step.run is draw_step else product
+    taken = [name for name, product in products.items() if product is not None]
+    left = sorted((step for step in wanted if products[step.name] is None), key=_longest_first(old))
     seconds: dict[str, float] = {}
 
     def given(step: JobStep) -> tuple[dict[str, dict[str, Any]]] | None:
         needed = {stem: products[f"derivation {stem}"] for stem in step.needs}
         return None if None in needed.values() else ({stem: product.values for stem, product in needed.items()},)
 
-    timed = partial(_run_timed, folder=kept.new / "figures")
+    timed = partial(_run_timed, folder=folder)
     with progress(len(left) + 1) as begins:
         for step, (product, took) in results(
             left, timed, min(jobs, max(len(left), 1)), lambda step: begins(step.name), given
         ):
             products[step.name], seconds[step.name] = product, round(took, 3)
-            stem = getattr(product, "stem", "")
-            files = [f for f in (kept.new / "figures").glob(f"{stem}.*") if stem and step.name.startswith("figure")]
-            kept.keep(step.name, step.made_from, product, files)
+            if step.run is not derive:
+                plain = picture_as_json(product) if isinstance(product, Picture) else product
+                cache.keep(step.name, step.made_from, plain)
         begins("report")
-    return products, {step.name: seconds[step.name] for step in wanted if step.name in seconds}
+    return products, {step.name: seconds[step.name] for step in wanted if step.name in seconds}, taken
 
 
 def _run_timed(step: JobStep, given: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
@@ -136,13 +149,12 @@ def _longest_first(old: Path) -> Callable[[JobStep], float]:
     return lambda step: -float(took.get(step.name, 1.0))
 
 
-def _report(paper: Paper, products: dict[str, Any], folder: Path) -> Report:
-    """Everything that the report says; its pictures lie in `folder`."""
+def _report(paper: Paper, products: dict[str, Any]) -> Report:
+    """Return everything that the report says."""
     derived = [product for product in products.values() if isinstance(product, Derived)]
     verdicts = paper.with_reach(verdict for each in derived for verdict in each.verdicts)
     tested = _claim_results(paper, products)
-    drawn = [product for name, product in products.items() if name.startswith("figure ")]
-    pictures = [replace(p, svg=folder / p.svg.name, png=folder / p.png.name) for p in drawn]
+    pictures = [product for product in products.values() if isinstance(product, Picture)]
     parts = [_part(each, derived, pictures) for each in paper.about.part]
     return Report(
         paper=paper,
@@ -159,7 +171,7 @@ def _report(paper: Paper, products: dict[str, Any], folder: Path) -> Report:
 
 
 def _part(part: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ShownPart:
-    """What a part of the report shows."""
+    """Return the tables, remarks and figures of a part of the report."""
     return ShownPart(
         part.name,
         part.heading,

@@ -1,27 +1,31 @@
-"""The steps of the main job: each derivation, claim and figure by itself, what it is made from and what it gives."""
+"""The steps of the main job: each derivation, claim and figure by itself, what it is made from and what it gives; and the whole
+audit, in as many processes as there are cores.
+"""
 
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from lagrotor.errors import LagrotorWarning
-from lagrotor.paper.papers import Paper
+from lagrotor.paper.audit import Audit
+from lagrotor.paper.papers import Paper, Progress
 from lagrotor.paper.proof import Remark
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures import figures
-from lagrotor.report.job.processes import values
+from lagrotor.report.job.processes import cores, results, values
 from lagrotor.report.job.reach import scripts_named, source_digest, values_taken
-from lagrotor.report.page.derivation_pages import derivation_html, title
+from lagrotor.report.page.pieces import derivation_html, title
 
 
 @dataclass(frozen=True)
 class Derived:
-    """What a derivation gives: verdicts, what it found besides, tables, itself as a part of the page, and the values that
-    other scripts take from it, by name."""
+    """The result of a derivation: verdicts, remarks, tables, its part of the page, and the values that other scripts take
+    from it, by name."""
 
     stem: str
     title: str
@@ -95,3 +99,36 @@ def steps(paper: Paper) -> Iterator[JobStep]:
         with paper.importable():
             source = Path(str(import_module(paper.about.model).__file__))
         yield JobStep("model", model, paper, paper.about.model, source)
+
+
+_FEW = 8  # scripts that are judged before other processes would have begun
+
+
+def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None) -> Audit:
+    """Judge every equation; jobs: how many processes, None: as many as there are cores, one for few scripts.
+
+    `progress` is called with the name of each script before it runs. Raises what `Paper.audit` raises.
+    """
+    stems = paper.stating_scripts
+    jobs = (1 if len(stems) < _FEW else cores()) if jobs is None else jobs
+    if jobs == 1:
+        return paper.audit(progress=progress)
+    paper.check_scripts()
+    needs = {stem: set(scripts_named(paper.scripts.path("derivations", stem), paper)) & set(stems) for stem in stems}
+    judgements: dict[str, tuple[list[Verdict], dict[str, Any]]] = {}
+
+    def given(stem: str) -> tuple[dict[str, dict[str, Any]]] | None:
+        return (
+            ({needed: judgements[needed][1] for needed in needs[stem]},) if needs[stem] <= judgements.keys() else None
+        )
+
+    for stem, product in results(stems, partial(_judge_script, paper), jobs, progress, given):
+        judgements[stem] = product
+    return paper.audit_of(verdict for stem in stems for verdict in judgements[stem][0])
+
+
+def _judge_script(paper: Paper, stem: str, given: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
+    """The verdicts on what one script states, and the values that others take from it."""
+    with paper.scripts.ran_elsewhere(given):
+        verdicts = paper.judged(stem)
+        return verdicts, values(paper.scripts.executed("derivations", stem).names, values_taken(stem, paper))

@@ -1,0 +1,5 @@
+"""The report as HTML: `pieces` (formulas, tables, badges, derivations), `sections` made of them, `pages` made of sections.
+
+`interactive` is the model with sliders, with formulas generated as JavaScript. Styles and scripts lie beside the modules. To
+add an entry to a page, write it in `sections` from the functions of `pieces`: these escape the text and typeset the formulas.
+"""

@@ -15,10 +15,8 @@ from posixpath import dirname, relpath
 from lagrotor.paper.readable import readable
 from lagrotor.report.content import SUBTITLE, Report, ShownPart
 from lagrotor.report.formulas.font import font_face
-from lagrotor.report.page.embed import data_address
-from lagrotor.report.page.page_parts import picture_entry
-from lagrotor.report.page.page_pieces import prose, side_by_side
-from lagrotor.report.page.page_sections import Section, introduction, sections
+from lagrotor.report.page.pieces import data_address, prose, side_by_side
+from lagrotor.report.page.sections import Section, introduction, picture_entry, sections
 
 _HERE = Path(__file__).parent
 # Hidden until the script shows it: without the script there is nothing that could search.
@@ -206,7 +204,7 @@ def _document(
 
 
 def _words(file: str, shown: Iterable[Section]) -> list[tuple[str, str, str, str]]:
-    """What can be found: (where it is, its number or name, its heading, all its words) of each entry and each section's rest."""
+    """Return the rows of the search: (address, number or name, heading, all words) of each entry, then of the section."""
     rows = []
     for section in shown:
         rest = section.html

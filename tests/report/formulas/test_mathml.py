@@ -11,7 +11,7 @@ from lagrotor.mechanics.glossary import latex as tex
 from lagrotor.pair.notation import PAIR, ROTOR, M, Omega, ell, r0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.formulas import mathml_latex
-from lagrotor.report.page.page_pieces import typeset
+from lagrotor.report.page.pieces import typeset
 
 THIN = '<mspace width="0.167em" />'
 # Elements of MathML Core; browsers draw others as plain rows.

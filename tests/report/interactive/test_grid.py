@@ -1,8 +1,6 @@
 """The model of nine rotors: its JavaScript against the library, and the section in a browser."""
 
 import json
-import shutil
-import subprocess
 from itertools import product
 from pathlib import Path
 
@@ -10,12 +8,12 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Structure
-from lagrotor.report.interactive import interactive as module
-from lagrotor.report.interactive.interactive import grid_section
+from lagrotor.report.page import interactive as module
 from lagrotor.report.page import pages
+from lagrotor.report.page.interactive import grid_section
+from tests.report.in_browser import dom_of, needs_browser
 from tests.report.interactive.in_node import NODE, value_of
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 SOURCE = (Path(module.__file__).with_name("grid_standing.js")).read_text(encoding="utf-8")
 
 
@@ -102,16 +100,11 @@ def test_the_section_needs_nothing_else() -> None:
     assert "/* script */" not in text and "http" not in text and text.count("<script>") == 1
 
 
-@pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
+@needs_browser
 def test_the_board_in_a_browser(tmp_path) -> None:
-    page = tmp_path / "page.html"
     press = """document.querySelector(".grid-rotor").click();
         document.body.dataset.pressed = document.querySelectorAll("[data-kind]").length;"""
-    page.write_text(
-        f"<!doctype html><meta charset=utf-8><body>{grid_section()}<script>{press}</script>", encoding="utf-8"
-    )
-    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", f"file://{page}"]
-    shown = subprocess.run(command, capture_output=True, text=True, timeout=60).stdout
+    shown = dom_of(f"<!doctype html><meta charset=utf-8><body>{grid_section()}<script>{press}</script>", tmp_path)
     assert 'data-pressed="9"' in shown
     assert "It stands" in shown or "It falls" in shown
     for row, place in product((1, 2, 3), repeat=2):
@@ -127,11 +120,8 @@ RECTANGLES = """document.querySelector("[data-grid=example]").value = "grid";
 
 def misplaced_bars(style: str, folder: Path) -> list[int]:
     """Which of the twelve bars, drawn with the page's style, overlap a rotor or do not lie midway between two."""
-    page = folder / "page.html"
     fragment = f"<style>{style}</style><body>{grid_section()}<script>{RECTANGLES}</script>"
-    page.write_text(f"<!doctype html><meta charset=utf-8>{fragment}", encoding="utf-8")
-    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--dump-dom", f"file://{page}"]
-    shown = subprocess.run(command, capture_output=True, text=True, timeout=60).stdout
+    shown = dom_of(f"<!doctype html><meta charset=utf-8>{fragment}", folder)
     rotors, bars = map(np.array, json.loads(shown.split('<pre id="boxes">')[1].split("</pre>")[0]))
     assert len(rotors) == 9 and len(bars) == 12
     overlaps = (np.minimum(bars[:, None, 2:], rotors[:, 2:]) - np.maximum(bars[:, None, :2], rotors[:, :2])).min(-1) > 1
@@ -141,7 +131,7 @@ def misplaced_bars(style: str, folder: Path) -> list[int]:
     return [int(i) for i in np.flatnonzero(overlaps.any(1) | (off > 1))]
 
 
-@pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
+@needs_browser
 def test_the_bars_lie_between_their_rotors_on_the_whole_page(tmp_path: Path) -> None:
     style = Path(pages.__file__).with_name("page.css").read_text(encoding="utf-8")
     assert misplaced_bars(style, tmp_path) == []

@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -18,7 +17,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-import lagrotor.report.interactive.interactive as model
+import lagrotor.report.page.interactive as model
 from lagrotor import Link, Rotor, Scene, Shock, natural_rate, paired_scene, simulate
 from lagrotor.algebra import decide_zero
 from lagrotor.models import exact_orbit
@@ -26,7 +25,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.numerics import compile_program, measured_order
 from lagrotor.pair.notation import Phi, omega, r0, theta_0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.interactive.interactive import (
+from lagrotor.report.page.interactive import (
     PAGE_ORDER,
     interactive,
     javascript_formulas,
@@ -34,11 +33,10 @@ from lagrotor.report.interactive.interactive import (
     pair_section,
 )
 from lagrotor.theory import series_orbit
+from tests.report.in_browser import dom_of, needs_browser
 from tests.report.interactive.in_node import NODE, value_of
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 node = pytest.mark.skipif(NODE is None, reason="node is not installed")
-browser = pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
 
 BARS = {"none": (0.0, 0.0), "light": (0.01, 0.1), "heavy": (1.0, 1.0)}
 SCENES = [
@@ -354,9 +352,7 @@ def test_the_fragment_is_one_section_that_needs_nothing_else() -> None:
 
 
 def test_the_fragment_is_the_same_in_every_process() -> None:
-    code = (
-        "from lagrotor.report.interactive.interactive import interactive; import sys; sys.stdout.write(interactive())"
-    )
+    code = "from lagrotor.report.page.interactive import interactive; import sys; sys.stdout.write(interactive())"
     ran = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, encoding="utf-8",
         env={**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": str(Path(model.__file__).parents[3]), "PYTHONUTF8": "1"},
@@ -455,20 +451,14 @@ def impulse_of(scene: Scene) -> tuple[float, float]:
     return tuple(float(f) * scene.shock.width * np.pi**0.5 for f in scene.shock.force[:2])
 
 
-@browser
+@needs_browser
 @pytest.mark.parametrize("motion_is_welcome", [True, False])
 def test_the_fragment_lives_in_a_browser(tmp_path: Path, motion_is_welcome: bool) -> None:
-    page = tmp_path / "page.html"
-    page.write_text(
-        f'<!DOCTYPE html><html lang="en"><meta charset="utf-8"><body>{LISTENER}{pair_section()}{TRIAL}</body></html>',
-        encoding="utf-8",
-    )
-    command = [str(BROWSER), "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]
-    command += ["--window-size=900,1400", "--virtual-time-budget=8000", "--dump-dom", page.as_uri()]
-    command += [] if motion_is_welcome else ["--force-prefers-reduced-motion"]
-    ran = subprocess.run(command, capture_output=True, text=True, timeout=120, encoding="utf-8")
-    told = re.search(r'<pre id="found">(.*?)</pre>', ran.stdout, re.DOTALL)
-    assert told, ran.stderr[-800:]
+    html = f'<!DOCTYPE html><html lang="en"><meta charset="utf-8"><body>{LISTENER}{pair_section()}{TRIAL}</body></html>'
+    less = [] if motion_is_welcome else ["--force-prefers-reduced-motion"]
+    shown = dom_of(html, tmp_path, "--window-size=900,1400", "--virtual-time-budget=8000", *less)
+    told = re.search(r'<pre id="found">(.*?)</pre>', shown, re.DOTALL)
+    assert told, shown[-800:]
     found = json.loads(unescape(told[1]))
     assert found["failures"] == []
     # Lines are smoothed: a drawing has many shades, an empty canvas one.

@@ -1,12 +1,10 @@
 """Steps in several processes give what they give in one, and an error in one ends all."""
 
 import os
-import signal
-from multiprocessing import forkserver
 
 import pytest
 
-from lagrotor.report.job.processes import cores, load_at_the_side, results
+from lagrotor.report.job.processes import cores, results
 
 
 def square(n: int) -> tuple[int, int]:
@@ -56,13 +54,3 @@ def test_a_debugger_has_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
     assert cores() >= 1
     monkeypatch.setitem(__import__("sys").modules, "pydevd", None)
     assert cores() == 1
-
-
-def test_what_loads_at_the_side_serves_the_results_and_no_interrupt_reaches_it() -> None:
-    before = signal.getsignal(signal.SIGINT)
-    load_at_the_side([])
-    assert signal.getsignal(signal.SIGINT) is before
-    if server := forkserver._forkserver._forkserver_pid:
-        os.kill(server, signal.SIGINT)
-    assert {n: value for n, (value, _) in results([1, 2], square, 2, lambda task: None, loaded=[])} == {1: 1, 2: 4}
-    assert forkserver._forkserver._forkserver_pid == server

@@ -8,7 +8,7 @@ import pytest
 from lagrotor import Paper
 from lagrotor.errors import ScriptError
 from lagrotor.paper.scripts import beside
-from lagrotor.report.job.whole_audit import audit_in_processes
+from lagrotor.report.job.steps import audit_in_processes
 
 
 @pytest.fixture

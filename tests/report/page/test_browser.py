@@ -5,8 +5,6 @@ Needs a Chromium; without one these tests say so and are skipped.
 
 import json
 import re
-import shutil
-import subprocess
 from collections.abc import Iterator
 from html import escape, unescape
 from pathlib import Path
@@ -21,9 +19,9 @@ from lagrotor.report.errata import correction_lines
 from lagrotor.report.formulas.font import FONT_FAMILY, font_face
 from lagrotor.report.formulas.mathml_latex import mathml
 from lagrotor.report.page.pages import whole_page
+from tests.report.in_browser import dom_of, needs_browser
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-pytestmark = pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome is installed")
+pytestmark = needs_browser
 WIDTHS = (1200, 390)
 Seen = dict[str, list[dict[str, Any]]]  # what is measured of each page at each width
 
@@ -72,24 +70,9 @@ def looked_at(pages: dict[str, str], folder: Path) -> Seen:
         )
     # Without its encoding the browser guesses, sometimes wrong, and then measures other letters.
     sheet = f'<!DOCTYPE html><meta charset="utf-8">{frames}<script>{MEASURE}</script>'
-    (folder / "frames.html").write_text(sheet, encoding="utf-8")
-    options = [
-        "--headless=new",
-        "--no-sandbox",
-        "--disable-gpu",
-        "--virtual-time-budget=3000",
-        "--window-size=1300,1000",
-    ]
-    command = [
-        str(BROWSER),
-        *options,
-        f"--user-data-dir={folder / 'profile'}",
-        "--dump-dom",
-        str(folder / "frames.html"),
-    ]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=120, check=False)
-    match = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.DOTALL)
-    assert match, done.stderr[-2000:]
+    shown = dom_of(sheet, folder, "--virtual-time-budget=3000", "--window-size=1300,1000")
+    match = re.search(r'<pre id="found">(.*?)</pre>', shown, re.DOTALL)
+    assert match, shown[-2000:]
     found = iter(json.loads(unescape(match[1])))
     return {name: [next(found) for _ in WIDTHS] for name in pages}
 

@@ -7,7 +7,7 @@ import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.scripts import Script, ScriptCell
-from lagrotor.report.page.derivation_pages import derivation_html, markdown_html, title
+from lagrotor.report.page.pieces import derivation_html, markdown_html, prose, title
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
 
@@ -39,3 +39,9 @@ def test_a_displayed_formula_is_one_wherever_it_stands(text: str) -> None:
 def test_what_a_run_warns_of_is_said_below_it() -> None:
     script = Script((ScriptCell("code", "run", (), ("tol = 1e-13 is not kept",)), ScriptCell("code", "2", (2,))), {})
     assert derivation_html(script, {}) == "<p><small>The run warns: tol = 10⁻¹³ is not kept.</small></p>"
+
+
+def test_prose_typesets_what_stands_between_dollars_alone() -> None:
+    pytest.importorskip("latex2mathml", reason="latex2mathml sets the formulas")
+    formula = "<math><mrow><mi>{}</mi></mrow></math>"
+    assert prose("x² of $a$ and $b$, 5") == f"x² of {formula.format('a')} and {formula.format('b')}, 5"

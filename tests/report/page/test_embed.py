@@ -9,7 +9,7 @@ import pytest
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
 from lagrotor.pictures.figures import draw_figure
-from lagrotor.report.page.embed import data_address, size
+from lagrotor.report.page.pieces import data_address, size
 
 # With 39 figures of this size the page would still be under 5 MB; most are half of it.
 LARGEST = 100_000

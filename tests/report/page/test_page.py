@@ -6,42 +6,28 @@ import posixpath
 import re
 import shutil
 import subprocess
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
 from html import escape
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-import sympy as sp
 
-from lagrotor.pair.notation import M, r0
 from lagrotor.paper import (
     Audit,
-    FigureLink,
-    Finding,
-    Part,
-    Relation,
     Remark,
-    Result,
-    Statement,
-    Table,
-    chain,
-    claim_tests,
-    decide,
 )
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.job.folder import CONTENTS
-from lagrotor.report.page import page_pieces
-from lagrotor.report.page.page_sections import sections
+from lagrotor.report.page import pieces
 from lagrotor.report.page.pages import pages, whole_page
+from lagrotor.report.page.sections import sections
 from lagrotor.report.text_forms import markdown
+from tests.report.hostile import long_report, short_report
 
 HOSTILE = '<script>alert("1 & 2")</script> | `a` *b* _c_'
 VOID = {"meta", "img", "br", "link", "hr", "input"}
-SVG = '<svg viewBox="0 0 40 30" xmlns="http://www.w3.org/2000/svg"><path d="M 0 0 L 40 30"/></svg>'
 
 
 class Reader(HTMLParser):
@@ -77,53 +63,14 @@ class Reader(HTMLParser):
         return [identifier for _, attrs in self.seen if (identifier := attrs.get("id"))]
 
 
-# The live model has tests of its own; here a heading stands for it.
-MODEL = '<section id="model"><h2>The interactive model</h2></section>'
-
-
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> Report:
-    folder = tmp_path_factory.mktemp("figures")
-    svg, png = folder / "fig17_stub.svg", folder / "fig17_stub.png"
-    svg.write_text(SVG)
-    png.write_bytes(b"not looked at")
-    judged = [decide(statement) for statement in PAPER.statements("s5_2a_single_rotor")]
-    corrected = Statement(
-        "5.20",
-        chain(sp.cos(r0), sp.Integer(1) + r0, small=r0, claimed=1),
-        correction=(Relation(sp.cos(r0), sp.cos(r0), quantity="c"),),
-        depends_on=("5.06",),
-        evidence=(HOSTILE,),
-    )
-    judged.append(replace(decide(corrected), reaches_result=True))
-    picture = Picture("fig17_stub", "17", HOSTILE, HOSTILE, HOSTILE, svg, png, {HOSTILE: 1.25})
-    derivation = ("s5_2a_single_rotor", HOSTILE, "<p>inside</p>")
-    made = {"versions": (("Python", "3"), ("sympy", "1")), "inputs": (("package", "0a"),)}
-    figures = (ShownPart("figures", "Figures", pictures=(picture,)),)
-    return Report(PAPER, tuple(judged), (picture,), (HOSTILE,), (), figures, (derivation,), MODEL, **made)
+    return short_report(HOSTILE, tmp_path_factory.mktemp("short"))
 
 
 @pytest.fixture(scope="module")
 def longer(report: Report) -> Report:
-    """The same with a claim, and with what stands past the paper."""
-    pictures = [
-        replace(report.pictures[0], stem=f"{key}_stub", key=key, measured={}) for key in ("19", "t6", "b1", "m3")
-    ]
-    row = (HOSTILE, ("holds:", sp.Eq(r0, M**2), sp.Abs(r0)), FigureLink("t6"), FigureLink("t7"))
-    table = Table("what holds", ("subject", "formula", "figure", "not drawn"), (row,), HOSTILE)
-    finding = Finding((Part(HOSTILE, False, HOSTILE),), HOSTILE)
-    test = claim_tests.ClaimTest("C16", (10, -10), {}, HOSTILE, lambda spins: {}, lambda measured: finding)
-    result = Result(test, {"what_is_read": 1.5}, finding, 0.25)
-    drawn = (*report.pictures, *pictures)
-    return replace(report, pictures=drawn, claims=(result,), parts=tuple(filled(table, drawn)))
-
-
-def filled(table: Table, drawn: Iterable[Picture]) -> Iterator[ShownPart]:
-    """The parts of the paper's report, each with a table and a remark where it has any, and its figures."""
-    for part in PAPER.about.part:
-        pictures = tuple(picture for picture in drawn if picture.key.rstrip("0123456789") in part.figures)
-        remarks = ((HOSTILE, HOSTILE),) if part.remarks else ()
-        yield ShownPart(part.name, part.heading, (table,) if part.tables else (), remarks, pictures)
+    return long_report(report, HOSTILE)
 
 
 def read(text: str) -> Reader:
@@ -348,9 +295,9 @@ def test_page_shows_the_source_as_printed(report: Report) -> None:
 
 
 def test_source_stands_in_for_what_cannot_be_typeset(report: Report, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(page_pieces, "mathml", lambda source, display=True: None)
+    monkeypatch.setattr(pieces, "mathml", lambda source, display=True: None)
     assert "install latex2mathml" not in whole_page(report), "it is there, and cannot set them"
-    monkeypatch.setattr(page_pieces, "converter", lambda: "")
+    monkeypatch.setattr(pieces, "converter", lambda: "")
     assert "install latex2mathml" in whole_page(report)
     assert faults(whole_page(report)) == []
 

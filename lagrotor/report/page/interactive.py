@@ -102,7 +102,7 @@ def _formulas() -> str:
 
 @cache
 def page_programs() -> dict[str, Program]:
-    """What the script calls, by name. Units SI; the rotors are the paper's, M = R = I_1 = I_3 = 1.
+    """Return the programs that the script calls, by name. Units SI; the rotors are the paper's, M = R = I_1 = I_3 = 1.
 
     constants     (m, K, ell, omega_1, omega_2) → a, b, k, sigma, G_1, G_2, Omega_0, the paper's rate (5.28)
     rate_, axes_  for a bar shorter than, as long as, longer than an axis: of the minimal model; axes r_1, r_2

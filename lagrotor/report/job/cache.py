@@ -1,0 +1,68 @@
+"""Products of earlier runs in the user's cache folder, taken again where nothing that they were made from has changed.
+
+A product that JSON can hold (a claim's numbers, a figure with its two files, the interactive model, the outcome of a whole run)
+is one file, with the digest of all that it was made from. A derivation gives expressions, which JSON cannot hold: it runs
+again unless the whole report is unchanged. A product that is missing, damaged or out of date is made anew.
+"""
+
+import json
+import os
+from base64 import b64decode, b64encode
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from lagrotor.errors import InputError
+from lagrotor.files import write_text
+from lagrotor.paper.papers import Paper
+from lagrotor.pictures.figures import Picture
+from lagrotor.report.job.reach import digest
+
+
+def cache_folder() -> Path:
+    """Return the folder of lagrotor in the user's cache: that of XDG_CACHE_HOME, or ~/.cache/lagrotor."""
+    base = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    return (base if base.is_absolute() else Path.home() / ".cache") / "lagrotor"
+
+
+@dataclass(frozen=True)
+class Cache:
+    """The products of one paper, which is known by the places of its folder and of its scripts."""
+
+    paper: Paper
+
+    def take(self, name: str, made_from: str) -> Any:
+        """Return a product as JSON; None unless it was made from the same and is undamaged."""
+        with suppress(OSError, RuntimeError, ValueError, TypeError, KeyError):  # RuntimeError: the user has no home
+            entry = json.loads(self._file(name).read_text(encoding="utf-8"))
+            if entry["digest"] == digest(made_from, json.dumps(entry["product"])):
+                return entry["product"]
+        return None
+
+    def keep(self, name: str, made_from: str, product: Any) -> None:
+        """Keep a product for later runs; nothing is kept where JSON cannot hold it or the folder cannot be written to."""
+        with suppress(OSError, RuntimeError, InputError, TypeError):
+            text = json.dumps(product)
+            self._file(name).parent.mkdir(parents=True, exist_ok=True)
+            write_text(self._file(name), json.dumps({"digest": digest(made_from, text), "product": product}))
+
+    def _file(self, name: str) -> Path:
+        place = digest(str(self.paper.folder), str(self.paper.scripts_in))[:16]
+        return cache_folder() / place / f"{name.replace(' ', '-')}.json"
+
+
+def picture_as_json(picture: Picture) -> dict[str, Any]:
+    """Return a picture with the contents of its files."""
+    contents = {"svg": picture.svg.read_text(encoding="utf-8"), "png": b64encode(picture.png.read_bytes()).decode()}
+    return asdict(picture) | contents
+
+
+def picture_from_json(data: Mapping[str, Any], folder: Path) -> Picture:
+    """Write the files of a picture into `folder` and return it."""
+    stem = folder / Path(data["stem"]).name
+    svg, png = stem.with_suffix(".svg"), stem.with_suffix(".png")
+    svg.write_text(data["svg"], encoding="utf-8")
+    png.write_bytes(b64decode(data["png"]))
+    return Picture(**{**data, "svg": svg, "png": png})

@@ -1,0 +1,265 @@
+"""The sections of the report as HTML, and their entries: an equation, an erratum, a claim, a figure, a result.
+
+Links lead to places of the report and to files beside its front page.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from html import escape
+
+from lagrotor.paper.catalogue import Equation
+from lagrotor.paper.claim_tests import Result
+from lagrotor.paper.latex.readings import typeset_lines
+from lagrotor.paper.verdicts import Verdict
+from lagrotor.pictures.figures import Picture
+from lagrotor.report.content import (
+    BESIDE,
+    CLAIM_MEANINGS,
+    MEANINGS,
+    Report,
+    ShownPart,
+    anchor,
+    as_read,
+    citation,
+    contents,
+    derived_heading,
+    derived_lines,
+    notation,
+)
+from lagrotor.report.errata import Erratum, errata, premise_formulas
+from lagrotor.report.facts import Headline, balance, facts, figure_facts, headlines, linked_facts, note, opening
+from lagrotor.report.page.pieces import (
+    badge,
+    code,
+    fact_list,
+    file_link,
+    fold,
+    heading,
+    html_table,
+    inline,
+    link,
+    link_to_derivation,
+    links,
+    number_list,
+    prose,
+    side_by_side,
+    size,
+    typeset,
+)
+
+# Characters of MathML beyond which the derived form is placed below the printed one, not beside it.
+_WIDEST = 2_000
+
+
+def equation_entry(verdict: Verdict, report: Report) -> str:
+    """Return an equation as printed beside the derived one, its facts, and a fold with its source."""
+    entry, statement = report.paper.equation(verdict.id), verdict.statement
+    printed = typeset(entry.latex)
+    derived = "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition: nothing to derive.</p>"
+    read = code("\n".join(as_read(entry)))
+    how = f"<p>How it was read: {prose(entry.reading)}.</p>" if entry.reading else ""
+    how += reading_of(entry, report)
+    source = code(entry.latex) + how + (f"<p>As sympy reads it:</p>{read}" if entry.line else "")
+    number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
+    proof = report.certificates.get(verdict.id)
+    certificate = f"<p>Certificate, for Coq: {file_link(proof)}</p>" if proof else ""
+    return (
+        f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
+        f"{_beside(f'As printed{number}', printed, derived_heading(statement.relations), derived)}"
+        f"{fact_list(facts(verdict, report))}"
+        f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
+    )
+
+
+def reading_of(entry: Equation, report: Report) -> str:
+    """Return the reading of an equation of a source, typeset, and whether it is confirmed; nothing for other lines."""
+    if not entry.read:
+        return ""
+    lines = "".join(map(typeset, typeset_lines(report.paper, entry.id)))
+    return f"<p>Its reading, {'confirmed' if entry.is_confirmed else 'not confirmed'}:</p>{lines}"
+
+
+def erratum_entry(e: Erratum) -> str:
+    """Printed, correct, what was wrong, how far it reaches."""
+    correct = "".join(map(typeset, e.corrected))
+    for label, premises in e.conditions:
+        put = "".join(map(typeset, premise_formulas(premises)))
+        correct += f"<p>{label} {prose('; '.join(p.sentence for p in premises))}.</p>{put}"
+    return (
+        f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
+        f"{_beside('Printed', typeset(e.printed), f'Correct ({escape(e.verdict_of_correction)})', correct)}"
+        f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}"
+        "</small></p></article>"
+    )
+
+
+def _beside(left: str, printed: str, right: str, derived: str) -> str:
+    """Two formulas under their headings, one below the other where either is wide."""
+    layout = "pair" if max(len(printed), len(derived)) < _WIDEST else "stack"
+    return f'<div class="{layout}"><div><h4>{left}</h4>{printed}</div><div><h4>{right}</h4>{derived}</div></div>'
+
+
+def claim_entry(result: Result, report: Report) -> str:
+    """The claim in the paper's words, its outcome, what was measured."""
+    entry, finding = report.paper.claims[result.test.id], result.finding
+    condition = f"<p><b>If:</b> {prose(finding.condition)}</p>" if finding.condition else ""
+    place = anchor(entry.id)
+    return (
+        f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
+        f"<blockquote><p>{prose(entry.text)}</p></blockquote><p>{prose(finding.explanation)}</p>{condition}"
+        f"{fact_list(linked_facts(result, report))}"
+        f"{fold(f'Measured ({result.test.model})', number_list('What', result.measured.items()))}</article>"
+    )
+
+
+def picture_entry(picture: Picture, report: Report) -> str:
+    """The figure with its caption, what it belongs to, and the numbers read off it."""
+    place = anchor(f"figure {picture.key}")
+    measured = fold("Measured", number_list("What", picture.measured.items())) if picture.measured else ""
+    return (
+        f'<figure id="{place}">{heading(place, f"Figure {picture.key}", picture.title)}'
+        f"{_image(picture)}"
+        f"<figcaption>{prose(picture.caption)}</figcaption>{fact_list(figure_facts(picture, report))}{measured}</figure>"
+    )
+
+
+def _image(picture: Picture) -> str:
+    """The drawing alone, loaded when it is come to; a click opens it large (page.js)."""
+    width, height = size(picture)
+    source = f'src="figures/{picture.svg.name}" width="{width}" height="{height}"'
+    return f'<img {source} loading="lazy" alt="{escape(picture.alt)}">'
+
+
+def headline_entry(headline: Headline, report: Report) -> str:
+    """One of the results that matter, with its figure."""
+    formula = typeset(headline.formula) if headline.formula else ""
+    drawn = next((p for p in report.pictures if f"figure {p.key}" == headline.figure), None)
+    formula += _image(drawn) if drawn else ""
+    shown = f"<p>Shown in {links(headline.ids)}</p>" if headline.ids else ""
+    return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{shown}</li>"
+
+
+def count_entry(answer: str, count: int, meaning: str) -> str:
+    """Return the number of equations with a verdict, and the meaning of the verdict."""
+    return f"<li><b>{count}</b> {badge(answer)} <span>{escape(meaning)}</span></li>"
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the report under its heading: where it is, its heading, HTML."""
+
+    anchor: str
+    heading: str
+    inside: str
+
+    @property
+    def html(self) -> str:
+        """The section; the live model brings its own."""
+        if self.anchor == "model":
+            return self.inside
+        heading = f'<h2 id="{self.anchor}">{escape(self.heading)}</h2>'
+        return f'<section aria-labelledby="{self.anchor}">{heading}\n{self.inside}</section>'
+
+
+def sections(report: Report) -> list[Section]:
+    """Every section of the report, in the order of its contents."""
+    return [Section(anchor, heading, _inside(anchor, report)) for anchor, heading in contents(report)]
+
+
+def introduction(report: Report) -> str:
+    """Return the opening lines of `paper.toml`, which stand above the sections."""
+    lines = "".join(f"<li><b>{escape(label)}</b> {prose(text)}</li>" for label, text in opening(report))
+    return f'<ul class="opening">{lines}</ul>' if lines else ""
+
+
+def _inside(anchor: str, report: Report) -> str:
+    if anchor == "model":
+        return report.model
+    if anchor.startswith("section-"):
+        verdicts = report.sections[anchor.removeprefix("section-")]
+        return "\n".join(equation_entry(verdict, report) for verdict in verdicts)
+    return _PARTS[anchor](report) if anchor in _PARTS else _shown(report.part(anchor), report)
+
+
+def _summary(report: Report) -> str:
+    equations = "".join(count_entry(answer, count, MEANINGS[answer]) for answer, count in report.counts.items())
+    tried = "".join(count_entry(answer, count, CLAIM_MEANINGS[answer]) for answer, count in report.outcomes.items())
+    fallen = links(v.id for v in report.verdicts if v.verdict == "refuted")
+    balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Refuted: {fallen}</p>" if fallen else "")
+    results = "".join(headline_entry(headline, report) for headline in headlines(report))
+    results = f'<ol class="results">{results}</ol>' if results else ""
+    changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)
+    warning = f'<div class="changed"><p>Changed against the record:</p><ul>{changed}</ul></div>' if changed else ""
+    claims = f'<h3>Claims</h3><ul class="summary">{tried}</ul>' if tried else ""
+    how = f"<p>{escape(report.how_to_read)}</p>"
+    return f'{warning}{balanced}{results}<h3>Equations</h3><ul class="summary">{equations}</ul>{claims}{how}'
+
+
+def _verdicts(report: Report) -> str:
+    lines = [
+        (link(v.id), prose(report.paper.equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
+        for v in report.verdicts
+    ]
+    return html_table(("Equation", "Title", "Verdict", "Why, or under what condition"), lines, "verdicts")
+
+
+def _notation(report: Report) -> str:
+    lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation(report)]
+    head, first = ("Symbol", "Meaning", "Unit"), len(report.paper.about.letters) or len(lines)
+    rest = fold("All other letters", html_table(head, lines[first:])) if lines[first:] else ""
+    return html_table(head, lines[:first]) + rest
+
+
+def _derivations(report: Report) -> str:
+    how = "<p>Each derivation opens. The run that wrote this page decided each of its equations exactly, or through the order "
+    how += "that it shows; letters as in the "
+    how += '<a href="#notation">notation</a>.</p>'
+    return how + "\n".join(
+        f'<details class="derivation" id="derivation-{stem}"><summary>{prose(name)}</summary>{inside}</details>'
+        for stem, name, inside in report.derivations
+    )
+
+
+def _shown(part: ShownPart, report: Report) -> str:
+    """Tables, what was found, figures."""
+    parts = [side_by_side(table, report) for table in part.tables]
+    parts += [f"<h3>{prose(title)}</h3><p>{prose(text)}</p>" for title, text in part.remarks]
+    parts += [picture_entry(picture, report) for picture in part.pictures]
+    return "\n".join(parts)
+
+
+def _waiting(report: Report) -> str:
+    if not any(entry.read for entry in report.waiting):
+        return html_table(("Equation", "Title"), [(entry.id, prose(entry.title)) for entry in report.waiting])
+    rows = [(e.id, prose(e.title), typeset(e.latex), reading_of(e, report)) for e in report.waiting]
+    return html_table(("Equation", "Title", "As printed", "As read"), rows)
+
+
+def _cite(report: Report) -> str:
+    sentences, entry = citation()
+    return "".join(f"<p>{escape(sentence)}</p>" for sentence in sentences) + code(entry)
+
+
+def _made(report: Report) -> str:
+    versions = html_table(("What", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
+    beside = html_table(
+        ("In the same folder", "What it is"), [(file_link(file), what) for file, what in BESIDE.items()]
+    )
+    inputs = [(escape(name), f"<code>{escape(digest)}</code>") for name, digest in report.inputs]
+    return (
+        "<p>The same inputs give the same page, byte for byte; how long each part took is in times.json.</p>"
+        f"{beside}{versions}{html_table(('Input', 'SHA-256'), inputs)}"
+    )
+
+
+_PARTS: dict[str, Callable[[Report], str]] = {
+    "summary": _summary,
+    "verdicts": _verdicts,
+    "notation": _notation,
+    "errata": lambda report: "\n".join(map(erratum_entry, errata(report.verdicts, report.paper))),
+    "claims": lambda report: "\n".join(claim_entry(result, report) for result in report.claims),
+    "derivations": _derivations,
+    "waiting": _waiting,
+    "cite": _cite,
+    "made": _made,
+}
