@@ -23,9 +23,9 @@ from lagrotor.mechanics import System, SystemRun, coordinates
 from lagrotor.mechanics.running import simulation as system_door
 from lagrotor.models import SpringRun, averaged, paper_system, run_solver
 from lagrotor.numerics import estimated_run
-from lagrotor.numerics.any_run import Ending, Run
 from lagrotor.numerics.estimated_run import EstimatedRun
 from lagrotor.numerics.rotations import turn_about
+from lagrotor.numerics.run import Ending, Run
 from lagrotor.structures import StructureRun
 from lagrotor.structures.exact import structure_run as structure_door
 from tests.mechanics.running.references import EXTENDED, drawn, extrapolated

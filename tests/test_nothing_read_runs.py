@@ -22,8 +22,8 @@ from lagrotor.commands.command_line import main
 from lagrotor.errors import LagrotorError
 from lagrotor.files import read_arrays
 from lagrotor.mechanics import System, coordinates
-from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.generated import GeneratedFunction
+from lagrotor.numerics.run import read_run
 from lagrotor.paper import Glossary, Paper, Premise, judge
 from lagrotor.paper.latex.check import check_source
 from lagrotor.paper.latex.init import begin_paper, confirm
@@ -451,7 +451,7 @@ READERS = {
     "mechanics/running/simulation.py": "arrays",
     "models/spring_link/run.py": "arrays",
     "models/sweeps/kept_chunks.py": "arrays",
-    "numerics/any_run.py": "arrays",
+    "numerics/run.py": "arrays",
     "numerics/generated.py": "system",
     "pair/scene_document.py": "scene",
     "pair/trajectory.py": "arrays",

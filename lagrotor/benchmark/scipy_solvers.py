@@ -9,10 +9,9 @@ from lagrotor.benchmark.runner import LSODA_LEAST, Method, Prepare, Runner, tips
 from lagrotor.errors import IntegrationError
 from lagrotor.models import minimal
 from lagrotor.models.model import problem_of
-from lagrotor.numerics.adams import adams
 from lagrotor.numerics.arrays import Array
-from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.segment import RightHandSide, Segment, StopError, Stretch
+from lagrotor.numerics.solvers import adams, dop853
 from lagrotor.pair.scene import Scene
 
 Solver = Callable[[Segment, float], Stretch]  # a segment and a local error

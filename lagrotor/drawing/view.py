@@ -12,8 +12,8 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.files import write_text
-from lagrotor.numerics.any_run import optional_package
 from lagrotor.numerics.arrays import Array
+from lagrotor.numerics.run import optional_package
 
 if TYPE_CHECKING:
     from lagrotor.drawing.film import FilmedMotion

@@ -26,11 +26,11 @@ from lagrotor.models.model import (
     pulse_nodes,
     typical_rate,
 )
-from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, first_time, start_beside
 from lagrotor.numerics.integrate import check_engine, check_progress, check_tolerance
+from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import StopError, Stretch
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory

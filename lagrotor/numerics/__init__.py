@@ -1,4 +1,19 @@
-"""Tools for any right-hand side: generated programs, spectra, orders of convergence, rotations."""
+"""Numerical tools for any right-hand side: generated programs, solvers, runs with error estimates, curves.
+
+Data passes through the modules in this order:
+
+- `codegen.Program` is a straight-line program of sympy expressions; `printers` writes it as Python or JavaScript, and
+  `generated` keeps written functions as source.
+- `integrate.Problem` is an initial value problem. `integrate.integrate` cuts it at the windows of `pulse`, in which a force acts
+  briefly, and solves each `segment.Segment` by one of the `solvers`, or by `taylor` for engine = "fast".
+- `estimated_run.Evolution` is a motion that is to be run. `estimate_run` integrates it at two tolerances and returns an
+  `EstimatedRun`: states, errors, horizon and ending.
+- `run.Run` is the base class of every simulated motion: its errors, files and tables.
+- `curves`, `zeros`, `rotations` and `floquet_multipliers` evaluate what was run.
+
+A new solver is a function of a `Segment` and a local error that returns a `Stretch` or raises `StopError`; the table in
+`solvers` says when each is chosen. A new kind of motion needs an `Evolution`, and a class that inherits from `Run`.
+"""
 
 from typing import TYPE_CHECKING
 

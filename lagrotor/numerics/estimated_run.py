@@ -22,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError, LagrotorWarning
-from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.calibrated import (
     APART,
     BEYOND,
@@ -46,6 +45,7 @@ from lagrotor.numerics.calibrated import (
     TELLING,
 )
 from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import Array, Projection, StopError, Stretch
 from lagrotor.shown import scientific
 

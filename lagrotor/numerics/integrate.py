@@ -7,10 +7,7 @@ from typing import Literal
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.adams import adams
 from lagrotor.numerics.calibrated import CROSSOVER, DETOUR, LSODA_SAFETY
-from lagrotor.numerics.dop853 import dop853
-from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.pulse import Window, segments
 from lagrotor.numerics.segment import (
     Array,
@@ -22,6 +19,7 @@ from lagrotor.numerics.segment import (
     StopError,
     Stretch,
 )
+from lagrotor.numerics.solvers import adams, dop853, lsoda
 
 TIGHTEST = 1e-13
 _IN_PULSE = 1e-7  # local error of LSODA in a pulse above which it follows the tolerance by its root alone

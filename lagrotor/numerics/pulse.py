@@ -1,13 +1,25 @@
-"""Windows of a run, in which something acts briefly by the clock: those of a pulse, and how a run is cut at their edges."""
+"""Windows of a run, in which something acts briefly by the clock: where a force of t changes fast, and how a run is cut there."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from math import inf
 from typing import NamedTuple
+
+import numpy as np
+
+from lagrotor.numerics.arrays import Array
 
 # Beyond |s| = 6.5 widths a pulse exp(−(s/width)²) is below the last bit of its peak: exp(−6.5²) = 4e-19.
 PULSE_REACH = 6.5
 # Longest step in a window, over that of the run, of its companion: were it 1, both might take the same steps and agree.
 COMPANION_STEP = 0.8
+_LOOKS = 2**14  # intervals of a run, at whose ends forces of t are looked at
+_CELL = 8  # intervals of the smallest cell
+_DEGREE = 4  # of the polynomial that a function is in a cell where it is smooth
+_SMOOTH = 1e-6  # of its range over the run, to which it is that there
+_TAIL, _TAILS = 1e-12, 6  # the same beside a cell where it is not, and in how many cells on each side that is looked at
+_OFTEN, _FINER = 0.25, 4  # the part of a run that is no exception, and how much finer than there a window's cells are
+_CUT = 10.0  # steps that a cut costs
 
 
 class Window(NamedTuple):
@@ -43,3 +55,77 @@ def segments(begin: float, end: float, windows: Sequence[Window]) -> Iterator[Wi
         yield Window(max(begin, window.begin), now, window.longest)
     if now < end:
         yield Window(now, end, inf)
+
+
+def brief_windows(functions: Callable[[Array], Array], begin: float, end: float) -> tuple[Window, ...]:
+    """Where functions of t, times (n,) → values (k, n), change faster than they mostly do from begin to end.
+
+    A cell is smooth if a polynomial of degree 4 is the function there, to 10⁻⁶ of its range. Cells are doubled as long as those
+    that are not smooth are the exception; each is a window of steps no longer than itself, or, in the smallest, than the function
+    takes to change by all that it does there at its fastest. What changes in a window is taken out before cells are doubled, or
+    each would be found again in all larger ones. NaN, where a function has no value, is the value beside it.
+    """
+    if not begin < end:
+        return ()
+    times, longest = np.linspace(begin, end, _LOOKS + 1), np.full(_LOOKS, np.inf)
+    for each in functions(times):
+        np.minimum(longest, _longest_steps(each), out=longest)
+    edges = np.flatnonzero(np.concatenate([[True], longest[1:] != longest[:-1], [True]]))
+    windows = list[Window]()
+    for i, j in pairwise(edges):
+        if np.isinf(longest[i]):
+            continue
+        window = Window(float(times[i]), float(times[j]), float(longest[i]) * (end - begin) / _LOOKS)
+        while windows and (both := _one(windows[-1], window)):
+            window = both
+            windows.pop()
+        windows.append(window)
+    return tuple(windows)
+
+
+def _one(left: Window, right: Window) -> Window | None:
+    """Two windows as one, where that takes fewer steps than solvers take to begin anew."""
+    both = Window(left.begin, right.end, min(left.longest, right.longest))
+    more = (both.end - both.begin) / both.longest - sum((b - a) / longest for a, b, longest in (left, right))
+    return both if more <= _CUT * (1 + (right.begin > left.end)) else None
+
+
+def _longest_steps(values: Array) -> Array:
+    """Of one function: in intervals, the longest step in each of them (_LOOKS,), inf where it is smooth."""
+    longest, known = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))
+    if not len(known):
+        return longest
+    rest = np.interp(np.arange(_LOOKS + 1), known, values[known])
+    size, noise = np.ptp(rest), 64 * np.finfo(float).eps * np.abs(rest).max()
+    of_level = list[tuple[int, Array]]()
+    n = _CELL
+    while n <= _LOOKS // _CELL:
+        cells = np.lib.stride_tricks.sliding_window_view(rest, n + 1)[::n]
+        basis = np.linalg.qr(np.vander(np.linspace(-1, 1, n + 1), _DEGREE + 1))[0]
+        off = np.abs(cells - (cells @ basis) @ basis.T).max(1)
+        rough, beside = off > max(_SMOOTH * size, noise), off > max(_TAIL * size, noise)
+        if rough.mean() > _OFTEN:
+            break
+        longer = rough.copy()
+        for _ in range(_TAILS):
+            longer[1:] |= longer[:-1] & beside[1:]
+            longer[:-1] |= longer[1:] & beside[:-1]
+        rough = longer if longer.mean() <= _OFTEN else rough
+        there = np.repeat(rough, n)
+        changes = np.diff(rest)
+        steps = np.full(_LOOKS, np.inf)
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]])))
+        for i, j in zip(edges[::2], edges[1::2], strict=True):
+            fastest = np.ptp(rest[i : j + 1]) / np.abs(changes[i:j]).max() if n == _CELL else n
+            steps[i:j] = min(max(fastest, 1.0), n)
+        of_level.append((n, steps))
+        if there.any():
+            smooth = np.flatnonzero(~there)
+            changes = np.interp(np.arange(_LOOKS), smooth, changes[smooth])
+            rest = np.concatenate([rest[:1], rest[0] + np.cumsum(changes)])
+        n *= 2
+    mostly = n
+    for n, steps in of_level:
+        if n * _FINER <= mostly:
+            np.minimum(longest, steps, out=longest)
+    return longest

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.any_run import Quantity, Run, read_run
 from lagrotor.numerics.arrays import Array as Array
+from lagrotor.numerics.run import Quantity, Run, read_run
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.shown import scientific
 

@@ -40,9 +40,9 @@ from lagrotor.errors import IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models import euler, exact_orbit, finite_rotation, minimal, spheres
 from lagrotor.models.model import problem_of
 from lagrotor.numerics import measured_order
-from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import integrate
 from lagrotor.numerics.segment import StopError
+from lagrotor.numerics.solvers import dop853
 
 
 def test_threshold_halves_in_the_logarithm():

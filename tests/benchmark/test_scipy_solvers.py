@@ -10,10 +10,8 @@ from lagrotor import Scene, Shock, consistent_scene, simulate
 from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.benchmark.scipy_solvers import ENGINES, IVP, TRAPS, ivp_engine
 from lagrotor.models import minimal, spheres
-from lagrotor.numerics.adams import adams
-from lagrotor.numerics.dop853 import dop853
-from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.segment import Segment, StopError
+from lagrotor.numerics.solvers import adams, dop853, lsoda
 
 COURSES = {name: CASES[name](True) for name in ("displaced", "shock")}
 TIMES = np.linspace(0, 4, 41)

@@ -11,8 +11,8 @@ from lagrotor.errors import LagrotorError
 from lagrotor.models import simulate as simulating
 from lagrotor.models.model import natural_units, problem_of
 from lagrotor.numerics import estimated_run
-from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import integrate
+from lagrotor.numerics.solvers import dop853
 from tests.models.test_wide_scenes import RECORDED, SHORT, TRIALS
 from tests.models.wide_scenes import Wide, reference, turns, wide_scenes
 from tests.models.wide_scenes import run as run_of

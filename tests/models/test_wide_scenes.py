@@ -18,7 +18,7 @@ from lagrotor.errors import DomainError, IntegrationError, LagrotorWarning, Sing
 from lagrotor.models import simulate as simulating
 from lagrotor.models import spheres
 from lagrotor.numerics import estimated_run, taylor
-from lagrotor.numerics.lsoda import lsoda
+from lagrotor.numerics.solvers import lsoda
 from lagrotor.numerics.taylor import taylor_order
 from tests.models.oracle import exact_axes
 from tests.models.wide_scenes import COUNT, SEED, Array, Wide, reference, turns, wide_scenes

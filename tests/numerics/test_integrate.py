@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import InputError, IntegrationError
-from lagrotor.numerics import adams
 from lagrotor.numerics import integrate as module
-from lagrotor.numerics import lsoda as solver
+from lagrotor.numerics import solvers
 from lagrotor.numerics.calibrated import DETOUR
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
 from lagrotor.numerics.pulse import pulse_windows
@@ -250,7 +249,7 @@ def test_a_budget_that_is_spent_is_said_with_all_that_was_spent_and_reached(tol:
 
 
 def test_what_lsoda_made_before_it_failed_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    times, odeint = np.linspace(0.5, 9.5, 10), solver._odeint
+    times, odeint = np.linspace(0.5, 9.5, 10), solvers._odeint
 
     def fails(segment: Segment, rhs: RightHandSide, error: float, first: float):  # type: ignore[no-untyped-def]
         states, log = odeint(replace(segment, right=6.0, t_eval=times[times <= 6]), rhs, error, first)
@@ -258,10 +257,10 @@ def test_what_lsoda_made_before_it_failed_is_kept(monkeypatch: pytest.MonkeyPatc
         return np.concatenate([states[:-1], rest]), log | {"message": "Repeated error test failures"}
 
     segment = Segment(oscillate, START, 0.0, 10.0, times)
-    assert solver.lsoda(segment, 1e-9).states[:, 0] == pytest.approx(np.cos(times), abs=1e-6)
-    monkeypatch.setattr(solver, "_odeint", fails)
+    assert solvers.lsoda(segment, 1e-9).states[:, 0] == pytest.approx(np.cos(times), abs=1e-6)
+    monkeypatch.setattr(solvers, "_odeint", fails)
     with pytest.raises(StopError, match="Repeated error test failures") as stopped:
-        solver.lsoda(segment, 1e-9)
+        solvers.lsoda(segment, 1e-9)
     reached = stopped.value.reached
     assert reached is not None and stopped.value.at == times[len(reached.states) - 1] <= 6 and len(reached.states) >= 5
     assert reached.states[:, 0] == pytest.approx(np.cos(times[: len(reached.states)]), abs=1e-6)
@@ -287,7 +286,7 @@ def test_steps_are_not_shortened_for_what_rounding_leaves(monkeypatch: pytest.Mo
     found = integrate(problem, times, 1e-12)
     assert found.states[:, 0] == pytest.approx(np.cos(times), abs=5e-12)
     assert found.evaluations < 8_000
-    monkeypatch.setattr(adams, "_IN_VAIN", 1_000)
+    monkeypatch.setattr(solvers, "_IN_VAIN", 1_000)
     assert integrate(problem, times, 1e-12).evaluations > 40_000
 
 

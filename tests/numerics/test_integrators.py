@@ -9,15 +9,13 @@ import pytest
 from lagrotor import Link, Scene, consistent_scene, simulate
 from lagrotor.models import minimal, spheres
 from lagrotor.numerics import compile_program
-from lagrotor.numerics import lsoda as lsoda_module
-from lagrotor.numerics.adams import _piece as piece
-from lagrotor.numerics.adams import adams, adams_order, adams_weights
-from lagrotor.numerics.dop853 import dop853
+from lagrotor.numerics import solvers as lsoda_module
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.lsoda import lsoda
 from lagrotor.numerics.printers import rhs_source
 from lagrotor.numerics.segment import Array, Segment, StopError
+from lagrotor.numerics.solvers import _piece as piece
+from lagrotor.numerics.solvers import adams, adams_order, adams_weights, dop853, lsoda
 from lagrotor.pair import HEAVY_LINK
 
 TIMES = np.linspace(0.3, 20, 57)
@@ -93,7 +91,7 @@ def test_rounding_of_the_weights_does_not_gather(monkeypatch: pytest.MonkeyPatch
 
     assert drift() < 4e-14
     A, B, *others = adams_weights(12)
-    monkeypatch.setattr("lagrotor.numerics.adams.adams_weights", lambda q: (A * [[1], [0]], B * [[1], [0]], *others))
+    monkeypatch.setattr("lagrotor.numerics.solvers.adams_weights", lambda q: (A * [[1], [0]], B * [[1], [0]], *others))
     assert drift() > 1e-13
 
 

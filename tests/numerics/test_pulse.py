@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Scene, Shock
-from lagrotor.numerics.brief import brief_windows
-from lagrotor.numerics.pulse import PULSE_REACH, Window, pulse_windows, segments
+from lagrotor.numerics.pulse import PULSE_REACH, Window, brief_windows, pulse_windows, segments
 
 
 def test_beyond_its_reach_a_pulse_is_below_the_last_bit_of_its_peak():

@@ -15,7 +15,7 @@ import pytest
 from lagrotor import Link, Rotor, Scene, Shock, Trajectory, simulate
 from lagrotor.errors import InputError
 from lagrotor.files import read_arrays, write_arrays, write_beside, write_text
-from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.run import Ending
 from lagrotor.pair import UNITS
 
 TIMES = np.linspace(0, 2, 21)

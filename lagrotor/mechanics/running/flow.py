@@ -14,10 +14,10 @@ from lagrotor.mechanics.running.singular import singular_position
 from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
-from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
 from lagrotor.numerics.pulse import Window, windows_since
 from lagrotor.numerics.segment import Cause, Integrate, Segment, StopError, Stretch, by_units, reporting
+from lagrotor.numerics.solvers import dop853
 from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Values = Mapping[Any, Any]

@@ -21,9 +21,9 @@ from lagrotor.mechanics.running.phases import Observer, Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
 from lagrotor.mechanics.running.programs import energy_program, function_program, velocities_along
 from lagrotor.mechanics.running.scales import Scales
-from lagrotor.numerics.any_run import Quantity, Run
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
+from lagrotor.numerics.run import Quantity, Run
 from lagrotor.numerics.segment import Integrate
 
 

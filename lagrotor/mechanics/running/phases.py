@@ -28,12 +28,12 @@ from lagrotor.mechanics.running.programs import (
 )
 from lagrotor.mechanics.running.singular import mass_at, rows_at, unbounded_force
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
-from lagrotor.numerics.any_run import Ending
 from lagrotor.numerics.calibrated import COMPANION_FIRST, MOST_EVENTS
-from lagrotor.numerics.dop853 import dop853_steps
 from lagrotor.numerics.estimated_run import start_beside
 from lagrotor.numerics.pulse import Window, segments, windows_since
+from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import Segment, StopError, Stretch, in_units
+from lagrotor.numerics.solvers import dop853_steps
 from lagrotor.numerics.zeros import zeros_between
 
 _BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start

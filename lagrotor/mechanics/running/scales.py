@@ -17,12 +17,10 @@ from lagrotor.mechanics.running.programs import (
     parameter_values,
     velocities_along,
 )
-from lagrotor.numerics.brief import brief_windows
-from lagrotor.numerics.dop853 import dop853
 from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.lsoda import lsoda
-from lagrotor.numerics.pulse import Window, windows_since
+from lagrotor.numerics.pulse import Window, brief_windows, windows_since
 from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units
+from lagrotor.numerics.solvers import dop853, lsoda
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
 _PEAK = 100.0  # times what a component mostly is, beyond which it does not count for its size

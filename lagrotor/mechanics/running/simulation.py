@@ -26,11 +26,11 @@ from lagrotor.mechanics.running.scales import Scales, clock_windows, motion_scal
 from lagrotor.mechanics.running.singular import independence
 from lagrotor.mechanics.running.starts import consistent, rounding_of_start, state_vector
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
-from lagrotor.numerics.any_run import read_run
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import DEPENDENT
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
+from lagrotor.numerics.run import read_run
 from lagrotor.numerics.segment import StopError
 
 _BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from lagrotor.about import __version__
 from lagrotor.errors import InputError
 from lagrotor.files import path_of, read_arrays, write_arrays
-from lagrotor.numerics.any_run import Ending
+from lagrotor.numerics.run import Ending
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import UNIT_ERROR
 

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.any_run import Quantity, Run, read_run
 from lagrotor.numerics.arrays import check_times, finite_array
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
+from lagrotor.numerics.run import Quantity, Run, read_run
 from lagrotor.numerics.segment import Integrate, StopError, Stretch
 from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures.assembly import Assembly, Brace
