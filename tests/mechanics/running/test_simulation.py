@@ -17,7 +17,7 @@ from scipy.special import ellipj, ellipk
 from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.mechanics import Frame, System, SystemRun, coordinates, t
 from lagrotor.mechanics.running import flow, programs, simulation
-from lagrotor.mechanics.running.first_integrals import defect_of
+from lagrotor.mechanics.running.scales import defect_of
 from lagrotor.mechanics.running.start import rounding_of_start
 from lagrotor.numerics.segment import StopError
 
