@@ -440,8 +440,8 @@ def add_structure_commands(command: Command) -> None:
 
 
 def structure_command(given: argparse.Namespace) -> int:
-    from lagrotor.structures.structure import read_structure
     from lagrotor.structures.gallery import GALLERY, example
+    from lagrotor.structures.structure import read_structure
 
     if given.structure == "list":
         listed = {name: each.says for name, each in GALLERY.items()}

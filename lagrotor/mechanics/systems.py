@@ -209,17 +209,17 @@ class System(Equations):
             ConstraintError: when it is not reached.
             SingularError: where the constraints are dependent.
         """
-        from lagrotor.mechanics.running import function_values, starts
+        from lagrotor.mechanics.running import function_values, start
 
         self, values = function_values.put_functions("consistent", self, values)
-        return starts.consistent("consistent", self, values, q0, v0, t)
+        return start.consistent("consistent", self, values, q0, v0, t)
 
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
         """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.flow`."""
-        from lagrotor.mechanics.running import admission, flow, function_values
+        from lagrotor.mechanics.running import flow, function_values, start
 
         self, values = function_values.put_functions("rhs", self, values)
-        admission.check_values("rhs", self, values)
+        start.check_values("rhs", self, values)
         return flow.rhs(self, values, engine)
 
     def simulate(

@@ -34,8 +34,8 @@ from lagrotor.proofs.tails import Evaluation, Tailed, series_values
 from lagrotor.proofs.tape import Tape, tape_of
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Coefficients, coefficients_in
-from lagrotor.structures.exact.exact_motion import off_constraints, rates_of_constraints
 from lagrotor.structures.exact.compiled_motion import structure_accelerations
+from lagrotor.structures.exact.exact_motion import off_constraints, rates_of_constraints
 
 Values = Mapping[Any, Any]
 Subject = dict[str, Any] | None

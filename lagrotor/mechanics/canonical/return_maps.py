@@ -42,12 +42,11 @@ from lagrotor.mechanics.canonical.polynomials import (
 from lagrotor.mechanics.canonical.taylor_series import JetSpace, TruncatedSeries, jet_space
 from lagrotor.mechanics.lagrangian import clock_parts, gradient, t
 from lagrotor.numerics.arrays import Array
-from lagrotor.numerics.brief import brief_windows
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.floquet_multipliers import multiplier_rows
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.printers import compile_program
-from lagrotor.numerics.pulse import Window
+from lagrotor.numerics.pulse import Window, brief_windows
 from lagrotor.numerics.segment import StopError
 
 _RESONANT = 1e-7  # |1 − e^{iα·(a − b)}| that is zero in floating-point numbers

@@ -21,11 +21,11 @@ from numpy.typing import NDArray
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t
-from lagrotor.mechanics.running.admission import check_values
 from lagrotor.mechanics.running.flow import Array, Values, projection_of
 from lagrotor.mechanics.running.motion import SampledMotion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_motion
 from lagrotor.mechanics.running.scales import clock_windows
+from lagrotor.mechanics.running.start import check_values
 from lagrotor.mechanics.running.state_space import check_smooth, local_slope, motion_slope, point_state, tangent_space
 from lagrotor.mechanics.steady_motions import small_states
 from lagrotor.numerics.floquet_multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers

@@ -13,8 +13,6 @@ from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_pictures, sections
-from lagrotor.mechanics.running.admission import check_inertia, check_pole, check_values
-from lagrotor.mechanics.running.first_integrals import defect_of
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
 from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
 from lagrotor.mechanics.running.monodromy import lyapunov
@@ -22,9 +20,16 @@ from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integrat
 from lagrotor.mechanics.running.narrow import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
-from lagrotor.mechanics.running.scales import Scales, clock_windows, motion_scales
+from lagrotor.mechanics.running.scales import Scales, clock_windows, defect_of, motion_scales
 from lagrotor.mechanics.running.singular import independence
-from lagrotor.mechanics.running.starts import consistent, rounding_of_start, state_vector
+from lagrotor.mechanics.running.start import (
+    check_inertia,
+    check_pole,
+    check_values,
+    consistent,
+    rounding_of_start,
+    state_vector,
+)
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.calibrated import DEPENDENT

@@ -20,7 +20,6 @@ from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression
 from lagrotor.mechanics.lagrangian import t
-from lagrotor.mechanics.running.admission import check_pole, check_values
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -29,7 +28,7 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.mechanics.running.starts import consistent, rounding_of_start
+from lagrotor.mechanics.running.start import check_pole, check_values, consistent, rounding_of_start
 from lagrotor.mechanics.steady_motions import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding

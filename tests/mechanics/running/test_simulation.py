@@ -17,8 +17,8 @@ from scipy.special import ellipj, ellipk
 from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.mechanics import Frame, System, SystemRun, coordinates, t
 from lagrotor.mechanics.running import flow, programs, simulation
-from lagrotor.mechanics.running.first_integrals import defect_of
-from lagrotor.mechanics.running.starts import rounding_of_start
+from lagrotor.mechanics.running.scales import defect_of
+from lagrotor.mechanics.running.start import rounding_of_start
 from lagrotor.numerics.segment import StopError
 
 m, l, g, k, R, Omega, w, A = sp.symbols("m l g k R Omega omega A", positive=True)
