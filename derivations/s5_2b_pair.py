@@ -17,13 +17,8 @@ from lagrotor.pair import axis, pair_lagrangian, pair_with_bar
 from lagrotor.pair.notation import I3, PAIR, J, K, Phi, R, a, b, ell, k, m, r0
 from lagrotor.paper import Formula, Remark, prove, verdict
 from lagrotor.paper.proof import form
-from lagrotor.paper.rotor_pair.premises import (
-    ABOUT_JOINT,
-    MASSLESS_BAR,
-    in_parameters,
-    opposite_azimuths,
-    opposite_spin_angles,
-)
+from lagrotor.paper.rotor_pair.ansatz import opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.rotor_pair.premises import ABOUT_JOINT, MASSLESS_BAR, in_parameters
 from lagrotor.theory import paired_series
 
 theta_1, phi_1, psi_1, theta_2, phi_2, psi_2 = PAIR.q

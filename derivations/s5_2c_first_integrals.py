@@ -22,15 +22,8 @@ from lagrotor.pair.notation import ANSATZ, I3, PAIR
 from lagrotor.paper import prove, verdict
 from lagrotor.paper.grammar import rate
 from lagrotor.paper.proof import form
-from lagrotor.paper.rotor_pair.premises import (
-    ABOUT_JOINT,
-    BAR_FORCE,
-    EQUAL_INERTIAS,
-    MASSLESS_BAR,
-    no_bar_force,
-    opposite_azimuths,
-    opposite_spin_angles,
-)
+from lagrotor.paper.rotor_pair.ansatz import BAR_FORCE, no_bar_force, opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.rotor_pair.premises import ABOUT_JOINT, EQUAL_INERTIAS, MASSLESS_BAR
 
 theta_1, phi_1, _, theta_2, phi_2, _ = PAIR.q
 _, phi_1_v, psi_1_v, _, phi_2_v, psi_2_v = PAIR.v

@@ -18,7 +18,8 @@ from lagrotor.pair.notation import ANSATZ, PAIR, R, ell, r0, theta_0
 from lagrotor.paper import Premise, prove, verdict
 from lagrotor.paper.grammar import norm
 from lagrotor.paper.proof import form
-from lagrotor.paper.rotor_pair.premises import BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH, one_inclination, opposite_azimuths
+from lagrotor.paper.rotor_pair.ansatz import one_inclination, opposite_azimuths
+from lagrotor.paper.rotor_pair.premises import BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH
 from lagrotor.paper.rotor_pair.runs import PAPER_R0
 
 theta_1, phi_1, _, theta_2, phi_2, _ = PAIR.q

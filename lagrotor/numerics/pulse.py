@@ -1,13 +1,14 @@
 """Windows of a run, in which something acts briefly by the clock: where a force of t changes fast, and how a run is cut there."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from math import inf
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
-from lagrotor.numerics.arrays import Array
+if TYPE_CHECKING:
+    from lagrotor.numerics.arrays import Array
 
 # Beyond |s| = 6.5 widths a pulse exp(−(s/width)²) is below the last bit of its peak: exp(−6.5²) = 4e-19.
 PULSE_REACH = 6.5
@@ -65,6 +66,8 @@ def brief_windows(functions: Callable[[Array], Array], begin: float, end: float)
     takes to change by all that it does there at its fastest. What changes in a window is taken out before cells are doubled, or
     each would be found again in all larger ones. NaN, where a function has no value, is the value beside it.
     """
+    import numpy as np  # here, since a scene needs the reach of a pulse only
+
     if not begin < end:
         return ()
     times, longest = np.linspace(begin, end, _LOOKS + 1), np.full(_LOOKS, np.inf)
@@ -92,12 +95,14 @@ def _one(left: Window, right: Window) -> Window | None:
 
 def _longest_steps(values: Array) -> Array:
     """Of one function: in intervals, the longest step in each of them (_LOOKS,), inf where it is smooth."""
+    import numpy as np
+
     longest, known = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))
     if not len(known):
         return longest
     rest = np.interp(np.arange(_LOOKS + 1), known, values[known])
     size, noise = np.ptp(rest), 64 * np.finfo(float).eps * np.abs(rest).max()
-    of_level = list[tuple[int, Array]]()
+    of_level: list[tuple[int, Array]] = []
     n = _CELL
     while n <= _LOOKS // _CELL:
         cells = np.lib.stride_tricks.sliding_window_view(rest, n + 1)[::n]

@@ -17,14 +17,14 @@ from lagrotor.pair.notation import I3, ROTOR, J, ell, k, r0, sigma, theta_0
 from lagrotor.paper import Audit, Statement, Verdict, decide
 from lagrotor.paper.premises import relation_text
 from lagrotor.paper.rotor_pair import premises
-from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.rotor_pair.premises import (
+from lagrotor.paper.rotor_pair.ansatz import (
     breach,
     no_bar_force,
     one_inclination,
     opposite_azimuths,
     opposite_spin_angles,
 )
+from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 ABOUT, MASSLESS, EQUAL = (
     premises.ABOUT_JOINT.says,
