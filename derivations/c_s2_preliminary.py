@@ -6,7 +6,7 @@
 # **Assumptions.** The bar of section 4.1 ($m = K = 1$), the shock of section 4.2: 50 N along x on tip 1, width 1/50 s.
 # The paper's two seconds of rest before it are left out but for ten widths.
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/shocked_pair.py`.
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/shock_toppling_and_twist.py`.
 
 # %%
 from lagrotor.paper.rotor_pair.claims.shock_toppling_and_twist import C01, C02

@@ -6,7 +6,7 @@
 # **Assumptions.** The bar of section 4.1 ($m = K = 1$), step 1 ms. The paper's two seconds of rest before the shock are
 # left out but for ten widths; the eight seconds after it are kept.
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/simulator.py` and `conservation.py`.
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/simulator.py`.
 
 # %%
 from lagrotor.paper.rotor_pair.claims.simulator import C06, C07, C08, C09

@@ -6,8 +6,7 @@
 # **Assumptions.** Opposite spins ±10. A massless bar where the theory is meant, the bar of 5.2.1 ($m = 0.01$, $K = 0.1$)
 # where the simulation is. $r_0 = 0.204$ is the paper's amplitude (figure 21).
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/`: `degrees_of_freedom.py`, `ansatz.py`,
-# `correction.py`.
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/precession_and_drift.py`.
 
 # %%
 from lagrotor.paper.rotor_pair.claims.precession_and_drift import C14, C15, C16, C17

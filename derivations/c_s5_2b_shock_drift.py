@@ -6,7 +6,7 @@
 # **Assumptions.** Opposite spins ±10, the bar of 5.2.1 ($m = 0.01$, $K = 0.1$), the shock of the listing: 40 N along x and
 # −11 N along y, width 1/20 s. $r_0 = 0.204$ is the paper's amplitude (figure 21).
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/precession.py`.
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/precession_and_drift.py`.
 
 # %%
 from lagrotor.paper.rotor_pair.claims.precession_and_drift import C18, C19

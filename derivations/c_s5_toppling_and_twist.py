@@ -7,8 +7,8 @@
 # pair, except where the paper's program is named. Fallen in x: $|x| > 0.5$, 30° from upright. The paper's run lasts 8 s
 # after the shock.
 #
-# What is measured, and how it is decided: `toppling_after_shock.py` and
-# `twist_and_displacement.py` in `lagrotor/paper/rotor_pair/claims/`.
+# What is measured, and how it is decided:
+# `lagrotor/paper/rotor_pair/claims/shock_toppling_and_twist.py`.
 
 # %%
 from lagrotor.paper.rotor_pair.claims.shock_toppling_and_twist import C10, C11, C12, C13

@@ -6,7 +6,7 @@
 # **Assumptions.** The bar of section 4.1; a shock of 0.5 N along x and 0.3 N along y, so small that its square does not
 # show.
 #
-# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/precession.py`.
+# What is measured, and how it is decided: `lagrotor/paper/rotor_pair/claims/precession_and_drift.py`.
 
 # %%
 from lagrotor.paper import Remark

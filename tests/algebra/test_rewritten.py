@@ -86,7 +86,8 @@ def check(seed: int) -> str:
 
 
 def test_no_answer_contradicts_values() -> None:
-    answers = [check(seed) for seed in range(16)]
+    # In 264 a condition, x² ≤ 0, holds nowhere when it is made strict.
+    answers = [check(seed) for seed in (*range(16), 264)]
     assert {"zero", "nonzero"} <= set(answers)
 
 
