@@ -222,6 +222,15 @@ def test_at_any_spins_what_no_spins_hold_is_not_said_to_stand(size: float) -> No
     assert odd.stands().growth == pytest.approx(max(z.real for z in exact_roots(linear)), rel=1e-9)
 
 
+@pytest.mark.parametrize("spin", [2.2e2, 2.2e3])
+def test_what_no_friction_reaches_neither_grows_nor_decays(spin: float) -> None:
+    """Rotors that nothing joins, one braced to the ground and rubbed; twin: friction on the other, too."""
+    rotor, brace = [Rotor(2.4, 1, 2.1, 2.5), Rotor(1.1, 0.74, 0.46, 0.2)], [Brace(1, (0, 3, 1), 335)]
+    two = Structure([(0, 0), (1, 0)], spins=[spin, -0.43 * spin], rotor=rotor, friction=[0, 2e3], braces=brace)
+    decaying = [(s.modes().growth < 0).sum() for s in (two, replace(two, friction=(1.0, 2e3)))]
+    assert decaying[1] == decaying[0] + 1
+
+
 def test_springs_hold_without_spin() -> None:
     s = Structure(**PAIR, spins=[10, -10], gravity=9.81, hinge=10.0)
     assert s.stands() and s.critical_spin() == 0
