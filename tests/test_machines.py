@@ -8,8 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import settings
 
 from tests import machines
 from tests.conftest import exploring
@@ -112,17 +111,3 @@ def test_hypothesis_draws_the_same_values_but_in_the_slow_tests(request: pytest.
     assert settings.default is not None
     assert settings.default.derandomize != exploring(request.config.option.markexpr)
     assert exploring("slow") and exploring("slow or not slow") and not exploring("not slow") and not exploring("")
-
-
-def test_what_is_drawn_twice_is_the_same_but_in_the_slow_tests(request: pytest.FixtureRequest) -> None:
-    draws: list[list[float]] = []
-
-    @settings(max_examples=20)
-    @given(st.floats(0, 1))
-    def draw(x: float) -> None:
-        draws[-1].append(x)
-
-    for _ in range(2):
-        draws.append([])
-        draw()
-    assert len(draws[0]) > 5 and (draws[0] == draws[1]) != exploring(request.config.option.markexpr)
