@@ -11,24 +11,16 @@ if TYPE_CHECKING:
     from lagrotor.theory.averaged_motion import slow_motion as slow_motion
     from lagrotor.theory.averaged_motion import time_to_reach as time_to_reach
     from lagrotor.theory.averaged_motion import turns_back as turns_back
-    from lagrotor.theory.averaging import SWING_LETTERS as SWING_LETTERS
-    from lagrotor.theory.averaging import averaged_hamiltonian as averaged_hamiltonian
-    from lagrotor.theory.averaging import next_average as next_average
-    from lagrotor.theory.averaging import oscillating_hamiltonian as oscillating_hamiltonian
-    from lagrotor.theory.averaging import over_swing as over_swing
-    from lagrotor.theory.averaging import quartic_lagrangian as quartic_lagrangian
-    from lagrotor.theory.averaging import quartic_routhian as quartic_routhian
-    from lagrotor.theory.averaging import slow_rates as slow_rates
     from lagrotor.theory.charged_particle import GuidingCentre as GuidingCentre
     from lagrotor.theory.charged_particle import guiding_centre as guiding_centre
     from lagrotor.theory.charged_particle import leaning_field as leaning_field
     from lagrotor.theory.charged_particle import leaning_state as leaning_state
     from lagrotor.theory.closed_form import ClosedForm as ClosedForm
+    from lagrotor.theory.drift_after_shock import averaged_hamiltonian as averaged_hamiltonian
     from lagrotor.theory.drift_after_shock import cancelling_impulse as cancelling_impulse
-    from lagrotor.theory.drift_after_shock import mean_square_twist as mean_square_twist
-    from lagrotor.theory.drift_after_shock import second_order_momentum as second_order_momentum
     from lagrotor.theory.drift_after_shock import shock_toppling as shock_toppling
     from lagrotor.theory.drift_after_shock import shock_wander as shock_wander
+    from lagrotor.theory.drift_after_shock import slow_rates as slow_rates
     from lagrotor.theory.drift_after_shock import wander_after_shock as wander_after_shock
     from lagrotor.theory.impulse_response import impulse_matrices as impulse_matrices
     from lagrotor.theory.impulse_response import shock_displacement as shock_displacement
