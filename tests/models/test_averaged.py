@@ -127,15 +127,6 @@ def test_on_the_paired_precession_the_closed_form_is_closer_and_takes_no_evaluat
         simulate(swinging(0.01), turns(swinging(0.01), 1000), "closed_form")
 
 
-@pytest.mark.slow
-def test_ten_thousand_turns() -> None:
-    scene = swinging(0.01)
-    t = turns(scene, 10_000, 501)
-    run, exact = simulate(scene, t, "averaged", 1e-2), simulate(scene, t, "minimal", 1e-6)
-    assert (apart(run, exact) <= run.errors + exact.errors).all() and run.error < 1e-2
-    assert run.evaluations < exact.evaluations / 300
-
-
 def test_auto_takes_it_for_long_runs() -> None:
     scene = swinging(0.01)
     short, long = (choose(scene, turns(scene, count)[-1], 1e-6) for count in (30, 1_000))

@@ -11,11 +11,8 @@ from lagrotor import Link, Scene, Shock, floquet, natural_rate, shock_response
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit, slow_frequency_error, time_to_reach_error, time_to_wander
 from lagrotor.models.minimal import MODEL
-from lagrotor.models.orbits.floquet import _pushed
 from lagrotor.numerics import measured_order
 from lagrotor.theory import SlowMotion, slow_frequency, slow_motion, slow_rates, time_to_reach, turns_back
-from tests.models.orbits_at_once import ENOUGH, exact_orbits
-from tests.theory.random_pairs import held, random_pair
 
 
 def random_motion(rng: np.random.Generator) -> SlowMotion:
@@ -119,47 +116,6 @@ def test_where_the_next_order_decides_whether_x_turns_back_nothing_is_said() -> 
         turns_back(Scene((10, -10), link=Link(0.3), shock=Shock((35, 0, 0), 1.0, 0.05)))
 
 
-def pushed_orbit(rng):
-    """Opposite spins, a bar from 0.15 to 4 axes long, massless or up to 50 kg; the amplitude, the push and the exact orbit."""
-    one, length = random_pair(rng, "opposite"), np.exp(rng.uniform(np.log(0.15), np.log(4)))
-    mass = rng.choice([0, 1]) * np.exp(rng.uniform(np.log(0.01), np.log(50)))
-    length *= one.rotor.length
-    scene = replace(one, link=Link(length, mass, mass * length**2 * rng.choice([0.0, rng.uniform(0, 1)])))
-    r0, share = 10 ** rng.uniform(-2, np.log10(0.4)), rng.choice([0.0, rng.uniform(-3, 3)])
-    momentum = share * scene.sigma * r0**2 * scene.momenta[0] / scene.k
-    orbit = exact_orbit(scene, r0)
-    return scene, r0, momentum, _pushed(orbit, momentum) if momentum else orbit
-
-
-@pytest.mark.skipif(not ENOUGH, reason="needs numbers of 64 bits")
-@pytest.mark.parametrize(
-    ("seed", "count", "steps"),
-    [(8, 2, 20), *(pytest.param(seed, 2_500, 40, marks=pytest.mark.slow) for seed in range(2, 6))],
-)
-def test_the_slow_frequency_tells_its_error(seed: int, count: int, steps: int) -> None:
-    """Against monodromies in 64 bits, of pushes up to three times sigma r0²."""
-    rng, found, told = np.random.default_rng(seed), [], []
-    while len(found) < count:
-        try:
-            scene, r0, momentum, orbit = pushed_orbit(rng)
-            law, error = slow_frequency(scene, r0, momentum), slow_frequency_error(scene, r0, momentum)
-        except DomainError:  # beyond the range, or the family ends before
-            continue
-        found.append(orbit)
-        told.append((law, error, r0, momentum == 0))
-    pairs = []
-    for still in (True, False):
-        those = [i for i, one in enumerate(told) if one[3] == still]
-        exact = exact_orbits(
-            [(found[i].scene, found[i].frequency) for i in those], [told[i][2] for i in those], steps, not still
-        )
-        for i, excess, quarter in zip(those, exact.excess, exact.time, strict=True):
-            angle = 2 * np.arcsin(np.sqrt(-complex(excess)) / 2)  # excess = 2 cos(angle) − 2
-            pairs.append((abs(told[i][0] - angle.conjugate() / (4 * float(quarter))), told[i][1]))
-    held(pairs, 0, count, 0)
-    assert max(off / error for off, error in pairs) > 0.9  # twin: nine tenths of it are no bound
-
-
 AMPLITUDES = (0.06, 0.085, 0.12)
 
 
@@ -195,7 +151,7 @@ def test_the_momentum_is_beyond_that_of_the_exact_precession(link: Link, share: 
     precession = 2 * sum(scene.inertias) * (1 - r0**2) * start[5]
     law, exact = slow_frequency(scene, r0, push), floquet(scene, r0, push).slow_frequency
     other = floquet(scene, r0, push + G * square / scene.k - precession).slow_frequency
-    assert abs(law / exact - 1) < 0.01 and slow_frequency_error(scene, r0, push) < 0.01 * abs(exact)
+    assert abs(law - exact) <= slow_frequency_error(scene, r0, push) < 0.01 * abs(exact)
     assert abs(law / other - 1) > 3 * abs(law / exact - 1)
 
 
