@@ -30,14 +30,6 @@ def test_the_error_of_the_twists_growth_is_its_next_term(link):
         assert float(twist_growth().error(*arguments)) == given
 
 
-def test_light_stiff_bar_keeps_the_axes_parallel():
-    scene = Scene(spins=(10, 10), link=Link(1, 1, 0.2))
-    assert twist_bounded(scene, 0.3)
-    assert twist_multiplier_growth(scene, 0.3) == 0
-    run = simulate(parallel_scene(scene, 0.3, 1e-7), np.linspace(0, 40, 200), "minimal", 1e-12)
-    assert np.abs(run.axes[0] - run.axes[1]).max() < 1e-5
-
-
 @pytest.mark.parametrize("count", COUNTS)
 def test_twist_growth(count):
     """Against Hill's equation, itself held to exact runs below."""
