@@ -37,10 +37,8 @@ if TYPE_CHECKING:
     from lagrotor.theory.paired_precession.stability import growth_squared as growth_squared
     from lagrotor.theory.paired_precession.stability import most_growth as most_growth
     from lagrotor.theory.parallel_twist import lyapunov_criterion as lyapunov_criterion
-    from lagrotor.theory.parallel_twist import parallel_residual as parallel_residual
     from lagrotor.theory.parallel_twist import parallel_scene as parallel_scene
     from lagrotor.theory.parallel_twist import twist_bounded as twist_bounded
-    from lagrotor.theory.parallel_twist import twist_coefficients as twist_coefficients
     from lagrotor.theory.parallel_twist import twist_growth as twist_growth
     from lagrotor.theory.parallel_twist import twist_growth_error as twist_growth_error
     from lagrotor.theory.parallel_twist import twist_multiplier_growth as twist_multiplier_growth
@@ -49,12 +47,9 @@ if TYPE_CHECKING:
     from lagrotor.theory.rate_shift import frequency_shift as frequency_shift
     from lagrotor.theory.rate_shift import shift_coefficient as shift_coefficient
     from lagrotor.theory.rate_shift import twist_coefficient as twist_coefficient
-    from lagrotor.theory.toppling import linear_toppling as linear_toppling
     from lagrotor.theory.toppling import toppling_growth as toppling_growth
     from lagrotor.theory.toppling import toppling_polynomial as toppling_polynomial
-    from lagrotor.theory.toppling import toppling_residual as toppling_residual
     from lagrotor.theory.toppling import toppling_threshold as toppling_threshold
     from lagrotor.theory.toppling import twisted_lagrangian as twisted_lagrangian
-    from lagrotor.theory.toppling import uniform_toppling as uniform_toppling
 
 __getattr__, __dir__, __all__ = face(__name__)

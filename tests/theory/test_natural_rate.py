@@ -10,7 +10,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics import measured_order, peak, spectrum
 from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error, twist_coefficient
-from lagrotor.theory.natural_rate import TURNS
+from lagrotor.theory.natural_rate import TURNS, natural_rate_limits
 from lagrotor.theory.rate_shift import opposite_share
 from tests.theory.random_pairs import COUNTS, exact_axes, held, random_pair, swinging
 
@@ -25,6 +25,20 @@ def test_known_rates() -> None:
     dumbbell = Link(1, 1, 0.25)
     rates = [natural_rate(Scene(spins=(10, s * 10), link=dumbbell)) for s in (1, -1)]
     assert rates[0] == pytest.approx(rates[1])
+
+
+def test_limits_are_their_formulas() -> None:
+    """Of momenta of the same root mean square."""
+    scene = Scene((9, 4), Rotor(I3=1.2), Link(1.3, 1.0, 0.3))
+    J, G, (a, b) = scene.rotor.J, np.hypot(*scene.momenta) / np.sqrt(2), scene.inertias
+    limits = natural_rate_limits(scene)
+    assert {name: (one.formula, one.rate) for name, one in limits.items()} == {
+        "equal": ("G/(a + b)", pytest.approx(G / (a + b))),
+        "opposite": ("G/√(a² − b²)", pytest.approx(G / np.sqrt(a**2 - b**2))),
+        "massless": ("G/a", pytest.approx(G / J)),
+        "dumbbell": ("G/a", pytest.approx(G / (J + 0.5))),
+    }
+    assert limits["dumbbell"].says.endswith("a = (2 J + R² m)/2, b = 0")
 
 
 def any_pair(rng):
