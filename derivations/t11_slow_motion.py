@@ -22,21 +22,16 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Link, Scene, Shock, floquet, simulate
+from lagrotor.algebra import truncated_series
 from lagrotor.models import time_to_wander
 from lagrotor.numerics import measured_order
 from lagrotor.pair import leaning_frame, leaning_lagrangian, link_constraint
 from lagrotor.pair.notation import G_1, G_2, HALF, LEAN, LEANING, SWING, G, P, a, b, k, r0, sigma
 from lagrotor.paper import Formula, Remark, prove
 from lagrotor.theory import (
-    SWING_LETTERS,
     averaged_hamiltonian,
     growth_squared,
-    next_average,
     next_brackets,
-    oscillating_hamiltonian,
-    over_swing,
-    quartic_lagrangian,
-    quartic_routhian,
     shift_coefficient,
     slow_frequency,
     slow_motion,
@@ -156,7 +151,13 @@ prove(
 # second order is that of a charge in a uniform field on a plane: the same at every lean.
 
 # %%
-quadratic, quartic = quartic_lagrangian()
+eps = sp.Symbol("epsilon", positive=True)
+sizes = {one: eps * one for one in (h, beta_v, h_v)} | {alpha_v: eps**2 * alpha_v, G_1: G, G_2: -G}
+by_order = sp.expand(truncated_series(exact.xreplace(sizes), eps, 6))
+linear, quadratic, cubic, quartic, quintic, sextic = (by_order.coeff(eps, n) for n in range(1, 7))
+prove((linear, cubic), (0, 0), "no odd order below the fifth", names=("L_1", "L_3"))
+
+# %%
 prove(
     quadratic,
     (a + b) * beta_v**2 + (a - b) * h_v**2 + 2 * G * h * beta_v,
@@ -182,8 +183,9 @@ prove(quartic, swinging + turning, "the fourth order of the Lagrangian", names="
 # twisted axes lean (t6). $R_4=L_4-P\dot\alpha$ is
 
 # %%
+alpha_rate = sp.solve(quartic.diff(alpha_v) - P, alpha_v, simplify=False)[0]
 prove(
-    quartic_routhian(),
+    (quartic - P * alpha_v).subs(alpha_v, alpha_rate),
     swinging - (P - 2 * G * h**2 / k) ** 2 / (4 * (a + b) * c),
     "the Routhian, fourth order",
     names="R_4",
@@ -362,12 +364,41 @@ prove(
 # -\tfrac12\,\frac{\partial}{\partial I}\big\langle(H_4-\langle H_4\rangle)^2\big\rangle.$$
 #
 # The bracket of $H_4$ with $\chi$ in the centre is of seventh order, and so is that of $H_4$ with $H_5$; the mean of $H_5$ is
-# zero. `next_average` holds the sum, $W_6$ in the units of $W$, at any lean; its parts in $s$ alone move nothing.
+# zero. The sum, in the units of $W$, is $W_6$ at any lean; its parts in $s$ alone move nothing. To leading order
+# $\dot\beta$ and $\dot h$ are those of the swing; the orders left add the squares of what $L_4$ gives of the momenta.
 
 # %%
-H_4, H_5, _ = oscillating_hamiltonian()
-tangent, _, _, p_push, sine, cosine = SWING_LETTERS
-root = sp.Symbol("r", positive=True)
+root, secant = sp.symbols("r w", positive=True)  # w = 1/cos beta
+tangent, p_push, sine, cosine = sp.symbols("tau p S C", real=True)
+SWING_LETTERS = (tangent, HALF, SWING, p_push, sine, cosine)
+fractions = sp.QQ.frac_field(root, k)
+unit_inertias = {a: (1 + root**2) / 2, b: (1 - root**2) / 2, G: root}
+unit_inertias |= {sp.tan(beta): tangent, sp.sin(beta): tangent / secant, sp.cos(beta): 1 / secant}
+L_4, L_5, L_6 = (sp.expand(e.subs(unit_inertias)) for e in (quartic, quintic, sextic))
+cyclic = sp.solve(L_4.diff(alpha_v) - root * p_push / k, alpha_v, simplify=False)[0]
+R_4, R_5 = ((e - n * alpha_v).subs(alpha_v, cyclic) for e, n in ((L_4, root * p_push / k), (L_5, 0)))
+R_6 = (L_6 - L_5.diff(alpha_v) ** 2 / (2 * L_4.diff(alpha_v, 2))).subs(alpha_v, cyclic)
+squares_left = (R_4.diff(beta_v) / 2) ** 2 + (R_4.diff(h_v) / (2 * root)) ** 2
+on_swing = {h: HALF + SWING * sine, h_v: SWING * cosine, beta_v: -root * SWING * sine}
+
+
+def in_swing(e: sp.Expr) -> sp.Poly:
+    """An expression over the swing, a polynomial in `SWING_LETTERS`."""
+    put = e.subs(secant, sp.sqrt(1 + tangent**2)).subs(on_swing, simultaneous=True)
+    return sp.Poly(sp.expand(put), *SWING_LETTERS, domain=fractions)
+
+
+def over_swing(f: sp.Poly) -> sp.Poly:
+    """The mean over Phi."""
+    means: dict[tuple[int, ...], sp.Expr] = {}
+    for (*slowly, m, n), coefficient in f.as_dict(native=False).items():
+        if m % 2 == n % 2 == 0:
+            part = coefficient * sp.factorial2(m - 1) * sp.factorial2(n - 1) / sp.factorial2(m + n)
+            means[*slowly, 0, 0] = means.get((*slowly, 0, 0), 0) + part
+    return sp.Poly(means, *SWING_LETTERS, domain=fractions)
+
+
+H_4, H_5, H_6 = in_swing(-R_4), in_swing(-R_5), in_swing(squares_left - R_6)
 in_units = [(P, p_push * G / k), *shape.items(), (G, 1 / sp.sqrt(sigma))]
 prove(
     over_swing(H_4).as_expr().subs({root: 1 / sp.sqrt(sigma), tangent: sp.sin(LEAN) / sp.cos(LEAN)}),
@@ -379,11 +410,25 @@ prove(
 # %%
 prove(over_swing(H_5).as_expr(), 0, "the fifth has none", names=r"\langle H_5\rangle")
 
+# %%
+swing_poly, wave_poly = (sp.Poly(e, *SWING_LETTERS, domain=fractions) for e in (SWING, root * SWING * cosine))
+steep = sp.Poly(1 + tangent**2, *SWING_LETTERS, domain=fractions)  # d tan beta/dbeta
+shaken = H_6 + wave_poly * steep * H_5.diff(tangent)
+shaken += wave_poly**2 * steep * (steep * H_4.diff(tangent)).diff(tangent) / 2
+mean_square_left = over_swing(H_4**2) - over_swing(H_4) ** 2
+sixth = k**2 / root**2 * (over_swing(shaken) - mean_square_left.diff(SWING).quo(swing_poly) / (4 * root**2))
+W_6 = sp.Add(
+    *(
+        sp.factor(e.subs(root, 1 / sp.sqrt(sigma))) * sp.tan(LEAN) ** t * HALF**n * SWING**m * p_push**d
+        for (t, n, m, d, _, _), e in sixth.as_dict(native=False).items()
+    )
+)
+
 # %% [markdown]
 # Beside the paired precession of amplitude $r_0$, $\beta_s=\eta=0$. It does not turn, $\partial(W+W_6)/\partial p=0$:
 
 # %%
-both = W.subs(P, G * p_push / k).subs(shape) + next_average()
+both = W.subs(P, G * p_push / k).subs(shape) + W_6
 at_rest = both.diff(p_push).subs(still)
 own = SWING**2 - (k**2 - 1) / (2 * k**2) * SWING**4
 prove(
@@ -433,11 +478,11 @@ for q, unit in ((LEAN, -2), (HALF, -sp.Rational(1, 2))):
     curvature = both.diff(q, 2).subs(still).subs(sigma, 1 / root**2)
     series = sp.series(sp.expand(curvature.subs(orbit, simultaneous=True)), small, 0, 4).removeO()
     brackets.append([sp.expand(unit * series.coeff(small, n).subs(root, 1 / sp.sqrt(sigma))) for n in (1, 2, 3)])
-F_6, L_4 = next_brackets(square, push, sigma, k**2)
+F_6, M_4 = next_brackets(square, push, sigma, k**2)
 heavy = (sigma - 1) * k**2 / 2
 prove(
     (brackets[0][1], brackets[0][2], brackets[1][0], brackets[1][1]),
-    (sp.Rational(3, 2) * square**2 - push**2, F_6, push + heavy * square, L_4),
+    (sp.Rational(3, 2) * square**2 - push**2, F_6, push + heavy * square, M_4),
     "the brackets, leading and next order",
     names=("F_4", "F_6", "L_2", "L_4"),
 )
@@ -446,7 +491,7 @@ prove(
 # Without a push the product is, per radian of the phase, the next order of the growth that t5 derives from the orbit itself:
 
 # %%
-F, L = sp.Rational(3, 2) * square**2 + F_6, heavy * square + L_4
+F, L = sp.Rational(3, 2) * square**2 + F_6, heavy * square + M_4
 per_radian = 1 - 2 * shift_coefficient(sigma, k, 1) * r0**2
 both_orders = -F * L * per_radian / (4 * k**4 * sigma)
 from_orbit = growth_squared(8).expressions[0]
@@ -486,7 +531,7 @@ Remark(
     "The time to reach any x",
     f"Until the mean of x is {REACHED:g}: "
     + "; ".join(
-        f"{time:.2f} s by quadrature, {seen:.2f} s exact at {F:g} N"
+        f"{time:.2f} s by the averaged motion, {seen:.2f} s exact at {F:g} N"
         for F, time, seen in zip(FORCES, law, exact_times, strict=True)
     )
     + f". The relative error falls as the force to the {time_order:.2f}. At the initial rate, which lean and twist change, "

@@ -5,7 +5,7 @@
 # mean, and the time in which an axis itself, passes a bound.
 #
 # **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$, at rest upright; a shock on rotor 1; third order in it. The law is the
-# initial rate; each time of the mean is given with the error of that rate over it.
+# initial rate; each time of the mean is given with the error of that rate over it, from an exact run.
 #
 # **Notation.** $\beta_s$, $\eta$ the means of the lean of the mean axis along the joint line and of half the angle between the
 # axes, $s$ the swing's amplitude in it (t11); $X$ the mean of $x=\sin\beta$; $P$ the momentum about the joint line, which runs
@@ -17,7 +17,6 @@ import numpy as np
 import sympy as sp
 
 from lagrotor import Link, Scene, Shock, simulate, toppling_after_shock
-from lagrotor.errors import DomainError
 from lagrotor.models import run_after, time_to_wander, turning_rate, wander_error, wandering_rate
 from lagrotor.numerics import first_passage, measured_order
 from lagrotor.pair.notation import HALF, LEAN, P_X, SWING, G, P, a, att, b, k, p_y
@@ -104,17 +103,18 @@ slopes = measured_order(forces, turning), measured_order(forces, wander)
 assert abs(slopes[0] - 2) < 0.05
 assert abs(slopes[1] - 3) < 0.05
 said = [abs(wander_after_shock(scene(force))) for force in forces]
-given = [wander_error(scene(force), run.t[-1] - 0.5) for force, run in zip(forces, runs, strict=True)]
-assert all(abs(one - two) < most for one, two, most in zip(wander, said, given, strict=True))
+off = [abs(seen / law_rate - 1) for seen, law_rate in zip(wander, said, strict=True)]
+off_order = measured_order(forces[1:], off[1:])  # at 2 N what is left of the swing in the mean is as large
+assert abs(off_order - 2) < 0.1
 Remark(
     "The rate of the mean x",
     f"After a shock F along x the pair turns about the joint line as F² (measured {slopes[0]:.3f}) and the mean of x leaves zero "
-    f"as F³ (measured {slopes[1]:.3f}). Mean rates over 20 swings against the law, and the error that it gives: "
+    f"as F³ (measured {slopes[1]:.3f}). Mean rates over 20 swings against the law: "
     + "; ".join(
-        f"{F:g} N: {seen:.3e} against {law_rate:.3e} 1/s, at most {most:.0e}"
-        for F, seen, law_rate, most in zip(forces, wander, said, given, strict=True)
+        f"{F:g} N: {seen:.3e} against {law_rate:.3e} 1/s"
+        for F, seen, law_rate in zip(forces, wander, said, strict=True)
     )
-    + ".",
+    + f"; the relative error of the larger two falls as F to the {off_order:.2f}.",
 )
 
 
@@ -128,12 +128,9 @@ Remark(
 
 # %%
 def mean_time(force: float) -> tuple[float, float | None]:
-    """(time by the initial rate, its relative error or None where the motion has left the law's range by then)."""
+    """(time by the initial rate, the rate's relative error over it on an exact run, or None where that would be long)."""
     rate = abs(wander_after_shock(scene(force)))
-    try:
-        return BOUND / rate, wander_error(scene(force), BOUND / rate) / rate
-    except DomainError:
-        return BOUND / rate, None
+    return BOUND / rate, wander_error(scene(force), BOUND / rate) / rate if BOUND / rate < 1000 else None
 
 
 def axis_time(force: float, axis: int) -> float:
@@ -155,7 +152,7 @@ Remark(
     f"By the initial rate the mean of x, over the swing and both axes, keeps within {BOUND:g} for "
     + "; ".join(
         f"{time:.3g} s at {force:g} N "
-        + ("(beyond the range of the law)" if error is None else f"(rate known to {100 * error:.0f} %)")
+        + ("(not compared)" if error is None else f"(mean rate off by {100 * error:.0f} %)")
         for force, (time, error) in times.items()
     )
     + f". Followed on the exact run at {strong:g} N it takes {followed:.2f} s. An axis itself passes {BOUND:g} much "

@@ -19,13 +19,10 @@ from lagrotor.mechanics import euler_lagrange
 from lagrotor.pair.notation import G_1, G_2, TWISTED, G, a, b, k, nu
 from lagrotor.paper import Remark, prove
 from lagrotor.theory import (
-    linear_toppling,
     toppling_growth,
     toppling_polynomial,
-    toppling_residual,
     toppling_threshold,
     twisted_lagrangian,
-    uniform_toppling,
 )
 
 A, D = a + b, a - b
@@ -58,11 +55,9 @@ prove(L.diff(alpha), 0, "the angle about the joint line is cyclic")
 # Uniform turning is $U=\Delta=0$, $\dot\alpha=\nu$. The Euler–Lagrange expressions leave of it
 
 # %%
-residual = [e.xreplace(uniform_toppling()) for e in euler_lagrange(L, TWISTED)]
+turning = dict.fromkeys((*TWISTED.q, *TWISTED.v, *TWISTED.a), sp.Integer(0)) | {alpha_v: nu}
+residual = [e.xreplace(turning) for e in euler_lagrange(L, TWISTED)]
 prove(residual, (-(G_1 + G_2) * nu, 0, 0), "what uniform turning leaves of the three equations")
-
-# %%
-prove(toppling_residual(), residual, "as the library has it")
 
 # %% [markdown]
 # Nothing, at any angle and rate, for any bar, exactly if $(G_1+G_2)\nu=0$.
@@ -75,7 +70,7 @@ prove(toppling_residual(), residual, "as the library has it")
 # %%
 e = b * nu**2 - G * nu / k
 state, off = (U, Delta, U_v, Delta_v, alpha_v), sp.symbols("U Delta U_dot Delta_dot beta_dot", real=True)
-second = hessian(L, state).xreplace(uniform_toppling()).subs({G_1: G, G_2: -G})
+second = hessian(L, state).xreplace(turning).subs({G_1: G, G_2: -G})
 quadratic = (sp.Matrix([off]) * second * sp.Matrix(off))[0] / 2
 u, d, u_v, d_v, beta_v = off
 prove(
@@ -101,11 +96,13 @@ prove(
 
 # %%
 two, one, zero = toppling_polynomial()
-prove(two * s**4 + one * s**2 + zero, characteristic, "as the library has it, from all three coordinates")
+prove(two * s**4 + one * s**2 + zero, characteristic, "as the library has it", names="p_2s^4+p_1s^2+p_0")
 
 # %%
+whole = hessian(L, [*TWISTED.q, *TWISTED.v]).xreplace(turning).subs({G_1: G, G_2: -G})
+by_q, mixed, by_v = whole[:3, :3], whole[3:, :3], whole[3:, 3:]
 prove(
-    linear_toppling().characteristic(s).subs({G_1: G, G_2: -G}),
+    (by_v * s**2 + (mixed - mixed.T) * s - by_q).det(),
     2 * A * s**2 * characteristic,
     "the third coordinate adds a double zero root",
     written=r"\det{}_3(s) = 2A\,s^2\,\det(s)",
@@ -118,7 +115,7 @@ prove(
 
 # %%
 discriminant = (A * D * nu**2 - 2 * A * e) ** 2 + G**4 + 2 * G**2 * (A * D * nu**2 + 2 * A * e)
-prove(one**2 - 4 * two * zero, discriminant, "the discriminant")
+prove(one**2 - 4 * two * zero, discriminant, "the discriminant", names="p_1^2-4p_2p_0")
 
 # %% [markdown]
 # For $e>0$ it is positive and all coefficients are: both $s^2$ are negative, and turning is stable. For $e<0$ the product of

@@ -20,10 +20,8 @@ from lagrotor.pair.notation import G_1, G_2, TWISTED, G, Phi, a, b, rho
 from lagrotor.paper import Formula, Remark, prove
 from lagrotor.theory import (
     lyapunov_criterion,
-    parallel_residual,
     parallel_scene,
     twist_bounded,
-    twist_coefficients,
     twist_growth,
     twist_growth_error,
     twist_multiplier_growth,
@@ -36,28 +34,12 @@ from lagrotor.theory import (
 # ## The parallel pair is one rotor, exactly
 #
 # Of the three Euler–Lagrange expressions of the pair (t8), of $U$, $\Delta$ and $\alpha$, a parallel motion, $\Delta=0$ for
-# all time, leaves
+# all time, leaves in the equation of the twist
 
 # %%
 straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
-motion = [e.subs(straight) for e in euler_lagrange(twisted_lagrangian(), TWISTED)]
-along, across, about = parallel_residual()
-prove(
-    (along, across, about),
-    motion,
-    "what a parallel motion leaves, as the library has it",
-    written=(
-        r"\text{along} = \mathcal E_U\big|_{\Delta = 0}",
-        r"\text{across} = \mathcal E_\Delta\big|_{\Delta = 0}",
-        r"\text{about} = \mathcal E_\alpha\big|_{\Delta = 0}",
-    ),
-)
-
-# %% [markdown]
-# In that of the twist this is
-
-# %%
-prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "in the equation of the twist", names=r"\text{across}")
+along, across, about = (e.subs(straight) for e in euler_lagrange(twisted_lagrangian(), TWISTED))
+prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "what a parallel motion leaves in it", names=r"\text{across}")
 
 # %% [markdown]
 # It vanishes on every parallel motion if and only if $G_1=G_2$. The other two are then twice the equations of one rotor of
@@ -87,7 +69,8 @@ prove(
 x = sp.tanh(U)
 x_a = U_a / sp.cosh(U) ** 2 - 2 * sp.tanh(U) * U_v**2 / sp.cosh(U) ** 2
 speed = (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2
-inertia, stiffness = twist_coefficients()
+twisting = euler_lagrange(twisted_lagrangian().subs(equal), TWISTED)[1]
+inertia, stiffness = (twisting.diff(one).subs(straight) for one in (Delta_a, Delta))
 prove(inertia, (a - b) / 2 * (1 - x**2), "the inertia of the twist, x = tanh U", names=r"\text{inertia}")
 
 # %%

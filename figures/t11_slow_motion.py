@@ -71,7 +71,9 @@ def data() -> dict[str, np.ndarray]:
 def measure() -> dict[str, float]:
     """How far the exact centre leaves its curve, of the half-angle at the start; the slow frequency's distance."""
     d, motion = data(), slow_motion(scene(LIGHT))
-    curve = np.sqrt([max(motion.half_squared(float(lean)), 0.0) for lean in d["lean"]])
+    s2, c = motion.swing**2, np.cos(d["lean"]) ** 2
+    D = np.sqrt(3 * s2**2 / 8 + (motion.invariant - motion.weight * s2**2 / 2) * c + (motion.weight * s2 * c / 2) ** 2)
+    curve = np.sqrt(np.maximum(D - s2 * (1 - motion.weight * c) / 2, 0.0))  # the shock along x leaves P = 0
     return {
         "largest distance from the curve": float(np.abs(curve - np.abs(d["half"])).max() / abs(motion.half)),
         "largest lean of the run": float(np.abs(d["lean"]).max()),

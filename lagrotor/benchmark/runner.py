@@ -3,8 +3,7 @@
 import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass, field
-from itertools import groupby
+from dataclasses import dataclass
 from math import inf
 from statistics import median
 from typing import Any, Literal
@@ -166,24 +165,6 @@ class Benchmark:
     floor: float
 
 
-@dataclass(frozen=True)
-class _Prepared:
-    """A method that is ready to run: its runner, its settings from coarse to fine, and the seconds that took."""
-
-    runner: Runner
-    settings: tuple[float, ...]
-    seconds: float
-
-
-@dataclass
-class _Record:
-    """What has been measured: by method and setting its error and nfev, and its seconds, run by run; and what failed."""
-
-    results: dict[tuple[str, float], tuple[float, int]] = field(default_factory=dict)
-    seconds: dict[tuple[str, float], list[float]] = field(default_factory=dict)
-    failed: list[tuple[str, float | None, str]] = field(default_factory=list)
-
-
 def benchmark(
     name: str,
     case: Case,
@@ -191,90 +172,72 @@ def benchmark(
     tolerances: Iterable[float] = TOLERANCES,
     longest: float = LONGEST_RUN.value,
 ) -> Benchmark:
-    """Run every method at every setting, all of them once before any of them again; medians of the samples' seconds.
+    """Run every method at every setting, from coarse to fine; medians of the samples' seconds.
 
     A method is not run at a finer setting once a run of it took more than `longest` s. Raises LagrotorError for a reference or
     a method that integrates nothing.
     """
-    truth, record = reference(case.scene, case.t_eval), _Record()
-    ready = _prepare_all(case, methods, tuple(tolerances), record)
-    _run_all(ready, methods, truth.tips, longest, record)
-    _repeat(ready, methods, case.repeats, longest / 10, record)
-    points = []
-    for (method, setting), (error, nfev) in record.results.items():
-        first, *later = record.seconds[method, setting]
-        usual = median(later or [first])
-        points.append(ChartPoint(method, methods[method].family, setting, max(error, truth.floor), nfev, usual, first))
-    setup = {
-        method: one.seconds + max([0.0, *(p.first - p.seconds for p in points if p.method == method)])
-        for method, one in ready.items()
-    }
-    return Benchmark(name, case.says, tuple(points), _group_failures(record, ready), setup, truth.floor)
-
-
-def _prepare_all(
-    case: Case, methods: dict[str, Method], tolerances: tuple[float, ...], record: _Record
-) -> dict[str, _Prepared]:
-    """Prepare each method and run it once at its coarsest setting; what cannot be prepared has failed."""
-    ready = {}
-    for method, given in methods.items():
-        began, settings = time.perf_counter(), given.steps or tolerances
+    truth, points, failures, setup = reference(case.scene, case.t_eval), list[ChartPoint](), list[Failure](), {}
+    tolerances = tuple(tolerances)
+    for method, one in methods.items():
+        began, settings = time.perf_counter(), one.steps or tolerances
         try:
-            runner = given.prepare(case.scene, case.t_eval)
+            runner = one.prepare(case.scene, case.t_eval)
             with suppress(*_REFUSALS):  # it fails again, and is recorded, in its turn
                 runner(settings[0])
-            ready[method] = _Prepared(runner, settings, time.perf_counter() - began)
         except ImportError as absent:
-            reason = f"not installed ({absent.name}): pip install {given.install}"
-            record.failed.append((method, None, reason))
+            failures.append(Failure(method, (), f"not installed ({absent.name}): pip install {one.install}"))
+            continue
         except LagrotorError as refusal:
-            record.failed.append((method, None, str(refusal)))
-    return ready
+            failures.append(Failure(method, (), str(refusal)))
+            continue
+        setup[method] = time.perf_counter() - began
+        made, failed = _points(method, one, runner, settings, case.repeats, truth, longest)
+        setup[method] += max([0.0, *(p.first - p.seconds for p in made)])
+        points += made
+        for reason in sorted(set(failed.values())):
+            at = tuple(setting for setting, why in failed.items() if why == reason)
+            failures.append(Failure(method, () if len(at) == len(settings) else at, reason))
+    failures.sort(key=lambda one: (one.method, one.reason))
+    return Benchmark(name, case.says, tuple(points), tuple(failures), setup, truth.floor)
 
 
-def _run_all(
-    ready: dict[str, _Prepared], methods: dict[str, Method], truth: Array, longest: float, record: _Record
-) -> None:
-    """Every method at its coarsest setting, then at the next, and so on."""
-    most = max((len(one.settings) for one in ready.values()), default=0)
-    turns = [(method, one.settings[i]) for i in range(most) for method, one in ready.items() if i < len(one.settings)]
-    too_slow: dict[str, str] = {}
-    for method, setting in turns:
-        if method in too_slow:
-            record.failed.append((method, setting, too_slow[method]))
+def _points(
+    name: str,
+    method: Method,
+    runner: Runner,
+    settings: tuple[float, ...],
+    repeats: int,
+    truth: Reference,
+    longest: float,
+) -> tuple[list[ChartPoint], dict[float, str]]:
+    """Return the points of a method, and the reasons of the settings at which it failed or was left out."""
+    points, failed, slow = list[ChartPoint](), dict[float, str](), ""
+    for setting in settings:
+        if slow:
+            failed[setting] = slow
             continue
         try:
             began = _CLOCK()
-            tips, nfev = ready[method].runner(setting)
-            seconds = _CLOCK() - began
+            tips, nfev = runner(setting)
+            first = _CLOCK() - began
         except _REFUSALS as refusal:
-            record.failed.append((method, setting, str(refusal).split("\n")[0]))
+            failed[setting] = str(refusal).split("\n")[0]
             continue
-        if seconds > longest and methods[method].family not in _COMPILING:
-            too_slow[method] = f"left out: at {setting:g} a run took {seconds:.1f} s"
-        if tips.shape != truth.shape:
-            reason = f"the run ended early, at {tips.shape[1]} of {truth.shape[1]} times"
-            record.failed.append((method, setting, reason))
+        if first > longest and method.family not in _COMPILING:
+            slow = f"left out: at {setting:g} a run took {first:.1f} s"
+        if tips.shape != truth.tips.shape:
+            failed[setting] = f"the run ended early, at {tips.shape[1]} of {truth.tips.shape[1]} times"
             continue
-        error = float(np.linalg.norm(tips - truth, axis=-1).max())
-        if np.isfinite(error):
-            check_work(f"{method} at {setting:g}", nfev, truth, least=0 if methods[method].family == "closed" else 1)
-            record.results[method, setting], record.seconds[method, setting] = (error, nfev), [seconds]
-        else:
-            record.failed.append((method, setting, "a value is not finite"))
-
-
-def _repeat(
-    ready: dict[str, _Prepared], methods: dict[str, Method], repeats: int, longest: float, record: _Record
-) -> None:
-    """Further samples of every run that took less than `longest` s, or whose first may have compiled."""
-    again = [
-        (method, setting)
-        for method, setting in record.results
-        if methods[method].family in _COMPILING or record.seconds[method, setting][0] < longest
-    ]
-    for method, setting in again * repeats:
-        record.seconds[method, setting].append(_sample(ready[method].runner, setting))
+        error = float(np.linalg.norm(tips - truth.tips, axis=-1).max())
+        if not np.isfinite(error):
+            failed[setting] = "a value is not finite"
+            continue
+        check_work(f"{name} at {setting:g}", nfev, truth.tips, least=0 if method.family == "closed" else 1)
+        again = repeats if method.family in _COMPILING or first < longest / 10 else 0
+        seconds = median([_sample(runner, setting) for _ in range(again)] or [first])
+        points.append(ChartPoint(name, method.family, setting, max(error, truth.floor), nfev, seconds, first))
+    return points, failed
 
 
 def _sample(runner: Runner, setting: float) -> float:
@@ -284,17 +247,6 @@ def _sample(runner: Runner, setting: float) -> float:
         runner(setting)
         runs, spent = runs + 1, _CLOCK() - began
     return spent / runs
-
-
-def _group_failures(record: _Record, ready: dict[str, _Prepared]) -> tuple[Failure, ...]:
-    """One failure a method and reason; without settings where it is all of them."""
-    grouped = []
-    by_reason = sorted(record.failed, key=lambda f: (f[0], f[2]))
-    for (method, reason), group in groupby(by_reason, key=lambda f: (f[0], f[2])):
-        at = tuple(setting for _, setting, _ in group if setting is not None)
-        whole = method not in ready or len(at) == len(ready[method].settings)
-        grouped.append(Failure(method, () if whole else at, reason))
-    return tuple(grouped)
 
 
 def failure_sentences(failures: Iterable[Failure]) -> list[str]:

@@ -6,18 +6,17 @@ from lagrotor.faces import face
 
 if TYPE_CHECKING:
     from lagrotor.models.closed_form_model import closed_form as closed_form
-    from lagrotor.models.drift_error import cancelling_force_error as cancelling_force_error
-    from lagrotor.models.drift_error import toppling_error as toppling_error
-    from lagrotor.models.drift_error import wander_error as wander_error
     from lagrotor.models.linear import shock_response_error as shock_response_error
+    from lagrotor.models.mean_motion import cancelling_force_error as cancelling_force_error
     from lagrotor.models.mean_motion import exact_cancelling_force as exact_cancelling_force
     from lagrotor.models.mean_motion import guiding_centre_error as guiding_centre_error
-    from lagrotor.models.mean_motion import mean_error as mean_error
     from lagrotor.models.mean_motion import mean_over as mean_over
     from lagrotor.models.mean_motion import run_after as run_after
     from lagrotor.models.mean_motion import time_to_reach_error as time_to_reach_error
     from lagrotor.models.mean_motion import time_to_wander as time_to_wander
+    from lagrotor.models.mean_motion import toppling_error as toppling_error
     from lagrotor.models.mean_motion import turning_rate as turning_rate
+    from lagrotor.models.mean_motion import wander_error as wander_error
     from lagrotor.models.mean_motion import wandering_rate as wandering_rate
     from lagrotor.models.orbits.floquet import slow_frequency_error as slow_frequency_error
     from lagrotor.models.orbits.paired_fit import fourier_orbit as fourier_orbit

@@ -152,7 +152,7 @@ def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lea
     return Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in own]))
 
 
-def forms_about(scene: Scene, lean: float, order: int) -> Forms:
+def _forms_about(scene: Scene, lean: float, order: int) -> Forms:
     (_, ratio, _), _ = MODEL.kind(scene, False)
     return _forms(ratio, *scene.inertias, scene.k, *scene.momenta, lean, order)
 
@@ -165,14 +165,7 @@ def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
     return np.linalg.solve(forms.form.vectors, x + 0j)
 
 
-def swing_rates(forms: Forms) -> Any:
-    """The swing's own rate of the normal coordinates, (6,): they turn by exp(rate t)."""
-    form, rates = forms.form, np.zeros(6, complex)
-    rates[[0, 3]] = form.weights[0] * form.frequencies[0] * np.array([1, -1])
-    return rates
-
-
-def normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
+def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
     """Normal coordinates (6,) of a state of `minimal`, by the form through an order, its azimuth left out.
 
     Raises DomainError where it has none.
@@ -190,26 +183,15 @@ def normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
     return y
 
 
-def states_at(scene: Scene, forms: Forms, order: int, normal: Any, azimuth: float) -> Array:
-    """States of `minimal` (m, 6) at normal coordinates (m, 6)."""
-    maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
-    old = np.concatenate([maps.at(part) for part in np.array_split(normal, len(normal) // _AT_ONCE + 1)])
-    x = (old @ forms.form.vectors.T).real
-    q = x[:, :3] + [forms.lean, 0.0, azimuth]
-    M, g = _momenta_at(scene, q)
-    return np.hstack([q, np.linalg.solve(M, (x[:, 3:] + forms.momentum - g)[..., None])[..., 0]])
+def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
+    """States of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations.
 
-
-def slow_course(
-    forms: Forms, order: int, begin: Any, t: Array, local: tuple[float, float] = (1e-13, 1e-16)
-) -> tuple[Any, int]:
-    """Normal coordinates (n, 6) at times t (n,), the swing's own turning left out, and the evaluations.
-
-    Raises DomainError where the slow motion does not stay small.
+    The slow motion is integrated without the swing's part exp(rate t). Raises DomainError where it does not stay small.
     """
     from scipy.integrate import solve_ivp
 
-    form, swing = forms.form, swing_rates(forms)
+    form, swing = forms.form, np.zeros(6, complex)
+    swing[[0, 3]] = form.weights[0] * form.frequencies[0] * np.array([1, -1])
     slopes = _sums(tuple(form.series.through(order).derivative(j) for j in range(6)))
 
     def rate(_: float, y: Any) -> Any:
@@ -220,23 +202,21 @@ def slow_course(
         return 1.0 - float(np.abs(form.vectors[:2] @ y).max())
 
     far.terminal = True  # type: ignore[attr-defined]
-    end = float(t[-1]) or 1e-9  # of the start alone
-    run = solve_ivp(rate, (0.0, end), begin, "DOP853", t_eval=t, events=far, rtol=local[0], atol=local[1])
+    begin, end = _normal_start(scene, forms, order, start), float(t[-1]) or 1e-9  # of the start alone
+    run = solve_ivp(rate, (0.0, end), begin, "DOP853", t_eval=t, events=far, rtol=1e-13, atol=1e-16)
     if run.status != 0:
         raise DomainError("averaged: the swing's centre moves far from where it began; use model='minimal'")
-    return run.y.T, int(run.nfev)
-
-
-def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
-    """States of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations."""
-    slow, evaluations = slow_course(forms, order, normal_start(scene, forms, order, start), t)
-    normal = slow * np.exp(swing_rates(forms) * t[:, None])
-    return states_at(scene, forms, order, normal, start[2]), evaluations
+    normal, maps = run.y.T * np.exp(swing * t[:, None]), _sums(tuple(f.through(order - 1) for f in forms.maps))
+    old = np.concatenate([maps.at(part) for part in np.array_split(normal, len(normal) // _AT_ONCE + 1)])
+    x = (old @ form.vectors.T).real
+    q = x[:, :3] + [forms.lean, 0.0, start[2]]
+    M, g = _momenta_at(scene, q)
+    return np.hstack([q, np.linalg.solve(M, (x[:, 3:] + forms.momentum - g)[..., None])[..., 0]]), int(run.nfev)
 
 
 def _centre(scene: Scene, state: Array) -> float:
     """The lean U of the centre about which a state of `minimal` swings. Raises DomainError where that is far from it."""
-    forms = forms_about(scene, float(state[0]), 2)
+    forms = _forms_about(scene, float(state[0]), 2)
     slow = _linear(scene, forms, state)
     slow[[0, 3]] = 0.0
     off = float((forms.form.vectors[0] @ slow).real)
@@ -274,7 +254,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
 
     def states(order: int, through: int, start: Array, t: Array) -> Array:
         nonlocal spent
-        sampled, evaluations = _states(one, forms_about(one, lean, order), through, start, t)
+        sampled, evaluations = _states(one, _forms_about(one, lean, order), through, start, t)
         spent += evaluations
         return sampled
 
@@ -288,7 +268,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
         rounded = _ROUNDED * (1 + PACE * grid)
         # Two orders fall as the square of the motion. The first difference may be of another kind, as the turning about the joint
         # line, which H₂ has not, or the last one nearly vanish, as beside the paired precession: no smaller fall is believed.
-        square = float(np.abs(normal_start(one, forms_about(one, lean, order), order, starts[0])).max()) ** 2
+        square = float(np.abs(_normal_start(one, _forms_about(one, lean, order), order, starts[0])).max()) ** 2
         ratio = np.maximum(last / (before + 10 * rounded), square)
         last = np.maximum(last, square * before)
         errors = np.where(ratio < _SLOWEST, FALLING.value * ratio * last, UNKNOWN) + rounded
@@ -303,7 +283,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
         s = t * units.rate
         early, later = s[s < begin], s[s >= begin] - begin
         parts = [_pulsed(one, early, 0)[0]] if len(early) else []
-        parts += [_states(one, forms_about(one, lean, order), order, starts[0], later)[0]] if len(later) else []
+        parts += [_states(one, _forms_about(one, lean, order), order, starts[0], later)[0]] if len(later) else []
         seen = MODEL.observe(one, np.vstack(parts))
         return seen.axes, seen.rates * units.rate
 

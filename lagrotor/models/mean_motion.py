@@ -1,7 +1,8 @@
-"""The slow motion after a shock, measured on exact runs: mean rates, the force that cancels a drift, times to leave.
+"""The slow motion measured on exact runs: mean rates after a shock, the force that cancels a drift, times to leave, and by how
+much the closed forms of `theory` for them are wrong.
 
 Oscillations are averaged out by the weight exp(−1/(u (1 − u))) over the window, u from 0 to 1: of one with n turns within
-it about exp(−sqrt(4 pi n)) is left (`mean_error`). A mean rate depends on the window besides, as the rate itself changes.
+it about exp(−sqrt(4 pi n)) is left. A mean rate depends on the window besides, as the rate itself changes.
 """
 
 from dataclasses import replace
@@ -13,23 +14,25 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.models.model import Array, scenes_of
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.arrays import check_times
+from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.theory.averaged_motion import time_to_reach
 from lagrotor.theory.charged_particle import guiding_centre
-from lagrotor.theory.drift_after_shock import cancelling_force
+from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_shock, wander_after_shock
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.shock_response import shock_response
 
 _SAMPLES = 32  # a turn of the swing
-_AT_ENDS = 185.51  # 2 sqrt(pi)/(e Z), Z = 0.0070298584
-_ROUNDED = 1e-15
-_CENTRES = 9  # of the exact motion within a swing
-_LONGEST, _MOST = 3, 10_000  # times what the averaged motion takes, of an exact run; swings that it lasts
+_LEAST, _MOST = (
+    4,
+    10_000,
+)  # swings of an exact run: below, no mean tells the drift from the swing; beyond, it takes too long
+_LONGEST = 3  # times what the averaged motion takes, of an exact run
 
 
 def mean_over(t: Array, values: Array) -> float:
-    """Mean of values (n,) at evenly spaced times t (n,), oscillations averaged out.
+    """Return the mean of values (n,) at evenly spaced times t (n,), oscillations averaged out.
 
     Raises:
         DomainError: for n < 8.
@@ -41,42 +44,20 @@ def mean_over(t: Array, values: Array) -> float:
     return float((weight * values[1:-1]).sum() / weight.sum())
 
 
-def mean_error(values: Array, turns: float) -> float:
-    """What an oscillation of `turns` periods within the window can add to `mean_over` of values (…, n).
-
-    The amplitude, at most half the range of the values over cos(pi turns/(n − 1)), times the weight's Fourier transform, to
-    which the ends of the window contribute, where the weight is exp(−1/u − 1):
-
-        2 sqrt(pi)/(e Z) (2 pi turns)^(−3/4) exp(−sqrt(4 pi turns)),    Z = ∫ exp(−1/(u (1 − u))) du,
-
-    whose next term, −0.57/sqrt(2 pi turns) of it, is negative. The run's own tolerance comes on top.
-
-    Raises:
-        DomainError: below 4 turns, or with fewer than 3 values a turn, where it is no bound.
-    """
-    if not 4 <= turns <= (values.shape[-1] - 1) / 3:
-        raise DomainError(
-            f"mean_error: {values.shape[-1]} values over {turns:g} turns: take 4 turns or more, and 3 values or more of each"
-        )
-    left = _AT_ENDS * (2 * np.pi * turns) ** -0.75 * np.exp(-np.sqrt(4 * np.pi * turns))
-    amplitude = np.ptp(values) / 2 / np.cos(np.pi * turns / (values.shape[-1] - 1))
-    return float(left * amplitude + _ROUNDED * np.abs(values).max())
-
-
 def turning_rate(run: Trajectory) -> float:
-    """Mean alpha' (rad/s) of both axes over a run of evenly spaced times, alpha the angle about the joint line."""
+    """Return the mean alpha' (rad/s) of both axes over a run of evenly spaced times, alpha the angle about the joint line."""
     r, v = run.axes, run.rates
     rate = (r[..., 1] * v[..., 2] - r[..., 2] * v[..., 1]) / (r[..., 1] ** 2 + r[..., 2] ** 2)
     return mean_over(run.t, rate.mean(0))
 
 
 def wandering_rate(run: Trajectory) -> float:
-    """Mean x' (1/s) of both axes over a run of evenly spaced times."""
+    """Return the mean x' (1/s) of both axes over a run of evenly spaced times."""
     return mean_over(run.t, run.rates[..., 0].mean(0))
 
 
-def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
-    """An exact run from the end of a scene's shock, evenly sampled.
+def run_after(scene: Scene, turns: float = 24, tol: float = 1e-11) -> Trajectory:
+    """Return an exact run from the end of a scene's shock, evenly sampled.
 
     Args:
         scene: with a shock.
@@ -90,12 +71,12 @@ def run_after(scene: Scene, turns: int = 24, tol: float = 1e-11) -> Trajectory:
     if scene.shock is None or response.frequency == 0:
         raise InputError("run_after: the scene needs a shock and a spin")
     begin = scene.shock.end
-    t = np.linspace(begin, begin + turns * 2 * np.pi / response.frequency, turns * _SAMPLES + 1)
+    t = np.linspace(begin, begin + turns * 2 * np.pi / response.frequency, round(turns * _SAMPLES) + 1)
     return simulate(scene, [0.0, *t], "minimal", tol).after(begin)
 
 
-def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
-    """F_y (N) beside the scene's force along x for which the exact mean turning over `turns` swings vanishes.
+def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
+    """Return F_y (N) beside the force along x for which the exact mean turning over `turns` swings vanishes.
 
     To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time.
 
@@ -123,7 +104,7 @@ def exact_cancelling_force(scene: Scene, turns: int = 24) -> float:
 
 
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
-    """Time (s) from the shock's peak until the mean of both x, averaged over six swings, reaches ± `bound`.
+    """Return the time (s) from the shock's peak until the mean of both x, averaged over six swings, reaches ± `bound`.
 
     Args:
         scene: with a shock.
@@ -131,36 +112,97 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
         longest: s, after which it is given up.
 
     Raises:
-        DomainError: when it does not within `longest`.
+        DomainError: when it does not within `longest`, or does within the first swings.
     """
-    time = _time_to_wander(scene, bound, longest)
-    if time == np.inf:
+    run = run_after(scene, 6 + int(np.ceil(longest * shock_response(scene).frequency / (2 * np.pi))), 1e-9)
+    t, values, shock = run.t, run.axes[..., 0].mean(0), scene.shock
+    assert shock is not None
+    u = (np.arange(6 * _SAMPLES) + 0.5) / (6 * _SAMPLES)
+    weight = np.exp(-1 / (u * (1 - u)))
+    mean = np.abs(np.convolve(values, weight / weight.sum(), "valid"))
+    if mean.max() < bound:
         raise DomainError(f"the bound {bound:g} is not reached within {longest:g} s")
-    return time
+    if (i := int(np.argmax(mean >= bound))) == 0:
+        raise DomainError(f"the bound {bound:g} is reached within the first swings: take a larger one")
+    index = i - 1 + (bound - mean[i - 1]) / (mean[i] - mean[i - 1]) + (len(u) - 1) / 2
+    return float(t[0] + index * (t[1] - t[0]) - shock.at)
+
+
+def toppling_error(scene: Scene, duration: float) -> float:
+    """Return how far (rad/s) `toppling_after_shock` is from the exact mean rate.
+
+    The mean is from the pulse's end to `duration` s after its peak.
+
+    Raises:
+        InputError: as `toppling_after_shock`, or the duration is no finite number.
+        DomainError: below 4 swings after the pulse, or beyond 10⁴.
+    """
+    law = toppling_after_shock(scene)
+    return abs(turning_rate(run_after(scene, _turns(scene, duration, "toppling_error"))) - law)
+
+
+def wander_error(scene: Scene, duration: float) -> float:
+    """Return how far (1/s) `wander_after_shock` is from the exact mean rate of x, over the same time as in `toppling_error`.
+
+    Raises:
+        InputError: as `toppling_error`.
+        DomainError: as `toppling_error`.
+    """
+    law = wander_after_shock(scene)
+    return abs(wandering_rate(run_after(scene, _turns(scene, duration, "wander_error"))) - law)
+
+
+def cancelling_force_error(scene: Scene, duration: float) -> float:
+    """Return how far (N) `cancelling_force` is from the force that leaves no exact mean turning.
+
+    The mean is over the same time as in `toppling_error`.
+
+    Raises:
+        InputError: as `toppling_error`.
+        DomainError: as `toppling_error` and `exact_cancelling_force`.
+    """
+    law, turns = cancelling_force(scene), _turns(scene, duration, "cancelling_force_error")
+    return abs(exact_cancelling_force(scene, turns) - law) if law else 0.0  # nothing along x, nothing to cancel
+
+
+def _turns(scene: Scene, duration: float, where: str) -> float:
+    """Return the swings from the pulse's end to `duration` s after its peak."""
+    assert scene.shock is not None
+    after, turn = scene.shock.end - scene.shock.at, 2 * np.pi / natural_rate(scene)
+    turns = (finite_number(duration, f"{where}: duration", "s") - after) / turn
+    if not _LEAST * (1 - 1e-9) <= turns <= _MOST:
+        raise DomainError(
+            f"{where}: duration = {duration:g} s is {turns:.3g} swings after the pulse, over which no mean is known: take "
+            f"{_LEAST * turn + after:.3g} to {_MOST * turn + after:.3g} s after its peak"
+        )
+    return turns
 
 
 def time_to_reach_error(scene: Scene, x: float) -> float:
-    """How far (s) `time_to_reach` is from the time at which the exact mean over six swings (`time_to_wander`) gets there.
+    """Return how far (s) `time_to_reach` is from the time at which the exact mean over six swings (`time_to_wander`) gets there.
 
-    A sample of that run, 1/32 swing, is added. inf where either does not get there, the exact one within 3 times as long.
+    A sample of that run, 1/32 swing, is added. It is inf where the averaged motion does not get there.
 
     Raises:
         InputError: as `time_to_reach`.
-        DomainError: likewise, where x is reached within the first swings, and where the exact run is longer than 10⁴ swings.
+        DomainError: as `time_to_reach`, where the exact motion reaches x within the first swings or not within 3 times as
+            long, and where its run is longer than 10⁴ swings.
     """
     law, turn = time_to_reach(scene, x), 2 * np.pi / natural_rate(scene)
-    swings = _LONGEST * law / turn
-    if _MOST < swings < np.inf:
+    if law == np.inf:
+        return law
+    if (swings := _LONGEST * law / turn) > _MOST:
         raise DomainError(
             f"time_to_reach_error: the exact run takes up to {swings:.2g} swings, more than {_MOST}: the averaged motion gives "
             f"{law:.4g} s; take a larger shock or a smaller x"
         )
-    return float(abs(_time_to_wander(scene, x, _LONGEST * law) - law)) + turn / _SAMPLES if law < np.inf else np.inf
+    return abs(time_to_wander(scene, x, _LONGEST * law) - law) + turn / _SAMPLES
 
 
 def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
-    """How far (rad) `guiding_centre(scene).path(t)` is from the exact motion, (n,): in beta, h or alpha from the centre of the
-    exact state, the most in a swing about each time, as that centre, of leading order itself, swings a little.
+    """Return how far (rad), in beta, h or alpha, `guiding_centre(scene).path(t)` is from the centre of the exact state, (n,).
+
+    The centre of the exact state, of leading order itself, swings a little.
 
     Raises:
         InputError: as `guiding_centre` and its path.
@@ -173,29 +215,8 @@ def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
             f"guiding_centre_error: the exact run is {swings:.2g} swings long, more than {_MOST}: take earlier times, or compare "
             "with lagrotor.simulate"
         )
-    centre.path(times)  # refuses what it does not reach
-    around = np.maximum(times[:, None] + turn * (np.arange(_CENTRES) / (_CENTRES - 1) - 0.5), 0.0)
-    each, of = np.unique(np.append(around, 0.0), return_inverse=True)
-    run, path = simulate(scene, each, "minimal", 1e-9), centre.path(each)
-    off = path - [guiding_centre(start).place for start in scenes_of(scene, run)]
+    path = centre.path(times)
+    run = simulate(scene, np.union1d(0.0, times), "minimal", 1e-9)
+    off = path - [guiding_centre(start).place for start in scenes_of(scene, run)][-len(times) :]
     off[:, 2] = (off[:, 2] + np.pi) % (2 * np.pi) - np.pi
-    return np.asarray(np.abs(off).max(1)[of[:-1]].reshape(around.shape).max(1))
-
-
-def _time_to_wander(scene: Scene, bound: float, longest: float) -> float:
-    """As `time_to_wander`; inf where it is not reached."""
-    run = run_after(scene, 6 + int(np.ceil(longest * shock_response(scene).frequency / (2 * np.pi))), 1e-9)
-    t, values, shock = run.t, run.axes[..., 0].mean(0), scene.shock
-    assert shock is not None
-    u = (np.arange(6 * _SAMPLES) + 0.5) / (6 * _SAMPLES)
-    weight = np.exp(-1 / (u * (1 - u)))
-    mean = np.convolve(values, weight / weight.sum(), "valid")
-    centre = t[0] + (np.arange(len(mean)) + (len(u) - 1) / 2) * (t[1] - t[0])
-    beyond = np.abs(mean) >= bound
-    if not beyond.any():
-        return np.inf
-    i = int(np.argmax(beyond))
-    if i == 0:
-        raise DomainError(f"the bound {bound:g} is reached within the first swings: take a larger one")
-    share = (bound - abs(mean[i - 1])) / (abs(mean[i]) - abs(mean[i - 1]))
-    return float(centre[i - 1] + share * (centre[i] - centre[i - 1]) - shock.at)
+    return np.asarray(np.abs(off).max(1))

@@ -11,24 +11,16 @@ if TYPE_CHECKING:
     from lagrotor.theory.averaged_motion import slow_motion as slow_motion
     from lagrotor.theory.averaged_motion import time_to_reach as time_to_reach
     from lagrotor.theory.averaged_motion import turns_back as turns_back
-    from lagrotor.theory.averaging import SWING_LETTERS as SWING_LETTERS
-    from lagrotor.theory.averaging import averaged_hamiltonian as averaged_hamiltonian
-    from lagrotor.theory.averaging import next_average as next_average
-    from lagrotor.theory.averaging import oscillating_hamiltonian as oscillating_hamiltonian
-    from lagrotor.theory.averaging import over_swing as over_swing
-    from lagrotor.theory.averaging import quartic_lagrangian as quartic_lagrangian
-    from lagrotor.theory.averaging import quartic_routhian as quartic_routhian
-    from lagrotor.theory.averaging import slow_rates as slow_rates
     from lagrotor.theory.charged_particle import GuidingCentre as GuidingCentre
     from lagrotor.theory.charged_particle import guiding_centre as guiding_centre
     from lagrotor.theory.charged_particle import leaning_field as leaning_field
     from lagrotor.theory.charged_particle import leaning_state as leaning_state
     from lagrotor.theory.closed_form import ClosedForm as ClosedForm
+    from lagrotor.theory.drift_after_shock import averaged_hamiltonian as averaged_hamiltonian
     from lagrotor.theory.drift_after_shock import cancelling_impulse as cancelling_impulse
-    from lagrotor.theory.drift_after_shock import mean_square_twist as mean_square_twist
-    from lagrotor.theory.drift_after_shock import second_order_momentum as second_order_momentum
     from lagrotor.theory.drift_after_shock import shock_toppling as shock_toppling
     from lagrotor.theory.drift_after_shock import shock_wander as shock_wander
+    from lagrotor.theory.drift_after_shock import slow_rates as slow_rates
     from lagrotor.theory.drift_after_shock import wander_after_shock as wander_after_shock
     from lagrotor.theory.impulse_response import impulse_matrices as impulse_matrices
     from lagrotor.theory.impulse_response import shock_displacement as shock_displacement
@@ -45,10 +37,8 @@ if TYPE_CHECKING:
     from lagrotor.theory.paired_precession.stability import growth_squared as growth_squared
     from lagrotor.theory.paired_precession.stability import most_growth as most_growth
     from lagrotor.theory.parallel_twist import lyapunov_criterion as lyapunov_criterion
-    from lagrotor.theory.parallel_twist import parallel_residual as parallel_residual
     from lagrotor.theory.parallel_twist import parallel_scene as parallel_scene
     from lagrotor.theory.parallel_twist import twist_bounded as twist_bounded
-    from lagrotor.theory.parallel_twist import twist_coefficients as twist_coefficients
     from lagrotor.theory.parallel_twist import twist_growth as twist_growth
     from lagrotor.theory.parallel_twist import twist_growth_error as twist_growth_error
     from lagrotor.theory.parallel_twist import twist_multiplier_growth as twist_multiplier_growth
@@ -57,12 +47,9 @@ if TYPE_CHECKING:
     from lagrotor.theory.rate_shift import frequency_shift as frequency_shift
     from lagrotor.theory.rate_shift import shift_coefficient as shift_coefficient
     from lagrotor.theory.rate_shift import twist_coefficient as twist_coefficient
-    from lagrotor.theory.toppling import linear_toppling as linear_toppling
     from lagrotor.theory.toppling import toppling_growth as toppling_growth
     from lagrotor.theory.toppling import toppling_polynomial as toppling_polynomial
-    from lagrotor.theory.toppling import toppling_residual as toppling_residual
     from lagrotor.theory.toppling import toppling_threshold as toppling_threshold
     from lagrotor.theory.toppling import twisted_lagrangian as twisted_lagrangian
-    from lagrotor.theory.toppling import uniform_toppling as uniform_toppling
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -31,15 +31,14 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.arrays import Array, check_times
 from lagrotor.numerics.generated import generated
-from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.calibrated_factors import LARGEST_SWING
 
 if TYPE_CHECKING:
     import sympy as sp
 
-_LOCAL = 1e-9, 1e-12  # of the path's integration
 _IN_LINE = 0.999  # sin(h)/(k cos beta), beyond which the bar lies across the joint line no more: the coordinates end
+_LOCAL = 1e-9, 1e-12  # of the path's integration
 
 
 class _Place(NamedTuple):
@@ -64,28 +63,12 @@ class GuidingCentre:
     action: float
 
     @property
-    def momentum(self) -> float:
-        """P about the joint line, g_alpha + u b_alpha (kg m²/s)."""
-        at = _at(self.scene, *self.place[:2])
-        return float(at.flux + self.speed * at.along[2])
-
-    @property
     def energy(self) -> float:
         """H = J Omega + u²/2 (J)."""
         return self.action * _at(self.scene, *self.place[:2]).rate + self.speed**2 / 2
 
-    def energy_at(self, beta: float, h: float) -> float:
-        """J Omega + (P − g_alpha)²/(2 b_alpha²) (J) at another lean and half-angle (rad): `energy` along the path.
-
-        Raises:
-            InputError: what is no number.
-            DomainError: where the bar is in line with an axis or does not reach.
-        """
-        at = _at(self.scene, finite_number(beta, "energy_at: beta", "rad"), finite_number(h, "energy_at: h", "rad"))
-        return float(self.action * at.rate + ((self.momentum - at.flux) / at.along[2]) ** 2 / 2)
-
     def path(self, t: ArrayLike) -> Array:
-        """(beta, h, alpha) in rad at ascending times t (n,) in s after the scene's start: (n, 3), to leading order in the motion.
+        """Return (beta, h, alpha) in rad at ascending times t (n,) in s after the scene's start: (n, 3), to leading order.
 
         No bound of what is left is known; `lagrotor.models.guiding_centre_error` measures it on the exact motion.
 
@@ -111,14 +94,11 @@ class GuidingCentre:
             return _IN_LINE * self.scene.k * float(np.cos(y[0])) - abs(float(np.sin(y[1])))
 
         in_line.terminal = True  # type: ignore[attr-defined]
-        begin = [*self.place, self.speed]
-        run = solve_ivp(
-            rhs, (0.0, times[-1] or 1e-9), begin, "DOP853", t_eval=times, events=in_line, rtol=_LOCAL[0], atol=_LOCAL[1]
-        )
+        begin, end = [*self.place, self.speed], times[-1] or 1e-9
+        run = solve_ivp(rhs, (0.0, end), begin, "DOP853", t_eval=times, events=in_line, rtol=_LOCAL[0], atol=_LOCAL[1])
         if run.status != 0:
-            end = next(iter(run.t_events[0]), run.t[-1] if len(run.t) else 0.0)
             raise DomainError(
-                f"guiding_centre: the bar comes into line with an axis {end:.3g} s after the start; take a shorter time, or "
+                f"guiding_centre: the bar comes into line with an axis before {times[-1]:.3g} s; take a shorter time, or "
                 "lagrotor.simulate"
             )
         return np.asarray(run.y[:3].T)

@@ -1,14 +1,18 @@
-"""The slow motions after a shock of opposite spins from rest, to second and third order in the shock.
+"""Opposite spins averaged over the fast paired precession, at any lean, and the slow drift that a shock from rest starts.
 
-A shock F_y gives the pair the momentum −p_y about the joint line, p_y = R times the impulse along y, and the exact
-integral P = A (alpha_1' + alpha_2') + G (x_1 − x_2) + … keeps it. The bar lets the axes twist apart only by leaning
-towards each other, x_1 − x_2 = (y_1 − y_2)²/(2 k): a twist, of either sign, takes some of this momentum, and the
-pair turns about the joint line,
+beta is the lean of the mean axis along the joint line, h half the angle between the axes. To leading order they swing as
+beta = beta_s + s/sqrt(sigma) cos Phi, h = eta + s sin Phi with the same frequency at every lean, and s² is the adiabatic
+invariant. The centre (beta_s, eta), conjugate to each other through 2 G, has the averaged Hamiltonian
 
-    <y'> = ( p_y + G <(y_1 − y_2)²> / (2 k) ) / (2 A),        A = a + b.
+    H = G²/((a + b) k²) W,    W = ((eta² + (s² − p)/2)² − 3 s⁴/8) / cos² beta_s − kappa s² eta²,
 
-A shock along x twists the pair by p_x/G and makes it swing as much; so it topples even without a force along y, in the
-stable sense, and a force along y against it cancels the drift.
+up to a part in s alone, with p = k P/G, P the momentum about the joint line, and kappa = (sigma − 1) k²/2.
+
+A shock (p_x, p_y) on rotor 1, upright, leaves eta = p_x/(2 G), P = −p_y and s² = A² (p_x² + sigma p_y²)/(4 G²). The bar lets the
+axes twist apart only by leaning towards each other, so that a twist of either sign takes momentum and the pair turns about
+the joint line; turning carries the twist into x.
+
+Derived in derivations/t11_slow_motion.py and t6_shock_drift.py; `theory.averaged_motion` follows the motion.
 """
 
 from functools import cache
@@ -16,73 +20,49 @@ from math import pi, sqrt
 
 import sympy as sp
 
-from lagrotor.algebra import derivative
 from lagrotor.errors import InputError
-from lagrotor.pair.lagrangians import joint_line_momentum, link_constraint
-from lagrotor.pair.notation import AXES, G_1, G_2, HALF, LEAN, P_1, P_2, P_X, SWING, G, P, a, att, b, k, p_y
+from lagrotor.pair.notation import HALF, LEAN, P_X, SWING, G, P, a, att, b, k, p_y
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.closed_form import ClosedForm
-from lagrotor.theory.impulse_response import impulse_matrices
 from lagrotor.theory.shock_response import shock_response
+
+_SHAPE = (a + b) / (a - b)  # sigma
 
 
 @cache
-def second_order_momentum() -> sp.Expr:
-    """P through second order in the axes' deviation from upright, in y_1, y_2 and their rates.
-
-    The bar's constraint gives x_1 − x_2 to that order; the terms y z' and (z − 1) y' are of third order.
-    """
-    x1, y1, z1, x2, y2, z2 = AXES.q
-    eps = sp.Symbol("epsilon")
-    upright = {z1: sp.sqrt(1 - x1**2 - y1**2), z2: sp.sqrt(1 - x2**2 - y2**2)}
-    apart = sp.Symbol("x_12")  # x_1 − x_2, second order
-    bar = link_constraint(sp.Matrix(AXES.q[:3]), sp.Matrix(AXES.q[3:])).subs(upright).subs(x1, x2 + eps**2 * apart)
-    bar = bar.subs({y1: eps * y1, y2: eps * y2, x2: eps * x2}, simultaneous=True)
-    lean = sp.solve(derivative(derivative(bar, eps), eps).subs(eps, 0), apart, simplify=False)[0]
-    still = {AXES.v[2]: 0, AXES.v[5]: 0, z1: 1, z2: 1, G_1: G, G_2: -G}
-    momentum = joint_line_momentum().subs(still)
-    return sp.expand(momentum.subs(x1, x2 + lean))
+def averaged_hamiltonian() -> sp.Expr:
+    """Return H in beta_s, eta, s and P, with its part in s alone (J)."""
+    square, inner = SWING**2, HALF**2 + (SWING**2 - k * P / G) / 2
+    W = (inner**2 - 3 * square**2 / 8) / sp.cos(LEAN) ** 2 - (_SHAPE - 1) * k**2 / 2 * square * HALF**2
+    return G**2 / ((a + b) * k**2) * W + G**2 * (a - 2 * b) * square**2 / (4 * (a**2 - b**2))
 
 
-def mean_square_twist() -> sp.Expr:
-    """<(y_1 − y_2)²> over the swing after a shock on rotor 1, from the linear response of opposite spins."""
-    matrices = impulse_matrices()
-    impulse = sp.Matrix([P_X, P_1, P_2])
-    opposite = {G_1: G, G_2: -G, P_1: p_y, P_2: 0}
-    apart = sp.Matrix([[0, 1, -1]])
-    offset = sp.factor((apart * matrices.displacement * impulse)[0].subs(opposite))
-    swing = sp.factor((apart * matrices.swing * impulse)[0].subs(opposite))
-    squared = sp.factor(matrices.frequency_squared.subs(opposite))
-    return sp.expand(offset**2 * (1 + att**2 / 2) + att**2 / 2 * sp.cancel(swing**2 / squared))
+@cache
+def slow_rates() -> tuple[sp.Expr, sp.Expr]:
+    """Return (beta_s', eta') of the centre, to third order in eta, s and the root of P at any lean."""
+    mean = averaged_hamiltonian()
+    return sp.factor(mean.diff(HALF) / (2 * G)), sp.factor(-mean.diff(LEAN) / (2 * G))
 
 
 @cache
 def shock_toppling() -> ClosedForm:
-    """alpha' of the mean motion after a shock (p_x, p_y) on rotor 1 of opposite spins, to second order (rad/s).
+    """Return alpha' of the mean motion after a shock (p_x, p_y) on rotor 1 of opposite spins, to second order (rad/s).
 
     −(p_y + ((2 + A²) p_x² + A² sigma p_y²)/(4 k G)) / (2 (a + b)),  sigma = (a + b)/(a − b), A = exp(−(Omega_0 w)²/4).
     Arguments: p_x, p_y (N m s), A, G = G_1 = −G_2, a, b, k.
     """
-    _, y1, _, _, y2, _ = AXES.q
-    turning, twisting = AXES.v[1], AXES.v[4]
-    momentum = second_order_momentum()
-    mean_rate = sp.Symbol("alpha_mean")
-    averaged = momentum.subs({turning: -mean_rate, twisting: -mean_rate})
-    averaged = sp.expand(averaged).subs({y1: y2 + sp.Symbol("d")}).expand()
-    averaged = averaged.subs(sp.Symbol("d") ** 2, mean_square_twist())
-    rate = sp.solve(sp.expand(averaged) + p_y, mean_rate, simplify=False)[0]
-    return _form("shock_toppling", "alpha'", sp.factor(rate), (P_X, p_y, att, G, a, b, k), (), 2)
+    rate = _after_shock(averaged_hamiltonian().diff(P))
+    return _form("shock_toppling", "alpha'", rate, (P_X, p_y, att, G, a, b, k), (), 2)
 
 
 @cache
 def cancelling_impulse() -> ClosedForm:
-    """p_y that cancels the drift after a shock p_x on rotor 1: the small root of shock_toppling = 0 (N m s).
+    """Return p_y that cancels the drift after a shock p_x on rotor 1: the small root of shock_toppling = 0 (N m s).
 
     p_y = −2 (2 + A²) p_x² / (4 k G (1 + sqrt(1 − A² sigma (2 + A²) p_x²/(4 k² G²)))). Arguments: p_x, A, G, a, b, k.
     Beyond the root's domain no force along y stops the drift.
     """
-    quadratic = sp.Poly(sp.numer(sp.together(shock_toppling().expressions[0])), p_y)
-    two, one, zero = quadratic.all_coeffs()
+    two, one, zero = sp.Poly(sp.numer(sp.together(shock_toppling().expressions[0])), p_y).all_coeffs()
     inside = sp.factor(1 - 4 * sp.cancel(two * zero / one**2))
     root = sp.factor(-2 * sp.cancel(zero / one)) / (1 + sp.sqrt(inside))
     return _form("cancelling_impulse", "p_y", root, (P_X, att, G, a, b, k), (sp.Ge(inside, 0),), 2)
@@ -90,21 +70,20 @@ def cancelling_impulse() -> ClosedForm:
 
 @cache
 def shock_wander() -> ClosedForm:
-    """X' of the mean x after a shock (p_x, p_y) on rotor 1 of opposite spins, to third order (1/s).
+    """Return X' of the mean x after a shock (p_x, p_y) on rotor 1 of opposite spins, to third order (1/s).
 
-    From the averaged motion: the mean twist Delta = p_x/G stays at first, and turning about the joint line carries it into x,
+    With the mean twist Delta = p_x/G and d² = A² (p_x² + sigma p_y²)/G², the swing's part,
 
-        X' = Delta ( (2 G Delta² + G d² + 4 k p_y) / k² − G b d² / (a − b) ) / (8 (a + b)),
+        X' = Delta ( (2 G Delta² + G d² + 4 k p_y) / k² − G b d² / (a − b) ) / (8 (a + b)).
 
-    with d² = A² (p_x² + sigma p_y²)/G² the swing's part. Without p_y it goes as the cube of the shock, so that x keeps
-    within a given bound for a time that falls as the cube. `theory.averaged_motion` follows it from there.
-    Arguments: p_x, p_y, A, G, a, b, k.
+    Without p_y it goes as the cube of the shock. Arguments: p_x, p_y, A, G, a, b, k.
     """
-    from lagrotor.theory.averaging import slow_rates
+    return _form("shock_wander", "X'", _after_shock(slow_rates()[0]), (P_X, p_y, att, G, a, b, k), (), 3)
 
-    square = att**2 * (P_X**2 + (a + b) / (a - b) * p_y**2) / (4 * G**2)
-    rate = slow_rates()[0].subs({LEAN: 0, SWING: sp.sqrt(square), HALF: P_X / (2 * G), P: -p_y})
-    return _form("shock_wander", "X'", sp.factor(rate), (P_X, p_y, att, G, a, b, k), (), 3)
+
+def _after_shock(e: sp.Expr) -> sp.Expr:
+    swing = att * sp.sqrt(P_X**2 + _SHAPE * p_y**2) / (2 * G)
+    return sp.factor(e.subs({LEAN: 0, HALF: P_X / (2 * G), P: -p_y, SWING: swing}))
 
 
 def _form(
@@ -115,23 +94,15 @@ def _form(
     domain: tuple[sp.Basic, ...],
     order: int,
 ) -> ClosedForm:
-    return ClosedForm(
-        name,
-        (output,),
-        (expression,),
-        arguments,
-        (sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0), *domain),
-        "opposite spins at rest upright, a shock on rotor 1",
-        "5, 5.2.1",
-        order,
-        P_X,
-    )
+    domain = (sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0), *domain)
+    assumptions = "opposite spins at rest upright, a shock on rotor 1"
+    return ClosedForm(name, (output,), (expression,), arguments, domain, assumptions, "5, 5.2.1", order, P_X)
 
 
 def toppling_after_shock(scene: Scene) -> float:
-    """Mean rate alpha' (rad/s) about the joint line just after the scene's shock, to second order; opposite spins.
+    """Return the mean rate alpha' (rad/s) about the joint line just after the shock of opposite spins, to second order.
 
-    `lagrotor.models.toppling_error` gives its error.
+    `lagrotor.models.toppling_error` measures its error.
 
     Raises:
         InputError: as `shock_response` does, and unless the spins are opposite.
@@ -140,9 +111,9 @@ def toppling_after_shock(scene: Scene) -> float:
 
 
 def wander_after_shock(scene: Scene) -> float:
-    """Mean rate of x (1/s, in units of R) just after the scene's shock, to third order; opposite spins.
+    """Return the mean rate of x (1/s, in units of R) just after the shock of opposite spins, to third order.
 
-    `lagrotor.models.wander_error` gives its error.
+    `lagrotor.models.wander_error` measures its error.
 
     Raises:
         InputError: as `toppling_after_shock`.
@@ -154,7 +125,7 @@ def wander_after_shock(scene: Scene) -> float:
 
 
 def cancelling_force(scene: Scene) -> float:
-    """F_y (N) which, added to the scene's shock along x, leaves no mean turning about the joint line, to second order.
+    """Return F_y (N) which, added to the shock along x, leaves no mean turning about the joint line, to second order.
 
     The force that does so on exact runs depends on how long one averages: `lagrotor.models.cancelling_force_error`.
 
@@ -164,8 +135,8 @@ def cancelling_force(scene: Scene) -> float:
     """
     p_x, _, *others = _arguments(scene, "cancelling_force")
     assert scene.shock is not None
-    wanted = float(cancelling_impulse()(p_x, *others))  # type: ignore[arg-type]
-    return wanted / (scene.rotor.length * scene.shock.width * sqrt(pi))
+    impulse = float(cancelling_impulse()(p_x, *others))  # type: ignore[arg-type]
+    return impulse / (scene.rotor.length * scene.shock.width * sqrt(pi))
 
 
 def _arguments(scene: Scene, where: str) -> tuple[float, ...]:
@@ -174,5 +145,4 @@ def _arguments(scene: Scene, where: str) -> tuple[float, ...]:
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0 or scene.link is None:
         raise InputError(f"{where}: needs opposite spins, not {scene.spins}")
     p_x, first, second = (float(p) for p in response.impulse)
-    ratio = scene.link.length / scene.rotor.length
-    return (p_x, first + second, response.attenuation, scene.momenta[0], *scene.inertias, ratio)
+    return (p_x, first + second, response.attenuation, scene.momenta[0], *scene.inertias, scene.k)

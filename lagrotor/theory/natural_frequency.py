@@ -1,5 +1,6 @@
-"""The natural frequency of the coupled pair, derived for any spins and any bar, and the formulas of its limits; beside it the
-steady precession of one free rotor, and the rate of the pair under the paper's ansatz from its first integrals.
+"""The natural frequency of the coupled pair, derived for any spins and any bar.
+
+Beside it the steady precession of one free rotor, and the rate of the pair under the paper's ansatz from its first integrals.
 
 `lagrotor.theory.natural_rate` evaluates them for a scene.
 """
@@ -10,11 +11,9 @@ import sympy as sp
 
 from lagrotor.mechanics import LinearSystem, euler_lagrange
 from lagrotor.mechanics.lagrangian import linear_solve
-from lagrotor.pair.lagrangians import INERTIAS, ansatz_integrals, axes_pair, rotor_lagrangian
-from lagrotor.pair.notation import ANSATZ, AXES, G_1, G_2, I3, ROTOR, A, B, G, J, K, a, b, ell, m, omega
+from lagrotor.pair.lagrangians import ansatz_integrals, axes_pair, rotor_lagrangian
+from lagrotor.pair.notation import ANSATZ, AXES, G_1, G_2, I3, ROTOR, A, B, G, J, a, b, omega
 from lagrotor.theory.closed_form import ClosedForm
-
-_G, _A, _B, _G1, _G2 = sp.symbols("G a b G_1 G_2", positive=True)
 
 
 @cache
@@ -41,33 +40,6 @@ def natural_frequency() -> ClosedForm:
         "small motion about the upright rest state, any spins, any bar",
         "5.28",
     )
-
-
-def limit_formulas() -> dict[str, tuple[str, str]]:
-    """Limit → its formula and, where the bar is changed, what it makes of a and b, as text.
-
-    equal and opposite spins, any bar; a massless bar; K = m ell²/4, the bar's mass in its ends.
-    """
-    dumbbell = sp.factor(INERTIAS[a].subs(K, m * ell**2 / 4))
-    return {
-        "equal": (_formula({_G1: _G, _G2: _G}), ""),
-        "opposite": (_formula({_G1: _G, _G2: -_G}), ""),
-        "massless": (_formula({_B: 0}), f"a = {_text(dumbbell.subs(m, 0))}, b = 0"),
-        "dumbbell": (_formula({_B: 0}), f"a = {_text(dumbbell)}, b = 0"),
-    }
-
-
-def _formula(put: dict[sp.Symbol, sp.Expr]) -> str:
-    plain = {a: _A, b: _B, G_1: _G1, G_2: _G2}
-    squared = sp.factor((natural_frequency().expressions[0] ** 2).subs(plain).subs(put))
-    squared = sp.factor(sp.expand(squared).subs(_G1**2, 2 * _G**2 - _G2**2))
-    above, below = (sp.sqrt(part) for part in sp.fraction(squared))
-    return _text(above / (below if below.is_polynomial() else sp.sqrt(sp.expand(below**2))))
-
-
-def _text(expression: sp.Expr) -> str:
-    """On one line, as people write it."""
-    return str(expression).replace("**2", "²").replace("*", " ").replace("sqrt(", "√(").replace(" - ", " − ")
 
 
 @cache

@@ -1,4 +1,4 @@
-"""The natural rate of a scene, its error and its limits, by functions generated from `lagrotor.theory.natural_frequency`."""
+"""The natural rate of a scene, its error and its limits; the functions are generated from `lagrotor.theory.natural_frequency`."""
 
 from dataclasses import dataclass, replace
 from math import hypot, pi, sqrt
@@ -9,6 +9,13 @@ from lagrotor.pair.scene import Link, Scene
 from lagrotor.theory.calibrated_factors import LARGEST_SHIFT, LARGEST_SWING, LIGHTEST_TWIST, MOST_GROWTH, NEXT_SHIFT
 from lagrotor.theory.rate_shift import frequency_shift, opposite_share, twist_coefficient
 
+# Limit → its formula and, where the bar is changed, what it makes of a and b.
+LIMIT_FORMULAS = {
+    "equal": ("G/(a + b)", ""),
+    "opposite": ("G/√(a² − b²)", ""),
+    "massless": ("G/a", "a = J, b = 0"),
+    "dumbbell": ("G/a", "a = (2 J + R² m)/2, b = 0"),
+}
 TURNS = 20  # over which the rate of a swing is held to its error
 
 
@@ -26,15 +33,6 @@ def _free_rate() -> str:
     from lagrotor.theory.natural_frequency import free_precession_rate
 
     return free_precession_rate().code()
-
-
-@generated(((),))
-def _formulas() -> str:
-    """() → what `limit_formulas` returns."""
-    from lagrotor.theory.natural_frequency import limit_formulas
-
-    rows = "".join(f"        {name!r}: {pair!r},\n" for name, pair in limit_formulas().items())
-    return f"def formulas():\n    return {{\n{rows}    }}"
 
 
 def natural_rate(scene: Scene) -> float:
@@ -132,8 +130,7 @@ def natural_rate_limits(scene: Scene) -> dict[str, RateLimit]:
         "massless": (replace(scene, link=Link(length)), "a bar without mass: {}"),
         "dumbbell": (replace(scene, link=Link(length, mass, mass * length**2 / 4)), "K = m ℓ²/4: {}"),
     }
-    formulas = _formulas()()
     return {
-        name: RateLimit(natural_rate(one), formulas[name][0], says.format(formulas[name][1]))
+        name: RateLimit(natural_rate(one), LIMIT_FORMULAS[name][0], says.format(LIMIT_FORMULAS[name][1]))
         for name, (one, says) in changed.items()
     }

@@ -19,37 +19,11 @@ from math import cos, pi, sin
 import numpy as np
 import sympy as sp
 
-from lagrotor.algebra import derivative
 from lagrotor.errors import DomainError, InputError
-from lagrotor.mechanics import euler_lagrange
 from lagrotor.numerics.arrays import Array
-from lagrotor.pair.notation import G_1, G_2, TWISTED, G, Phi, a, b, rho
+from lagrotor.pair.notation import G, Phi, a, b, rho
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.closed_form import ClosedForm
-from lagrotor.theory.toppling import twisted_lagrangian
-
-
-def parallel_residual() -> tuple[sp.Expr, ...]:
-    """What the equations of (U, Delta, alpha) leave of a parallel motion, Delta = 0 for all time: (U, twist, alpha).
-
-    The second is zero exactly when G_1 = G_2; the others are then the equations of one rotor.
-    """
-    _, Delta, _ = TWISTED.q
-    zero = {Delta: 0, TWISTED.v[1]: 0, TWISTED.a[1]: 0}
-    return tuple(e.subs(zero) for e in euler_lagrange(twisted_lagrangian(), TWISTED))
-
-
-@cache
-def twist_coefficients() -> tuple[sp.Expr, sp.Expr]:
-    """(inertia, stiffness) of the small twist on a parallel motion of equal spins, in U, U', U'', alpha, …:
-
-    d/dt(inertia Delta') + stiffness Delta = 0, from the quadratic part of the Lagrangian in Delta, Delta'.
-    """
-    _, Delta, _ = TWISTED.q
-    Delta_v, Delta_a = TWISTED.v[1], TWISTED.a[1]
-    equation = euler_lagrange(twisted_lagrangian().subs({G_1: G, G_2: G}), TWISTED)[1]
-    straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
-    return derivative(equation, Delta_a).subs(straight), derivative(equation, Delta).subs(straight)
 
 
 @cache

@@ -68,7 +68,6 @@ RUNS: dict[str, tuple[Any, str, int, Callable[[], object]]] = {
 def test_a_limit_of_a_run_without_length_is_not_reported(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     module, run, place, work = RUNS[name]
     monkeypatch.setattr(throughput, "_RUN", 0.1)
-    monkeypatch.setattr(throughput, "_BIG", 10_000)
     work()
     monkeypatch.setattr(module, run, _only_start(getattr(module, run), place))
     if name == "pole":
@@ -91,14 +90,6 @@ def test_a_drift_of_no_steps_and_a_chart_of_no_time_are_refused() -> None:
     # A method that evaluates and stays at the start has the whole motion as its error.
     still = benchmark("still", case, {"a": Method("trap", lambda *_: lambda tol: (0 * tips + tips[:, :1], 4))}, (1e-6,))
     assert still.points[0].error == pytest.approx(np.linalg.norm(tips - tips[:, :1], axis=-1).max())
-
-
-def test_the_closed_forms_of_the_throughput_are_compared(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(throughput, "_RUN", 0.1)
-    monkeypatch.setattr(throughput, "_BIG", 10_000)
-    monkeypatch.setattr(throughput, "corrected_trajectories", lambda order: lambda *given: np.zeros((6, 10_000)))
-    with pytest.raises(LagrotorError, match="corrected_trajectories, order 3: the benchmark did not do its work"):
-        throughput.throughput(4)
 
 
 def test_comparisons_with_other_tools_refuse_what_did_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

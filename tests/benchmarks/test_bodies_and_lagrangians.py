@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks import bodies_and_lagrangians
-from benchmarks.bodies_and_lagrangians import ARM, TOOLS, arm, bicycle, sympys_bicycle
-from lagrotor.mechanics import motion_program
-from lagrotor.numerics import operations
+from benchmarks.bodies_and_lagrangians import ARM, TOOLS, arm
 
 
 def test_an_arm_from_its_lagrangian_moves_as_its_bodies(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -23,11 +21,3 @@ def test_sympy_has_the_same_accelerations(name: str, tool: str) -> None:
     sent = list[tuple[float, float | None, float]]()
     bodies_and_lagrangians._measured(sent.append, lambda: None, name, tool)
     assert sent[0][1] is not None and sent[0][2] < 1e-9
-
-
-@pytest.mark.slow
-def test_the_bicycle_takes_few_operations() -> None:
-    """In the letters of sympy's test, all of them parameters."""
-    _, values = sympys_bicycle()
-    counts = [operations(motion_program(bicycle(bodies, values)).program) for bodies in (True, False)]
-    assert counts[0] <= 2800 and counts[1] <= 2400

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.peers import PEERS
-from benchmarks.peers.sympy_mechanics import angles, axes_of, check_odeint
+from benchmarks.peers.sympy_mechanics import check_odeint
 from lagrotor import simulate
 from lagrotor.benchmark.runner import Case, benchmark
 from lagrotor.benchmark.scenes_and_methods import CASES
@@ -82,11 +82,6 @@ def test_a_peer_with_a_step_has_its_order_and_no_more(name: str, truth: Any) -> 
     errors = np.array([off(run(step)[0], truth) for step in steps])
     assert measured_order(steps, errors) == pytest.approx(ORDERS[name], abs=0.1)
     assert errors[-1] > 1e-6
-
-
-def test_the_angles_are_of_the_scene() -> None:
-    state = np.array([angles(SCENE)])
-    np.testing.assert_allclose(axes_of(state)[:, 0], SCENE.axes, atol=1e-15)
 
 
 def test_a_solver_that_stops_is_not_taken_for_one_that_ends() -> None:

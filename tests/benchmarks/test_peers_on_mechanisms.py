@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from functools import partial
-from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -86,11 +85,6 @@ def test_two_formulations_are_decided(name: str) -> None:
     assert left.same_as(right).answer == ("nonzero" if "another" in name else "zero")
 
 
-@pytest.mark.slow
-def test_simplify_in_time() -> None:
-    assert deciding._by_simplify("heavy top, from a body and the textbook's")[1] == "zero"
-
-
 def test_simplify_is_given_its_time_and_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(deciding, "LONGEST", 0.01)
     assert deciding._by_simplify("triple pendulum, relative and absolute angles") == (0.01, "did not end")
@@ -154,10 +148,3 @@ def test_a_broken_record_is_said(tmp_path, monkeypatch: pytest.MonkeyPatch) -> N
             broken.write_text(text)
         with pytest.raises(LagrotorError, match="install lagrotor anew"):
             recorded_mechanisms()
-
-
-@pytest.mark.skipif(not all(map(find_spec, ("pydy", "mujoco", "pydrake"))), reason="needs the groups peers and engines")
-@pytest.mark.slow
-def test_the_whole_comparison_runs() -> None:
-    found = comparison.compare({"rods": (2,)})
-    assert not [x for x in found if x.reason]

@@ -1,12 +1,11 @@
 """Times in units of importing sympy: a command is run, timed and laid beside the unit. No test asserts seconds."""
 
-import sys
 from pathlib import Path
 
 import pytest
 
 from benchmarks import units
-from benchmarks.units import LONG, QUICK, Command, line, measure, measured
+from benchmarks.units import LONG, Command, line, measure, measured
 from lagrotor.errors import LagrotorError
 
 ROOT = Path(__file__).parent.parent.parent
@@ -38,9 +37,3 @@ def test_a_derivation_is_changed_only_in_the_copy(tmp_path: Path) -> None:
     assert changing.prepare is not None
     changing.prepare(tmp_path)
     assert (tmp_path / script).read_text() != (ROOT / script).read_text()
-
-
-@pytest.mark.parametrize("command", [c for c in QUICK if c.arguments[0] == "-c"], ids=lambda c: c.name)
-def test_the_first_runs_are_python_that_can_be_run(command: Command) -> None:
-    compile(command.arguments[1], command.name, "exec")
-    assert sys.executable

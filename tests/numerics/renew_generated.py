@@ -23,7 +23,6 @@ def derived_files() -> dict[Path, str]:
     for name in (
         "models.simulate",
         "models.orbits.precession",
-        "theory.averaged_motion",
         "theory.charged_particle",
         "report.page.interactive",
     ):

@@ -15,7 +15,6 @@ from lagrotor.errors import InputError
 
 UP = ((0, 0, 1), (0, 0, 1))
 TILTED = ((sin(0.3), 0, cos(0.3)), (sin(0.3), 0, cos(0.3)))
-FLAT = ((0, 1, 0), (0, 1, 0))
 
 
 def scene(**changed: Any) -> Scene:
@@ -29,9 +28,6 @@ def shock(**changed: Any) -> Shock:
 # What is built, what of the value the message repeats, what it says to do.
 REFUSED: dict[str, tuple[Callable[[], object], str, str]] = {
     "no mass": (lambda: Rotor(mass=0), "mass = 0 kg", "greater than zero"),
-    "negative mass": (lambda: Rotor(mass=-1), "mass = -1 kg", "greater than zero"),
-    "no length": (lambda: Rotor(length=0), "length = 0 m", "greater than zero"),
-    "negative length": (lambda: Rotor(length=-2), "length = -2 m", "greater than zero"),
     "no I1": (lambda: Rotor(I1=0), "I1 = 0 kg m²", "greater than zero"),
     "negative I3": (lambda: Rotor(I3=-0.5), "I3 = -0.5 kg m²", "greater than zero"),
     "flatter than a disc": (lambda: Rotor(I1=1, I3=2.001), "I3 = 2.001 exceeds 2 I1 = 2", "raise I1 or lower I3"),
@@ -39,47 +35,29 @@ REFUSED: dict[str, tuple[Callable[[], object], str, str]] = {
     "infinite": (lambda: Rotor(I1=inf), "I1 = inf", "give it in kg m²"),
     "beyond doubles": (lambda: Rotor(mass=10**400), "mass = 1000", "give it in kg"),
     "word": (lambda: Rotor(length="long"), "length = 'long'", "give it in m"),
-    "digits in a string": (lambda: Rotor(mass="1.5"), "mass = '1.5'", "give it in kg"),
-    "boolean": (lambda: Rotor(mass=True), "mass = True", "give it in kg"),
-    "none": (lambda: Rotor(mass=None), "mass = None", "give it in kg"),
-    "complex": (lambda: Rotor(mass=1j), "mass = 1j", "give it in kg"),
-    "bar of no length": (lambda: Link(length=0), "length = 0 m", "greater than zero"),
     "bar of negative mass": (lambda: Link(mass=-0.01), "mass = -0.01 kg", "must not be negative"),
     "bar of negative inertia": (lambda: Link(mass=1, inertia=-1), "inertia = -1", "must not be negative"),
     "turning without mass": (lambda: Link(inertia=0.1), "inertia = 0.1 kg m² with mass = 0", "give the bar a mass"),
-    "bar of NaN": (lambda: Link(length=nan), "length = nan", "give it in m"),
-    "bar of a boolean": (lambda: Link(mass=False), "mass = False", "give it in kg"),
     "flat force": (lambda: shock(force=(1, 2)), "force = (1, 2)", "3 numbers in N"),
-    "scalar force": (lambda: shock(force=40), "force = 40", "3 numbers in N"),
-    "worded force": (lambda: shock(force="abc"), "force = 'abc'", "3 numbers in N"),
     "infinite force": (lambda: shock(force=(0, inf, 0)), "force[1] = inf", "give it in N"),
     "late beyond time": (lambda: shock(at=inf), "at = inf", "give it in s"),
     "no width": (lambda: shock(width=0), "width = 0 s", "greater than zero"),
-    "negative width": (lambda: shock(width=-0.1), "width = -0.1 s", "greater than zero"),
     "third rotor": (lambda: shock(body=3), "body = 3", "1 (left rotor) or 2 (right rotor)"),
-    "rotor zero": (lambda: shock(body=0), "body = 0", "1 (left rotor) or 2 (right rotor)"),
     "true rotor": (lambda: shock(body=True), "body = True", "1 (left rotor) or 2 (right rotor)"),
-    "fractional rotor": (lambda: shock(body=1.5), "body = 1.5", "1 (left rotor) or 2 (right rotor)"),
     "named rotor": (lambda: shock(body="1"), "body = '1'", "1 (left rotor) or 2 (right rotor)"),
     "one spin": (lambda: scene(spins=(10,)), "spins = (10,)", "2 numbers in rad/s"),
-    "three spins": (lambda: scene(spins=(1, 2, 3)), "spins = (1, 2, 3)", "2 numbers in rad/s"),
-    "scalar spin": (lambda: scene(spins=10), "spins = 10", "2 numbers in rad/s"),
     "NaN spin": (lambda: scene(spins=(1, nan)), "spins[1] = nan", "give it in rad/s"),
     "spin whose square overflows": (lambda: scene(spins=(1e200, 1)), "spins[0] = 1e+200", "change the units"),
     "spin whose square vanishes": (lambda: scene(spins=(1, -1e-200)), "spins[1] = -1e-200", "change the units"),
     "mass whose square vanishes": (lambda: Rotor(mass=1e-99), "mass = 1e-99", "change the units"),
-    "string spin": (lambda: scene(spins=("1", 2)), "spins[0] = '1'", "give it in rad/s"),
     "not a rotor": (lambda: scene(rotor=1.0), "rotor = 1.0", "must be a Rotor"),
-    "no rotor": (lambda: scene(rotor=None), "rotor = None", "must be a Rotor"),
     "not a bar": (lambda: scene(link=1.0), "link = 1.0", "must be a Link"),
     "not a shock": (lambda: scene(shock=(1, 0, 0)), "shock = (1, 0, 0)", "must be a Shock"),
     "one axis": (lambda: scene(axes=((0, 0, 1),)), "axes = ((0, 0, 1),)", "two vectors, one a rotor"),
-    "three axes": (lambda: scene(axes=(*UP, (0, 0, 1))), "axes = ((0, 0, 1), (0, 0, 1), (0, 0, 1))", "two vectors"),
     "axis in the plane": (lambda: scene(axes=((0, 1), (0, 0, 1))), "axes[0] = (0, 1)", "3 numbers"),
     "axis of NaN": (lambda: scene(axes=((0, 0, nan), (0, 0, 1))), "axes[0][2] = nan", "give it in 1"),
     "long axis": (lambda: scene(axes=((0, 0, 1), (0, 0, 1.1))), "axes[1] has length 1.1", "divide it by its length"),
     "rate along the axis": (lambda: scene(rates=((0, 0, 0.5), (0, 0, 0))), "r . r' = 0.5", "subtract (r . r') r"),
-    "scalar rates": (lambda: scene(rates=0), "rates = 0", "two vectors, one a rotor"),
     "bar out of reach": (lambda: scene(axes=(UP[0], TILTED[1])), "ell = 1", "change an axis or the bar"),
     "bar stretched": (
         lambda: scene(rates=((0, 0, 0), (0.5, 0, 0))), "at 0.5 m/s", "make them tangent to its constraint"
@@ -108,13 +86,10 @@ def test_what_makes_no_sense_is_refused_by_value_and_way_out(
         lambda: Link(mass=0, inertia=0),
         lambda: Link(mass=0.01, inertia=0.1),
         lambda: shock(body=2, width=1e-9, at=-1),
-        lambda: shock(body=np.int64(2)),
-        lambda: scene(spins=[0, 0]),
         lambda: scene(spins=np.array([1, -1]), axes=np.array(TILTED), rates=np.zeros((2, 3))),
         lambda: scene(link=None, axes=(UP[0], TILTED[1]), rates=((0, 0, 0), (0, 0.5, 0))),
         lambda: scene(rates=((0.5, 1, 0), (0.5, -1, 0))),
         lambda: scene(axes=((1, 0, 0), (1, 0, 0)), link=None),
-        lambda: scene(axes=FLAT),
     ],
 )
 def test_the_edge_of_sense_is_let_in(build: Callable[[], object]) -> None:
@@ -159,10 +134,6 @@ def test_the_impulse_is_the_force_integrated(width: float, force: float, at: flo
     assert pulse.impulse == pytest.approx((force * area, -2 * force * area, 0.5 * area))
     # Twin: the area of a normal density of standard deviation `width` is another one.
     assert pulse.impulse[2] != pytest.approx(0.5 * width * sqrt(2 * pi))
-
-
-def test_axial_momenta_are_inertia_times_spin() -> None:
-    assert scene(spins=(10, -7), rotor=Rotor(I1=1, I3=1.5)).momenta == (15, -10.5)
 
 
 @settings(deadline=None)

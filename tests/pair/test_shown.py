@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 import sympy as sp
 
-import lagrotor
 from lagrotor import (
     Pattern,
     Scene,
     Shock,
     Structure,
-    corrected_trajectories,
     floquet,
     orbit_family,
     precession_orbit,
@@ -74,12 +72,3 @@ def test_without_the_library_the_way_to_it_is_said(monkeypatch: pytest.MonkeyPat
     monkeypatch.setitem(sys.modules, name, None)
     with pytest.raises(InputError, match=f"pip install {name}"):
         getattr(simulate(PAIR, [0, 1]), call)()
-
-
-def test_a_closed_form_of_words_is_refused() -> None:
-    with pytest.raises(InputError, match="give numbers or arrays"):
-        corrected_trajectories(3)("a", 1.0, 1.0, 1.0)
-
-
-def test_every_name_of_the_package_is_there() -> None:
-    assert {name for name in lagrotor.__all__ if getattr(lagrotor, name) is None} == set()

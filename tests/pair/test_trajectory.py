@@ -32,6 +32,9 @@ def run() -> Trajectory:
 def test_shapes_are_one_row_a_time(run: Trajectory) -> None:
     n = len(TIMES)
     assert run.t.tolist() == TIMES.tolist()
+    assert run.axes[:, 0] == pytest.approx(np.array(SCENE.axes)) and run.rates[:, 0] == pytest.approx(
+        np.array(SCENE.rates)
+    )
     assert {name: getattr(run, name).shape for name in UNITS if name != "P"} == {
         "axes": (2, n, 3), "rates": (2, n, 3), "tips": (2, n, 3),
         "energy": (n,), "link_length": (n,), "momenta": (2, n),
@@ -39,11 +42,6 @@ def test_shapes_are_one_row_a_time(run: Trajectory) -> None:
     assert {name: part.shape for name, part in run.invariants.items()} == dict.fromkeys(("G_1", "G_2", "P"), (n,))
     assert run.inclinations.shape == run.azimuths.shape == (2, n)
     assert simulate(SCENE, [0.5]).axes.shape == (2, 1, 3)
-
-
-def test_the_first_row_is_the_start(run: Trajectory) -> None:
-    assert run.axes[:, 0] == pytest.approx(np.array(SCENE.axes))
-    assert run.rates[:, 0] == pytest.approx(np.array(SCENE.rates))
 
 
 def test_rates_are_the_derivatives_of_the_axes() -> None:
@@ -103,15 +101,6 @@ def test_angles_describe_the_axes(run: Trajectory) -> None:
     assert np.abs(np.diff(phi)).max() < np.pi
 
 
-def test_npz_holds_what_the_run_holds(run: Trajectory, tmp_path: Path) -> None:
-    target = run.save(tmp_path / "run.npz")
-    with np.load(target) as kept:
-        assert set(kept) == {*UNITS, "t", "errors", "about"}
-        for name in ("t", "errors", *(name for name in UNITS if name != "P")):
-            assert kept[name].tolist() == getattr(run, name).tolist()
-        assert kept["P"].tolist() == run.joint_line_momentum.tolist()
-
-
 def test_csv_holds_every_digit_under_named_columns(run: Trajectory, tmp_path: Path) -> None:
     target = run.save(str(tmp_path / "run.csv"))
     with target.open() as file:
@@ -128,25 +117,23 @@ def test_csv_holds_every_digit_under_named_columns(run: Trajectory, tmp_path: Pa
     assert table.T.tolist() == [column.tolist() for column in expected]
 
 
-@pytest.mark.parametrize("name", ["run.txt", "run", "run.npz.gz", "run.CSV2"])
-def test_other_endings_are_refused_and_leave_nothing(run: Trajectory, tmp_path: Path, name: str) -> None:
-    with pytest.raises(InputError, match=rf"{name} must end in \.npz, \.csv, \.png"):
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("run.txt", r"run\.txt must end in \.npz, \.csv, \.png"),
+        ("run.npz.gz", "must end in"),
+        ("missing/run.npz", "choose an existing folder"),
+        ("missing/run.csv", "choose an existing folder"),
+        ("folder.csv", "choose another file"),
+    ],
+)
+def test_where_no_run_can_be_saved_is_refused_and_nothing_left(
+    run: Trajectory, tmp_path: Path, name: str, message: str
+) -> None:
+    (tmp_path / "folder.csv").mkdir()
+    with pytest.raises(InputError, match=message):
         run.save(tmp_path / name)
-    assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize("name", ["run.npz", "run.csv"])
-def test_a_missing_folder_is_refused_and_not_made(run: Trajectory, tmp_path: Path, name: str) -> None:
-    with pytest.raises(InputError, match="choose an existing folder"):
-        run.save(tmp_path / "missing" / name)
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_folder_in_the_files_place_is_refused(run: Trajectory, tmp_path: Path) -> None:
-    (tmp_path / "run.csv").mkdir()
-    with pytest.raises(InputError, match="choose another file"):
-        run.save(tmp_path / "run.csv")
-    assert [entry.name for entry in tmp_path.iterdir()] == ["run.csv"]
+    assert [entry.name for entry in tmp_path.iterdir()] == ["folder.csv"]
 
 
 def test_a_write_that_fails_halfway_leaves_the_old_file_alone(tmp_path: Path) -> None:
@@ -215,23 +202,16 @@ def spoiled(change: Callable[[dict[str, Any], dict[str, Any]], object], run: Tra
         (lambda about, held: held.update(axes=np.ones(5)), "do not fit together"),
         (lambda about, held: held.update(axes=held["axes"][:, :-1]), "do not fit together"),
         (lambda about, held: held.update(t=held["t"][:, None]), "do not fit together"),
-        (lambda about, held: held.update(t=np.float64(1.0) * np.ones(())), "do not fit together"),
         (lambda about, held: held.update(t=held["t"][::-1]), "times decrease"),
         (lambda about, held: held.update(rates=held["rates"] * np.nan), "not finite"),
-        (lambda about, held: held.update(momenta=held["momenta"] * np.inf), "not finite"),
         (lambda about, held: held.update(axes=held["axes"] * 1.01), "no unit vectors"),
         (lambda about, held: about.update(evaluations=-1), "number of evaluations"),
         (lambda about, held: about.update(model=None), "its model"),
         (lambda about, held: held.update(errors=-held["errors"]), "its errors"),
         (lambda about, held: about["ending"].update(kind="late"), "Ending: 'late' at"),
-        (lambda about, held: about["ending"].update(colour="red"), "no run saved"),
         (lambda about, held: about.update(horizon="late"), "its horizon is none"),
         (lambda about, held: held.pop("errors"), "no run saved"),
-        (lambda about, held: about.update(scene=[1, 2]), "no run saved"),
-        (lambda about, held: about["scene"].update(spins=[1]), "no run saved"),
         (lambda about, held: about["scene"]["rotor"].update(mass="heavy"), "no run saved"),
-        (lambda about, held: about["scene"].update(colour="red"), "no run saved"),
-        (lambda about, held: held.pop("momenta"), "no run saved"),
     ],
 )
 def test_a_file_that_holds_no_motion_is_refused(
@@ -262,12 +242,9 @@ def archive(target: Path, header: str, data: bytes, about: str = "{}") -> Path:
     ("header", "data", "about"),
     [
         ("{'descr': '<f8', 'fortran_order': False, 'shape': (3000000000000,)}", bytes(80), "{}"),  # 22 TiB
-        ("{'descr': '<f8', 'fortran_order': False, 'shape': (-8,)}", bytes(80), "{}"),
         ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)}", bytes(72), "{}"),
         ("{'descr': '|O', 'fortran_order': False, 'shape': (10,)}", b"cos\nsystem\n(S'true'\ntR.", "{}"),
-        ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)", bytes(80), "{}"),
         ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)}", bytes(80), "[" * 100_000),
-        ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)}", bytes(80), "[1]"),
         ("{'descr': '<f8', 'fortran_order': False, 'shape': (10,)}", bytes(80), '{"digest": "0"}'),
     ],
 )

@@ -2,17 +2,15 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from lagrotor import Link, Rotor, Scene, consistent_scene, natural_rate, paired_frequency, simulate
+from lagrotor import Link, Rotor, Scene, natural_rate, paired_frequency
 from lagrotor.errors import DomainError, InputError, LagrotorError
 from lagrotor.models import exact_orbit, upright_orbit
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics import measured_order, peak, spectrum
 from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error, twist_coefficient
-from lagrotor.theory.natural_rate import TURNS
+from lagrotor.theory.natural_rate import TURNS, natural_rate_limits
 from lagrotor.theory.rate_shift import opposite_share
 from tests.theory.random_pairs import COUNTS, exact_axes, held, random_pair, swinging
 
@@ -29,25 +27,18 @@ def test_known_rates() -> None:
     assert rates[0] == pytest.approx(rates[1])
 
 
-@settings(max_examples=12, deadline=None)
-@given(
-    st.floats(3, 15),
-    st.floats(-15, 15).map(lambda w: round(w, 6)),
-    st.floats(0.5, 2),
-    st.floats(0.0, 2),
-    st.floats(0.6, 1.6),
-)
-def test_the_natural_rate_is_the_exact_model_s(w1: float, w2: float, I1: float, m: float, ell: float) -> None:
-    """A small displacement swings at Omega_0: x returns to itself after a period, to second order in the amplitude."""
-    link = Link(ell, m, 0.3 * m) if m > 0.01 else Link(ell)
-    scene = Scene(spins=(w1, w2), rotor=Rotor(1.2, 1.0, I1, 0.9), link=link)
-    size = 1e-5
-    moved = consistent_scene(scene.spins, ((0, 0, 1), (0, 0, 1)), ((size, 0, 0), (size, 0, 0)), scene.rotor, scene.link)
-    period = 2 * np.pi / natural_rate(scene)
-    run = simulate(moved, np.array([0.0, period, 1.3 * period]), "minimal", 1e-12)
-    x_rate = run.rates[0, :, 0]
-    assert x_rate[1] == pytest.approx(x_rate[0], rel=1e-3)
-    assert x_rate[2] != pytest.approx(x_rate[0], rel=1e-2)
+def test_limits_are_their_formulas() -> None:
+    """Of momenta of the same root mean square."""
+    scene = Scene((9, 4), Rotor(I3=1.2), Link(1.3, 1.0, 0.3))
+    J, G, (a, b) = scene.rotor.J, np.hypot(*scene.momenta) / np.sqrt(2), scene.inertias
+    limits = natural_rate_limits(scene)
+    assert {name: (one.formula, one.rate) for name, one in limits.items()} == {
+        "equal": ("G/(a + b)", pytest.approx(G / (a + b))),
+        "opposite": ("G/√(a² − b²)", pytest.approx(G / np.sqrt(a**2 - b**2))),
+        "massless": ("G/a", pytest.approx(G / J)),
+        "dumbbell": ("G/a", pytest.approx(G / (J + 0.5))),
+    }
+    assert limits["dumbbell"].says.endswith("a = (2 J + R² m)/2, b = 0")
 
 
 def any_pair(rng):

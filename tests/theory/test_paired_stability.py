@@ -10,13 +10,10 @@ import sympy as sp
 from lagrotor import Link, Scene, floquet
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import characteristic_exponents
-from lagrotor.models import exact_orbit
-from lagrotor.models.orbits.floquet import floquet_of
 from lagrotor.pair.notation import k, r0, sigma
 from lagrotor.theory import elliptic_edge, exponent_series, growth_squared, most_growth, paired_series
 from lagrotor.theory.paired_precession import stability
 from lagrotor.theory.paired_precession.series import equations, shape_of
-from tests.models.orbits_at_once import ENOUGH, exact_orbits
 from tests.theory.random_pairs import held
 
 BARS = {"b = 0": Link(1), "b < 0": Link(1, 0.01, 0.1), "b > 0": Link(0.9, 0.8, 0.05), "edge": Link(1.3, 0.35, 0.11)}
@@ -84,7 +81,6 @@ def test_the_law_tells_its_error(name: str) -> None:
 EDGES = [
     (1.02, 0.11392),
     (1.2, 0.32220),
-    *(pytest.param(*edge, marks=pytest.mark.slow) for edge in ((1.05, 0.17659), (1.1, 0.24189))),
 ]
 
 
@@ -166,39 +162,3 @@ def test_growth_and_turning_are_within_their_error() -> None:
     assert len(pairs) > 16
     held(pairs, 0, len(pairs), 0)
     assert max(off / error for off, error in pairs) > 0.05  # twin: a twentieth of it is no bound
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not ENOUGH, reason="needs numbers of 64 bits")
-@pytest.mark.parametrize("seed", range(10, 14))
-def test_orbit_and_multipliers_are_within_their_errors(seed: int) -> None:
-    """Of random bars and amplitudes up to 0.7, against orbits and monodromies in 64 bits."""
-    rng, orbits, amplitudes = np.random.default_rng(seed), [], []
-    while len(orbits) < 2_500:
-        scene, amplitude = any_bar(rng), 10 ** rng.uniform(-2, -0.15)
-        try:
-            orbits.append(exact_orbit(scene, amplitude))
-        except DomainError:  # the family ends before
-            continue
-        amplitudes.append(amplitude)
-    exact = exact_orbits([(one.scene, one.frequency) for one in orbits], amplitudes)
-    found = [floquet_of(one) for one in orbits]
-    sums = [(abs(one.pair_sum - 2 - e), one.error) for one, e in zip(found, exact.excess, strict=True)]
-    pairs = []
-    for one, e in zip(found, exact.excess, strict=True):
-        growth, turning = np.arccosh(max(abs(1 + e / 2), 1)), np.arccos(np.clip(1 + e / 2, -1, 1))
-        if e < -4:  # mu < −1
-            turning = 0
-        pairs.append((max(abs(one.growth - growth), abs(one.turning - turning)), one.exponent_error))
-    rates = [
-        (abs(abs(one.frequency) - pi / 2 / time), one.frequency_error)
-        for one, time in zip(orbits, exact.time, strict=True)
-    ]
-    starts = [
-        (np.linalg.norm(np.array(one.scene.rates) - v[:, 0], axis=1).max() / abs(one.frequency), one.error)
-        for one, v in zip(orbits, exact.rates, strict=True)
-    ]
-    for each in (sums, pairs, rates, starts):
-        held(each, 0, 2_500, 0)
-    for each in (sums, pairs, rates):  # twin: a twentieth of it is no bound
-        assert max(off / error for off, error in each) > 0.05

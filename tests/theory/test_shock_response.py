@@ -56,31 +56,6 @@ def test_error_falls_as_square(scene):
     assert errors[0] < 1e-10 or measured_order(factors, errors) > 1.9
 
 
-def off_rate(scene, factor, rate):
-    """How far, as a share of it, the exact swing of tip 1 after `factor` times the shock is off a wave of that rate."""
-    times = 1.5 + np.linspace(0, 2 * np.pi / rate, 129)
-    # What is even in the shock (second order, growing with time) drops out of the half difference.
-    there, back = (
-        simulate(resized(scene, sign * factor), [0.0, *times], "spheres", 1e-13).after(times[0]) for sign in (1, -1)
-    )
-    x = (there.rates[0, :, 0] - back.rates[0, :, 0]) / 2
-    waves = np.column_stack([np.cos(rate * times), np.sin(rate * times), np.ones_like(times)])
-    coefficients = np.linalg.lstsq(waves, x, rcond=None)[0]
-    slope = times * (coefficients[1] * waves[:, 0] - coefficients[0] * waves[:, 1])
-    return np.linalg.lstsq(np.column_stack([waves, slope]), x, rcond=None)[0][3] / rate
-
-
-@settings(max_examples=5, deadline=None)
-@given(scenes(3e-3))
-def test_small_swings_of_the_exact_model_have_the_natural_frequency(scene):
-    """What is left at a small shock is of third order, where the pair drifts off upright: it falls fourfold with half of it."""
-    Omega = natural_rate(scene)
-    whole, half = (off_rate(scene, factor, Omega) for factor in (1.0, 0.5))
-    assert abs(4 * half - whole) / 3 < 1e-9
-    whole, half = (off_rate(scene, factor, Omega * (1 + 1e-7)) for factor in (1.0, 0.5))  # twin
-    assert abs(4 * half - whole) / 3 > 5e-8
-
-
 @settings(max_examples=20, deadline=None)
 @given(scenes(0.5))
 def test_energy_and_after(scene):
@@ -91,11 +66,8 @@ def test_energy_and_after(scene):
     gained = np.ptp(simulate(small, np.array([0.0, 1.5]), "minimal", 1e-13).energy)
     assert gained == pytest.approx(shock_response(small).energy, rel=2e-2)
     assert answer.energy <= answer.impulse_energy * (1 + 1e-12)
-
-
-def test_the_papers_energy():
-    scene = Scene(spins=(10, 10), link=Link(1, 1, 1), shock=Shock((50, 0, 0), 2, 1 / 50))
-    assert 100 + shock_response(scene).energy == pytest.approx(100.4459, abs=1e-4)
+    wide = Scene((100, -100), link=Link(1, 0.01, 0.1), shock=Shock((1, 0, 0), 50, 5))
+    assert np.isfinite(shock_response(wide).through(np.linspace(0, 100, 50))).all()
 
 
 def test_no_spin_topples_at_the_impulse_over_the_inertia():
@@ -104,11 +76,6 @@ def test_no_spin_topples_at_the_impulse_over_the_inertia():
     a, b = scene.inertias
     assert answer.drift[0] == pytest.approx(answer.impulse[0] / (2 * (a + b)))
     assert not answer.amplitude.any()
-
-
-def test_wide_pulse_stays_finite():
-    scene = Scene(spins=(100, -100), link=Link(1, 0.01, 0.1), shock=Shock((1, 0, 0), 50, 5))
-    assert np.isfinite(shock_response(scene).through(np.linspace(0, 100, 50))).all()
 
 
 @pytest.mark.parametrize(
