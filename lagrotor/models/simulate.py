@@ -345,7 +345,6 @@ def evolution_of(
         watch=nodes.t if nodes else np.empty(0),
         singular=lambda y: model.singular(model.observe(scene, y[None]).axes[:, 0]),
         elsewhere=bounded,
-        independent=engine == "fast" and scene.shock is None,
     )
 
 

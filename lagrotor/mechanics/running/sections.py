@@ -25,7 +25,6 @@ from lagrotor.mechanics.running.motion import SampledMotion, integration_of
 from lagrotor.mechanics.running.narrow import narrow_parts
 from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
-from lagrotor.numerics.calibrated import BEYOND
 from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
 
@@ -164,8 +163,7 @@ def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
 def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, observe: Observer) -> tuple[Array, int]:
     """Observe the motion from sample i to sample j where the section may be zero; return its last state and the evaluations."""
     begin, end = run.t[[i, j]]
-    lost = run.ending.kind == "lost" and begin >= run.ending.at
-    local = max(BEYOND.value, run.local) if lost else run.local  # as the run went on
+    local = run.local
     if not run.switched.smooth:
         stretch = march(run.switched, run.states[i], run.t[[i, j]], local, inf, observe)
         return stretch.end, stretch.evaluations

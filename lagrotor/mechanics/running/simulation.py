@@ -176,7 +176,6 @@ def simulate_system(
         slack=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
         sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),
         defect=defect_of(system, values, scales.sizes) if h.smooth else None,
-        independent=engine == "fast",
         sudden=bool(h.narrow),
     )
     estimate = estimate_run(evolution, times, tol)

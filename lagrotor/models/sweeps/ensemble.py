@@ -231,7 +231,6 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
                 check_range(MODEL, units.scene)
                 end = float(times[-1] * units.rate)
                 evolution = evolution_of(MODEL, units.scene, end, _PATIENCE, engine, bounded=True)
-                evolution = replace(evolution, independent=units.scene.shock is None)
                 groups.setdefault(kind, []).append(_Member(i, scene, units, evolution))
         except LagrotorError:  # badly conditioned at the start
             continue
