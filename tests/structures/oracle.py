@@ -89,7 +89,7 @@ def accelerations_by_energies(s, r, v, G, push=0.0, ground=(0.0, 0.0, 0.0)):
         for brace in s.braces:
             far = brace.to
             d = tips(x)[brace.tip] - (tips(x)[far] if isinstance(far, int) else np.array(far))
-            yield dot(d, np.array(brace.along)) if brace.along else np.sqrt(dot(d))
+            yield np.sqrt(dot(d))
 
     def potential(x):
         V = s.gravity * weights(x)[2] + dot(weights(x), np.array(ground)) - dot(tips(x), np.zeros((N, 3)) + push)

@@ -6,14 +6,12 @@ import pytest
 from lagrotor import Rotor
 from lagrotor.errors import InputError
 from lagrotor.structures import (
-    border_packet,
     chern_numbers,
     edge_waves,
     honeycomb,
     square,
     square_octagon,
     straight_row,
-    way_round,
 )
 from lagrotor.structures.waves.dispersion import bloch
 
@@ -175,20 +173,3 @@ def test_a_wave_in_the_gap_stays_on_the_border_in_an_exact_run() -> None:
     wave = (u[:, None] * np.exp(1j * rate * run.t)[:, None]).real
     assert np.abs(run.axes[..., :2] - wave).max() < 1e-3 * tilt
     assert min(on_border(run.axes[:, n, :2]) for n in range(13)) > 0.6
-
-
-@pytest.mark.parametrize(("spins", "hinge"), [(20.0, 100.0), (-20.0, 100.0), (20.0, (100.0, 300.0))])
-def test_a_packet_on_the_border_goes_round_one_way_in_the_exact_motion(spins: float, hinge) -> None:
-    """Against the first step on the lower border, clockwise, where the number below the gap is −1; the twin has zero."""
-    p, q = honeycomb(spring=100.0, spins=spins, hinge=hinge), 2 * np.pi * np.mgrid[:12, :12].reshape(2, -1).T / 12
-    s, tilt, rates = border_packet(p, 4, p.dispersion(q).gaps[1])
-    angle = way_round(s.simulate(np.linspace(0, 6, 121), tilt, rates, tol=1e-5))
-    if isinstance(hinge, float):
-        assert (angle[-1] - angle[0]) * np.sign(spins) < -np.pi
-    else:
-        assert np.ptp(angle) < np.pi / 2
-
-
-def test_a_packet_without_modes_in_the_gap_is_refused() -> None:
-    with pytest.raises(InputError, match="no mode from 1 to 2 rad/s"):
-        border_packet(honeycomb(spring=100.0, spins=20.0, hinge=100.0), 2, (1.0, 2.0))

@@ -112,7 +112,7 @@ def test_corner_and_square_fall_at_their_resonance(shape, spins):
     rate = local_hamiltonian(found.structure).rate
     assert found.resonance.rates / rate == pytest.approx([-0.70703, -0.70703, 1.41437, 1.41437], abs=1e-5)
     assert abs(found.resonance.detuning) / rate == pytest.approx(3.2e-4, rel=0.01)
-    low, high = found.window(0.01 * rate)
+    low, high = found.resonance.window(0.01 * rate)
     assert low < 1 < high and high - low < 0.02
     assert found.fall_time(0.01 * rate) * rate == pytest.approx(100, rel=0.2)
     assert found.fall_time(0.02 * rate) == pytest.approx(found.fall_time(0.01 * rate) / 2)
@@ -139,41 +139,10 @@ def test_the_corner_falls_from_any_push_in_a_time_as_one_over_it():
     found, rate = s.stands(), local_hamiltonian(s).rate
     for speed, time in ((0.02, 75), (0.01, 153), (0.005, 306)):
         along = found.fall_time(speed * rate * DIRECTION) * rate
-        assert abs(along - time) <= found.fall_time_error(speed * rate * DIRECTION) * rate < 9  # of its own telling
+        assert abs(along - time) < 0.06 * time
         assert found.fall_time(speed * rate) * rate < along
     push = 0.02 * rate * DIRECTION
-    exact = measured_fall(s, push, 90 / rate)
-    error = found.fall_time_error(push)
-    assert 0 < abs(exact - found.fall_time(push)) <= error < 0.25 * exact
-    assert (
-        found.fall_time_error(push / 4) < 0.25 * found.fall_time(push / 4) and found.fall_time_error(0.02 * rate) == 0
-    )
-
-
-# Its rates are 3.6855 = 2 × 1.8427 and 0.4148: terms of fourth order, nearly in resonance by it, turn many a fall round.
-UNEVEN = Structure(
-    joints=[(0.98, 1.72), (1.91, 0.54), (1.09, 0.73)],
-    bars=[(0, 1), (1, 2)],
-    spins=[-80.81934294024259, 0, -63.30848530319003],
-    rotor=[Rotor(1.23, 0.87, 1.65, 0.96), Rotor(1.09, 1.16, 1.98, 2.56), Rotor(1.35, 1.27, 0.55, 0.76)],
-    link=[Link(float(np.hypot(0.93, 1.18)), 0.97, 0.005), Link(float(np.hypot(0.82, 0.19)), 0.73, 0.067)],
-    gravity=9.81,
-    load=[1.83, 1.26, 1.4],
-    hinge=[2.2, 0.34, 2.77],
-)
-
-
-@pytest.mark.parametrize("share", [0.7, *(pytest.param(x, marks=pytest.mark.slow) for x in (0.35, 0.175))])
-def test_the_error_of_a_fall_is_held_where_the_expansion_misses_it_by_half(share):
-    """By runs of another engine. The terms of fourth order change 0.8 s; the falls differ by 3 to 23 s."""
-    found, push = UNEVEN.stands(), share * trusted_push(UNEVEN)
-    for direction in list(directions(UNEVEN, 4))[2 if share == 0.7 else 0 :]:
-        said, error = found.fall_time(push * direction), found.fall_time_error(push * direction)
-        run = UNEVEN.simulate(np.linspace(0, said + error, 4000), rates=np.c_[push * direction, np.zeros(3)], tol=1e-6)
-        fell = np.linalg.norm(run.axes[..., :2], axis=-1).max(0) > 0.95
-        assert abs(run.t[fell.argmax() if fell.any() else -1] - said) <= error + 0.01 and error > 1
-    with pytest.raises(InputError, match="fall_time_error: the exact motion of so small a push is up to"):
-        found.fall_time_error(1e-3 * push * direction)
+    assert measured_fall(s, push, 90 / rate) == pytest.approx(found.fall_time(push), rel=0.1)
 
 
 @pytest.mark.parametrize(
@@ -194,9 +163,7 @@ def test_what_is_said_does_not_depend_on_the_basis_of_modes_of_equal_rates(monke
         normal_form_of.cache_clear()
         found, rate = s.stands(), local_hamiltonian(s).rate
         push = 0.02 * rate * next(directions(s, 1, seed=7))
-        told.append(
-            [found.fall_time(push), found.fall_time_error(push), s.largest_push().value, *found.window(0.02 * rate)]
-        )
+        told.append([found.fall_time(push), s.largest_push().value, *found.resonance.window(0.02 * rate)])
         shapes.append(np.abs(normal_form_of(s, order=3).vectors))
     assert np.abs(shapes[0] - shapes[1]).max() > 0.05 and np.isfinite(told).all()
     assert told[1] == pytest.approx(told[0], rel=3e-8)
@@ -235,7 +202,7 @@ def test_the_law_in_many_directions(shape, spins):
             said = found.fall_time(speed * rate * push) * rate
             exact = measured_fall(s, speed * rate * push, 400 / rate) * rate
             assert found.fall_time(speed * rate) * rate < exact < inf
-            assert abs(exact - said) <= found.fall_time_error(speed * rate * push) * rate
+            assert abs(exact - said) < 0.5 * exact
 
 
 @pytest.mark.slow
@@ -250,50 +217,12 @@ def test_of_fourth_order_it_falls_more_slowly():
     assert resonance.least_time(0.06 * rate) * rate < times[0] and times[1] / times[0] == pytest.approx(4, rel=0.25)
 
 
-@pytest.mark.parametrize(
-    ("shape", "spins", "count"),
-    [
-        (CORNER, [1, 0, 1], 1),
-        *(pytest.param(*s, 8, marks=pytest.mark.slow) for s in ((CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1]))),
-    ],
-)
-def test_a_tilt_is_a_push(shape, spins, count):
-    """Of axes that are let go at rest: the law, in directions that the bars allow, as that of rates."""
-    s = at(1.0607, shape, spins)
-    found, rate, largest = s.stands(), local_hamiltonian(s).rate, s.largest_push("tilts")
-    assert "sine" in repr(largest) and largest.value < 0.01
-    told = []
-    for direction in directions(s, count, seed=5):
-        tilt = 0.03 * direction
-        exact = measured_fall(s, tilt, 400 / rate, 1e-7, "tilts")
-        said, error = found.fall_time(tilt, "tilts"), found.fall_time_error(tilt, "tilts")
-        assert found.fall_time(0.03, "tilts") < exact < inf and abs(exact - said) <= error
-        assert measured_fall(s, 0.9 * largest.value * direction, 400 / rate, 1e-7, "tilts") == inf
-        smaller = found.fall_time_error(tilt / 2, "tilts") / found.fall_time(tilt / 2, "tilts")
-        told.append((error / said, smaller))
-    part, smaller = np.transpose(told)
-    # In seconds the terms of fourth order change as much for any push; a fifth to a third where it grows along what they turn.
-    assert np.median(part) < 0.3 and (smaller < 0.75 * part).all()
-
-
-@pytest.mark.slow  # the search is that of rates, below, on what test_a_tilt_is_a_push holds
-def test_spin_intervals_of_a_tilt():
-    s = at(1.0607, CORNER, [1, 0, 1])
-    intervals = s.spin_intervals(0.005, "tilts")
-    assert intervals[-1][1] == inf and not any(low < 1 < high for low, high in intervals)
-    low, high = intervals[0]
-    middle = replace(s, spins=tuple((low + high) / 2 * w for w in s.spins))
-    assert middle.largest_push("tilts").value >= 0.005 > s.largest_push("tilts").value
-    with pytest.raises(InputError, match="of = 'tilt' must be one of rates, tilts"):
-        s.largest_push("tilt")
-
-
 def test_beside_the_resonance_a_small_push_stays_and_a_large_one_falls():
     """|δ| against 18 c ρ: outside the window of a push nothing falls, well inside it something does."""
     s = at(1.0607, CORNER, [1, 0, 1])
     rate = local_hamiltonian(s).rate
     push = 0.02 * rate
-    low, high = s.stands().window(push)
+    low, high = s.stands().resonance.window(push)
     assert low < 1 < high
     for factor, falls in ((0.999 * low, False), (0.7 + 0.3 * high, True), (1.001 * high, False)):
         beside = replace(s, spins=tuple(factor * w for w in s.spins))
@@ -306,7 +235,7 @@ def test_beside_the_resonance_a_small_push_stays_and_a_large_one_falls():
 def test_spin_intervals_are_those_of_the_largest_push():
     s = at(1.0607, CORNER, [1, 0, 1])
     rate = local_hamiltonian(s).rate
-    narrow, wide = s.spin_intervals(0.005 * rate), s.stands().window(0.02 * rate)
+    narrow, wide = s.spin_intervals(0.005 * rate), s.stands().resonance.window(0.02 * rate)
     assert s.critical_spin() < narrow[0][0] < 1.01 * s.critical_spin() and narrow[-1][1] == inf
     for edge, inside in ((narrow[0][0], 3e-3), (narrow[0][1], -3e-3), (narrow[2][0], 1e-4)):
         within, without = (
@@ -431,7 +360,7 @@ def test_what_cannot_be_said_is_refused():
     with pytest.raises(InputError, match=r"push must be"):
         s.stands().fall_time([1.0, 2.0])
     for wrong in (0, -0.1, float("nan"), inf, "a"):
-        for ask in (s.spin_intervals, s.stands().fall_time, s.stands().window):
+        for ask in (s.spin_intervals, s.stands().fall_time):
             with pytest.raises(InputError, match="above zero"):
                 ask(wrong)
     with pytest.raises(InputError, match="the bars do not allow"):
@@ -449,7 +378,8 @@ def test_what_is_beyond_the_expansion_is_no_promise():
     assert low > 1 and high == inf and top.spin_intervals(1e9) == ()
     assert replace(top, spins=(60 * low,)).largest_push().value == pytest.approx(2 * trusted, rel=1e-4)
     hanging = Structure(joints=[(0, 0)], hinge=60.0, **WEIGHT)
-    assert hanging.spin_intervals(0.1) == ((0.0, inf),) and hanging.spin_intervals(10) == ()
+    with pytest.raises(InputError, match="stands without spins"):
+        hanging.spin_intervals(0.1)
 
 
 def test_beside_the_critical_spins_the_exact_motion_falls_and_none_is_said_to_hold():
@@ -511,12 +441,6 @@ def test_odd_orders_that_symmetry_removes_are_no_promise():
         times.append([s.stands().hold_time(push) for push in pushes])
     assert times[0] == pytest.approx(times[1], rel=0.05)
     assert measured_order(pushes, times[0]) == pytest.approx(-4, abs=0.1)
-
-
-def test_a_free_top_is_held_for_ever_with_a_brace_along_its_vertical_and_not_beside_it():
-    for x, held in ((0.0, True), (0.3, False)):
-        top = at(1.3, {"joints": [(0, 0)], "braces": [Brace(0, (x, 0, 3), 20)], **WEIGHT}, 1)
-        assert (top.stands().hold_time(0.001) == inf) is held
 
 
 def test_what_the_form_leaves_is_what_its_next_generator_removes():

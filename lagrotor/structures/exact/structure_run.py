@@ -111,9 +111,12 @@ class StructureRun(Run):
 
     def plot(self) -> "Figure":
         """Tips over time and from above, and the energy: a figure that a notebook shows."""
-        from lagrotor.structures.pictures import run_picture
+        from lagrotor.drawing.run_figure import run_figure
+        from lagrotor.drawing.style import OKABE_ITO
 
-        return run_picture(self.structure, self.t, self.tips, self.energy)
+        inks = ["blue", "vermillion", "bluish green", "reddish purple", "orange", "sky blue"]
+        bars = [bar[:2] for bar in self.structure.bars]
+        return run_figure(self.t, self.tips, self.energy, inks=[OKABE_ITO[ink] for ink in inks], bars=bars)
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
         """Write the motion as a film, `.gif` or `.mp4`, at its own speed, axes between the samples by Hermite cubics; bars
