@@ -48,6 +48,7 @@ _EQUAL = 1e-6  # of a rate
 _ON_BARS = 1e-6  # of the largest rate: what the bars do not allow
 _STOPPED = "no: its own terms stop it; how far it grows before is not known"
 _CHECKED = 1 / 32  # of the distance from the critical factor: how near an end is found
+_FASTEST = 300.0  # times the critical factor: beyond, no spins are sought
 _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow ones
 
 
@@ -434,10 +435,10 @@ def checked_push(where: str, push: Any) -> float:
 def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
     """Return the factors on all spins at which no push of that size falls, by `largest_push` there, as intervals.
 
-    `largest_push` is compared with `push` at eight factors from the critical one to 12 times it, at each resonant factor, and
-    at both edges of its window. An end is found by bisection to 1/32 of its distance from the critical factor, and the push
-    holds there; the last end is inf where it holds at 12 times the critical factor. Between these factors nothing is checked.
-    Empty where no spins are known to hold the push.
+    `largest_push` is compared with `push` at 16 factors from the critical one to 12 times it, or more where the push is not
+    trusted there, at each resonant factor, and at both edges of its window. An end is found by bisection to 1/32 of its
+    distance from the critical factor, and the push holds there; the last end is inf where it holds at the largest of these
+    factors. Between them nothing is checked. Empty where no spins are known to hold the push.
 
     Raises InputError for a structure that needs no spins, and as `resonances` does.
     """
@@ -447,11 +448,13 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
         raise InputError("spin_intervals: it stands without spins: ask largest_push() at spins of your choice")
     if least == inf:
         return ()
-    factors = {least * (1 + float(x)) for x in np.geomspace(1e-3, _TOP - 1, 8)}
-    top = max(factors)
+    top = _TOP * least
+    while trusted_push(s, top) < push and top < _FASTEST * least:
+        top *= 2
+    factors = {least + float(x) for x in np.geomspace(1e-3 * least, top - least, 16)}
     for factor, resonance in resonant_factors(s):
         factors |= {factor, *resonance.window(push)}
-    grid = sorted(f for f in factors if least < f <= top)
+    grid = sorted(f for f in factors if least < f < top * (1 + _NOTHING))
 
     def holds(factor: float) -> bool:
         if trusted_push(s, factor) < push:
