@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lagrotor import Brace, Structure
-from lagrotor.errors import InputError, IntegrationError, LagrotorWarning
+from lagrotor import Structure
+from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.structures import exact_motion
 from lagrotor.structures.exact import compiled_motion
 from lagrotor.structures.exact.compiled_motion import structure_accelerations
@@ -93,22 +93,6 @@ def test_a_driven_run_of_the_fast_extra_is_that_of_the_core(heyoka) -> None:
     fast, core = (top.simulate(T, ground=ground, tol=1e-9, engine=engine) for engine in ("fast", "core"))
     still = top.simulate(T, tol=1e-9, engine="fast")
     assert np.abs(core.axes - fast.axes).max() < 2e-9 and np.abs(still.axes - fast.axes).max() > 1e-3
-
-
-def test_an_engine_that_is_none_is_refused() -> None:
-    with pytest.raises(InputError, match="neither core nor fast"):
-        Structure([(0, 0)], spins=20).simulate([0.0, 1.0], engine="quick")
-
-
-def test_more_rotors_than_compile_in_half_a_minute_are_refused() -> None:
-    L = 16
-    bars = [(i, i + 1) for i in range(L * L) if i % L < L - 1] + [(i, i + L) for i in range(L * L - L)]
-    net = Structure([(i % L, i // L) for i in range(L * L)], bars, 20.0, braces=[Brace(0, 1, 1.0)])
-    with pytest.raises(InputError, match=r"nets of up to 100, not 256 rotors: use engine='core'"):
-        net.simulate([0.0, 1.0], engine="fast")
-    row = Structure([((k + 1) // 2, k // 2) for k in range(513)], [(k, k + 1) for k in range(512)], 10.0)
-    with pytest.raises(InputError, match=r"up to 512 rotors and nets .*, not 513 rotors: use engine='core'"):
-        row.simulate([0.0, 1.0], engine="fast")
 
 
 @pytest.mark.parametrize(("engine", "tol"), [("core", 1e-2), ("core", 1e-6), ("fast", 1e-6)])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Structure
-from lagrotor.errors import InputError, SingularError
+from lagrotor.errors import SingularError
 from lagrotor.numerics import measured_order
 from lagrotor.structures import chern_numbers, edge_waves, example, honeycomb, polygon_ring
 
@@ -98,18 +98,3 @@ def test_bars_leave_slow_precessions_of_their_own() -> None:
     assert len(limit.rates) == 2 and np.sort(limit.rates) == pytest.approx(whole[:2], rel=1e-2)
     with pytest.raises(SingularError, match="no spin acts"):
         polygon_ring(6, spins=300.0, hinge=20.0).piece(6).modes(inertia=False)
-
-
-def test_spins_that_do_not_act_are_refused() -> None:
-    with pytest.raises(SingularError, match="no spin acts"):
-        Structure(joints=[(0, 0), (1, 0)], spins=[10.0, 0.0], hinge=3.0).modes(inertia=False)
-    with pytest.raises(SingularError, match="no spin acts"):
-        honeycomb(spring=1.0, spins=(10.0, 0.0), hinge=2.0, inertia=False).dispersion([(0.3, 0.4)])
-    with pytest.raises(InputError, match="inertia"):
-        honeycomb(**HANGING).piece(2, 2)
-    with pytest.raises(InputError, match="inertia"):
-        honeycomb(**HANGING).nonlinear_wave((0.3, 0.4), 0)
-    with pytest.raises(InputError, match="True or False"):
-        honeycomb(**{**HANGING, "inertia": "no"})
-    with pytest.raises(InputError, match="angle"):
-        honeycomb(angle="x", **HANGING)

@@ -9,7 +9,7 @@ import pytest
 from lagrotor import Link, Pattern, Rotor
 from lagrotor.errors import InputError
 from lagrotor.numerics import measured_order
-from lagrotor.structures import honeycomb, local_hamiltonian, polygon_ring, square, straight_row, wave_amplitude
+from lagrotor.structures import local_hamiltonian, polygon_ring, square, straight_row, wave_amplitude
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.resonances import normal_form_of
 from lagrotor.structures.small_motion import small_motion
@@ -169,33 +169,3 @@ def test_a_triad_may_have_a_wave_that_is_numbered_at_the_opposite_wave_number_an
     assert opposite[-1 - triad.bands[k]] == pytest.approx(-triad.rates[k])
     with pytest.raises(InputError, match=f"it is band {triad.bands[k]} of −q"):
         pattern.nonlinear_wave(-triad.q[k], -1 - triad.bands[k])
-
-
-def test_what_makes_no_sense_is_refused() -> None:
-    with pytest.raises(InputError, match="first order only"):
-        straight_row(spins=10.0, hinge=10.0).nonlinear_wave(1.0, 0)
-    with pytest.raises(InputError, match="friction"):
-        straight_row(spring=1.0, spins=10.0, friction=0.1).nonlinear_wave(1.0, 0)
-    with pytest.raises(InputError, match="bands there are 0 to 1"):
-        straight_row(spring=1.0, spins=10.0, hinge=2.0).nonlinear_wave(1.0, 2)
-    with pytest.raises(InputError, match="rate 0 rad/s"):
-        straight_row(spring=1.0, spins=10.0).nonlinear_wave(0.0, 0)
-    with pytest.raises(InputError, match="2 waves have its rate"):
-        straight_row(spring=1.0, hinge=2.0).nonlinear_wave(0.0, 0)
-    with pytest.raises(InputError, match="two steps"):
-        honeycomb(spring=1.0, spins=10.0, hinge=2.0).three_waves(1.0)
-    wave = polygon_ring(5, spring=25.0, spins=12.0, hinge=30.0).nonlinear_wave(1.0, 0)
-    for amplitude, said in ((0.7, "beyond"), (-0.1, "beyond"), (float("nan"), "finite"), ("a", "number")):
-        with pytest.raises(InputError, match=said):
-            wave.rate_at(amplitude)
-    for q in ("a", 1j, float("nan"), [1.0, 2.0]):
-        with pytest.raises(InputError, match="q"):
-            wave.pattern.nonlinear_wave(q, 0)
-        with pytest.raises(InputError, match="q"):
-            wave.pattern.three_waves(q)
-    with pytest.raises(InputError, match="1 or more"):
-        wave.state(-1, amplitude=0.1)
-    with pytest.raises(InputError, match="another number"):
-        wave_amplitude(wave.pattern, wave.pattern.piece(4).simulate([0, 0.1], np.zeros((4, 2))), (5,), 1.0, 0)
-    assert wave.rate_at(wave.trusted) == wave.rate + wave.shift * wave.trusted**2
-    assert "a² rad/s" in wave.summary()["shift"]

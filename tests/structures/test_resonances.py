@@ -10,7 +10,7 @@ from lagrotor import Brace, Link, Rotor, Structure
 from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical import normal_forms
 from lagrotor.mechanics.canonical.normal_coordinates import normal_coordinates
-from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
+from lagrotor.mechanics.canonical.polynomials import total, variable
 from lagrotor.numerics import measured_order
 from lagrotor.structures import exact_motion, example, holding, local_hamiltonian, measured_fall, resonant_factors
 from lagrotor.structures.exact.exact_motion import off_constraints
@@ -31,6 +31,13 @@ HEAVY = {
     "hinge": [3, 0, 2],
     "braces": [Brace(0, (0.3, 0.4, 0.1), 40.0), Brace(0, 2, 15.0)],
 }
+LENGTHS = Structure(
+    [(0, 0), (1, 0), (2.1, 0.3)],
+    [(0, 1), (1, 2)],
+    [1, -0.5, 1],
+    tuple(Rotor(length=x) for x in (1.0, 1.3, 0.8)),
+    gravity=9.81,
+)
 
 
 def at(factor: float, shape, spins) -> Structure:
@@ -60,10 +67,16 @@ def test_modes_have_the_signs_of_their_energies():
     assert "of negative energy" in repr(top)
 
 
-def exact_accelerations(s: Structure, q, v):
-    """q'' of the exact motion at the coordinates q and their rates v."""
-    motion, linear = exact_motion(s), small_motion(s)
-    back = np.linalg.pinv(bar_rows(motion.c))
+def gap(s: Structure, order: int, eps: float, spins: float = 1.0) -> float:
+    """How far q'' by the expanded Hamiltonian is from the exact one at a state of size eps, relative."""
+    h, motion, linear = local_hamiltonian(s, order), exact_motion(s), small_motion(s)
+    back, H, n = np.linalg.pinv(bar_rows(motion.c)), h.at_spins(spins), len(h.mass)
+    slopes, step = [H.derivative(k) for k in range(2 * n)], 1e-5
+    x = eps * np.random.default_rng(5).normal(size=2 * n)
+
+    def flow(x):
+        values = np.array([f.at(x) for f in slopes])
+        return np.concatenate([values[n:], -values[:n]])
 
     def axes(q):
         u = linear.basis @ q
@@ -73,32 +86,16 @@ def exact_accelerations(s: Structure, q, v):
             u = u + back @ (off_constraints(motion.c, r)[len(r) :] / motion.c.ell)
         return r
 
-    step = 1e-5
-    rates = (axes(q + step * v) - axes(q - step * v)) / (2 * step)
-    return linear.basis.T @ motion.accelerations(0.0, axes(q), rates)[:, :2].ravel()
-
-
-def gap(s: Structure, order: int, eps: float, spins: float = 1.0) -> float:
-    """How far q'' by the expanded Hamiltonian is from the exact one at a state of size eps, relative."""
-    h, rng = local_hamiltonian(s, order), np.random.default_rng(5)
-    H, n = h.at_spins(spins), len(h.mass)
-    slopes = [H.derivative(k) for k in range(2 * n)]
-    x = eps * rng.normal(size=2 * n)
-
-    def flow(x):
-        values = np.array([f.at(x) for f in slopes])
-        return np.concatenate([values[n:], -values[:n]])
-
-    step = 1e-5
     second = (flow(x + step * flow(x)) - flow(x - step * flow(x)))[:n] / (2 * step) * h.rate**2
-    exact = exact_accelerations(s, x[:n], flow(x)[:n] * h.rate)
+    q, v = x[:n], flow(x)[:n] * h.rate
+    rates = (axes(q + step * v) - axes(q - step * v)) / (2 * step)
+    exact = linear.basis.T @ motion.accelerations(0.0, axes(q), rates)[:, :2].ravel()
     return float(np.abs(second - exact).max() / np.abs(exact).max())
 
 
 @pytest.mark.parametrize("order", [3, 4])
-@pytest.mark.parametrize("which", ["corner", "heavy"])
-def test_the_expanded_hamiltonian_moves_as_the_exact_structure_to_its_order(which, order):
-    s = Structure(**CORNER, spins=[30, 5, -20]) if which == "corner" else Structure(**HEAVY, spins=[20, -13, 31])
+def test_the_expanded_hamiltonian_moves_as_the_exact_structure_to_its_order(order):
+    s = Structure(**HEAVY, spins=[20, -13, 31])
     coarse, fine = gap(s, order, 0.04), gap(s, order, 0.02)
     assert np.log2(coarse / fine) > order - 1.3
     assert gap(s, order, 0.02, spins=1.01) > 10 * fine  # the twin: of other spins
@@ -192,20 +189,6 @@ def test_whether_own_terms_stop_it_does_not_depend_on_the_basis_of_modes_of_equa
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("shape", "spins"), [(CORNER, [1, 0, 1]), (SQUARE, [1, 1, 1, -1])])
-def test_the_law_in_many_directions(shape, spins):
-    """No exact run falls before the least time, each falls, and the normal form says when, to its error."""
-    s = at(1.0607, shape, spins)
-    found, rate = s.stands(), local_hamiltonian(s).rate
-    for push in directions(s, 8, seed=3):
-        for speed in (0.02, 0.01):
-            said = found.fall_time(speed * rate * push) * rate
-            exact = measured_fall(s, speed * rate * push, 400 / rate) * rate
-            assert found.fall_time(speed * rate) * rate < exact < inf
-            assert abs(exact - said) < 0.5 * exact
-
-
-@pytest.mark.slow
 def test_of_fourth_order_it_falls_more_slowly():
     """Three slow rates in a fast one: the time grows as one over the square of the push."""
     s = at(1.0607, CORNER, [1, 0, 1])
@@ -274,13 +257,11 @@ def test_no_end_of_a_spin_interval_lets_fall_what_the_largest_push_says_falls():
 @pytest.mark.parametrize("times", [100, *(pytest.param(x, marks=pytest.mark.slow) for x in (5, 40))])
 def test_at_fast_spins_the_push_that_holds_lies_within_an_interval(times):
     """Slow precessions of 10⁻⁵ of the fast one are no rate zero; and with friction they fall, however slowly."""
-    rotors = tuple(Rotor(length=x) for x in (1.0, 1.3, 0.8))
-    one = Structure([(0, 0), (1, 0), (2.1, 0.3)], [(0, 1), (1, 2)], [1, -0.5, 1], rotors, gravity=9.81)
-    factor = times * one.critical_spin()
-    fast = replace(one, spins=tuple(factor * w for w in one.spins))
+    factor = times * LENGTHS.critical_spin()
+    fast = replace(LENGTHS, spins=tuple(factor * w for w in LENGTHS.spins))
     push = 0.9 * fast.largest_push().value
     assert fast.stands().kind == "holds" and push > 0
-    assert any(low <= factor <= high for low, high in one.spin_intervals(push))
+    assert any(low <= factor <= high for low, high in LENGTHS.spin_intervals(push))
     rubbed = replace(fast, friction=0.1)
     assert rubbed.critical_spin() == inf and rubbed.stands().kind == "never"
     assert "friction undoes what the spins hold" in rubbed.stands().why
@@ -297,10 +278,8 @@ def test_what_lies_behind_the_largest_push():
 
 
 def test_slow_rates_alone_limit_the_push_and_are_told_in_words():
-    """Rotors of three lengths: nothing stands on the other side of three slow rates, yet beyond their bound a run falls."""
-    lengths = tuple(Rotor(length=x) for x in (1.0, 1.3, 0.8))
-    s = Structure([(0, 0), (1, 0), (2.1, 0.3)], [(0, 1), (1, 2)], [1, -0.5, 1], lengths, gravity=9.81)
-    fast = replace(s, spins=tuple(1.7 * s.critical_spin() * w for w in s.spins))
+    """Nothing stands on the other side of three slow rates, yet beyond their bound a run falls."""
+    fast = replace(LENGTHS, spins=tuple(1.7 * LENGTHS.critical_spin() * w for w in LENGTHS.spins))
     largest, steep = fast.largest_push(), np.array([[0.033, 0.785], [0.025, 0.0], [0.201, -0.585]])
     assert "3 × 0.654 is little beside 26.64 rad/s" in largest.behind
     assert trusted_push(fast) > 0.186 > 1.5 * largest.value
@@ -350,24 +329,6 @@ def test_kinds_of_what_stands_and_what_does_not():
     )  # two modes are one
 
 
-def test_what_cannot_be_said_is_refused():
-    s = at(1.0607, CORNER, [1, 0, 1])
-    with pytest.raises(InputError, match="friction"):
-        local_hamiltonian(replace(s, friction=0.1))
-    with pytest.raises(InputError, match="a mode grows"):
-        Structure(**CORNER, spins=1).resonances()
-    with pytest.raises(InputError, match="at most"):
-        Structure(joints=[(k, j) for k in range(3) for j in range(2)], spins=60, **WEIGHT).resonances()
-    with pytest.raises(InputError, match=r"push must be"):
-        s.stands().fall_time([1.0, 2.0])
-    for wrong in (0, -0.1, float("nan"), inf, "a"):
-        for ask in (s.spin_intervals, s.stands().fall_time):
-            with pytest.raises(InputError, match="above zero"):
-                ask(wrong)
-    with pytest.raises(InputError, match="the bars do not allow"):
-        s.stands().fall_time(0.02 * np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0]]))
-
-
 def test_what_is_beyond_the_expansion_is_no_promise():
     """A top stands at any factor from its critical spins on, but not after any push."""
     top = Structure(joints=[(0, 0)], spins=60, **WEIGHT)
@@ -378,9 +339,6 @@ def test_what_is_beyond_the_expansion_is_no_promise():
     (low, high), *_ = top.spin_intervals(2 * trusted)
     assert low > 1 and high == inf and top.spin_intervals(1e9) == ()
     assert replace(top, spins=(60 * low,)).largest_push().value == pytest.approx(2.04 * trusted, rel=0.02)
-    hanging = Structure(joints=[(0, 0)], hinge=60.0, **WEIGHT)
-    with pytest.raises(InputError, match="stands without spins"):
-        hanging.spin_intervals(0.1)
 
 
 def test_beside_the_critical_spins_the_exact_motion_falls_and_none_is_said_to_hold():
@@ -426,11 +384,6 @@ def test_how_long_it_holds():
     assert found.hold_time(2 * s.largest_push().value) == 0 == at(0.9, CORNER, [1, 0, 1]).stands().hold_time(0.1)
     falling = at(1.0607, CORNER, [1, 0, 1]).stands()
     assert 0 < falling.hold_time(0.01 * rate) < falling.fall_time(0.01 * rate)
-    with pytest.raises(InputError, match="hold_time: push = -1 must be"):
-        found.hold_time(-1)
-    beside = CORNER | {"joints": [*CORNER["joints"], (5, 0), (6, 0), (7, 0)]}
-    with pytest.raises(InputError, match="hold_time: 10 degrees of freedom: at most 8"):
-        at(1.5, beside, [1, 0.3, 1.2, 1, 1, 1]).stands().hold_time(0.1)
 
 
 def test_odd_orders_that_symmetry_removes_are_no_promise():
@@ -442,26 +395,6 @@ def test_odd_orders_that_symmetry_removes_are_no_promise():
         times.append([s.stands().hold_time(push) for push in pushes])
     assert times[0] == pytest.approx(times[1], rel=0.05)
     assert measured_order(pushes, times[0]) == pytest.approx(-4, abs=0.1)
-
-
-def test_what_the_form_leaves_is_what_its_next_generator_removes():
-    """Of the Hamiltonian brought by the generators of third and fourth order alone, the fifth order."""
-    s = at(1.5, CORNER, [1, 0.3, 1.2])
-    form = normal_form_of(s, 1.0, 0.0, 5)
-    n = len(form.frequencies)
-    rows = [
-        polynomial({tuple(int(i == j) for i in range(2 * n)): c for j, c in enumerate(row)}, 2 * n)
-        for row in form.vectors
-    ]
-    H = local_hamiltonian(s, 5).at_spins(1.0)
-    K = Polynomial(H.exponents, H.coefficients + 0j).substitute(rows, 5)
-    for generator in form.generators[:2]:
-        K = lie_transform(K, generator, form.weights, 5)
-    last = form.generators[2]
-    gap = (last.exponents[:, :n] - last.exponents[:, n:]) @ np.real(form.frequencies)
-    left = K.part(5) - form.series.part(5)
-    assert np.abs((left + last.times(1j * gap)).coefficients).max(initial=0.0) < 1e-12 * np.abs(left.coefficients).max()
-    assert np.abs(left.coefficients).max() > 0.1
 
 
 def test_the_normal_modes_are_no_farther_from_the_coordinates_of_the_form_than_is_counted():
