@@ -30,11 +30,6 @@ def test_opposite_spins_leave_the_bands_touching_and_in_the_trivial_phase_have_z
     assert len(trivial.groups) == 4 and trivial.numbers == (0, 0, 0, 0)
 
 
-def test_spins_that_differ_enough_end_the_phase() -> None:
-    assert chern_numbers(honeycomb(spring=1.0, hinge=4.0, spins=(20.0, 20.0)), 12).numbers == (-1, 1, -1, 1)
-    assert chern_numbers(honeycomb(spring=1.0, hinge=4.0, spins=(20.0, 30.0)), 12).numbers == (0, 0, 0, 0)
-
-
 def energy_chern(pattern, grid: int) -> tuple[int, ...]:
     """The same from the Hermitian matrix of (K^½ u, M^½ u'), whose square is twice the energy."""
     b, phases = bloch(pattern), 2 * np.pi * (np.arange(grid) + 0.5) / grid

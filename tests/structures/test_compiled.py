@@ -21,19 +21,6 @@ from tests.structures.test_exact_motion import LOADED, nine, started
 T = np.linspace(0, 2, 11)
 
 
-@pytest.mark.parametrize("s", [*LOADED.values(), nine()], ids=[*LOADED, "nine"])
-def test_the_equations_written_out_are_those_of_the_exact_motion(s) -> None:
-    motion, draw = exact_motion(s), np.random.default_rng(3)
-    r = motion.c.upright + 0.3 * draw.standard_normal((len(s.joints), 3))
-    r /= np.linalg.norm(r, axis=1, keepdims=True)
-    v = np.cross(r, draw.standard_normal(r.shape))
-    expected = motion.accelerations(0.0, r, v)
-    found = np.reshape(structure_accelerations(motion.c, r, v, motion.c.G, math), r.shape)
-    assert np.abs(found - expected).max() < 1e-13 * np.abs(expected).max()
-    other = np.reshape(structure_accelerations(replace(motion.c, gravity=1.0), r, v, motion.c.G, math), r.shape)
-    assert np.abs(other - expected).max() > 1e-3
-
-
 @pytest.mark.parametrize("theta", [0.0, 1e-9, 0.3, 1.5, 3.0])
 def test_the_hinge_is_exact_from_upright_to_hanging(theta: float) -> None:
     s = Structure([(0, 0)], spins=1, hinge=2.0)

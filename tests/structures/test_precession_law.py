@@ -10,7 +10,6 @@ from lagrotor.numerics import measured_order
 from lagrotor.structures.coefficients import coefficients
 
 TRIANGLE = Structure([(0, 0), (1, 0), (0.3, 0.9)], [(0, 1), (1, 2), (2, 0)], [-6.5, 7.7, 7.5], hinge=20.0)
-CORNER = Structure([(0, 0), (1, 0), (1.6, 0.8)], [(0, 1), (1, 2)], [39, 5.2, 36.4], gravity=9.81, load=2.0)
 
 
 @pytest.mark.parametrize("mode", [0, 1])
@@ -49,9 +48,3 @@ def test_beyond_its_edge_exact_multipliers_leave_the_circle() -> None:
     assert beyond.growth == pytest.approx(law.growth_at(1.3 * law.edge), rel=0.02)
     for orbit in (below, beyond):  # symplectic: the multipliers' product is 1
         assert abs(np.prod(orbit.multipliers) - 1) < 4 * orbit.errors.max() < 1e-8
-
-
-def test_under_weight_slow_precessions_are_fed() -> None:
-    law = CORNER.precession_law(3)
-    assert sorted(np.sign(law.others)) == [-1, -1, 1] and 0.07 < law.edge < 0.08
-    assert CORNER.precession_law(1).sign == -1

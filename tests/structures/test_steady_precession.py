@@ -41,16 +41,6 @@ def test_the_pairs_paired_precession_is_one_of_a_structure(link: Link) -> None:
     assert abs(floquet(Scene(spins=(10, -10), link=link), 0.301).growth - orbit.growth) > 1e3 * orbit.errors[2]
 
 
-def test_at_small_tilts_the_multipliers_are_those_of_the_modes() -> None:
-    rates, mode = CORNER.modes().rates, 2
-    off = []
-    for tilt in (0.02, 0.04):
-        orbit = CORNER.steady_precession(mode, tilt)
-        others = np.exp(1j * orbit.period * np.delete(rates, mode))
-        off.append(max(np.abs(orbit.multipliers - each).min() for each in (*others, *others.conj())))
-    assert np.log2(off[1] / off[0]) == pytest.approx(2, abs=0.1) and off[0] < 1e-2
-
-
 def test_the_exact_motion_leaves_a_precession_as_its_multiplier_has_it() -> None:
     """Near a resonance the fastest mode's precession feeds the others: each turn by the largest multiplier."""
     orbit = CORNER.steady_precession(3, 0.05)
