@@ -1,7 +1,5 @@
-"""Films, as GIF or MP4, of lines that move: rods, wheels, whatever joins points, some leaving the path of their last point."""
+"""Films, as GIF, of lines that move: rods, wheels, whatever joins points, some leaving the path of their last point."""
 
-import shutil
-import subprocess
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,13 +16,12 @@ from numpy.typing import NDArray
 
 from lagrotor.drawing.style import paper_style
 from lagrotor.drawing.wheel import BAR, GROUND, INK, MARK, RADIUS, ROTORS, Camera, place_points
-from lagrotor.errors import InputError, LagrotorError
+from lagrotor.errors import InputError
 from lagrotor.files import path_of, write_beside
 from lagrotor.numerics.rotations import Array
 
-_SUFFIXES = (".gif", ".mp4")
 FASTEST = 50.0  # frames per second: a GIF counts in hundredths of a second, and players take 2 of them at least
-SIZE = (720, 420)  # of a frame, in pixels; even, as MP4 needs them
+SIZE = (720, 420)  # of a frame, in pixels
 SPOKES = 5  # few, so that a turn of 0.4 rad from frame to frame is not seen as one backwards
 LONGEST = 600  # s of a film
 _DPI = 100
@@ -36,12 +33,12 @@ Stage = Callable[[Figure], tuple[Axes, Callable[[int], list[Artist]]]]
 def check_film(path: str | Path, duration: float, fps: float) -> None:
     """Raises InputError unless a film of `duration` s, at `fps` frames per second, can be written to `path`."""
     path = path_of("animate: path", path)
-    if path.suffix not in _SUFFIXES:
-        raise InputError(f"animate: {path}: the name must end in .gif or .mp4")
+    if path.suffix != ".gif":
+        raise InputError(
+            f"animate: {path}: the name must end in .gif; `ffmpeg -i run.gif run.mp4` makes other films of it"
+        )
     if path.is_dir():
         raise InputError(f"animate: {path} is a folder: give a file")
-    if path.suffix == ".mp4" and not shutil.which("ffmpeg"):
-        raise InputError("animate: an .mp4 needs the program ffmpeg, which is not here: install it, or write a .gif")
     if not 1 <= fps <= FASTEST:
         raise InputError(f"animate: fps = {fps:g} must lie between 1 and {FASTEST:g} frames per second")
     if not 1 / fps <= duration <= LONGEST:
@@ -62,9 +59,7 @@ class Film(type(Path())):  # type: ignore[misc]
         from base64 import b64encode
 
         data = b64encode(self.read_bytes()).decode()
-        if self.suffix == ".gif":
-            return f'<img src="data:image/gif;base64,{data}" alt="The motion">'
-        return f'<video controls loop src="data:video/mp4;base64,{data}"></video>'
+        return f'<img src="data:image/gif;base64,{data}" alt="The motion">'
 
 
 def _announce_seconds(
@@ -98,29 +93,6 @@ def _palette() -> Pixels:
     inks = np.array([to_rgb(ink) for ink in (INK, *ROTORS, MARK)])
     share = np.append(0, np.linspace(0.08, 1, 23))[:, None, None]
     return np.rint(255 * (1 + share * (inks - 1))).astype(np.uint8).reshape(-1, 3)
-
-
-def _write_mp4(file: IO[bytes], frames: Iterator[Pixels], fps: float) -> None:
-    """Through ffmpeg's standard input and output; a fragmented MP4, as a pipe cannot be wound back."""
-    width, height = SIZE
-    command = ["ffmpeg", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
-    command += ["-r", f"{fps:g}", "-i", "pipe:0", "-an", "-c:v", "libx264", "-pix_fmt", "yuv420p"]
-    command += ["-movflags", "frag_keyframe+empty_moov", "-f", "mp4", "pipe:1"]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=file, stderr=subprocess.PIPE) as ffmpeg:
-        assert ffmpeg.stdin
-        assert ffmpeg.stderr
-        try:
-            for frame in frames:
-                ffmpeg.stdin.write(frame.tobytes())
-            ffmpeg.stdin.close()
-        except BrokenPipeError:
-            pass
-        except BaseException:
-            ffmpeg.kill()
-            raise
-        said = ffmpeg.stderr.read().decode(errors="replace").strip()
-    if ffmpeg.returncode:
-        raise LagrotorError(f"animate: ffmpeg failed ({said or ffmpeg.returncode}): write a .gif instead")
 
 
 def _frames(count: int, stage: Stage) -> Iterator[Pixels]:
@@ -186,7 +158,7 @@ def animate_lines(
     traced: Sequence[int] | None = None,
     step: Callable[[str], None] = lambda name: None,
 ) -> Path:
-    """Write lines (m, p, 3) in m at the times t (m,) of the frames as a film, `.gif` or `.mp4`, at its own speed.
+    """Write lines (m, p, 3) in m at the times t (m,) of the frames as a film, `.gif`, at its own speed.
 
     Seen along y where nothing moves along it, from above where nothing rises, else obliquely.
 
@@ -201,7 +173,6 @@ def animate_lines(
 
     Raises:
         InputError: for a name or a rate that will not do, before anything is drawn.
-        LagrotorError: where ffmpeg fails.
     """
     target, flat = Path(path), _flat(lines)
     check_film(target, float(t[-1] - t[0]), fps)
@@ -225,9 +196,7 @@ def animate_lines(
         return axes, update
 
     frames = _announce_seconds(_frames(len(t), stage), len(t), fps, step)
-    if target.suffix == ".gif":
-        return Film(write_beside(target, lambda file: _write_gif(file, frames, len(t), fps)))
-    return Film(write_beside(target, lambda file: _write_mp4(file, frames, fps)))
+    return Film(write_beside(target, lambda file: _write_gif(file, frames, len(t), fps)))
 
 
 def _flat(lines: Sequence[Array]) -> int | None:

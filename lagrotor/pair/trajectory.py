@@ -117,7 +117,7 @@ class Trajectory(Run):
         """Write the motion as a film.
 
         Args:
-            path: a `.gif`, or an `.mp4` where ffmpeg is there.
+            path: a `.gif`.
             fps: pictures per second.
             step: called with each second of the film as it begins.
         """

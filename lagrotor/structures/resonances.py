@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.canonical.normal_forms import NormalForm, normal_form_of_series
-from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
+from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, variable
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
@@ -217,17 +217,11 @@ def _resonance(
     falls = order == 3 or any(_outweighs(part, k, groups) for k in different)
     nearest = min(group, key=lambda k: abs(np.dot(k, rates)))
     over = np.linalg.inv(n.vectors)[:size][modes] @ pushed
-    lead = total([up, _conjugate(up)]) if order == 3 else part
+    growth, *own = (-unit * _least(f, modes[None], np.ones(1)) for f in (up, *([part, part.times(-1)] * (order == 4))))
     return Resonance(
         order, tuple(sorted(group, key=lambda k: abs(np.dot(k, rates)))), rates, at, float(np.dot(nearest, rates)),
-        float(np.dot(nearest, slopes)), unit * _largest(up, modes), unit * _largest(lead, modes),
-        float(np.linalg.norm(over, 2)), falls,
+        float(np.dot(nearest, slopes)), growth, max([2 * growth, *own]), float(np.linalg.norm(over, 2)), falls,
     )  # fmt: skip
-
-
-def _conjugate(f: Polynomial) -> Polynomial:
-    n = f.variables // 2
-    return Polynomial(np.hstack([f.exponents[:, n:], f.exponents[:, :n]]), f.coefficients.conj())
 
 
 def _outweighs(part: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -> bool:
@@ -236,57 +230,39 @@ def _outweighs(part: Polynomial, k: tuple[int, ...], groups: list[list[int]]) ->
     Modes of equal rates have any basis, and all of them count. As the phase of P is free, it exceeds them where own terms and
     2 Re P together take both signs.
     """
-    from scipy.optimize import minimize
-
     n = len(k)
     of = np.array([[j in g for j in range(n)] for g in groups])
     sums = of @ k
     up, down = part.exponents[:, :n] @ of.T, part.exponents[:, n:] @ of.T
     fed = ((up == sums) & (down == 0)).all(1) | ((down == sums) & (up == 0)).all(1)
-    chosen = (fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1)
-    powers, coefficients = part.exponents[chosen], part.coefficients[chosen]
-    double = np.hstack([of[sums > 0]] * 2)  # real and imaginary parts
-    sizes = np.sqrt(sums[sums > 0])
+    chosen = part.where((fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1))
+    return all(_least(chosen.times(sign), of[sums > 0], sums[sums > 0]) < 0 for sign in (1, -1))
 
-    def value(x: Array, sign: float = 1.0) -> tuple[float, Array]:
-        """The terms at x, its groups brought to their sums, and the gradient."""
+
+def _least(f: Polynomial, groups: Array, sums: Array) -> float:
+    """Return the least real part of f(z, z̄) where |z_j|² adds up to the sums over groups, rows of a mask: descent from some
+    starts."""
+    from scipy.optimize import minimize
+
+    powers, double, sizes = f.exponents, np.hstack([groups, groups]), np.sqrt(sums)  # double: real and imaginary parts
+    n, moving = f.variables // 2, np.flatnonzero(double.any(0))
+
+    def value(x: Array) -> tuple[float, Array]:
+        """The real part at x, its groups brought to their sums, and the gradient."""
         norms = np.sqrt(double @ x**2)
         scale = (sizes / norms) @ double
         z = (scale * x)[:n] + 1j * (scale * x)[n:]
         point = np.concatenate([z, z.conj()])
-        terms = coefficients * np.prod(point**powers, axis=1)
-        by_z = ((terms @ powers)[:n] / np.where(z == 0, 1, z)) * 2
-        slope = np.concatenate([by_z.real, -by_z.imag])
-        along = (double @ (x * slope) / norms**2) @ double
-        return sign * float(terms.sum().real), sign * scale * (slope - along * x)
-
-    moving = np.flatnonzero(double.any(0))
-    draw = np.random.default_rng(0)
-    starts = np.zeros((8, 2 * n))
-    starts[:, moving] = draw.standard_normal((8, len(moving)))
-    sign = np.sign(value(starts[0])[0])
-    return any(minimize(value, x, sign, jac=True, method="BFGS").fun < 0 for x in starts)
-
-
-def _largest(f: Polynomial, modes: Any) -> float:
-    """The largest |f| at sum |z_j|² = 1, w = z̄, of the modes of a mask, f homogeneous: ascent from some starts."""
-    from scipy.optimize import minimize
-
-    m, powers, order = int(modes.sum()), f.exponents[:, np.tile(modes, 2)], int(f.exponents[0].sum())
-    draw = np.random.default_rng(0)
-
-    def lower(x: Array) -> tuple[float, Array]:
-        """−|f|/|x|^d and its gradient."""
-        z, size = x[:m] + 1j * x[m:], float(np.linalg.norm(x))
-        point = np.concatenate([z, z.conj()])
         terms = f.coefficients * np.prod(point**powers, axis=1)
-        value, (by_z, by_w) = terms.sum(), (terms @ powers / point).reshape(2, m)
-        turn = value.conjugate() / abs(value) if value else 1.0
-        slope = np.concatenate([(turn * (by_z + by_w)).real, -(turn * (by_z - by_w)).imag])
-        return -abs(value) / size**order, (order * abs(value) * x / size**2 - slope) / size**order
+        by_z, by_w = (terms @ powers / np.where(point == 0, 1, point)).reshape(2, n)
+        slope = by_z + by_w.conj()
+        slope = np.concatenate([slope.real, -slope.imag])
+        along = (double @ (x * slope) / norms**2) @ double
+        return float(terms.sum().real), scale * (slope - along * x)
 
-    starts = draw.standard_normal((8, 2 * m))
-    return float(max(-minimize(lower, x, jac=True, method="BFGS").fun for x in starts))
+    starts = np.zeros((8, 2 * n))
+    starts[:, moving] = np.random.default_rng(0).standard_normal((8, len(moving)))
+    return float(min(minimize(value, x, jac=True, method="BFGS").fun for x in starts))
 
 
 def _slopes(linear: SmallMotion, factor: float) -> Array:

@@ -1,7 +1,5 @@
 """Motion: bodies turned along a run against exact rotations, wheels that stay rigid, films of the right size."""
 
-import sys
-
 import numpy as np
 import pytest
 from PIL import Image
@@ -12,7 +10,7 @@ from lagrotor.commands.command_line import main
 from lagrotor.drawing import Camera
 from lagrotor.drawing.film import SIZE, frame_times
 from lagrotor.drawing.wheel import place_points, wheel
-from lagrotor.errors import InputError, LagrotorError
+from lagrotor.errors import InputError
 from lagrotor.numerics import body_rotations
 from lagrotor.numerics.rotations import between_samples, turn_between
 from lagrotor.pair import SCENES
@@ -150,7 +148,7 @@ def test_gif_has_its_frames_size_and_duration(short, tmp_path):
 @pytest.mark.parametrize(
     ("name", "fps", "says"),
     [
-        ("pair.png", 25, "gif or .mp4"),
+        ("pair.png", 25, "end in .gif"),
         ("pair.gif", 0.5, "fps"),
         ("pair.gif", np.nan, "fps"),
         ("no/pair.gif", 25, "existing"),
@@ -175,32 +173,6 @@ def test_interrupted_leaves_nothing(short, tmp_path):
     assert list(tmp_path.iterdir()) == [old]
 
 
-@pytest.mark.parametrize(
-    ("body", "says"),
-    [
-        ("print(len(sys.stdin.buffer.read()), sys.argv[sys.argv.index('-s') + 1])", ""),
-        ("sys.exit('no such codec')", r"no such codec.*gif"),
-        (None, r"install it, or write a \.gif"),
-    ],
-)
-def test_mp4_hands_ffmpeg_every_frame_and_says_why_it_cannot(short, tmp_path, monkeypatch, body, says):
-    """With a stand-in for ffmpeg, and without."""
-    script, path = tmp_path / "ffmpeg", tmp_path / "pair.mp4"
-    if body:
-        script.write_text(f"#!{sys.executable}\nimport sys\n{body}\n")
-        script.chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    if says:
-        with pytest.raises(LagrotorError, match=says):
-            short.animate(path, fps=5)
-        assert not path.exists()
-    else:
-        assert short.animate(path, fps=5).read_text().split() == [
-            str(13 * SIZE[0] * SIZE[1] * 3),
-            f"{SIZE[0]}x{SIZE[1]}",
-        ]
-
-
 # --- command line, prompt and notebook
 
 
@@ -209,9 +181,9 @@ def test_mp4_hands_ffmpeg_every_frame_and_says_why_it_cannot(short, tmp_path, mo
     [
         (["spin"], "invalid choice: 'spin'"),
         ([], "SCENE"),
-        (["same-spin", "--out", "pair.txt"], ".gif or .mp4"),
+        (["same-spin", "--out", "pair.txt"], "end in .gif"),
         (["same-spin", "--out", "missing/pair.gif"], "no folder missing"),
-        (["same-spin", "--out", "."], ".gif or .mp4"),
+        (["same-spin", "--out", "."], "end in .gif"),
         (["same-spin", "--t-end", "0"], "0 s"),
         (["same-spin", "--t-end", "nan"], "nan s"),
         (["same-spin", "--t-end", "1e9"], "600 s at most"),

@@ -86,7 +86,7 @@ class SpringRun(Run):
         return run_figure(self.t, self.tips, self.energy, "rigid bodies on springs")
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there: splines through what was read."""
+        """Write the motion to `path`, a `.gif`: splines through what was read."""
         from scipy.interpolate import CubicSpline
         from scipy.spatial.transform import Rotation, Slerp
 

@@ -119,7 +119,7 @@ class StructureRun(Run):
         return run_figure(self.t, self.tips, self.energy, inks=[OKABE_ITO[ink] for ink in inks], bars=bars)
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion as a film, `.gif` or `.mp4`, at its own speed, axes between the samples by Hermite cubics; bars
+        """Write the motion as a film, `.gif`, at its own speed, axes between the samples by Hermite cubics; bars
         grey, braces green, rotors coloured by the sense of their spins.
 
         Raises:
