@@ -39,7 +39,7 @@ def started(s, seed=1, size=0.2):
     return {"tilt": size * draw.standard_normal((len(s.joints), 2)), "rates": draw.standard_normal((len(s.joints), 2))}
 
 
-@pytest.mark.parametrize(("link", "model"), zip(BARS, ("spheres", "minimal", "spheres"), strict=True))
+@pytest.mark.parametrize(("link", "model"), [*zip(BARS, ("spheres", "minimal", "spheres"), strict=True)])
 def test_two_rotors_without_load_are_the_pair(link, model) -> None:
     s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1)], spins=[10, -7], link=link)
     run = s.simulate(np.linspace(0, 5, 101), **started(s), tol=1e-10)

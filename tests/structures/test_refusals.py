@@ -112,6 +112,7 @@ REFUSED = [
     (driven(t=[1, 0]), "increasing"),
     (driven(tol=0), "tol"),
     (driven(engine="quick"), "neither core nor fast"),
+    (driven(engine="fast", ground=lambda t: np.zeros(3)), "takes no drive"),
     (driven(tilt="a"), "tilt"),
     (driven(tilt=[(1.2, 0)] * 2), "exceeds 1"),
     (driven(tilt=[0.1]), "2, 2"),

@@ -191,6 +191,8 @@ def simulate_structure(
         None if given is None else _TriedDrive(given, name, size, times)
         for given, name, size in ((drive, "drive", shape), (ground, "ground", shape[1:]))
     ]
+    if engine == "fast" and any(drives):
+        raise InputError("simulate: engine='fast' takes no drive and no motion of the ground: use engine='core'")
     motion = exact_motion(s, *(each and each.since(begin) for each in drives))
     c = motion.c
     conserved = not (any(drives) or c.decay.any() or c.friction.any() or c.damping.any())
