@@ -81,16 +81,6 @@ def widget_of_a_line() -> Any:
     return view_lines(t, [turning], ["#123456"], "a line").widget()
 
 
-def test_the_time_of_two_widgets_is_one() -> None:
-    one, other = widget_of_a_line(), widget_of_a_line()
-    traitlets = pytest.importorskip("traitlets")
-    traitlets.link((one, "time"), (other, "time"))
-    one.time = 1.5
-    assert (other.time, other.playing) == (1.5, False)
-    with pytest.raises(traitlets.TraitError):
-        one.time = 3.0
-
-
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 # A model as a notebook has it, and what a reader does: Python sets the time, a hand moves the slider, Python lets it play.
 PAGE = """<!doctype html><body><div id="cell"></div><script type="module">

@@ -1,14 +1,11 @@
 """What an evaluation costs grows as the number of rotors: counted in the entries of the band and of the arrays."""
 
-import math
-from itertools import pairwise
-
 import numpy as np
 import pytest
 
 from lagrotor import Link, Structure
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact.compiled_motion import eliminate_in_levels, structure_accelerations
+from lagrotor.structures.exact.compiled_motion import eliminate_in_levels
 from lagrotor.structures.exact.exact_motion import pulls, saddle
 
 SIZES = (64, 512, 4096)
@@ -72,50 +69,6 @@ def test_a_grid_is_solved_sparsely_and_to_the_same_numbers() -> None:
     assert np.isnan(
         replace(motion.saddle).solve(still, pulls(motion.c, still), np.ones((1, len(bars) + 4 * L * L, 1)))
     ).all()
-
-
-class Counted:
-    """A number that counts what is done to it."""
-
-    done = 0
-
-    def __init__(self, value: float) -> None:
-        self.value = value
-
-    @staticmethod
-    def _by(operation):
-        def done(self, other):
-            Counted.done += 1
-            return Counted(operation(self.value, other.value if isinstance(other, Counted) else float(other)))
-
-        return done
-
-    __add__ = __radd__ = _by(lambda a, b: a + b)
-    __mul__ = __rmul__ = _by(lambda a, b: a * b)
-    __sub__, __rsub__ = _by(lambda a, b: a - b), _by(lambda a, b: b - a)
-    __truediv__, __rtruediv__ = _by(lambda a, b: a / b), _by(lambda a, b: b / a)
-
-    def __neg__(self):
-        return 0.0 - self
-
-
-def operations(s: Structure) -> int:
-    """Of the equations written out, which the fast extra compiles."""
-    c, Counted.done = exact_motion(s).c, 0
-    upright, N = [[Counted(x) for x in axis] for axis in c.upright.tolist()], len(s.joints)
-    structure_accelerations(c, upright, upright, [Counted(1.0)] * N, math)
-    return Counted.done
-
-
-def ratios(shape, link: Link, sizes: range) -> list[float]:
-    found = [operations(shape(2**k, link)) for k in sizes]
-    return [more / few for few, more in pairwise(found)]
-
-
-@pytest.mark.parametrize("shape", [chain, ring])
-def test_the_operations_of_an_evaluation_grow_at_most_2_2_times_a_doubling(shape) -> None:
-    """From eight rotors on; from four to eight the bars of a chain alone are 7/3 as many."""
-    assert max(ratios(shape, Link(), range(3, 8))) < 2.2
 
 
 def test_a_constraint_is_not_eliminated_before_what_it_holds() -> None:

@@ -188,17 +188,6 @@ def test_what_no_friction_reaches_neither_grows_nor_decays(spin: float) -> None:
     assert decaying[1] == decaying[0] + 1
 
 
-def test_springs_hold_without_spin() -> None:
-    s = Structure(**PAIR, spins=[10, -10], gravity=9.81, hinge=10.0)
-    assert s.stands() and s.critical_spin() == 0
-
-
-def test_without_weight_a_push_goes_on() -> None:
-    found = Structure(**PAIR, spins=[10, -10]).stands()
-    assert not found and found.growth == 0 and "goes on" in found.why
-    assert Structure(joints=[(0, 0)], spins=[10]).stands()
-
-
 @pytest.mark.parametrize(
     "given",
     [

@@ -20,14 +20,6 @@ Q = np.linspace(-3.1, 3.1, 24)
 HEAVY = Link(mass=0.3, inertia=0.1)
 
 
-@pytest.mark.parametrize("theta", [0.3, 0.9, np.pi / 2, 2.0])
-def test_long_waves_of_a_zigzag_run_at_the_cotangent_of_half_its_angle(theta: float) -> None:
-    pattern = zigzag(theta, spins=(10, -10))
-    along = np.cos(theta / 2)  # metres a rotor
-    assert long_wave_speeds(pattern) == pytest.approx([10 / J / np.tan(theta / 2) * along], rel=1e-8)
-    assert long_wave_speeds(pattern, [-1.0]) == pytest.approx([10 / J * np.tan(theta / 2) * along], rel=1e-8)
-
-
 def test_the_honeycomb_of_opposite_spins_has_its_closed_form_and_that_of_equal_spins_a_zero_band() -> None:
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (50, 2))
     d = np.array([q[:, 0], -q[:, 1], q[:, 1] - q[:, 0]])
