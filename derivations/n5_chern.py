@@ -17,7 +17,7 @@ import sympy as sp
 from lagrotor import Rotor
 from lagrotor.errors import InputError
 from lagrotor.paper import Remark, prove
-from lagrotor.structures import border_packet, chern_numbers, edge_waves, honeycomb, square_octagon, way_round
+from lagrotor.structures import chern_numbers, edge_waves, honeycomb, square_octagon
 
 a, k, G, omega = sp.symbols("a k G omega", positive=True)
 mu, mu_A, mu_B = sp.symbols("mu mu_A mu_B", real=True)
@@ -132,9 +132,17 @@ def packet(spins: float) -> tuple[tuple[int, ...], float, float]:
     """Chern numbers, and how far a packet of 0.01 has come round in 5 s, rad, with the run's error."""
     pattern = honeycomb(spring=100.0, spins=spins, hinge=100.0)
     gap = pattern.dispersion(2 * np.pi * np.stack(np.meshgrid(*[np.arange(24) / 24] * 2), -1).reshape(-1, 2)).gaps[1]
-    piece, tilt, rates = border_packet(pattern, 4, gap)
-    run = piece.simulate(np.linspace(0, 5, 101), tilt, rates, tol=1e-5)
-    return chern_numbers(pattern, 12).numbers, float(np.diff(way_round(run)[[0, -1]])[0]), run.error
+    piece = pattern.piece(4, 4)
+    m, x = piece.modes(), np.array(piece.joints) - np.mean(piece.joints, axis=0)
+    inside = (m.rates > gap[0]) & (m.rates < gap[1])
+    pushed = int(np.argmin(np.hypot(x[:, 0], x[:, 1] - x[:, 1].min())))
+    parts = np.conj(m.shapes[inside, pushed, 0])[:, None, None] * m.shapes[inside]
+    tilt, rates = parts.sum(0), (1j * m.rates[inside, None, None] * parts).sum(0)
+    size = 0.01 / np.abs(tilt).max()
+    run = piece.simulate(np.linspace(0, 5, 101), size * tilt.real, size * rates.real, tol=1e-5)
+    centre = (run.axes[..., :2] ** 2).sum(-1).T @ x  # of the squared tilts, about the middle of the piece
+    angle = np.unwrap(np.arctan2(centre[:, 1], centre[:, 0]))
+    return chern_numbers(pattern, 12).numbers, float(angle[-1] - angle[0]), run.error
 
 
 (clockwise, gone, off), (against, back, _) = packet(20.0), packet(-20.0)

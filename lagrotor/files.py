@@ -16,7 +16,7 @@ from lagrotor.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-PICTURES, FILMS = (".png", ".svg", ".pdf"), (".gif", ".mp4")
+PICTURES, FILMS = (".png", ".svg", ".pdf"), (".gif",)
 # Bytes of one array and of the description; larger ones are not read.
 _LARGEST, _LARGEST_ABOUT = 2**31, 2**20
 

@@ -264,9 +264,7 @@ def add_scene_commands(command: Command) -> None:
     says = "\n".join(f"  {name:<18} {ready.says}" for name, ready in SCENES.items())
     added.epilog = f"scenes:\n{says}\n\n{added.epilog}"
     added.add_argument("scene", choices=SCENES, metavar="SCENE", help="one of the scenes below")
-    added.add_argument(
-        "--out", type=Path, metavar="FILE", help="a .gif, or an .mp4 by ffmpeg (default: SCENE.gif here)"
-    )
+    added.add_argument("--out", type=Path, metavar="FILE", help="a .gif (default: SCENE.gif here)")
     added.add_argument("--t-end", type=float, metavar="S", help="end of the run, s (default: the scene's own)")
     added.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
     added.add_argument("--json", action="store_true", help="print a JSON object with the file's name")
@@ -296,7 +294,7 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
         "--out",
         type=Path,
         metavar="FILE",
-        help="write the run (.npz, .csv), a picture of it (.png, .svg, .pdf) or a film (.gif, .mp4); a line, no table",
+        help="write the run (.npz, .csv), a picture of it (.png, .svg, .pdf) or a film (.gif); a line, no table",
     )
     added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
 
@@ -432,9 +430,7 @@ def add_structure_commands(command: Command) -> None:
     )
     says = "a TOML file with joints, bars, spins …, or a name of the gallery, such as corner; list names them"
     added.add_argument("structure", metavar="FILE", help=says)
-    added.add_argument(
-        "--out", type=Path, metavar="FILE", help="write a picture, a film (.gif, .mp4) or the .toml itself"
-    )
+    added.add_argument("--out", type=Path, metavar="FILE", help="write a picture, a film (.gif) or the .toml itself")
     added.add_argument("--t-end", type=float, metavar="S", help="length of the film, s (default: the gallery's, or 5)")
     added.add_argument("--json", action="store_true", help="print a JSON object")
 

@@ -4,12 +4,11 @@ from collections.abc import Collection, Mapping, Sequence
 from io import BytesIO
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from lagrotor.drawing.style import paper_style
-from lagrotor.drawing.wheel import GROUND, ROTORS
+from lagrotor.drawing.wheel import BAR, GROUND, INK, ROTORS
 from lagrotor.numerics.rotations import Array
 
 _CONSTANT = 1e-7  # of its size, by which what is constant may change
@@ -24,28 +23,41 @@ class RunFigure(Figure):
             return file.getvalue()
 
 
-def run_figure(t: Array, tips: Array, energy: Array, title: str) -> RunFigure:
-    """Tips (2, n, 3) in m over t (n,) in s and from above, and the energy (n,) in J: five panels, a colour a rotor."""
+def run_figure(
+    t: Array,
+    tips: Array,
+    energy: Array,
+    title: str = "",
+    inks: Sequence[str] = ROTORS,
+    bars: Sequence[tuple[int, int]] = (),
+) -> RunFigure:
+    """Draw the way of tips (N, n, 3) in m over t (n,) in s, their paths from above, and the change of the energy (n,) in J.
+
+    inks: colours of the rotors, again from the first where there are fewer. bars: pairs of tips that a line joins.
+    """
     with paper_style():
         figure = RunFigure(figsize=(9.0, 6.0))
         panels = figure.subplot_mosaic([["x", "above"], ["y", "above"], ["z", "energy"]], width_ratios=(1.5, 1))
-        for j, letter in enumerate("xyz"):
-            panel = panels[letter]
-            for i, ink in enumerate(ROTORS):
-                panel.plot(t, tips[i, :, j], color=ink, label=f"rotor {i + 1}")
-            panel.set_ylabel(f"{letter} of the tip [m]")
-            _over_time(panel, letter == "z")
-        above = panels["above"]
-        for i, ink in enumerate(ROTORS):
-            above.plot(tips[i, :, 0], tips[i, :, 1], color=ink)
-        above.set(xlabel="x of the tip [m]", ylabel="y of the tip [m]", aspect="equal", xmargin=0.05)
-        above.set_adjustable("datalim")
-        panels["energy"].plot(t, energy, color=ROTORS[0])
-        panels["energy"].set_ylabel("energy [J]")
+        for i, tip in enumerate(tips):
+            ink = inks[i % len(inks)]
+            for letter, way in zip("xyz", (tip - tip[0]).T, strict=True):
+                panels[letter].plot(t, way, color=ink, linewidth=1.2, label=f"rotor {i + 1}")
+            panels["above"].plot(tip[:, 0], tip[:, 1], color=ink)
+        for i, j in bars:
+            panels["above"].plot(*tips[[i, j], 0, :2].T, color=BAR, linewidth=3, zorder=0)
+        for letter in "xyz":
+            panels[letter].set_ylabel(f"Δ{letter} of the tip [m]")
+            panels[letter].tick_params(labelbottom=letter == "z")
+        panels["above"].set(xlabel="x of the tip [m]", ylabel="y of the tip [m]", aspect="equal", xmargin=0.05)
+        panels["above"].set_adjustable("datalim")
+        panels["energy"].plot(t, energy - energy[0], color=INK)
+        panels["energy"].set_ylabel("change of the energy [J]")
         panels["energy"].margins(y=0.2)
-        _over_time(panels["energy"], True)
-        handles, labels = panels["x"].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=2)
+        for name in ("z", "energy"):
+            panels[name].set_xlabel("time [s]")
+        if len(tips) <= len(inks):
+            handles, labels = panels["x"].get_legend_handles_labels()
+            figure.legend(handles, labels, loc="outside lower center", ncols=len(tips))
         figure.suptitle(title)
     return figure
 
@@ -120,8 +132,3 @@ def boxes_figure(names: Sequence[str], t: Array, low: Array, high: Array) -> Run
         widths.set(xlabel="time [s]", ylabel="width of the box")
         figure.legend(*widths.get_legend_handles_labels(), loc="outside lower center", ncols=len(names))
     return figure
-
-
-def _over_time(panel: Axes, labelled: bool) -> None:
-    panel.set_xlabel("time [s]" if labelled else "")
-    panel.tick_params(labelbottom=labelled)

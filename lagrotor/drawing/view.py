@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,9 +14,6 @@ from lagrotor.errors import InputError
 from lagrotor.files import write_text
 from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.run import optional_package
-
-if TYPE_CHECKING:
-    from lagrotor.drawing.film import FilmedMotion
 
 FRAMES = 600  # of a view at most, so that it stays small
 FPS = 30.0
@@ -92,7 +89,6 @@ def view_lines(
     inks: Sequence[str],
     title: str = "",
     traced: Sequence[int] | None = None,
-    still: Sequence[Array] = (),
 ) -> View:
     """Lines that move as a view.
 
@@ -102,12 +98,11 @@ def view_lines(
         inks: their colours, again from the first where there are fewer than lines.
         title: a line above.
         traced: the lines whose last point leaves its path; all where it is not given.
-        still: lines (p, 3) that do not move, as of the ground, drawn faintly.
 
     Raises:
         InputError: a motion that is empty or not finite.
     """
-    held = [np.asarray(line, float) for line in (*lines, *(line[None] for line in still))]
+    held = [np.asarray(line, float) for line in lines]
     if not held or len(t) < 2 or not all(line.size and np.isfinite(line).all() for line in held):
         raise InputError(f"view: {len(held)} lines at {len(t)} times: there is nothing that moves, or it is not finite")
     corners = np.array([[line.reshape(-1, 3).min(0), line.reshape(-1, 3).max(0)] for line in held])
@@ -117,10 +112,8 @@ def view_lines(
 
     def written(place: int, line: Array) -> dict[str, Any]:
         steps = np.rint((line - middle) / unit).astype("<i2")
-        moving = place < len(lines)
-        ink = inks[place % len(inks)] if moving else "#aaaaaa"
         data = b64encode(steps.tobytes()).decode("ascii")
-        return {"data": data, "points": line.shape[1], "ink": ink, "traced": moving and place in paths}
+        return {"data": data, "points": line.shape[1], "ink": inks[place % len(inks)], "traced": place in paths}
 
     motion = {
         "t": [float(f"{each:.6g}") for each in t],
@@ -129,33 +122,6 @@ def view_lines(
         "lines": [written(*each) for each in enumerate(held)],
     }
     return View(motion, title)
-
-
-def view_rotors(moving: "FilmedMotion", title: str = "") -> View:
-    """Rotors with their wheels, one spoke marked so that the spin is seen, and the bar between their tips as a view."""
-    from lagrotor.drawing.wheel import BAR, INK, MARK, RADIUS, ROTORS, place_points
-
-    angles = np.linspace(0, 2 * np.pi, 31)
-    rim = RADIUS * moving.length * np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
-    hub = np.zeros((1, 3))
-    spokes = np.vstack([np.vstack([hub, rim[6 * k : 6 * k + 1], hub]) for k in range(1, 5)])
-    lines: list[Array] = []
-    inks: list[str] = []
-    traced: list[int] = []
-    for body in range(len(moving.tips)):
-        ink, place = ROTORS[body % len(ROTORS)], (moving.rotations[body], moving.centres[body])
-        shapes = ((rim, ink), (spokes, ink), (np.vstack([hub, rim[:1]]), MARK))
-        lines += [place_points(points, *place) for points, _ in shapes]
-        inks += [colour for _, colour in shapes]
-        foot = np.broadcast_to(moving.joints[body], moving.tips[body].shape)
-        traced.append(len(lines))
-        lines.append(np.stack([foot, moving.tips[body]], 1))
-        inks.append(INK)
-    if moving.joined:
-        lines.append(np.stack([*moving.tips], 1))
-        inks.append(BAR)
-    ends = moving.joints[[0, -1]] * [1.8, 1, 1]
-    return view_lines(moving.t, lines, inks, title, traced, [ends])
 
 
 def canvas_script() -> str:

@@ -99,7 +99,7 @@ class Run(Shown):
 
     @abstractmethod
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there."""
+        """Write the motion to `path`, a `.gif`."""
 
     def summary(self) -> dict[str, str]:
         """How long the run is, how well it is known, how it ended, name → words."""
@@ -171,7 +171,7 @@ class Run(Shown):
         """Write the run by the name's ending.
 
         .npz: t, errors, every quantity, and as JSON what is run, horizon, evaluations, ending, version and a digest of it all,
-        which `load` of the same class reads back. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif, .mp4: `animate`.
+        which `load` of the same class reads back. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif: `animate`.
         Raises InputError for another ending.
         """
         target = path_of("save: path", path)

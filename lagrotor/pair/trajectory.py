@@ -117,21 +117,25 @@ class Trajectory(Run):
         """Write the motion as a film.
 
         Args:
-            path: a `.gif`, or an `.mp4` where ffmpeg is there.
+            path: a `.gif`.
             fps: pictures per second.
             step: called with each second of the film as it begins.
         """
-        from lagrotor.drawing.film import check_film, film_motion, frame_times
+        from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
         check_film(path, float(self.t[-1] - self.t[0]), fps)
-        return film_motion(self.motion(frame_times(self.t[0], self.t[-1], fps)), path, fps, step)
+        times = frame_times(self.t[0], self.t[-1], fps)
+        lines, inks, traced = self.motion(times).lines()
+        return animate_lines(path, times, lines, fps, inks, traced, step)
 
     def view(self) -> "View":
         """The motion as a page that a notebook shows, turned by hand and played, without a network; `.save("run.html")`."""
-        from lagrotor.drawing.view import view_rotors, view_times
+        from lagrotor.drawing.view import view_lines, view_times
 
+        times = view_times(self.t[0], self.t[-1])
         spins = f"spins {self.scene.spins[0]:g} and {self.scene.spins[1]:g} rad/s".replace("-", "−")
-        return view_rotors(self.motion(view_times(self.t[0], self.t[-1])), spins)
+        lines, inks, traced = self.motion(times).lines()
+        return view_lines(times, lines, inks, spins, traced)
 
     def motion(self, times: Array) -> "FilmedMotion":
         """What a film draws at `times` (m,) in s: axes by Hermite cubics, the bodies turned along samples and frames."""
@@ -145,7 +149,7 @@ class Trajectory(Run):
         length, feet = self.scene.rotor.length, self.joints[:, None, :]
         tips, joined = feet + length * axes[:, at], self.scene.link is not None
         centres = feet + length / 2 * axes[:, at]
-        return FilmedMotion(times, rotations, tips, centres, self.joints, length, self.scene.spins, joined)
+        return FilmedMotion(times, rotations, tips, centres, self.joints, length, joined)
 
     def summary(self) -> dict[str, str]:
         """What the run is and how well it kept what it should keep, name → words."""

@@ -340,8 +340,6 @@ def exact_coefficients(s: Assembly) -> Coefficients:
     """`coefficients` in rationals. A brace's length is that of its ends, as a root."""
     if any(s.hinge):
         raise InputError("proved: a hinge's moment θ/sin θ has no rigorous series here; leave the hinges out")
-    if any(brace.along for brace in s.braces):
-        raise InputError("proved: braces in guides are not taken: leave `along` out")
     ell = np.array([_bar(s, *bar) for bar in s.bars], dtype=object)
     return coefficients_in(s, np.vectorize(exact_number, otypes=[object]), ell, np.frompyfunc(sp.sqrt, 1, 1))
 

@@ -39,10 +39,8 @@ if TYPE_CHECKING:
     from lagrotor.structures.structure import read_structure as read_structure
     from lagrotor.structures.structure import write_structure as write_structure
     from lagrotor.structures.upright_hamiltonian import local_hamiltonian as local_hamiltonian
-    from lagrotor.structures.waves.chern import border_packet as border_packet
     from lagrotor.structures.waves.chern import chern_numbers as chern_numbers
     from lagrotor.structures.waves.chern import edge_waves as edge_waves
-    from lagrotor.structures.waves.chern import way_round as way_round
     from lagrotor.structures.waves.dispersion import dispersion as dispersion
     from lagrotor.structures.waves.dispersion import long_wave_speeds as long_wave_speeds
     from lagrotor.structures.waves.nonlinear_waves import NonlinearWave as NonlinearWave

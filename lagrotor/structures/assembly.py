@@ -18,16 +18,13 @@ Bar = tuple[int, int, float]
 class Brace:
     """A spring (N/m) and damper (N s/m) from a tip to another tip, or to a point (x, y, z) of the ground, in m.
 
-    It is unstrained when all axes are upright. Its forces are stiffness × extension and damping × its rate. along (x, y, z): its
-    ends slide in guides across that direction, and it strains and pulls along it alone; between the tips of a bar along x
-    (0, 1, 0) is a brace against yaw and leaves both sways alone.
+    It is unstrained when all axes are upright. Its forces are stiffness × extension and damping × its rate.
     """
 
     tip: int
     to: int | _Point
     stiffness: float = 0.0
     damping: float = 0.0
-    along: _Point | tuple[()] = ()
 
 
 @dataclass(frozen=True)
@@ -111,24 +108,16 @@ class Assembly:
         try:
             brace = given if isinstance(given, Brace) else Brace(*_row(given))
         except TypeError:
-            raise InputError(f"Structure: {where} = {given!r} must be (tip, to, stiffness, damping, along)") from None
+            raise InputError(f"Structure: {where} = {given!r} must be (tip, to, stiffness, damping)") from None
         tip = self._tip(brace.tip, where)
         ground = isinstance(brace.to, Iterable)
         to = finite_vector(brace.to, f"Structure: {where} to", "m") if ground else self._tip(brace.to, where)
         stiffness = not_negative(brace.stiffness, f"Structure: {where} stiffness", "N/m")
         damping = not_negative(brace.damping, f"Structure: {where} damping", "N s/m")
         ends = [self.upright_tip(tip), self.upright_tip(to) if isinstance(to, int) else to]
-        along = (
-            ()
-            if isinstance(brace.along, tuple) and not brace.along
-            else finite_vector(brace.along, f"Structure: {where} along", "1")
-        )
-        if tip == to or (ends[0] == ends[1] and not along):
+        if tip == to or ends[0] == ends[1]:
             raise InputError(f"Structure: {where} has both ends at one place: join two different points")
-        size = hypot(*along)
-        if along and not size:
-            raise InputError(f"Structure: {where} along = {along} has no direction: leave it out, or give one")
-        return Brace(tip, to, stiffness, damping, (along[0] / size, along[1] / size, along[2] / size) if along else ())
+        return Brace(tip, to, stiffness, damping)
 
     def _tip(self, value: Any, where: str) -> int:
         try:

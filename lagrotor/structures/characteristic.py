@@ -67,7 +67,7 @@ def characteristic(structure: Assembly) -> Characteristic:
         c,
         gravity=0,
         **{name: np.array(list(each), dtype=object) for name, each in letters.items()},
-        **{name: exact(getattr(c, name)) for name in ("R", "feet", "brace_point", "brace_along")},
+        **{name: exact(getattr(c, name)) for name in ("R", "feet", "brace_point")},
     )
     M, C, gyroscopic, K = (sp.Matrix(part.tolist()) for part in matrices(symbolic))
     rows = bar_rows(symbolic).tolist()

@@ -29,7 +29,7 @@ class Coefficients:
 
     Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge.
     Per bar (B,): ends i, j, length ell, coupling A_ij. feet: ground joints (N, 3). braces: tip, other tip (−1: the ground),
-    ground point (3,), natural length, direction of its guides (3,) (zero without), stiffness, damping, each with one row a brace.
+    ground point (3,), natural length, stiffness, damping, each with one row a brace.
     """
 
     R: Array
@@ -49,7 +49,6 @@ class Coefficients:
     brace_to: Index
     brace_point: Array
     brace_length: Array
-    brace_along: Array
     stiffness: Array
     damping: Array
 
@@ -91,7 +90,7 @@ def coefficients(s: Assembly) -> Coefficients:
 def coefficients_in(
     s: Assembly, numbers: Callable[[Any], Any], ell: Array, root: Callable[[Array], Array]
 ) -> Coefficients:
-    """The same in numbers of any kind, but for hinges and guides. numbers: floats → an array; ell: the bars' lengths."""
+    """The same in numbers of any kind, but for hinges. numbers: floats → an array; ell: the bars' lengths."""
     M, R, I1, I3 = (numbers([getattr(rotor, name) for rotor in s.rotor]) for name in ("mass", "length", "I1", "I3"))
     load = numbers(s.load)
     A, S = I1 + M * R**2 / 4 + load * R**2, M * R / 2 + load * R
@@ -105,7 +104,6 @@ def coefficients_in(
         numbers(np.array([s.upright_tip(x) if isinstance(x, int) else x for x in ends], dtype=float).reshape(-1, 3))
         for ends in ([b.to for b in s.braces], [b.tip for b in s.braces])
     )
-    along, away = np.array([b.along or (0.0, 0.0, 0.0) for b in s.braces]).reshape(-1, 3), tip - point
     return Coefficients(
         R=R,
         A=A,
@@ -123,8 +121,7 @@ def coefficients_in(
         brace_tip=np.array([b.tip for b in s.braces], dtype=np.intp),
         brace_to=to,
         brace_point=point,
-        brace_length=np.where(along.any(1), (along * away).sum(1), root((away * away).sum(1))),
-        brace_along=along,
+        brace_length=root(((tip - point) ** 2).sum(1)),
         stiffness=numbers([float(b.stiffness) for b in s.braces]),
         damping=numbers([float(b.damping) for b in s.braces]),
     )

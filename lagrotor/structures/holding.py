@@ -25,8 +25,6 @@ from lagrotor.structures.coefficients import Array
 from lagrotor.structures.critical_spins import stiffness_in_masses
 from lagrotor.structures.resonances import (
     MOST_DOF,
-    Of,
-    check_kind_of_push,
     checked_push,
     normal_form_of,
     start_of_push,
@@ -41,10 +39,9 @@ _ZERO = 1e-9  # of the largest coefficient: what moves it apart by less is round
 _DETUNINGS = (0.0, 1e-3, 1e-2, 0.1)  # of the largest rate: what is nearer is kept as a resonance
 
 
-def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
-    """`Standing.hold_time`: from the first terms that the normal form leaves and that are not zero, and the first of what its
-    coordinates and the normal modes differ by."""
-    check_kind_of_push(of)
+def hold_time(s: Assembly, push: float) -> float:
+    """Compute `Standing.hold_time` from the first terms that the normal form leaves and that are not zero, and the first of
+    what its coordinates and the normal modes differ by."""
     push, linear = checked_push("hold_time", push), small_motion(s)
     if linear.growth > 0 or linear.drifts:
         return 0.0
@@ -56,11 +53,11 @@ def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
             return inf
         raise InputError(f"hold_time: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
     h = local_hamiltonian(s)
-    if push > trusted_push(s, of=of):
+    if push > trusted_push(s):
         return 0.0
     if least:
         return inf
-    if not s.bars and all(not isinstance(b.to, int) and b.to[:2] == s.joints[b.tip] and not b.along for b in s.braces):
+    if not s.bars and not s.braces:
         return inf  # each rotor keeps its energy and its momentum about the vertical, and with them both its actions
     order = next(n for most, n in _ORDERS.items() if linear.dof <= most)
     times = [0.0]
@@ -69,7 +66,7 @@ def hold_time(s: Assembly, push: float, of: Of = "rates") -> float:
             form = normal_form_of(s, 1.0, detuning, order)
         except SingularError:
             continue
-        size = float(np.linalg.norm(np.linalg.inv(form.vectors)[: linear.dof] @ start_of_push(s, 1.0, of), 2)) * push
+        size = float(np.linalg.norm(np.linalg.inv(form.vectors)[: linear.dof] @ start_of_push(s), 2)) * push
         times += _times(form, size)
     return max(times) / h.rate
 

@@ -1,4 +1,4 @@
-"""Pictures of a structure: its plan, its roots, and a run over time."""
+"""Pictures of a structure: its plan and its roots."""
 
 from math import inf, pi
 
@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lagrotor.drawing.run_figure import RunFigure
-from lagrotor.drawing.style import HALO, MODEL_COLOUR, OKABE_ITO, PAPER_COLOUR, paper_style
+from lagrotor.drawing.style import HALO, MODEL_COLOUR, PAPER_COLOUR, paper_style
 from lagrotor.drawing.wheel import BAR, INK, MARK, ROTORS
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
@@ -76,29 +76,4 @@ def structure_picture(s: Assembly) -> Figure:
         least = f"; it does from {factor:.4g} times its spins on" if factor else ""
         least = "; no multiple of its spins holds it" if factor == inf else least
         figure.suptitle(("Stands" if standing.stands else "Does not stand") + least)
-    return figure
-
-
-def run_picture(s: Assembly, t: Array, tips: Array, energy: Array) -> Figure:
-    """x and y of the tips (N, n, 3) in m over t (n,) in s, their paths from above, and the change of the energy in J."""
-    inks = [OKABE_ITO[name] for name in ("blue", "vermillion", "bluish green", "reddish purple", "orange", "sky blue")]
-    with paper_style():
-        figure = RunFigure(figsize=(9.0, 6.0))
-        panels = figure.subplot_mosaic([["x", "above"], ["y", "above"], ["z", "energy"]], width_ratios=(1.5, 1))
-        for i, tip in enumerate(tips):
-            ink = inks[i % len(inks)]
-            for k, letter in enumerate("xyz"):
-                panels[letter].plot(t, tip[:, k] - tip[0, k], color=ink, linewidth=1.2)
-            panels["above"].plot(tip[:, 0], tip[:, 1], color=ink)
-        for i, j, _ in s.bars:
-            panels["above"].plot(*tips[[i, j], 0, :2].T, color=BAR, linewidth=3, zorder=0)
-        for letter in "xyz":
-            panels[letter].set_ylabel(f"Δ{letter} of the tips [m]")
-        panels["above"].set(
-            xlabel="x [m]", ylabel="y [m]", title="Tips from above", aspect="equal", adjustable="datalim"
-        )
-        panels["energy"].plot(t, energy - energy[0], color=INK)
-        panels["energy"].set_ylabel("change of the energy [J]")
-        for name in ("z", "energy"):
-            panels[name].set_xlabel("time [s]")
     return figure

@@ -35,7 +35,7 @@ from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 _NEAR = 0.1  # of the largest rate: detunings up to which terms of two other modes are kept
 _NOTHING = 1e-9  # of the largest coefficient: a smaller one is zero
 _LARGEST = 0.5  # tilt, and share of the mode that its harmonics drive of others, to which the expansion is trusted
-_SHORTEST = 1e-4  # of the reach: growth over less may not be seen where two rates are nearly one
+_TILTS = 400  # between which the edge is sought
 _ROUNDING = 1e-9  # of a multiplier's modulus
 _EXACT = 1e-6  # of the rate: what is detuned less is in resonance
 
@@ -80,23 +80,15 @@ class PrecessionLaw(Shown):
     def edge(self) -> float:
         """The least tilt at which a multiplier leaves the circle, inf where none does within reach.
 
-        What turns in the precession's frame leaves only in twos of opposite signs of energy, of rates that become one. Beside a
-        root r of the action its slopes are S₀ + r S₁ + r² S₂, and as far as their change in the modes' own coordinates is below
-        half of the least such difference none has become one (Gershgorin's discs; Krein). So all is seen but growth over less
-        than 1e-4 of the reach, where two rates are nearly one.
+        It is sought at 400 tilts within reach and then by bisection: growth over less than 1/400 of the reach may not be seen.
         """
-        from scipy.optimize import brentq
-
-        last = self._root(self.reach)
-        least, root, before = _SHORTEST * last, 0.0, 0.0
-        while (ahead := self._stable_ahead(root)) is not None:
-            if root == last:
-                return inf
-            before, root = root, min(root + max(ahead, least), last)
-        while root - before > 1e-6 * last:
-            middle = (before + root) / 2
-            before, root = (before, middle) if self._stable_ahead(middle) is None else (middle, root)
-        return float(brentq(lambda tilt: self._root(tilt) - root, 0.0, self.reach))
+        tilts = np.linspace(0, self.reach, _TILTS + 1)[1:]
+        beyond = next((float(tilt) for tilt in tilts if self.growth_at(tilt)), inf)
+        before = beyond - float(tilts[0])
+        while beyond < inf and beyond - before > 1e-9 * self.reach:
+            middle = (before + beyond) / 2
+            before, beyond = (before, middle) if self.growth_at(middle) else (middle, beyond)
+        return beyond
 
     @property
     def _turning(self) -> NDArray[np.complex128]:
@@ -119,19 +111,6 @@ class PrecessionLaw(Shown):
 
     def _slopes(self, root: float) -> NDArray[np.complex128]:
         return np.asarray(np.tensordot([1, root, root**2], self._parts, 1))
-
-    def _stable_ahead(self, root: float) -> float | None:
-        """How much farther no multiplier can leave the circle; None where one has left it."""
-        values, V = np.linalg.eig(self._slopes(root))
-        period = 2 * pi / (self.rate + self.shift * root**2 / self.action)
-        if values.real.max(initial=0.0) * period > _ROUNDING:
-            return None
-        half = len(self.others)
-        above = (np.abs(V[:half]) ** 2).sum(0) > (np.abs(V[half:]) ** 2).sum(0)
-        apart = np.abs(np.subtract.outer(values[above], values[~above])).min(initial=inf)
-        over, (_, linear, square) = np.linalg.pinv(V), self._parts
-        b, c = (np.linalg.norm(over @ part @ V, 2) if half else 0.0 for part in (linear + 2 * root * square, square))
-        return float(apart / max(b + (b * b + 2 * c * apart) ** 0.5, 1e-300)) if apart < inf else inf
 
     def _root(self, tilt: float) -> float:
         return float((self._square(tilt) * self.action) ** 0.5)

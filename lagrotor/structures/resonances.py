@@ -16,19 +16,19 @@ actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 
 rates in any of their bases.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations_with_replacement
 from math import inf, sqrt
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.canonical.normal_forms import NormalForm, normal_form_of_series
-from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, total, variable
+from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, variable
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.shown import Shown
 from lagrotor.structures.assembly import Assembly
@@ -37,8 +37,6 @@ from lagrotor.structures.critical_spins import spin_threshold
 from lagrotor.structures.small_motion import WIDEST, SmallMotion, check_upright, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
-Of = Literal["rates", "tilts"]  # what a push gives all axes: rates from upright, rad/s, or tilts (sines) at rest
-UNIT_OF_PUSH: dict[Of, str] = {"rates": " rad/s", "tilts": " in the sine of the tilts"}
 MOST_DOF = 8  # for which the terms of fourth order are expanded
 _BARRIER = {3: 0.25, 4: sqrt(2) - 1}  # x of the module: (ρ/ρ_barrier)² of the largest start that stays
 _NEAR = 0.25  # of the largest rate: vectors with a larger detuning are no resonance
@@ -48,12 +46,9 @@ _FALLEN = 1.0  # the sine of a tilt
 _TRUSTED = 0.1  # the sine of a tilt
 _EQUAL = 1e-6  # of a rate
 _ON_BARS = 1e-6  # of the largest rate: what the bars do not allow
-_MOST_STEPS = 8  # of the search for the edge of a window
-_FAR = 0.2  # of a resonant factor: how far its slope there is relied on
 _STOPPED = "no: its own terms stop it; how far it grows before is not known"
+_CHECKED = 1 / 32  # of the distance from the critical factor: how near an end is found
 _FASTEST = 300.0  # times the critical factor: beyond, no spins are sought
-_WIDE = 1.5  # times: intervals whose ends' distances from the critical factor are further apart are checked between
-_CHECKED = 0.125  # of the distance from the critical factor: how near an end is found
 _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow ones
 
 
@@ -67,10 +62,9 @@ class Resonance(Shown):
         detuning: k·rates of the first, rad/s.
         per_factor: its slope.
         growth: c, largest: κ, both in 1/s for N = (reach × push)²; push: the root of the sum of squares of all axes' rates at the
-            start, upright, in rad/s, or of their tilts at rest.
+            start, upright, in rad/s.
         reach: of the steepest push.
         falls: whether its own terms do not stop it.
-        of: what a push gives the axes, "rates" or "tilts".
     """
 
     order: int
@@ -83,7 +77,6 @@ class Resonance(Shown):
     largest: float
     reach: float
     falls: bool
-    of: Of = "rates"
 
     @property
     def factor(self) -> float:
@@ -130,7 +123,7 @@ class Resonance(Shown):
             "order": str(self.order),
             "at the factor on all spins": f"{self.factor:.6g}",
             "coefficient": f"{self.growth:.4g} 1/s",
-            "falls": f"from {self.push():.3g}{UNIT_OF_PUSH[self.of]} on" if self.falls else _STOPPED,
+            "falls": f"from {self.push():.3g} rad/s on" if self.falls else _STOPPED,
         }
 
 
@@ -144,21 +137,12 @@ def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
     return np.sort(here.energy_signs(roots[turning], vectors[:, turning]) * roots[turning].imag)
 
 
-def check_kind_of_push(of: Any) -> None:
-    """Raises InputError for what is neither rates nor tilts."""
-    if of not in tuple(UNIT_OF_PUSH):
-        raise InputError(f"of = {of!r} must be one of {', '.join(UNIT_OF_PUSH)}")
-
-
-def resonances(
-    s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4), of: Of = "rates"
-) -> tuple[Resonance, ...]:
-    """The resonances that the spins, multiplied by a factor, are near, those that the smallest pushes of that kind meet first.
+def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4)) -> tuple[Resonance, ...]:
+    """Return the resonances that the spins, multiplied by a factor, are near, those that the smallest pushes meet first.
 
     None where the energy is definite. Raises InputError where a mode grows or has the rate zero, friction acts, the degrees of
     freedom are too many, SingularError where a rate is more than 10⁶ times another.
     """
-    check_kind_of_push(of)
     check_upright(s, "resonances")
     finite_array("resonances: factor", factor, ())
     linear = small_motion(s)
@@ -178,21 +162,19 @@ def resonances(
             "is lost beside it: take slower spins"
         )
     slope = _slopes(linear, factor)
-    found = [r for d in orders for r in _of_order(s, rates, slope, factor, d, of)]
+    found = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
     return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
 
 
-def first_resonance(s: Assembly, of: Of = "rates") -> Resonance | None:
-    """The one that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
-    return next((r for r in resonances(s, of=of) if r.falls), None)
+def first_resonance(s: Assembly) -> Resonance | None:
+    """Return the one that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
+    return next((r for r in resonances(s) if r.falls), None)
 
 
-def _of_order(
-    s: Assembly, rates: Array, slopes: Array, factor: float, order: int, of: Of = "rates"
-) -> Iterator[Resonance]:
+def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: int) -> Iterator[Resonance]:
     """Groups of vectors of one order whose detunings are near each other."""
     h = local_hamiltonian(s)
-    pushed = start_of_push(s, factor, of)
+    pushed = start_of_push(s)
     vectors = sorted(_vectors(rates, order), key=lambda k: abs(np.dot(k, rates)))
     while vectors:
         least = max(abs(np.dot(vectors[0], rates)), 1e-9 * rates[-1])
@@ -201,16 +183,13 @@ def _of_order(
         n = normal_form_of(s, factor, max(abs(np.dot(k, rates)) for k in group) / h.rate * 1.001, order)
         resonance = _resonance(n, h.rate, pushed, group, rates, slopes, factor)
         if resonance:
-            yield replace(resonance, of=of)
+            yield resonance
 
 
-def start_of_push(s: Assembly, factor: float, of: Of) -> Array:
-    """(q, p) of a push of 1 along each degree of freedom, (2n, n), in units of `LocalHamiltonian`: p = m q' + C q/2."""
-    linear, h = small_motion(s), local_hamiltonian(s)
-    n = linear.dof
-    if of == "rates":
-        return np.vstack([np.zeros((n, n)), h.mass / h.rate])
-    return np.vstack([np.eye(n), factor * linear.gyroscopic / (2 * np.abs(linear.mass).max() * h.rate)])
+def start_of_push(s: Assembly) -> Array:
+    """Return (q, p) of a push of 1 along each degree of freedom, (2n, n), in units of `LocalHamiltonian`: p = m q'."""
+    h = local_hamiltonian(s)
+    return np.vstack([np.zeros_like(h.mass), h.mass / h.rate])
 
 
 def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
@@ -238,17 +217,11 @@ def _resonance(
     falls = order == 3 or any(_outweighs(part, k, groups) for k in different)
     nearest = min(group, key=lambda k: abs(np.dot(k, rates)))
     over = np.linalg.inv(n.vectors)[:size][modes] @ pushed
-    lead = total([up, _conjugate(up)]) if order == 3 else part
+    growth, *own = (-unit * _least(f, modes[None], np.ones(1)) for f in (up, *([part, part.times(-1)] * (order == 4))))
     return Resonance(
         order, tuple(sorted(group, key=lambda k: abs(np.dot(k, rates)))), rates, at, float(np.dot(nearest, rates)),
-        float(np.dot(nearest, slopes)), unit * _largest(up, modes), unit * _largest(lead, modes),
-        float(np.linalg.norm(over, 2)), falls,
+        float(np.dot(nearest, slopes)), growth, max([2 * growth, *own]), float(np.linalg.norm(over, 2)), falls,
     )  # fmt: skip
-
-
-def _conjugate(f: Polynomial) -> Polynomial:
-    n = f.variables // 2
-    return Polynomial(np.hstack([f.exponents[:, n:], f.exponents[:, :n]]), f.coefficients.conj())
 
 
 def _outweighs(part: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -> bool:
@@ -257,57 +230,39 @@ def _outweighs(part: Polynomial, k: tuple[int, ...], groups: list[list[int]]) ->
     Modes of equal rates have any basis, and all of them count. As the phase of P is free, it exceeds them where own terms and
     2 Re P together take both signs.
     """
-    from scipy.optimize import minimize
-
     n = len(k)
     of = np.array([[j in g for j in range(n)] for g in groups])
     sums = of @ k
     up, down = part.exponents[:, :n] @ of.T, part.exponents[:, n:] @ of.T
     fed = ((up == sums) & (down == 0)).all(1) | ((down == sums) & (up == 0)).all(1)
-    chosen = (fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1)
-    powers, coefficients = part.exponents[chosen], part.coefficients[chosen]
-    double = np.hstack([of[sums > 0]] * 2)  # real and imaginary parts
-    sizes = np.sqrt(sums[sums > 0])
+    chosen = part.where((fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1))
+    return all(_least(chosen.times(sign), of[sums > 0], sums[sums > 0]) < 0 for sign in (1, -1))
 
-    def value(x: Array, sign: float = 1.0) -> tuple[float, Array]:
-        """The terms at x, its groups brought to their sums, and the gradient."""
+
+def _least(f: Polynomial, groups: Array, sums: Array) -> float:
+    """Return the least real part of f(z, z̄) where |z_j|² adds up to the sums over groups, rows of a mask: descent from some
+    starts."""
+    from scipy.optimize import minimize
+
+    powers, double, sizes = f.exponents, np.hstack([groups, groups]), np.sqrt(sums)  # double: real and imaginary parts
+    n, moving = f.variables // 2, np.flatnonzero(double.any(0))
+
+    def value(x: Array) -> tuple[float, Array]:
+        """The real part at x, its groups brought to their sums, and the gradient."""
         norms = np.sqrt(double @ x**2)
         scale = (sizes / norms) @ double
         z = (scale * x)[:n] + 1j * (scale * x)[n:]
         point = np.concatenate([z, z.conj()])
-        terms = coefficients * np.prod(point**powers, axis=1)
-        by_z = ((terms @ powers)[:n] / np.where(z == 0, 1, z)) * 2
-        slope = np.concatenate([by_z.real, -by_z.imag])
-        along = (double @ (x * slope) / norms**2) @ double
-        return sign * float(terms.sum().real), sign * scale * (slope - along * x)
-
-    moving = np.flatnonzero(double.any(0))
-    draw = np.random.default_rng(0)
-    starts = np.zeros((8, 2 * n))
-    starts[:, moving] = draw.standard_normal((8, len(moving)))
-    sign = np.sign(value(starts[0])[0])
-    return any(minimize(value, x, sign, jac=True, method="BFGS").fun < 0 for x in starts)
-
-
-def _largest(f: Polynomial, modes: Any) -> float:
-    """The largest |f| at sum |z_j|² = 1, w = z̄, of the modes of a mask, f homogeneous: ascent from some starts."""
-    from scipy.optimize import minimize
-
-    m, powers, order = int(modes.sum()), f.exponents[:, np.tile(modes, 2)], int(f.exponents[0].sum())
-    draw = np.random.default_rng(0)
-
-    def lower(x: Array) -> tuple[float, Array]:
-        """−|f|/|x|^d and its gradient."""
-        z, size = x[:m] + 1j * x[m:], float(np.linalg.norm(x))
-        point = np.concatenate([z, z.conj()])
         terms = f.coefficients * np.prod(point**powers, axis=1)
-        value, (by_z, by_w) = terms.sum(), (terms @ powers / point).reshape(2, m)
-        turn = value.conjugate() / abs(value) if value else 1.0
-        slope = np.concatenate([(turn * (by_z + by_w)).real, -(turn * (by_z - by_w)).imag])
-        return -abs(value) / size**order, (order * abs(value) * x / size**2 - slope) / size**order
+        by_z, by_w = (terms @ powers / np.where(point == 0, 1, point)).reshape(2, n)
+        slope = by_z + by_w.conj()
+        slope = np.concatenate([slope.real, -slope.imag])
+        along = (double @ (x * slope) / norms**2) @ double
+        return float(terms.sum().real), scale * (slope - along * x)
 
-    starts = draw.standard_normal((8, 2 * m))
-    return float(max(-minimize(lower, x, jac=True, method="BFGS").fun for x in starts))
+    starts = np.zeros((8, 2 * n))
+    starts[:, moving] = np.random.default_rng(0).standard_normal((8, len(moving)))
+    return float(min(minimize(value, x, jac=True, method="BFGS").fun for x in starts))
 
 
 def _slopes(linear: SmallMotion, factor: float) -> Array:
@@ -340,10 +295,9 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
     return form
 
 
-def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: float, of: Of = "rates") -> float:
-    """When a push with the axes' rates (N, 2), rad/s, from upright, or with their tilts at rest, tilts an axis by the sine 1 by
-    the normal form of fourth order, s; inf where it does not within the `longest` time. detuning: up to which resonances are
-    kept, rad/s.
+def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: float) -> float:
+    """Return when a push with the axes' rates (N, 2), rad/s, from upright tilts an axis by the sine 1 by the normal form of
+    fourth order, s; inf where it does not within the `longest` time. detuning: up to which resonances are kept, rad/s.
     """
     from scipy.integrate import solve_ivp
 
@@ -352,11 +306,9 @@ def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: flo
     size = len(n.frequencies)
     push = finite_array("fall_time: push", given)
     off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
-    most = np.abs(push).max()
-    room = _ON_BARS + (4 * most if of == "tilts" else 0)  # exact tilts are off by their squares
-    if np.abs(off).max() > room * most:
-        raise InputError(f"fall_time: push: the bars do not allow these {of}: what each joins must keep its distance")
-    start = np.linalg.inv(n.vectors) @ (start_of_push(s, 1.0, of) @ (h.basis.T @ push.ravel()))
+    if np.abs(off).max() > _ON_BARS * np.abs(push).max():
+        raise InputError("fall_time: push: the bars do not allow these rates: what each joins must keep its distance")
+    start = np.linalg.inv(n.vectors) @ (start_of_push(s) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, 3)])[:size]
     steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
     turning = np.array(n.frequencies) - np.linalg.pinv(steps.astype(float)) @ (steps @ np.array(n.frequencies))
@@ -394,57 +346,51 @@ def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
 class LargestPush(Shown):
     """value: the largest push from which no start falls; behind: what the number comes from, in words.
 
-    A push is the root of the sum of squares of all axes' rates at the start, upright, in rad/s, or of the sines of their tilts
-    at a start at rest, as `of` says. inf never occurs: where no resonance is near, the value is that which tilts an
-    axis by 0.1 at most, as far as the expansion is trusted.
+    A push is the root of the sum of squares of all axes' rates at the start, upright, in rad/s. inf never occurs: where no
+    resonance is near, the value is that which tilts an axis by 0.1 at most, as far as the expansion is trusted.
     """
 
     value: float
     behind: str
     resonance: Resonance | None
-    of: Of = "rates"
 
     def __float__(self) -> float:
         return self.value
 
     def summary(self) -> dict[str, str]:
         """The push and what lies behind it, name → words."""
-        return {"largest push": f"{self.value:.4g}{UNIT_OF_PUSH[self.of]}", "behind": self.behind}
+        return {"largest push": f"{self.value:.4g} rad/s", "behind": self.behind}
 
 
-def largest_push(s: Assembly, of: Of = "rates") -> LargestPush:
-    """How far a structure may be pushed out of upright, whatever the direction, by the terms through fourth order.
+def largest_push(s: Assembly) -> LargestPush:
+    """Return how far a structure may be pushed out of upright, whatever the direction, by the terms through fourth order.
 
-    of: "rates", a push of the axes' rates from upright, or "tilts", of their tilts at rest. 0 where it does not stand to first
-    order. Raises as `resonances` does.
+    0 where it does not stand to first order. Raises as `resonances` does.
     """
-    check_kind_of_push(of)
     check_upright(s, "largest_push")
     if small_motion(s).growth > 0:
-        return LargestPush(0.0, "it falls to first order", None, of)
-    first = first_resonance(s, of)
-    trusted = trusted_push(s, of=of)
+        return LargestPush(0.0, "it falls to first order", None)
+    first, trusted = first_resonance(s), trusted_push(s)
     if first is None or first.push() > trusted:
         behind = f"no resonance falls from less; beyond, an axis tilts by more than {_TRUSTED}"
-        return LargestPush(trusted, behind, first, of)
-    return LargestPush(float(first.push()), f"a resonance of order {first.order}: {first.words()}", first, of)
+        return LargestPush(trusted, behind, first)
+    return LargestPush(first.push(), f"a resonance of order {first.order}: {first.words()}", first)
 
 
-def trusted_push(s: Assembly, factor: float = 1.0, of: Of = "rates") -> float:
-    """The push from which no axis tilts by more than `_TRUSTED` in the linear motion; 0 where a mode grows or drifts."""
-    check_kind_of_push(of)
+def trusted_push(s: Assembly, factor: float = 1.0) -> float:
+    """Return the push from which no axis tilts by more than `_TRUSTED` in the linear motion; 0 where a mode grows or drifts."""
     if not len(signed_rates(small_motion(s), factor)):
         return 0.0
     here, tilts = small_motion(s).at_spins(factor), np.zeros(1)
     roots, vectors = here.waves
     n, turning = here.dof, roots.imag > 0
     w, u = roots[turning].imag, vectors[:, turning]
-    for g in _of_equal_rates(w):  # what of a push (q', q) turns with them, by their energy's form
-        moving, still = (1j * w[g] * u[:, g]).conj().T @ here.mass, u[:, g].conj().T @ here.stiffness
-        form, parts = moving @ (1j * w[g] * u[:, g]) + still @ u[:, g], [moving, still][of == "tilts"]
-        if np.abs(np.linalg.eigvalsh(form)).min() < _NOTHING * np.linalg.norm(still @ u[:, g], 2):
+    for g in _of_equal_rates(w):  # what of a push q' turns with them, by their energy's form
+        moving, still = (1j * w[g] * u[:, g]).conj().T @ here.mass, u[:, g].conj().T @ here.stiffness @ u[:, g]
+        form = moving @ (1j * w[g] * u[:, g]) + still
+        if np.abs(np.linalg.eigvalsh(form)).min() < _NOTHING * np.linalg.norm(still, 2):
             return 0.0  # at the critical spins two modes are one
-        shares = (here.basis @ u[:, g] @ np.linalg.solve(form, parts)).reshape(-1, 2, n)
+        shares = (here.basis @ u[:, g] @ np.linalg.solve(form, moving)).reshape(-1, 2, n)
         tilts = tilts + 2 * np.linalg.norm(shares, 2, axis=(1, 2))
     return float(_TRUSTED / np.max(tilts))
 
@@ -462,144 +408,65 @@ def checked_push(where: str, push: Any) -> float:
     return float(push)
 
 
-def window_of(s: Assembly, resonance: Resonance, push: float) -> tuple[float, float]:
-    """The factors on all spins between which a push of that size may fall by a resonance of its kind, from the critical one on.
+def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
+    """Return the factors on all spins at which no push of that size falls, by `largest_push` there, as intervals.
 
-    Each edge is moved out until the detuning and the terms there let no such push fall.
+    `largest_push` is compared with `push` at 16 factors from the critical one to 12 times it, or more where the push is not
+    trusted there, at each resonant factor, and at both edges of its window. An end is found by bisection to 1/32 of its
+    distance from the critical factor, and the push holds there; the last end is inf where it holds at the largest of these
+    factors. Between them nothing is checked. Empty where no spins are known to hold the push.
+
+    Raises InputError for a structure that needs no spins, and as `resonances` does.
     """
-    linear, centre = small_motion(s), resonance.factor
-    least, edges = spin_threshold(linear), []
-    for edge in resonance.window(push):
-        for _ in range(_MOST_STEPS):
-            here = _like(s, linear, resonance, edge) if edge > least else None
-            if here is None or here.push() >= push:
-                break
-            edge = centre + 1.02 * (edge - centre) * (push / here.push()) ** (resonance.order - 2)
-        edges.append(max(float(edge), least))
-    return edges[0], edges[1]
-
-
-def _like(s: Assembly, linear: SmallMotion, resonance: Resonance, factor: float) -> Resonance | None:
-    """The resonance of the same vectors at another factor."""
-    rates = signed_rates(linear, factor)
-    try:
-        found = list(
-            _of_order(s, rates, _slopes(linear, factor), factor, resonance.order, resonance.of) if len(rates) else ()
-        )
-    except SingularError:  # rates too far apart
-        return None
-    return next((r for r in found if {*r.vectors} & {*resonance.vectors}), None)
-
-
-def spin_intervals(s: Assembly, push: float, of: Of = "rates") -> tuple[tuple[float, float], ...]:
-    """The factors on all spins at which no push of that size falls, by `largest_push` there, as intervals.
-
-    The windows of the resonances that come to detuning zero at some factor (`window_of`) are cut out of the factors at which
-    the push is trusted, up to a fifth of that factor away. For what lies farther, and for those that come near and no nearer,
-    as beside the critical spins, `largest_push` is compared with `push` at both ends of what is left (for inf at 12 times the
-    critical factor or more) and, where one is more than 1.5 times as far from the critical factor as the other, at three
-    between. Where it is less, the end moves in to a factor at which it is not, found by bisection to 1/8 of its distance from
-    the critical factor, or the interval is left out. So no end is said to hold that does not; inside, only those three factors
-    are checked. Empty where no spins are known to hold it. Raises as `resonances` does.
-    """
-    check_kind_of_push(of)
     check_upright(s, "spin_intervals")
-    push = checked_push("spin_intervals", push)
-    least = spin_threshold(small_motion(s))
+    push, least = checked_push("spin_intervals", push), spin_threshold(small_motion(s))
+    if least == 0:
+        raise InputError("spin_intervals: it stands without spins: ask largest_push() at spins of your choice")
     if least == inf:
         return ()
-    windows = []
-    for factor, r in resonant_factors(s, of=of):
-        low, high = window_of(s, r, push)
-        windows.append((max(low, (1 - _FAR) * factor), min(high, (1 + _FAR) * factor)))
-    kept = []
-    for low, high in _trusted_factors(s, push, of):
-        for start, end in sorted(windows):
-            if low < start < high:
-                kept.append((low, start))
-            low = max(low, end)
-        if low < high:
-            kept.append((low, high))
-    if least:
-        kept = [part for low, high in kept for part in _checked_parts(s, least, low, high, push, of)]
-    return tuple(kept)
-
-
-def _checked_parts(
-    s: Assembly, least: float, low: float, high: float, push: float, of: Of
-) -> list[tuple[float, float]]:
-    """The parts of an interval beyond the critical factor at whose ends and between them `largest_push` is not below a push."""
-    top = high if high < inf else max(_TOP * least, 2 * low)
-    wide = top - least > _WIDE * (low - least)
-    between = [least + float(x) for x in np.geomspace(low - least, top - least, 5)[1:-1]] if wide else []
+    top = _TOP * least
+    while trusted_push(s, top) < push and top < _FASTEST * least:
+        top *= 2
+    factors = {least + float(x) for x in np.geomspace(1e-3 * least, top - least, 16)}
+    for factor, resonance in resonant_factors(s):
+        factors |= {factor, *resonance.window(push)}
+    grid = sorted(f for f in factors if least < f < top * (1 + _NOTHING))
 
     def holds(factor: float) -> bool:
-        if trusted_push(s, factor, of) < push:
+        if trusted_push(s, factor) < push:
             return False
         try:
-            return all(r.push() >= push for d in (3, 4) for r in resonances(s, factor, (d,), of) if r.falls)
+            return all(r.push() >= push for d in (3, 4) for r in resonances(s, factor, (d,)) if r.falls)
         except SingularError:  # not known
             return False
 
-    parts = _where(holds, [low, *between, top], _CHECKED, least)
-    return [(a, high if b == top else b) for a, b in parts if a < b]
-
-
-def _where(
-    holds: Callable[[float], bool], grid: Sequence[float], near: float, origin: float = 0.0
-) -> list[tuple[float, float]]:
-    """Intervals of a grid at whose points something holds; their ends, at which it does, by bisection to `near` of their
-    distance from an origin.
-    """
-
     def edge(outside: float, inside: float) -> float:
-        while abs(inside - outside) > near * (inside - origin):
+        while abs(inside - outside) > _CHECKED * (inside - least):
             middle = (inside + outside) / 2
             outside, inside = (outside, middle) if holds(middle) else (middle, inside)
         return inside
 
-    enough = [holds(f) for f in grid]
-    kept, start = [], grid[0]
+    enough, parts, start = [holds(f) for f in grid], [], grid[0]
     for k in range(1, len(grid)):
         if enough[k] and not enough[k - 1]:
             start = edge(grid[k - 1], grid[k])
         elif enough[k - 1] and not enough[k]:
-            kept.append((start, edge(grid[k], grid[k - 1])))
-    return kept + ([(start, grid[-1])] if enough[-1] else [])
+            parts.append((start, edge(grid[k], grid[k - 1])))
+    return (*parts, (start, inf)) if enough[-1] else tuple(parts)
 
 
-def _trusted_factors(s: Assembly, push: float, of: Of) -> list[tuple[float, float]]:
-    """Intervals of the factors at which a push is trusted, the last to inf."""
-    linear = small_motion(s)
-    least, spin = spin_threshold(linear), float(np.abs(linear.gyroscopic).max())
-    unit = least or (2 * np.sqrt(np.abs(linear.stiffness).max() * np.abs(linear.mass).max()) / spin if spin else 1.0)
-    grid = (
-        [float(x) for x in unit * (1 + np.geomspace(1e-6, _TOP, 60))]
-        if least
-        else [0.0, *unit * np.geomspace(1e-3, 1e3, 60)]
-    )
-    while trusted_push(s, grid[-1], of) < push and grid[-1] < _FASTEST * unit:
-        grid.append(2 * grid[-1])
-    kept = _where(lambda f: trusted_push(s, f, of) >= push, grid, 1e-6)
-    return [(low, inf if high == grid[-1] else high) for low, high in kept]
-
-
-def resonant_factors(
-    s: Assembly, orders: Sequence[int] = (3, 4), of: Of = "rates"
-) -> tuple[tuple[float, Resonance], ...]:
-    """The factors on all spins beyond the critical one at which modes are in resonance, each with what it does.
+def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
+    """Return the factors on all spins beyond the critical one at which modes are in resonance, each with what it does.
 
     Args:
         s: the structure.
         orders: of the resonances.
-        of: "rates" or "tilts", what a push gives.
 
     Raises:
         InputError: where upright breaks a bar's length.
     """
     from scipy.optimize import brentq
 
-    check_kind_of_push(of)
     check_upright(s, "resonant_factors")
     linear = small_motion(s)
     least = spin_threshold(linear)
@@ -618,7 +485,7 @@ def resonant_factors(
                 roots.add((round(root, 9), order))
     found = []
     for root, order in sorted(roots):
-        nearest = next(_of_order(s, signed_rates(linear, root), _slopes(linear, root), root, order, of), None)
+        nearest = next(_of_order(s, signed_rates(linear, root), _slopes(linear, root), root, order), None)
         if nearest and nearest.falls and abs(nearest.detuning) < 1e-6 * np.abs(nearest.rates).max():
             found.append((root, nearest))
     return tuple(found)

@@ -323,8 +323,7 @@ def bar_rows(c: Coefficients) -> Array:
 def _brace_rows(c: Coefficients) -> Array:
     """The extension of each brace by u, (braces, 2 N)."""
     tip = c.feet[c.brace_tip] + c.R[c.brace_tip, None] * [0, 0, 1]
-    away = zip(c.brace_along, tip - c.brace_point, c.brace_length, strict=True)
-    n = np.array([along if along.any() else d / length for along, d, length in away]).reshape(-1, 3)[:, :2]
+    n = ((tip - c.brace_point) / c.brace_length[:, None])[:, :2]
     rows = np.zeros((len(n), len(c.R), 2), dtype=c.R.dtype)
     for k, (i, j) in enumerate(zip(c.brace_tip, c.brace_to, strict=True)):
         rows[k, i] += c.R[i] * n[k]

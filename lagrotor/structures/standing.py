@@ -24,16 +24,12 @@ from lagrotor.structures.exact.exact_motion import exact_motion
 from lagrotor.structures.holding import hold_time
 from lagrotor.structures.resonances import (
     MOST_DOF,
-    UNIT_OF_PUSH,
-    Of,
     Resonance,
-    check_kind_of_push,
     checked_push,
     fall_time_along,
     first_resonance,
     signed_rates,
     trusted_push,
-    window_of,
 )
 from lagrotor.structures.small_motion import SmallMotion, check_rates, modes, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
@@ -41,7 +37,6 @@ from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
 _FARTHEST = 5  # times the push that is trusted: beyond, an axis tilts by ½ before anything grows
 _LEAST_TIMES = 20  # in which a push falls, if it does
-_MOST_TURNS = 10_000  # of the fastest mode, of an exact run
 _BOUNDED = "every small motion stays bounded"
 
 
@@ -123,7 +118,7 @@ class Standing(Shown):
                 return f"{words}; one of {self._reference:.3g} rad/s tilts it so far that its time is not known"
             return (
                 f"{words}, one of {self._reference:.3g} rad/s in {self.resonance.least_time(self._reference):.3g} s or more by "
-                "the normal form, which may be off by half: fall_time_error measures it"
+                "the normal form, which may be off by half: measured_fall runs the exact motion"
             )
         if self.kind == "falls over a barrier" and self.resonance:
             return (
@@ -143,44 +138,29 @@ class Standing(Shown):
             )
         return self.first_order
 
-    def _falls_by(self, of: Of) -> Resonance | None:
-        check_kind_of_push(of)
-        return self.resonance if of == "rates" else first_resonance(self.structure, of)
-
-    def window(self, push: float, of: Of = "rates") -> tuple[float, float] | None:
-        """The factors on all spins, about these, between which a push of that size may fall.
-
-        None where no resonance near these spins falls, whatever the push: a push beyond what the expansion is trusted (see
-        `largest_push`) may fall all the same.
-        """
-        push, resonance = checked_push("window", push), self._falls_by(of)
-        return window_of(self.structure, resonance, push) if resonance else None
-
-    def fall_time(self, push: float | ArrayLike, of: Of = "rates") -> float:
-        """When it falls, s: a least time for a number; for rates or tilts an estimate, which may be off by half and more.
+    def fall_time(self, push: float | ArrayLike) -> float:
+        """Return when it falls, s: a least time for a number; for rates an estimate, which may be off by half and more.
 
         A number: the least time of pushes of that size by the resonance's own terms, inf where none falls. Rates (N, 2) of the
-        axes: that of this push from upright, by the normal form of fourth order, inf where it does not fall in 20 least times:
-        as far from the exact motion's as `fall_time_error` measures. of: "rates", rad/s, or "tilts", as `largest_push` has them;
-        tilts (N, 2) are x, y of the axes.
+        axes, rad/s: that of this push from upright, by the normal form of fourth order, inf where it does not fall in 20 least
+        times. `measured_fall` has the exact motion's.
 
         Raises InputError as `resonances` does, and for pushes whose tilts are beyond what the expansion is trusted.
         """
-        check_kind_of_push(of)
         along = np.ndim(push) > 0
         if along and np.shape(push) != (shape := (len(self.structure.joints), 2)):
-            raise InputError(f"fall_time: push must be a number or {of} {shape}, not of shape {np.shape(push)}")
+            raise InputError(f"fall_time: push must be a number or rates {shape}, not of shape {np.shape(push)}")
         size = (
             float(np.linalg.norm(finite_array("fall_time: push", push))) if along else checked_push("fall_time", push)
         )
         if not self.stands:
             return 0.0
-        resonance, trusted = self._falls_by(of), trusted_push(self.structure, of=of)
+        resonance, trusted = self.resonance, trusted_push(self.structure)
         if resonance and size <= resonance.push():
             resonance = None
         if size > (_FARTHEST if resonance else 1) * trusted:
             raise InputError(
-                f"fall_time: a push of {size:.3g}{UNIT_OF_PUSH[of]} tilts an axis too far for the expansion, which is trusted to "
+                f"fall_time: a push of {size:.3g} rad/s tilts an axis too far for the expansion, which is trusted to "
                 f"{trusted:.3g}: simulate it"
             )
         if not resonance:
@@ -189,49 +169,25 @@ class Standing(Shown):
         if not along:
             return least
         reach = max(abs(np.dot(k, resonance.rates)) for k in resonance.vectors)
-        time = fall_time_along(self.structure, push, _LEAST_TIMES * least, 1.001 * reach, of)
+        time = fall_time_along(self.structure, push, _LEAST_TIMES * least, 1.001 * reach)
         if time == inf and size > trusted:
             raise InputError(
-                f"fall_time: this push of {size:.3g}{UNIT_OF_PUSH[of]} does not fall in {_LEAST_TIMES * least:.3g} s by the "
-                f"expansion, which is trusted to {trusted:.3g}: simulate it"
+                f"fall_time: this push of {size:.3g} rad/s does not fall in {_LEAST_TIMES * least:.3g} s by the expansion, which "
+                f"is trusted to {trusted:.3g}: simulate it"
             )
         return time
 
-    def fall_time_error(self, push: float | ArrayLike, of: Of = "rates") -> float:
-        """How far `fall_time` of rates or tilts (N, 2) is from the exact motion's, s, run to a tilt of the sine 0.95 with two
-        tolerances, whose difference is added. The terms left out are no estimate: in the last growth, which may turn round and
-        begin again, no order is small beside another. inf where either does not fall in 20 least times; 0 for a number, which is
-        a bound, and where it does not stand.
-
-        Raises InputError as `fall_time` does, and where 20 least times are more than 10⁴ turns of the fastest mode.
-        """
-        time = self.fall_time(push, of)
-        if not np.ndim(push) or not self.stands:
-            return 0.0
-        resonance = self._falls_by(of)
-        if time == inf or resonance is None:
-            return inf
-        longest = _LEAST_TIMES * resonance.least_time(float(np.linalg.norm(np.asarray(push))))
-        turns = longest * np.abs(resonance.rates).max() / (2 * np.pi)
-        if turns > _MOST_TURNS:
-            raise InputError(
-                f"fall_time_error: the exact motion of so small a push is up to {turns:.2g} turns long, more than {_MOST_TURNS}: "
-                f"fall_time gives {time:.4g} s by the normal form"
-            )
-        coarse, fine = (measured_fall(self.structure, push, longest, tol, of) for tol in (1e-7, 1e-9))
-        return abs(fine - time) + abs(fine - coarse) if max(coarse, fine) < inf else inf
-
-    def hold_time(self, push: float, of: Of = "rates") -> float:
-        """The time (s) before which no push of that size grows to sqrt(2) times its size in the normal modes: an estimate, see
+    def hold_time(self, push: float) -> float:
+        """Estimate the time (s) before which no push of that size grows to sqrt(2) times its size in the normal modes: see
         `structures.holding`.
 
         inf where the structure may turn about the vertical through each joint, as a free top, and for staying near where the
         energy is least upright, of more than 8 degrees of freedom for pushes that are small enough; 0 where it does not stand
-        or the push is beyond what the expansion is trusted. push, of: as `largest_push` has them.
+        or the push is beyond what the expansion is trusted. push: as `largest_push` has it.
 
         Raises InputError with friction, and for more than 8 degrees of freedom.
         """
-        return hold_time(self.structure, push, of)
+        return hold_time(self.structure, push)
 
     def summary(self) -> dict[str, str]:
         """Return whether it stands and why, and what spins it needs, name → words."""
@@ -300,28 +256,23 @@ def _why(linear: SmallMotion, growth: float, factor: float) -> str:
     return first + "a motion on which these spins do not act, at any multiple of them"
 
 
-def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-9, of: Of = "rates") -> float:
-    """The time (s) at which an axis of the exact motion first tilts by the sine 0.95, inf where none does.
+def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-9) -> float:
+    """Return the time (s) at which an axis of the exact motion first tilts by the sine 0.95, inf where none does.
 
     Args:
         s: the structure.
-        push: the axes' rates (N, 2), rad/s, from upright, or tilts (N, 2) at rest, brought onto the bars.
+        push: the axes' rates (N, 2), rad/s, from upright, brought onto the bars.
         longest: s.
         tol: of each step, relative.
-        of: "rates" or "tilts", what the push is.
 
     Raises:
-        InputError: for tilts from 0.95 on, and what is no push.
+        InputError: for what is no push.
         IntegrationError: where the solver fails.
     """
     from scipy.integrate import solve_ivp
 
     motion, rate = exact_motion(s), coefficients(s).rate
-    check_kind_of_push(of)
-    given = finite_array("measured_fall: push", push, (len(s.joints), 2))
-    if of == "tilts" and not np.hypot(*given.T).max() < 0.95:
-        raise InputError("measured_fall: push: an axis is tilted by the sine 0.95 or more at the start")
-    start = start_state(motion, *((given, None) if of == "tilts" else (None, given)))
+    start = start_state(motion, None, finite_array("measured_fall: push", push, (len(s.joints), 2)))
 
     def fallen(_: float, y: Array) -> float:
         return float(np.hypot(*motion.axes_and_rates(y)[0, 0, :, :2].T).max()) - 0.95

@@ -122,7 +122,7 @@ def toml_of(s: Assembly) -> str:
         once = name != "braces" and len(set(parts)) == 1
         for part in parts[:1] if once else parts:
             lines += ["", f"[{name}]" if once else f"[[{name}]]"]
-            lines += [f"{key} = {toml_value(value)}" for key, value in asdict(part).items() if value != ()]
+            lines += [f"{key} = {toml_value(value)}" for key, value in asdict(part).items()]
     return "\n".join([*lines, ""])
 
 

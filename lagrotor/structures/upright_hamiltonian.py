@@ -189,10 +189,6 @@ def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
         place = c.feet[tip] - (c.feet[to] if to >= 0 else c.brace_point[b])
         d = [axes[tip][k].times(c.R[tip]) + constant(place[k], n, float) for k in range(3)]
         d = [d[k] - axes[to][k].times(c.R[to]) for k in range(3)] if to >= 0 else d
-        if c.brace_along[b].any():
-            stretch = total([combined(c.brace_along[b], d), constant(-c.brace_length[b], n, float)])
-            terms.append(stretch.product(stretch, order).times(c.stiffness[b] / 2))
-            continue
         longer = (total([part.product(part, order) for part in d]) - constant(c.brace_length[b] ** 2, n, float)).times(
             1 / c.brace_length[b] ** 2
         )

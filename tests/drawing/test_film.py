@@ -1,10 +1,5 @@
 """Motion: bodies turned along a run against exact rotations, wheels that stay rigid, films of the right size."""
 
-import os
-import sys
-from itertools import pairwise
-from pathlib import Path
-
 import numpy as np
 import pytest
 from PIL import Image
@@ -15,7 +10,7 @@ from lagrotor.commands.command_line import main
 from lagrotor.drawing import Camera
 from lagrotor.drawing.film import SIZE, frame_times
 from lagrotor.drawing.wheel import place_points, wheel
-from lagrotor.errors import InputError, LagrotorError
+from lagrotor.errors import InputError
 from lagrotor.numerics import body_rotations
 from lagrotor.numerics.rotations import between_samples, turn_between
 from lagrotor.pair import SCENES
@@ -41,46 +36,20 @@ def exact_rotation(i, t, first):
     return (Rotation.from_rotvec(np.outer(t, L / J)) * Rotation.from_rotvec(spin)).as_matrix() @ first
 
 
-def turned(run):
-    return body_rotations(run.t, run.axes, run.rates, run.momenta[:, 0] / run.scene.rotor.I3)
-
-
-def error(n):
-    run = free_run(n)
-    Q = turned(run)
-    return max(np.abs(Q[i] - exact_rotation(i, run.t, Q[i, 0])).max() for i in (0, 1))
-
-
 # --- rotations along a run
 
 
 def test_bodies_turn_as_the_exact_free_rotor_to_fourth_order():
-    errors = [error(n) for n in (101, 201, 401)]
+    """The twin: the spin alone, carried along great circles, loses the area that the path encloses."""
+    errors = []
+    for n in (101, 201, 401):
+        run = free_run(n)
+        Q = body_rotations(run.t, run.axes, run.rates, run.momenta[:, 0] / run.scene.rotor.I3)
+        errors.append(max(np.abs(Q[i] - exact_rotation(i, run.t, Q[i, 0])).max() for i in (0, 1)))
     assert errors[-1] < 3e-7
     assert np.log2(np.array(errors[:-1]) / errors[1:]) == pytest.approx([4, 4], abs=0.2)
-
-
-def test_without_the_area_the_rotation_is_wrong():
-    """The twin: the spin alone, carried along great circles, loses the area that the path encloses."""
-    run = free_run(401)
     still = body_rotations(run.t, run.axes, 0 * run.rates, np.array(SPINS))
     assert np.abs(still[0] - exact_rotation(0, run.t, still[0, 0])).max() > 1e-5
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_bodies_stay_bodies_and_keep_their_axes(name):
-    ready = SCENES[name]
-    run = simulate(ready.scene, np.linspace(0, ready.duration, 301))
-    Q = turned(run)
-    assert np.abs(Q.swapaxes(-1, -2) @ Q - np.eye(3)).max() < 1e-12
-    assert np.linalg.det(Q) == pytest.approx(np.ones(Q.shape[:2]))
-    assert np.abs(Q[..., 2] - run.axes).max() < 1e-12
-
-
-def test_spinning_upright_is_a_turn_about_e_z():
-    run = simulate(SCENES["same-spin"].scene, np.linspace(0, 1, 11))
-    expected = Rotation.from_rotvec(np.outer(10 * run.t, [0, 0, 1])).as_matrix()
-    assert np.abs(turned(run)[0] - expected).max() < 1e-12
 
 
 def test_a_start_that_hangs_and_a_turn_right_round():
@@ -176,21 +145,10 @@ def test_gif_has_its_frames_size_and_duration(short, tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_frames_move(short, tmp_path):
-    with Image.open(short.animate(tmp_path / "pair.gif", fps=5)) as film:
-        frames = []
-        for i in range(film.n_frames):
-            film.seek(i)
-            frames.append(np.asarray(film.convert("L"), dtype=int))
-    changed = [np.mean(a != b) for a, b in pairwise(frames)]
-    assert min(changed) > 0.005
-    assert max(changed) < 0.2
-
-
 @pytest.mark.parametrize(
     ("name", "fps", "says"),
     [
-        ("pair.png", 25, "gif or .mp4"),
+        ("pair.png", 25, "end in .gif"),
         ("pair.gif", 0.5, "fps"),
         ("pair.gif", np.nan, "fps"),
         ("no/pair.gif", 25, "existing"),
@@ -200,12 +158,6 @@ def test_what_cannot_be_written_is_refused(short, tmp_path, name, fps, says):
     with pytest.raises(InputError, match=says):
         short.animate(tmp_path / name, fps=fps)
     assert not list(tmp_path.iterdir())
-
-
-def test_one_time_is_no_film(tmp_path):
-    run = simulate(SCENES["same-spin"].scene, [1.0])
-    with pytest.raises(InputError, match="one frame"):
-        run.animate(tmp_path / "pair.gif")
 
 
 def test_interrupted_leaves_nothing(short, tmp_path):
@@ -221,38 +173,6 @@ def test_interrupted_leaves_nothing(short, tmp_path):
     assert list(tmp_path.iterdir()) == [old]
 
 
-# --- MP4, with a stand-in for ffmpeg
-
-
-def stand_in(folder, monkeypatch, body):
-    script = folder / "ffmpeg"
-    script.write_text(f"#!{sys.executable}\nimport sys\n{body}\n")
-    script.chmod(0o755)
-    monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
-
-
-def test_mp4_hands_ffmpeg_every_frame(short, tmp_path, monkeypatch):
-    (tmp_path / "bin").mkdir()
-    body = "taken = len(sys.stdin.buffer.read())\nprint(taken, sys.argv[sys.argv.index('-s') + 1])"
-    stand_in(tmp_path / "bin", monkeypatch, body)
-    path = short.animate(tmp_path / "pair.mp4", fps=5)
-    assert path.read_text().split() == [str(13 * SIZE[0] * SIZE[1] * 3), f"{SIZE[0]}x{SIZE[1]}"]
-
-
-def test_mp4_says_what_ffmpeg_said(short, tmp_path, monkeypatch):
-    (tmp_path / "bin").mkdir()
-    stand_in(tmp_path / "bin", monkeypatch, "sys.exit('no such codec')")
-    with pytest.raises(LagrotorError, match=r"no such codec.*gif"):
-        short.animate(tmp_path / "pair.mp4", fps=5)
-    assert not (tmp_path / "pair.mp4").exists()
-
-
-def test_mp4_without_ffmpeg_names_the_way_out(short, tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(InputError, match=r"install it, or write a \.gif"):
-        short.animate(tmp_path / "pair.mp4")
-
-
 # --- command line, prompt and notebook
 
 
@@ -261,9 +181,9 @@ def test_mp4_without_ffmpeg_names_the_way_out(short, tmp_path, monkeypatch):
     [
         (["spin"], "invalid choice: 'spin'"),
         ([], "SCENE"),
-        (["same-spin", "--out", "pair.txt"], ".gif or .mp4"),
+        (["same-spin", "--out", "pair.txt"], "end in .gif"),
         (["same-spin", "--out", "missing/pair.gif"], "no folder missing"),
-        (["same-spin", "--out", "."], ".gif or .mp4"),
+        (["same-spin", "--out", "."], "end in .gif"),
         (["same-spin", "--t-end", "0"], "0 s"),
         (["same-spin", "--t-end", "nan"], "nan s"),
         (["same-spin", "--t-end", "1e9"], "600 s at most"),
@@ -302,18 +222,6 @@ def test_every_ready_scene_is_filmed_whole(name, tmp_path):
     assert main(["animate", name, "--out", str(tmp_path / "pair.gif")]) == 0
     with Image.open(tmp_path / "pair.gif") as film:
         assert film.n_frames == round(25 * SCENES[name].duration) + 1
-
-
-def test_plot_has_a_panel_a_component_with_units(short):
-    drawn = short.plot()
-    assert len(drawn.axes) == 5
-    assert {panel.get_ylabel().rpartition("[")[2] for panel in drawn.axes} == {"m]", "J]"}
-
-
-def test_methods_are_those_of_the_report(short, tmp_path):
-    path = short.animate(str(tmp_path / "pair.gif"), fps=2)
-    assert isinstance(path, Path)
-    assert path.exists()
 
 
 def test_trajectory_as_html(short):

@@ -47,7 +47,6 @@ class Client:
         (lambda: write_scene(SCENE, 5), r"write_scene: path = 5 must be a path"),
         (lambda: Paper(5), r"Paper: folder = 5 must be a path"),
         (lambda: read_scene([]), r"path = \[\] must be a path"),
-        (lambda: STRUCTURE.largest_push(of=["rates"]), r"of = \['rates'\] must be one of rates, tilts"),
         (lambda: STRUCTURE.resonances(factor="x"), r"resonances: factor = 'x' must be numbers"),
         (lambda: STRUCTURE.resonances(factor=float("nan")), r"resonances: factor = nan must be finite"),
         (lambda: STRUCTURE.upright_tip(2), r"upright_tip: i = 2 must be a rotor's number, from 0 to 1"),

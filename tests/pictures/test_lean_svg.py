@@ -53,13 +53,6 @@ def test_every_path_is_where_it_was(sources: list[str]) -> None:
             assert np.abs(a - b).max() <= 0.0051
 
 
-def test_a_coarser_rounding_is_seen(sources: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(figures, "_DECIMALS", 1)
-    source = sources[-1]
-    off = [np.abs(a - b).max() for a, b in zip(paths(source), paths(lean_svg(source)), strict=True)]
-    assert max(off) > 0.0051
-
-
 def test_ids_are_kept_where_they_are_used(sources: list[str]) -> None:
     for source in sources:
         tree = ElementTree.fromstring(lean_svg(source))

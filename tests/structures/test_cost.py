@@ -1,14 +1,11 @@
 """What an evaluation costs grows as the number of rotors: counted in the entries of the band and of the arrays."""
 
-import math
-from itertools import pairwise
-
 import numpy as np
 import pytest
 
 from lagrotor import Link, Structure
 from lagrotor.structures import exact_motion
-from lagrotor.structures.exact.compiled_motion import eliminate_in_levels, structure_accelerations
+from lagrotor.structures.exact.compiled_motion import eliminate_in_levels
 from lagrotor.structures.exact.exact_motion import pulls, saddle
 
 SIZES = (64, 512, 4096)
@@ -72,98 +69,6 @@ def test_a_grid_is_solved_sparsely_and_to_the_same_numbers() -> None:
     assert np.isnan(
         replace(motion.saddle).solve(still, pulls(motion.c, still), np.ones((1, len(bars) + 4 * L * L, 1)))
     ).all()
-
-
-def test_a_long_chain_moves() -> None:
-    """1,024 rotors, a hundredth of a turn; the push at one end has not reached the other."""
-    s = chain(1024, Link())
-    rates = np.zeros((1024, 2))
-    rates[:2] = 1e-3
-    run = s.simulate([0.0, 0.05], rates=rates, tol=1e-6)
-    assert np.abs(run.axes[0, 1, :2]).max() > 1e-5
-    assert np.abs(run.axes[900:, 1, :2]).max() < 1e-12
-    assert np.ptp(run.link_length) < 1e-12
-
-
-class Counted:
-    """A number that counts what is done to it."""
-
-    done = 0
-
-    def __init__(self, value: float) -> None:
-        self.value = value
-
-    @staticmethod
-    def _by(operation):
-        def done(self, other):
-            Counted.done += 1
-            return Counted(operation(self.value, other.value if isinstance(other, Counted) else float(other)))
-
-        return done
-
-    __add__ = __radd__ = _by(lambda a, b: a + b)
-    __mul__ = __rmul__ = _by(lambda a, b: a * b)
-    __sub__, __rsub__ = _by(lambda a, b: a - b), _by(lambda a, b: b - a)
-    __truediv__, __rtruediv__ = _by(lambda a, b: a / b), _by(lambda a, b: b / a)
-
-    def __neg__(self):
-        return 0.0 - self
-
-
-def operations(s: Structure) -> int:
-    """Of the equations written out, which the fast extra compiles."""
-    c, Counted.done = exact_motion(s).c, 0
-    upright, N = [[Counted(x) for x in axis] for axis in c.upright.tolist()], len(s.joints)
-    structure_accelerations(c, upright, upright, [Counted(1.0)] * N, math)
-    return Counted.done
-
-
-def ratios(shape, link: Link, sizes: range) -> list[float]:
-    found = [operations(shape(2**k, link)) for k in sizes]
-    return [more / few for few, more in pairwise(found)]
-
-
-@pytest.mark.parametrize("shape", [chain, ring])
-def test_the_operations_of_an_evaluation_grow_at_most_2_2_times_a_doubling(shape) -> None:
-    """From eight rotors on; from four to eight the bars of a chain alone are 7/3 as many."""
-    assert max(ratios(shape, Link(), range(3, 8))) < 2.2
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("shape", [chain, ring])
-def test_they_do_up_to_512_rotors(shape) -> None:
-    """The fast extra compiles no more."""
-    assert max(ratios(shape, Link(), range(3, 10))) < 2.2
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("shape", [chain, ring])
-def test_with_heavy_bars_they_come_to(shape) -> None:
-    """What halving a heavy chain again and again costs beyond solving it from end to end is not paid by short ones."""
-    found = ratios(shape, Link(1, 0.3, 0.1), range(3, 8))
-    assert found[0] > 2.2 and found == sorted(found, reverse=True) and found[-1] < 2.15
-
-
-class Depth:
-    """A number that knows how many operations it had to wait for."""
-
-    def __init__(self, depth: int = 0) -> None:
-        self.depth = depth
-
-    def after(self, other: object = None) -> "Depth":
-        return Depth(1 + max(self.depth, getattr(other, "depth", 0)))
-
-    __add__ = __radd__ = __mul__ = __rtruediv__ = __neg__ = after
-
-
-def test_in_a_chain_operations_wait_for_log_n_others() -> None:
-    """What waits compiles slowly. Solved from one end to the other, a chain of 1,024 would wait 64 times as long as of 16."""
-
-    def longest(n: int) -> int:
-        found = eliminate_in_levels([Depth()] * n, {(k, k + 1): Depth() for k in range(n - 1)}, [Depth()] * n, n)
-        return max(each.depth for each in found)
-
-    assert longest(1024) < 3 * longest(16)
 
 
 def test_a_constraint_is_not_eliminated_before_what_it_holds() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lagrotor import Link, Rotor, Scene, Structure, paired_scene
+from lagrotor import Link, Rotor, Scene, Structure
 
 CORNER = {"joints": [(0, 0), (1, 0), (1, 1)], "bars": [(0, 1), (1, 2)]}
 TILT = [(0.3, 0.1), (0.3, -0.2), (-0.1, -0.2)]
@@ -39,22 +39,3 @@ def test_the_paired_precession_decays_at_its_closed_form(link, friction) -> None
     found = Structure([(0, 0), (1, 0)], [(0, 1)], [10.0, -10.0], link=link, friction=friction).modes()
     k = int(np.argmax(found.rates))
     assert -found.growth[k] == pytest.approx(a * friction / (a**2 - b**2), rel=1e-9)
-
-
-def test_the_decay_is_that_of_the_exact_motion() -> None:
-    link, friction = Link(1, 1, 0.5), 0.4
-    start = paired_scene(Scene(spins=(10.0, -10.0), link=link), 0.01)
-    s = Structure([(0, 0), (1, 0)], [(0, 1)], [10.0, -10.0], link=link, friction=friction)
-    until = 6 * np.pi / s.modes().rates.max()
-    energy = s.simulate([0.0, until], start.axes, start.rates, tol=1e-10).tilt_energy
-    a, b = start.inertias
-    assert -np.log(energy[1] / energy[0]) / 2 / until == pytest.approx(a * friction / (a**2 - b**2), rel=1e-4)
-
-
-def test_a_run_may_be_read_late_alone() -> None:
-    """A solver that gives up before the first time read leaves nothing to bring onto the bars."""
-    start = paired_scene(Scene(spins=(40.0, -40.0)), 0.03)
-    s = Structure([(0, 0), (1, 0)], [(0, 1)], [40.0, -40.0], spin_friction=0.2)
-    late = s.simulate([0.0, 3.5, 3.6], start.axes, start.rates, tol=1e-8).after(3.5)
-    early = s.simulate([0.0, 1.0, 3.5, 3.6], start.axes, start.rates, tol=1e-8)
-    assert np.abs(late.axes - early.axes[:, 2:]).max() < 2e-8

@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 from lagrotor import Structure
-from lagrotor.errors import InputError
 from lagrotor.numerics import measured_order
 from lagrotor.structures.coefficients import coefficients
 
 TRIANGLE = Structure([(0, 0), (1, 0), (0.3, 0.9)], [(0, 1), (1, 2), (2, 0)], [-6.5, 7.7, 7.5], hinge=20.0)
-CORNER = Structure([(0, 0), (1, 0), (1.6, 0.8)], [(0, 1), (1, 2)], [39, 5.2, 36.4], gravity=9.81, load=2.0)
 
 
 @pytest.mark.parametrize("mode", [0, 1])
@@ -50,30 +48,3 @@ def test_beyond_its_edge_exact_multipliers_leave_the_circle() -> None:
     assert beyond.growth == pytest.approx(law.growth_at(1.3 * law.edge), rel=0.02)
     for orbit in (below, beyond):  # symplectic: the multipliers' product is 1
         assert abs(np.prod(orbit.multipliers) - 1) < 4 * orbit.errors.max() < 1e-8
-
-
-def test_under_weight_slow_precessions_are_fed() -> None:
-    law = CORNER.precession_law(3)
-    assert sorted(np.sign(law.others)) == [-1, -1, 1] and 0.07 < law.edge < 0.08
-    assert CORNER.precession_law(1).sign == -1
-
-
-def test_where_it_is_not_trusted_it_is_refused() -> None:
-    law = CORNER.precession_law(2)  # its double is nearly the fastest rate
-    assert law.reach < 0.12 and TRIANGLE.precession_law(0).reach == 0.5
-    for tilt in (1.01 * law.reach, -0.1, np.nan):
-        with pytest.raises(InputError, match="precession_law: tilt"):
-            law.rate_at(tilt)
-    for structure, mode, says in (
-        (TRIANGLE, 3, "0 to 2"),
-        (replace(TRIANGLE, friction=(0.1, 0, 0)), 0, "friction"),
-        (Structure([(0, 0), (1, 0)], [(0, 1)], [10, -10]), 2, "grows or has no rate"),
-        (replace(CORNER, spins=(26.8, 0.0, 26.8), joints=((0, 0), (1, 0), (1, 1))), 2, "have the rate of mode 2"),
-        (Structure([(k, 0) for k in range(5)], spins=[11, 12, 13, 14, 15], hinge=9.0), 0, "at most 8"),
-    ):
-        with pytest.raises(InputError, match=says):
-            structure.precession_law(mode)
-    leaning = replace(CORNER, bars=((0, 1, 1.1), (1, 2)))
-    for of in ("precession_law", "steady_precession"):
-        with pytest.raises(InputError, match=f"^{of}: a bar is not"):
-            getattr(leaning, of)()

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from sympy.core.random import seed
 
 from lagrotor import Brace, Link, Rotor, Structure
-from lagrotor.errors import InputError, LagrotorError
+from lagrotor.errors import InputError
 from lagrotor.structures import bounded_motion, measured_growth
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.small_motion import SmallMotion, small_motion
@@ -60,26 +60,6 @@ def test_no_loaded_pair_stands(spins, link, load) -> None:
     assert not found and found.critical_spin == inf and "odd number" in found.why
 
 
-def test_a_massless_loaded_pair_falls_at_the_rate_of_no_spin() -> None:
-    for spins in ((30, 30), (30, -30), (30, 7)):
-        s = Structure(**PAIR, spins=spins, **WEIGHT)
-        c = coefficients(s)
-        assert s.stands().growth == pytest.approx(sqrt(c.gravity * c.S[0] / c.A[0]))
-        y = s.stands().shape[:, 1]
-        assert y[0] * spins[0] == pytest.approx(-y[1] * spins[1])  # what falls is where the spins cancel
-
-
-def test_a_rigid_plate_never_stands() -> None:
-    s = Structure(**SQUARE | {"bars": [*SQUARE["bars"], (0, 2)]}, spins=1e3)
-    assert small_motion(s).dof == 3 and s.critical_spin() == inf
-
-
-def test_a_straight_row_never_stands() -> None:
-    for n in (3, 4, 5):
-        line = {"joints": [(k, 0) for k in range(n)], "bars": [(k, k + 1) for k in range(n - 1)]}
-        assert Structure(**line, spins=np.arange(1, n + 1) * 10.0, **WEIGHT).critical_spin() == inf
-
-
 @pytest.mark.parametrize(
     ("shape", "spins", "factor"),
     [
@@ -92,6 +72,8 @@ def test_a_straight_row_never_stands() -> None:
         (grid(3), [-0.5, 1, 1, 1, -0.5, 1, 1, 1, -0.5], 4),
         (grid(3), [1] * 9, inf),
         (HEXAGON, [1, -1] * 3, 2 * sqrt(5)),
+        (SQUARE | {"bars": [*SQUARE["bars"], (0, 2)]}, [1e3] * 4, inf),  # a rigid plate
+        ({"joints": [(k, 0) for k in range(4)], "bars": [(0, 1), (1, 2), (2, 3)], **WEIGHT}, [1, 2, 3, 4], inf),
     ],
 )
 def test_the_least_spin_in_closed_form(shape, spins, factor) -> None:
@@ -99,38 +81,23 @@ def test_the_least_spin_in_closed_form(shape, spins, factor) -> None:
     assert s.critical_spin() == pytest.approx(factor * natural(s), rel=1e-9)
 
 
-CASES = {
-    "a corner": (CORNER, [1, 0, 1], {}),
-    "a corner under one load, heavy bars": (
-        CORNER | {"load": [0, 50, 0]}, [30, 0, 30], {"link": Link(mass=0.3, inertia=0.1)},
-    ),
-}  # fmt: skip
-LONG = {
-    "a braced pair": (PAIR | WEIGHT, [30, 30], {"braces": [Brace(0, (0.0, 1.0, 1.0), 200.0)]}),
-    "a square of heavy bars": (SQUARE, [-1, 1, 1, 1], {"link": Link(1, 1, 0.1)}),
-    "a hexagon": (HEXAGON, [1, -1] * 3, {}),
-    "nine": (grid(3), [-1, 1, 1, 1, -1, 1, 1, 1, -1], {}),
-}
-
-
-def holds_three_percent_off(shape, spins, more) -> None:
+@pytest.mark.parametrize(
+    ("shape", "spins", "more"),
+    [
+        (CORNER, [1, 0, 1], {}),
+        (CORNER | {"load": [0, 50, 0]}, [30, 0, 30], {"link": Link(mass=0.3, inertia=0.1)}),
+        pytest.param(PAIR | WEIGHT, [30, 30], {"braces": [Brace(0, (0.0, 1.0, 1.0), 200.0)]}, marks=pytest.mark.slow),
+        pytest.param(SQUARE, [-1, 1, 1, 1], {"link": Link(1, 1, 0.1)}, marks=pytest.mark.slow),
+        pytest.param(grid(3), [-1, 1, 1, 1, -1, 1, 1, 1, -1], {}, marks=pytest.mark.slow),
+    ],
+)
+def test_the_exact_motion_falls_under_the_threshold_and_stays_over_it(shape, spins, more) -> None:
     factor = Structure(**shape, spins=spins, **more).critical_spin()
     under, over = (Structure(**shape, spins=[x * factor * f for f in spins], **more) for x in (0.97, 1.03))
     assert measured_growth(under) == pytest.approx(under.stands().growth, rel=1e-3)
     assert not under.stands() and over.stands()
     largest, off = bounded_motion(over)
     assert largest < 10 and off < 1e-3
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_the_exact_motion_falls_under_the_threshold_and_stays_over_it(name) -> None:
-    holds_three_percent_off(*CASES[name])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", LONG)
-def test_larger_ones_too(name) -> None:
-    holds_three_percent_off(*LONG[name])
 
 
 def test_friction_undoes_what_the_spins_hold() -> None:
@@ -187,16 +154,6 @@ def test_small_growth_keeps_its_digits_or_is_refused() -> None:
         lost.stands()
 
 
-@pytest.mark.parametrize("door", ["modes", "stands", "resonances"])
-def test_rates_more_than_a_million_times_apart_are_refused_with_both_and_the_way_out(door: str) -> None:
-    """G/A over g S/G; twin: a spin below it."""
-    top = Structure([(0, 0)], spins=3_000.0, gravity=9.81)
-    with pytest.raises(LagrotorError, match=rf"^{door}: the fastest rate.* 10⁶ times the slowest.*: take slower spins"):
-        getattr(top, door)()
-    assert len(top.modes(inertia=False).rates) == 1
-    getattr(replace(top, spins=(1_000.0,)), door)()
-
-
 def test_rotors_that_nothing_joins_keep_their_rates() -> None:
     """By the hinge h of one √(h/A) and −c/(2 A), by spin G/A; one that nothing holds has the root zero twice. Twin: a hinge so
     soft that it counts for none."""
@@ -231,17 +188,6 @@ def test_what_no_friction_reaches_neither_grows_nor_decays(spin: float) -> None:
     assert decaying[1] == decaying[0] + 1
 
 
-def test_springs_hold_without_spin() -> None:
-    s = Structure(**PAIR, spins=[10, -10], gravity=9.81, hinge=10.0)
-    assert s.stands() and s.critical_spin() == 0
-
-
-def test_without_weight_a_push_goes_on() -> None:
-    found = Structure(**PAIR, spins=[10, -10]).stands()
-    assert not found and found.growth == 0 and "goes on" in found.why
-    assert Structure(joints=[(0, 0)], spins=[10]).stands()
-
-
 @pytest.mark.parametrize(
     "given",
     [
@@ -263,24 +209,6 @@ def test_the_exact_polynomial_has_the_numeric_roots(given) -> None:
     for root in roots:
         assert np.abs(numeric - root).min() < 1e-6 * (1 + abs(root))
     assert len(roots) == len(numeric)
-
-
-def test_modes_say_how_many_topple() -> None:
-    found = Structure(**PAIR, spins=[30, 20], **WEIGHT).modes()
-    assert found.rates.shape == found.growth.shape == (3,) and found.shapes.shape == (3, 2, 2)
-    assert found.topple == 1 and found.growth[0] > 0
-    assert np.abs(found.shapes[:, 0, 0] - found.shapes[:, 1, 0]).max() < 1e-12  # the bar holds x
-
-
-def test_linear_theory_is_about_upright() -> None:
-    s = Structure(joints=[(0, 0), (1, 0)], bars=[(0, 1, 1.2)], spins=1)
-    doors = ("modes", "stands", "critical_spin", "characteristic", "resonances", "largest_push", "steady_precession")
-    for door in (*doors, "precession_law"):
-        with pytest.raises(InputError, match=f"^{door}: a bar is not as long .* upright"):
-            getattr(s, door)()
-    for door, number in (("spin_intervals", 0.1), ("response", 1.0)):
-        with pytest.raises(InputError, match=f"^{door}: a bar is not as long .* upright"):
-            getattr(s, door)(number)
 
 
 @pytest.mark.parametrize("more", [{"spins": 0.0}, {"spins": [30.0, 0.0], "gravity": 9.81, "hinge": [0.0, 9.81 / 2]}])

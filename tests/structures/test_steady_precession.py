@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Scene, Structure, floquet
-from lagrotor.errors import InputError
 from lagrotor.structures import example
 from lagrotor.structures.coefficients import coefficients
 
@@ -42,16 +41,6 @@ def test_the_pairs_paired_precession_is_one_of_a_structure(link: Link) -> None:
     assert abs(floquet(Scene(spins=(10, -10), link=link), 0.301).growth - orbit.growth) > 1e3 * orbit.errors[2]
 
 
-def test_at_small_tilts_the_multipliers_are_those_of_the_modes() -> None:
-    rates, mode = CORNER.modes().rates, 2
-    off = []
-    for tilt in (0.02, 0.04):
-        orbit = CORNER.steady_precession(mode, tilt)
-        others = np.exp(1j * orbit.period * np.delete(rates, mode))
-        off.append(max(np.abs(orbit.multipliers - each).min() for each in (*others, *others.conj())))
-    assert np.log2(off[1] / off[0]) == pytest.approx(2, abs=0.1) and off[0] < 1e-2
-
-
 def test_the_exact_motion_leaves_a_precession_as_its_multiplier_has_it() -> None:
     """Near a resonance the fastest mode's precession feeds the others: each turn by the largest multiplier."""
     orbit = CORNER.steady_precession(3, 0.05)
@@ -64,21 +53,3 @@ def test_the_exact_motion_leaves_a_precession_as_its_multiplier_has_it() -> None
     )
     sizes = np.linalg.norm(apart, axis=(0, 2))
     assert sizes[-1] > 100 * sizes[1] and sizes[-1] / sizes[-2] == pytest.approx(growth, rel=5e-3)
-
-
-def test_where_there_is_none_it_is_refused() -> None:
-    for structure, mode, tilt, says in (
-        (TOP, 2, 0.1, "0 to 1"),
-        (TOP, True, 0.1, "0 to 1"),
-        (TOP, 0, 1.0, "between 0 and 1"),
-        (TOP, 0, np.nan, "tilt"),
-        (replace(TOP, friction=(0.1,)), 0, 0.1, "friction"),
-        (replace(TOP, spins=(1.0,)), 0, 0.1, "grows"),
-        (Structure([(0, 0), (1, 0)], [(0, 1)], [10, -10]), 0, 0.1, "no rate"),
-        (EQUAL, 2, 0.05, "have the rate of mode 2"),
-        (replace(CORNER, spins=(24.0, 0.0, 30.0)), 3, 0.05, "decays"),
-        (replace(CORNER, spins=(24.0, 0.0, 30.0)), 1, 0.05, "ends or turns near"),
-        (TOP, 0, 1e-4, "below 0.001"),
-    ):
-        with pytest.raises(InputError, match=says):
-            structure.steady_precession(mode, tilt)

@@ -100,7 +100,7 @@ def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
 
 
 def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequence[Sequence[Point]] = ()) -> Path:
-    """Write the run as a film (.gif or .mp4) of its bodies, or of `lines`: each a sequence of points (x, y, z) in q and t.
+    """Write the run as a film (.gif) of its bodies, or of `lines`: each a sequence of points (x, y, z) in q and t.
 
     Raises InputError when the system has no bodies and no lines are given, or for a name or rate that will not do.
     """

@@ -86,20 +86,20 @@ class SpringRun(Run):
         return run_figure(self.t, self.tips, self.energy, "rigid bodies on springs")
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`, or an `.mp4` where ffmpeg is there: splines through what was read."""
+        """Write the motion to `path`, a `.gif`: splines through what was read."""
         from scipy.interpolate import CubicSpline
         from scipy.spatial.transform import Rotation, Slerp
 
-        from lagrotor.drawing.film import FilmedMotion, check_film, film_motion, frame_times
+        from lagrotor.drawing.film import FilmedMotion, animate_lines, check_film, frame_times
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
         times = frame_times(self.t[0], self.t[-1], fps)
         turned = np.array([Slerp(self.t, Rotation.from_matrix(R))(times).as_matrix() for R in self.rotations[:2]])
         tips, centres = (CubicSpline(self.t, part, axis=1)(times) for part in (self.tips, self.centres[:2]))
         length = float(np.linalg.norm(self.tips[0, 0] - self.feet[0, 0]))
-        spins = float(self.spins[0, 0]), float(self.spins[1, 0])
-        moving = FilmedMotion(times, turned, tips, centres, self.feet[:, 0], length, spins, len(self.centres) > 2)
-        return film_motion(moving, path, fps, lambda name: None)
+        moving = FilmedMotion(times, turned, tips, centres, self.feet[:, 0], length, len(self.centres) > 2)
+        lines, inks, traced = moving.lines()
+        return animate_lines(path, times, lines, fps, inks, traced)
 
     @staticmethod
     def load(path: str | Path) -> "SpringRun":

@@ -1,8 +1,8 @@
 """The equations of `exact_motion` in single numbers of any kind, and compiled by heyoka: the fast extra.
 
 Of few rotors the single numbers are the right-hand side, too: so few operations cost less than calling arrays does. With the fast
-extra few rotors are integrated by heyoka's Taylor series. The series of many outgrow a processor's caches, and a drive has none:
-there the right-hand side alone is compiled, for the integrators of the core, once a process for a structure whatever its spins.
+extra few rotors are integrated by heyoka's Taylor series. The series of many outgrow a processor's caches: there the right-hand
+side alone is compiled, for the integrators of the core, once a process for a structure whatever its spins.
 
 The linear system is solved in levels. Of the unknowns with the fewest neighbours, as many as are not neighbours of each other
 go at once: in a chain every other one, and then every other one of what is left (cyclic reduction: Golub & Van Loan, § 4.5.4),
@@ -165,7 +165,7 @@ def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
 def runs_by_series(motion: ExactMotion) -> bool:
     """Whether its Taylor series run a structure fastest."""
     few = _SERIES if motion.saddle.band > _RING or motion.c.coupling.any() else _SERIES_SLIM
-    return motion.force is None and motion.ground is None and len(motion.c.R) <= few
+    return len(motion.c.R) <= few
 
 
 def integrate_series(
@@ -195,20 +195,14 @@ def integrate_series(
 
 def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
     """(s, y) → y', as `motion.rhs` gives it. Raises InputError without heyoka, and for what takes minutes to compile."""
-    N, force, ground = len(motion.c.R), motion.force, motion.ground
+    N = len(motion.c.R)
     if (_WIDE if motion.saddle.band > _RING else _NARROW) < N:
         raise InputError(
             f"simulate: engine='fast' compiles chains, rings and trees of up to {_NARROW} rotors and nets of up to {_WIDE}, "
             f"not {N} rotors: use engine='core'"
         )
-    compiled = _compiled(_without_spins(s), force is not None, ground is not None)
-    rate, parameters = motion.c.rate, _parameters(motion)
-
-    def rhs(s: float, y: Array) -> Any:
-        given = [np.asarray(drive(s / rate), dtype=float).ravel() for drive in (force, ground) if drive]
-        return compiled(y, pars=np.concatenate([parameters, *given]), time=s)
-
-    return rhs
+    compiled, parameters = _compiled(_without_spins(s)), _parameters(motion)
+    return lambda s, y: compiled(y, pars=parameters, time=s)
 
 
 def _parameters(motion: ExactMotion) -> Array:
@@ -227,14 +221,13 @@ def _solver(bare: Assembly, order: int, thread: int) -> Any:
 
 
 @lru_cache(maxsize=16)
-def _compiled(bare: Assembly, forced: bool, shaken: bool) -> Any:
-    """heyoka's function of the state; parameters: G (N), the rate, the force on the tips (N, 3), the ground's acceleration."""
-    equations = _equations(bare, forced, shaken)
-    names, rates = zip(*equations, strict=True)
+def _compiled(bare: Assembly) -> Any:
+    """heyoka's function of the state; parameters: the axial momenta G (N), the rate."""
+    names, rates = zip(*_equations(bare), strict=True)
     return heyoka_module().cfunc(rates, names, compact_mode=True, fast_math=True)
 
 
-def _equations(bare: Assembly, forced: bool = False, shaken: bool = False) -> list[tuple[Any, Any]]:
+def _equations(bare: Assembly) -> list[tuple[Any, Any]]:
     """(variable, its rate) of the state, in heyoka's expressions."""
     heyoka = heyoka_module()
     c, par = coefficients(bare), heyoka.par
@@ -243,8 +236,5 @@ def _equations(bare: Assembly, forced: bool = False, shaken: bool = False) -> li
     rate = par[N]
     r, v = np.array(names, dtype=object).reshape(2, N, 3)
     G = [par[i] * heyoka.exp(-k * heyoka.time / rate) if k else par[i] for i, k in enumerate(c.decay.tolist())]
-    given = np.array([par[N + 1 + k] for k in range(3 * N * forced + 3 * shaken)], dtype=object)
-    more: Any = c.R[:, None] * given[: 3 * N].reshape(N, 3) if forced else 0.0
-    more = more - c.S[:, None] * given[-3:] if shaken else more
-    accelerations = structure_accelerations(c, r, rate * v, G, heyoka, heyoka_sum, more)
+    accelerations = structure_accelerations(c, r, rate * v, G, heyoka, heyoka_sum)
     return list(zip(names, [*names[3 * N :], *(x / (rate * rate) for x in accelerations)], strict=True))

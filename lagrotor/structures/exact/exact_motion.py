@@ -79,9 +79,8 @@ def stretches(c: Coefficients, r: Array, root: Root = np.sqrt) -> tuple[Array, A
     foot = np.where(joined, c.feet[c.brace_to], c.brace_point)
     d = c.feet[c.brace_tip] - foot + (c.R[c.brace_tip, None] * r[..., c.brace_tip, :])
     d = d - np.where(joined, c.R[c.brace_to, None], 0.0) * r[..., c.brace_to, :]
-    guided, length = np.any(c.brace_along, axis=1), root((d * d).sum(-1))
-    along = np.where(guided[:, None], c.brace_along, d / np.where(guided, 1.0, length)[..., None])
-    return along, np.where(guided, (along * d).sum(-1), length) - c.brace_length
+    length = root((d * d).sum(-1))
+    return d / length[..., None], length - c.brace_length
 
 
 def _angle_by_sine(r: Array, root: Root) -> Any:

@@ -111,12 +111,15 @@ class StructureRun(Run):
 
     def plot(self) -> "Figure":
         """Tips over time and from above, and the energy: a figure that a notebook shows."""
-        from lagrotor.structures.pictures import run_picture
+        from lagrotor.drawing.run_figure import run_figure
+        from lagrotor.drawing.style import OKABE_ITO
 
-        return run_picture(self.structure, self.t, self.tips, self.energy)
+        inks = ["blue", "vermillion", "bluish green", "reddish purple", "orange", "sky blue"]
+        bars = [bar[:2] for bar in self.structure.bars]
+        return run_figure(self.t, self.tips, self.energy, inks=[OKABE_ITO[ink] for ink in inks], bars=bars)
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion as a film, `.gif` or `.mp4`, at its own speed, axes between the samples by Hermite cubics; bars
+        """Write the motion as a film, `.gif`, at its own speed, axes between the samples by Hermite cubics; bars
         grey, braces green, rotors coloured by the sense of their spins.
 
         Raises:
@@ -188,6 +191,8 @@ def simulate_structure(
         None if given is None else _TriedDrive(given, name, size, times)
         for given, name, size in ((drive, "drive", shape), (ground, "ground", shape[1:]))
     ]
+    if engine == "fast" and any(drives):
+        raise InputError("simulate: engine='fast' takes no drive and no motion of the ground: use engine='core'")
     motion = exact_motion(s, *(each and each.since(begin) for each in drives))
     c = motion.c
     conserved = not (any(drives) or c.decay.any() or c.friction.any() or c.damping.any())

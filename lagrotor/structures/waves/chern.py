@@ -9,23 +9,16 @@ the bands below the gap add up to (Hatsugai, Phys. Rev. Lett. 71, 3697 (1993)).
 """
 
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.structures.coefficients import Array, Complex
-from lagrotor.structures.exact.structure_run import StructureRun
-from lagrotor.structures.structure import Structure
 from lagrotor.structures.waves.cell import Cell
-from lagrotor.structures.waves.dispersion import Bloch, Dispersion, bloch, dispersion
+from lagrotor.structures.waves.dispersion import Dispersion, bloch, dispersion
 
 _APART = 1e-6  # of the highest rate: bands nearer to each other at some wave number belong to one group
-_STARTS = 4  # local minima of a grid that are followed
-_ROUNDS = 12  # of ever closer points about a minimum
-_NINE = np.array([(0, 0), *(at for at in product((-1, 0, 1), repeat=2) if any(at))])
-_PARABOLA = np.linalg.pinv(np.array([(1, x, y, x * x, x * y, y * y) for x, y in _NINE]))
+_STARTS = 4  # wave numbers of a grid, those of the least distances, from which the least one is sought
 
 
 @dataclass(frozen=True)
@@ -67,56 +60,28 @@ def chern_numbers(p: Cell, grid: int = 24) -> Chern:
 
 
 def _least_distances(d: Dispersion, grid: int) -> Array:
-    """The least distance of each band but the last to the next at one wave number, rad/s, from the grid's local minima on, the
-    least four of each band.
+    """Return the least distance of each band but the last to the next at one wave number, rad/s, sought from the grid's least."""
+    from scipy.optimize import minimize
 
-    Its square is smooth also where two bands touch. A parabola is fitted to nine points about each minimum, and they go on
-    to its lowest point or to the lowest of themselves; where they stay they come closer.
-    """
-    apart = np.diff(d.rates, axis=1).T
-    lowest = [_local_minima(each.reshape(grid, grid)) for each in apart]
-    band = np.repeat(np.arange(len(apart)), [len(each) for each in lowest])
-    q, least, side = d.q[np.concatenate(lowest)], np.full(len(band), np.inf), np.full(len(band), 2 * np.pi / grid)
-    b = bloch(d.pattern)
-    for _ in range(_ROUNDS):
-        around = q[:, None] + side[:, None, None] * _NINE
-        squares = _distances(b, around, band, d) ** 2
-        leap = _lowest(squares @ _PARABOLA.T)
-        reached = q + side[:, None] * leap
-        square = _distances(b, reached[:, None], band, d)[:, 0] ** 2
-        best = squares.argmin(1)
-        leaps = square <= squares.min(1)
-        q = np.where(leaps[:, None], reached, np.take_along_axis(around, best[:, None, None], 1)[:, 0])
-        least = np.minimum(least, np.minimum(square, squares.min(1)))
-        side = side / np.where(leaps & (np.abs(leap) < 1).all(1), 8, np.where(best, 1, 2))
-    return np.sqrt([least[band == k].min() for k in range(len(apart))])
+    b, n = bloch(d.pattern), d.rates.shape[1]
+    corners, most = np.array([[0, 0], [1, 0], [0, 1]]) * np.pi / grid, float(d.rates.max())
 
+    def apart(q: Array, band: int) -> float:
+        ((_, motion),) = b.motions(q[None])
+        if motion.bands != n:  # the bars leave another number of degrees of freedom
+            return most
+        rates = np.sort(-motion.roots.imag[0])[n:]
+        return float(rates[band + 1] - rates[band])
 
-def _local_minima(apart: Array) -> NDArray[np.intp]:
-    beside = [np.roll(apart, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
-    lowest = np.flatnonzero(apart <= np.min(beside, axis=0))
-    return lowest[np.argsort(apart.ravel()[lowest], kind="stable")][:_STARTS]
+    def least(band: int, starts: Array) -> float:
+        options = {"xatol": 1e-9, "fatol": 1e-12 * most}
+        return min(
+            float(minimize(apart, q, (band,), "Nelder-Mead", options=options | {"initial_simplex": q + corners}).fun)
+            for q in starts
+        )
 
-
-def _distances(b: Bloch, q: Array, band: NDArray[np.intp], d: Dispersion) -> Array:
-    """From each of the bands to the next at wave numbers q (m, p, 2), (m, p); the highest rate where the
-    bars leave another number of degrees of freedom."""
-    apart, bands = np.full(q.shape[:2], d.rates.max()).ravel(), np.repeat(band, q.shape[1])
-    n = d.rates.shape[1]
-    for places, motion in b.motions(q.reshape(-1, 2)):
-        if motion.bands == n:
-            rates = np.sort(-motion.roots.imag, axis=-1)[:, n:]
-            apart[places] = np.take_along_axis(np.diff(rates), bands[places, None], -1)[:, 0]
-    return apart.reshape(q.shape[:2])
-
-
-def _lowest(parabola: Array) -> Array:
-    """Where each of c_0 + c_1 x + c_2 y + c_3 x² + c_4 xy + c_5 y², (m, 6), is least, at most 8 away, (m, 2); zero if none."""
-    _, x, y, xx, xy, yy = parabola.T
-    curved = 4 * xx * yy - xy**2
-    upward = (curved > 0) & (xx > 0)
-    least = np.stack([xy * y - 2 * yy * x, xy * x - 2 * xx * y], -1) / np.where(upward, curved, 1)[:, None]
-    return np.where(upward[:, None], least.clip(-8, 8), 0)
+    nearest = np.argsort(np.diff(d.rates, axis=1), axis=0, kind="stable")[:_STARTS]
+    return np.array([least(band, d.q[places]) for band, places in enumerate(nearest.T)])
 
 
 def _check(d: Dispersion) -> None:
@@ -190,39 +155,3 @@ def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> Edge
     crossing = above[1:].astype(int) - above[:-1]
     there = (place[1:] + place[:-1]) / 2
     return EdgeWaves(int(crossing[there < 0.5].sum()), int(crossing[there > 0.5].sum()), d, place)
-
-
-def border_packet(p: Cell, count: int, gap: tuple[float, float]) -> tuple[Structure, Array, Array]:
-    """A piece of cells, and tilts and rates (N, 2) at which a packet starts from the middle of its lower border.
-
-    The packet is a push on that rotor, of which the piece's modes at rates in the gap are kept; its largest tilt is 0.01.
-
-    Args:
-        p: the pattern.
-        count: the piece has count × count cells.
-        gap: (lowest, highest), rad/s.
-
-    Raises:
-        InputError: where none is in the gap.
-    """
-    s = p.piece(count, count)
-    m, (low, high) = s.modes(), gap
-    inside = (m.rates > low) & (m.rates < high)
-    if not inside.any():
-        raise InputError(
-            f"border_packet: {count} × {count} cells have no mode from {low:g} to {high:g} rad/s: take more"
-        )
-    x = np.array(s.joints) - np.mean(s.joints, axis=0)
-    pushed = int(np.argmin(np.hypot(x[:, 0], x[:, 1] - x[:, 1].min())))
-    rates, shapes = m.rates[inside], m.shapes[inside]
-    parts = np.conj(shapes[:, pushed, 0])[:, None, None] * shapes
-    u, v = parts.sum(0), (1j * rates[:, None, None] * parts).sum(0)
-    size = 0.01 / np.abs(u).max()
-    return s, size * u.real, size * v.real
-
-
-def way_round(run: StructureRun) -> Array:
-    """Angle (n,) of the centre of the squared tilts about the middle of the structure, rad; positive round e_z."""
-    x = np.array(run.structure.joints) - np.mean(run.structure.joints, axis=0)
-    centre = (run.axes[..., :2] ** 2).sum(-1).T @ x
-    return np.unwrap(np.arctan2(centre[:, 1], centre[:, 0]))

@@ -27,7 +27,6 @@ from lagrotor.structures.waves.cell import Cell, Shift, Site
 _SAME = 1e-9  # of the largest rate: a difference below it is none
 _TOGETHER = 64  # wave numbers whose matrices are held at once
 _SMALL = 1e-3  # rad a cell: the largest wave number of long waves
-_TURN = 10**14  # parts of a full turn: wave numbers as near as one are the same
 _ZERO = 1e-12  # of a bar's largest entry: what is left where phases cancel
 
 
@@ -193,21 +192,15 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
     rates, growth = np.full((2, len(points), most), np.nan)
     shapes = np.full((len(points), most, most), np.nan, dtype=complex)
     dof, still = np.zeros(len(points), dtype=int), dict[int, int]()
-    solved, opposite = _up_to_sign(points)
-    for first in range(0, len(solved), _TOGETHER):
-        together = solved[first : first + _TOGETHER]
-        for places, motion in b.motions(points[together]):
-            here, f = together[places], motion.bands
+    for first in range(0, len(points), _TOGETHER):
+        for places, motion in b.motions(points[first : first + _TOGETHER]):
+            here, f = first + places, motion.bands
             dof[here], still[f] = f, min(still.get(f, f), _still(motion))
             if f:
                 s, vectors = motion.waves
                 u = (motion.basis @ vectors).swapaxes(-1, -2)
                 u = u / np.linalg.norm(u, axis=-1, keepdims=True)
                 rates[here, :f], growth[here, :f], shapes[here, :f] = _faster(s, u)
-                known = opposite[here] >= 0
-                there = opposite[here][known]
-                dof[there] = f
-                rates[there, :f], growth[there, :f], shapes[there, :f] = _faster(s[known].conj(), u[known].conj())
     n = int(dof.max())
     kept = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
     return Dispersion(p, points, rates[:, :n], growth[:, :n], kept, dof, still[min(still)])
@@ -222,19 +215,6 @@ def _still(motion: SmallMotion) -> int:
         return 0
     least = _SAME * np.maximum(1.0, np.abs(motion.mass).max((-2, -1)))
     return int(motion.dof - np.linalg.matrix_rank(acting, tol=least).max())
-
-
-def _up_to_sign(points: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Which wave numbers are solved, and of each of all the one that is its opposite up to full turns and is not, or −1."""
-    turns = np.rint(points / (2 * np.pi) % 1 * _TURN).astype(np.int64)
-    opposite, waiting = np.full(len(points), -1), dict[tuple[int, ...], int]()
-    for here, (at, back) in enumerate(zip(turns % _TURN, -turns % _TURN, strict=True)):
-        of = waiting.pop(tuple(back.tolist()), None)
-        if of is None:
-            waiting[tuple(at.tolist())] = here
-        else:
-            opposite[of] = here
-    return np.setdiff1d(np.arange(len(points)), opposite), opposite
 
 
 def _faster(s: Complex, shapes: Complex) -> tuple[Array, Array, Complex]:
