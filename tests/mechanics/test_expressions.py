@@ -1,4 +1,4 @@
-"""What a system, a frame, a body or a run cannot mean is refused with the way out."""
+"""Energies and momenta are written as short as a textbook writes them."""
 
 import sympy as sp
 
@@ -6,7 +6,6 @@ from lagrotor.mechanics import Frame, System, coordinates
 from lagrotor.mechanics.expressions import shortest
 
 m, g, l = sp.symbols("m g l", positive=True)
-(theta,), (theta_v,) = C.q, C.v
 
 
 def test_what_is_found_is_written_as_a_textbook_writes_it() -> None:
