@@ -113,7 +113,7 @@ def test_energies_momenta_and_hamiltonians_are_emmys() -> None:
         assert decide_zero(mine - theirs).answer == "zero"
 
 
-E2, RIGID = np.sqrt(2.0), {"A": 1.0, "B": np.sqrt(2.0), "C": 2.0}
+RIGID = {"A": 1.0, "B": np.sqrt(2.0), "C": 2.0}
 
 
 def test_evolved_states_are_emmys() -> None:
@@ -190,9 +190,6 @@ def jumper() -> System:
     return System(c, L, (hip.place()[0],), forces=(ground, 0, -knee), velocities=own)
 
 
-ANGLES, RATES, ARMS = np.deg2rad([15, 25]), np.deg2rad([123, -41]), np.array([1.34, 6.7])
-HANGS = np.cumsum(ARMS[:, None] * np.stack([np.sin(ANGLES), -np.cos(ANGLES)], 1), 0)
-MOVES = np.cumsum((ARMS * RATES)[:, None] * np.stack([np.cos(ANGLES), np.sin(ANGLES)], 1), 0)
 KNEE = {
     "I_a": 0.4, "I_b": 0.3, "c_f": 3, "c_k": 2, "d_a": 0.2, "d_b": 0.15, "g": 9.81, "k_f": 5e3, "k_k": 12, "l_a": 0.45,
     "l_b": 0.4, "m_a": 3, "m_b": 2, "m_f": 1, "m_u": 5, "T_k": 0.7,
