@@ -1,9 +1,6 @@
 """The articulated-body recursion as stages of a program: operations linear in the bodies, nothing multiplied out.
 
 From the ground outward, each joint of a tree has at one state its axes, turn, velocity, acceleration without q'', and energy.
-A link that turns is seen in axes that do not turn with it where that is shorter: where it is symmetric about the axis of its
-turn and carries nothing, and where all that it carries turns about the same axis, so that angles add. Bodies and shifts
-are then turned in place of velocities, forces and inertias.
 
 Each link has in its own axes the angular velocity ω and the accelerations (α, a) that it would have with all q'' = 0,
 and from them the torque and force (N, F) about its joint that its bodies then need; a uniform field g is an acceleration −g
@@ -26,7 +23,7 @@ import sympy as sp
 
 from lagrotor.errors import SingularError
 from lagrotor.mechanics.bodies.small_matrices import Small, Stages, wedge, zeros
-from lagrotor.mechanics.bodies.trees import ZERO, Mass, Pair, Tree, TreeLink
+from lagrotor.mechanics.bodies.trees import ZERO, Pair, Tree, TreeLink
 
 _EYE = sp.eye(3)
 _STILL = zeros(3, 3)
@@ -81,29 +78,17 @@ class Turn:
 
 
 @dataclass(frozen=True)
-class JointMass:
-    """A body in the axes of its joint: mass, centre (3, 1), inertia about that centre and about the joint, (3, 3)."""
-
-    mass: sp.Expr
-    centre: Small
-    inertia: Small
-    about_joint: Small
-
-
-@dataclass(frozen=True)
 class Joint:
     """A link at one state.
 
-    shift, rotation, turn: from the parent's axes. own: what is left from its axes to those of the link. spin: ω.
-    lift: (α, a) with all q'' = 0. bend: K = [α]× + [ω]×², so that the point r has the acceleration a + K r.
+    shift, rotation, turn: from the parent's axes. spin: ω. lift: (α, a) with all q'' = 0. bend: K = [α]× + [ω]×², so that the
+    point r has the acceleration a + K r.
     """
 
     link: TreeLink
     shift: Small
     rotation: Small | None
     turn: Turn
-    own: Turn
-    masses: tuple[JointMass, ...]
     columns: tuple[Pair, ...]
     rate: Pair
     spin: Small = ZERO
@@ -130,39 +115,18 @@ class Joint:
 def joints(tree: Tree, keep: Stages) -> list[Joint]:
     """From the ground outward, link by link: ω, and (α, a)."""
     chain: list[Joint] = []
-    for number, link in enumerate(tree.links):
+    for link in tree.links:
         before = chain[link.parent] if link.parent >= 0 else None
-        carried = [other for other in tree.links if other.parent == number]
-        chain.append(_with_motion(_joint(link, carried, before, keep), before, -Small.of(tree.field), keep))
+        joint = Joint(
+            link,
+            keep.each(Small.of(link.shift)),
+            None if link.rotation == _EYE else keep.each(Small.of(link.rotation)),
+            Turn.by(link.axis, link.angle, keep) if link.axis is not None else Turn(),
+            tuple((keep.each(w), keep.each(v)) for w, v in link.columns),
+            (keep.each(link.rate[0]), keep.each(link.rate[1])),
+        )
+        chain.append(_with_motion(joint, before, -Small.of(tree.field), keep))
     return chain
-
-
-def _joint(link: TreeLink, carried: Sequence[TreeLink], before: Joint | None, keep: Stages) -> Joint:
-    """The joint without its motion."""
-    turn, own = Turn(), Turn()
-    if link.axis is not None and not (link.is_round and not carried):
-        angle = keep(link.angle + before.own.angle) if before else link.angle
-        turn = Turn.by(link.axis, angle, keep)
-        if all(other.axis == link.axis and other.rotation == _EYE for other in carried):
-            turn, own = own, turn
-    shift = keep.each(Small.of(link.shift))
-    return Joint(
-        link,
-        before.own.of(shift, keep) if before else shift,
-        None if link.rotation == _EYE else keep.each(Small.of(link.rotation)),
-        turn,
-        own,
-        tuple(_joint_mass(mass, own, keep) for mass in link.masses),
-        tuple((keep.each(w), keep.each(v)) for w, v in link.columns),
-        (keep.each(link.rate[0]), keep.each(link.rate[1])),
-    )
-
-
-def _joint_mass(mass: Mass, own: Turn, keep: Stages) -> JointMass:
-    centre, inertia = keep.each(Small.of(mass.centre)), Small.of(mass.inertia)
-    c = wedge(centre)
-    about = keep.symmetric(inertia - c * c * mass.mass)
-    return JointMass(mass.mass, own.of(centre, keep), own.of_symmetric(inertia, keep), own.of_symmetric(about, keep))
 
 
 def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages) -> Joint:
@@ -204,7 +168,7 @@ def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol],
         field, depth = (fields[parent], depths[parent]) if parent >= 0 else (Small.of(tree.field), sp.S.Zero)
         fields.append(joint.inward(field, keep))
         depths.append(keep(depth + field.dot(joint.shift)))
-        for mass in joint.masses:
+        for mass in joint.link.masses:
             centre, I = mass.centre, mass.inertia
             at, at_t = keep.each(v + w.cross(centre)), keep.each(v_t + w_t.cross(centre))
             total += keep(mass.mass * at.dot(at - at_t * 2) / 2 + w.dot(I * (w - w_t * 2)) / 2)
@@ -312,8 +276,9 @@ def _outcome(chain: Sequence[Joint], factors: Sequence[Sequence[Factor]], j: int
 def _rigid(joint: Joint, keep: Stages) -> Inertia:
     """The inertia of the bodies on a link, about its joint."""
     J, H, m = zeros(3, 3), zeros(3, 3), sp.S.Zero
-    for mass in joint.masses:
-        J, H, m = J + mass.about_joint, H + wedge(mass.centre) * mass.mass, m + mass.mass
+    for mass in joint.link.masses:
+        c = wedge(mass.centre)
+        J, H, m = J + mass.inertia - c * c * mass.mass, H + c * mass.mass, m + mass.mass
     m = keep(m)
     return Inertia(
         keep.symmetric(J), keep.each(H), Small([[m if i == j else sp.S.Zero for j in range(3)] for i in range(3)])
@@ -324,19 +289,13 @@ def _bias_force(joint: Joint, keep: Stages) -> Pair:
     """(N, F) about the joint, Σ m (a + K c) and its moment, with I α + ω × I ω, for the motion without q''."""
     b, a = joint.lift
     N, F = ZERO, ZERO
-    for mass in joint.masses:
+    for mass in joint.link.masses:
         force = keep.each(keep.each(a + joint.bend * mass.centre) * mass.mass)
-        N = keep.each(N + mass.inertia * b + _gyroscopic(mass.inertia, joint.spin, keep) + mass.centre.cross(force))
+        N = keep.each(
+            N + mass.inertia * b + joint.spin.cross(keep.each(mass.inertia * joint.spin)) + mass.centre.cross(force)
+        )
         F = keep.each(F + force)
     return N, F
-
-
-def _gyroscopic(I: Small, w: Small, keep: Stages) -> Small:
-    """ω × I ω; in the principal axes, (I_k − I_j) ω_j ω_k in turn."""
-    if any(I[i, j] != 0 for i in range(3) for j in range(i)):
-        return w.cross(keep.each(I * w))
-    products = keep.symmetric(w * w.T)
-    return Small.column(*(keep(I[k, k] - I[j, j]) * products[j, k] for j, k in ((1, 2), (2, 0), (0, 1))))
 
 
 def _only_axis(s: Pair) -> tuple[int, int] | None:
