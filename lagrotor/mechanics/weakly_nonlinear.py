@@ -40,7 +40,7 @@ from lagrotor.algebra import decide_zero, truncated_series
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Unknowns, Waves, constant_series
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Waves, constant_series, forget
 from lagrotor.mechanics.lagrangian import t
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
@@ -109,8 +109,7 @@ def lindstedt_poincare(
         for r, m in zip(rest, mode, strict=True)
     ]
     value = field.convert if numeric is None else float
-    growing = Unknowns()
-    *unknowns, frequency = (growing.series(begin.convert(value)) for begin in (*begins, constant_series(one, order)))
+    *unknowns, frequency = (begin.convert(value) for begin in (*begins, constant_series(one, order)))
     equations = (numeric or residual)(unknowns, frequency)
     operators = _columns(residual, rest, sines, order, one)
     drift, solvers = _frequency_column(residual, begins, one, begins_at), dict[int, Solver]()
@@ -126,13 +125,13 @@ def lindstedt_poincare(
                 solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)
             values, shift = solvers[h](now, h, -at_zero)
             for j, coefficient in enumerate(values):
-                growing.put(unknowns[j], n, -h if sines[j] else h, coefficient)
+                unknowns[j].put(n, -h if sines[j] else h, coefficient)
             at_zero += 0 if sines[amplitude] else values[amplitude]
             if shift:
-                growing.put(frequency, n - begins_at, 0, shift)
-                growing.forget(n - begins_at)
-        growing.forget(n)
-    return PeriodicSeries(tuple(growing.through(u, order) for u in unknowns), growing.through(frequency, order))
+                frequency.put(n - begins_at, 0, shift)
+                forget(equations, n - begins_at)
+        forget(equations, n)
+    return PeriodicSeries(tuple(u.through(order) for u in unknowns), frequency.through(order))
 
 
 def _columns(
@@ -328,12 +327,9 @@ def characteristic_exponents(
     rest = orbit.at_rest(field)
     drift = {part: variation.of_drift(part, parts, rest) for part in "pq"}
     value = field.convert if numeric is None else float
-    growing = Unknowns()
-    unknowns = {part: [growing.series(series.convert(value)) for series in parts[part]] for part in "pq"}
-    slow = {
-        part: growing.series(FourierSeries({}, order)) for part in "pq"
-    }  # B from the equations' p part, A from their q part
-    equations = variation.put_in(numeric or residual, growing.series, unknowns, slow, orbit)
+    unknowns = {part: [series.convert(value) for series in parts[part]] for part in "pq"}
+    slow = {part: FourierSeries({}, order) for part in "pq"}  # B from the equations' p part, A from their q part
+    equations = variation.put_in(numeric or residual, unknowns, slow, orbit)
     operators = variation.operators(parity, rest)
     solvers: dict[tuple[str, int], Solver] = {}
     for n in range(1, order + 1):
@@ -345,11 +341,10 @@ def characteristic_exponents(
                     solvers[part, h] = harmonic_solver(operators[part, h], extra, mean, field, value)
                 values, shift = solvers[part, h](now[part], h, value(field.zero))
                 for j, coefficient in enumerate(values):
-                    growing.put(unknowns[part][j], n, -h if parity[part][j] else h, coefficient)
-                growing.put(slow[part], n, 0, shift)
-        growing.forget(n)
-    p, q = (tuple(growing.through(series, order) for series in unknowns[part]) for part in "pq")
-    return ExponentSeries(growing.through(slow["q"], order), growing.through(slow["p"], order), p, q)
+                    unknowns[part][j].put(n, -h if parity[part][j] else h, coefficient)
+                slow[part].put(n, 0, shift)
+        forget([part for equation in equations for part in (equation.p, equation.q)], n)
+    return ExponentSeries(slow["q"], slow["p"], tuple(unknowns["p"]), tuple(unknowns["q"]))
 
 
 @dataclass(frozen=True)
@@ -364,25 +359,18 @@ class _Variation:
     def put_in(
         self,
         residual: Residual,
-        series: Callable[[FourierSeries], Series],
         parts: Mapping[str, Sequence[Series]],
         slow: Mapping[str, Series],
         orbit: PeriodicSeries,
     ) -> list[Perturbed]:
-        """The equations with a perturbation put in whose parts and rates A, B are still to be found; series: of a known one."""
+        """The equations with a perturbation put in whose parts and rates A, B are still unknown."""
 
         def at(f: FourierSeries, p: Series, q: Series) -> Perturbed:
-            return Perturbed(series(f), p, q, slow["q"], slow["p"], self.exchange)
+            return Perturbed(f, p, q, slow["q"], slow["p"], self.exchange)
 
-        nothing = series(FourierSeries({}, self.order))
+        nothing = FourierSeries({}, self.order)
         unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
         return residual(unknowns, at(orbit.frequency, nothing, nothing))
-
-    def of(self, n: int, parts: Parts, slow: dict[str, FourierSeries], orbit: PeriodicSeries) -> list[Perturbed]:
-        """The equations with the perturbation put in, through eps**n."""
-        kept = {part: [series.through(n) for series in parts[part]] for part in "pq"}
-        rates = {part: series.through(n) for part, series in slow.items()}
-        return self.put_in(self.residual, lambda f: f.through(n), kept, rates, orbit)
 
     @staticmethod
     def column(equations: Sequence[Perturbed], part: str, n: int) -> Column:
@@ -394,7 +382,7 @@ class _Variation:
         nothing = FourierSeries({}, self.order)
         other = {part: [nothing] * len(parts[part]), _OTHER[part]: parts[_OTHER[part]]}
         slow = {part: constant_series(self.field.one, self.order), _OTHER[part]: nothing}
-        return self.column(self.of(0, other, slow, orbit), part, 0)
+        return self.column(self.put_in(self.residual, other, slow, orbit), part, 0)
 
     def operators(
         self, parity: Mapping[str, Sequence[bool]], rest: PeriodicSeries
@@ -408,7 +396,7 @@ class _Variation:
             moved = {part: [nothing] * len(rest.unknowns) for part in "pq"}
             for part in "pq":
                 moved[part][j] = waves(parity[part][j], self.order, 0, self.field.one)
-            answer = self.of(0, moved, dict.fromkeys("pq", nothing), rest)
+            answer = self.put_in(self.residual, moved, dict.fromkeys("pq", nothing), rest)
             for part in "pq":
                 for h, column in by_harmonic([getattr(r, part) for r in answer], self.order, 0).items():
                     columns.setdefault((part, h), []).append(column)

@@ -1,15 +1,13 @@
 """Series in an amplitude and a phase, whole and order by order; Lindstedt–Poincaré series and exponents of oscillators."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics import FourierSeries, Unknowns, characteristic_exponents, lindstedt_poincare
+from lagrotor.mechanics import FourierSeries, characteristic_exponents, lindstedt_poincare
 
 
 def value(series: FourierSeries, eps: float, phase: float) -> float:
@@ -66,29 +64,6 @@ def test_a_resonance_is_refused() -> None:
 
     with pytest.raises(SingularError, match="resonance"):
         lindstedt_poincare(residual, [sp.QQ.zero] * 2, [{1: sp.QQ.one}, {}], 3, sp.QQ)
-
-
-THROUGH = 4
-KEYS = st.tuples(st.integers(0, THROUGH), st.integers(-3, 3))
-TERMS = st.dictionaries(KEYS, st.fractions(-3, 3, max_denominator=4).filter(bool), max_size=5)
-# Nested products, of which the inner ones are read again at each order.
-EQUATIONS = {
-    "product": lambda x, y: x * y,
-    "nested": lambda x, y: (x * y - y.derivative()) * (x + x.half_period_later()).times(Fraction(2, 3)),
-    "constant": lambda x, y: x * x + y * y - x.constant(Fraction(1)),
-}
-
-
-@pytest.mark.parametrize("name", EQUATIONS)
-@settings(max_examples=25, deadline=None)
-@given(first=TERMS, second=TERMS)
-def test_each_order_is_that_of_the_whole(name: str, first: dict, second: dict) -> None:
-    x, y = FourierSeries(first, THROUGH), FourierSeries(second, THROUGH)
-    growing = Unknowns()
-    equation = EQUATIONS[name](growing.series(x), growing.series(y))
-    assert [dict(equation.at(n)) for n in range(THROUGH + 1)] == [
-        dict(EQUATIONS[name](x, y).harmonics(n)) for n in range(THROUGH + 1)
-    ]
 
 
 LAST = 9

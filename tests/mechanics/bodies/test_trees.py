@@ -13,7 +13,6 @@ from lagrotor.mechanics.bodies.moving_frames import turn_matrix
 from lagrotor.mechanics.bodies.trees import tree_of
 from lagrotor.mechanics.running.programs import energy_program, parameter_values
 from lagrotor.numerics import compile_program, operations
-from lagrotor.numerics.codegen import reduce_common
 from tests.systems import I1, I2, I3, VALUES, chain, g, k, l, m
 
 GRAVITY = (0, 0, -g)
@@ -140,8 +139,6 @@ def test_each_link_more_costs_the_same_number_of_operations(make: Callable[[int]
     counts = [operations(motion_program(make(n)).program) for n in (3, 4, 5)]
     assert np.diff(counts) == pytest.approx(each, abs=1)
     assert operations(motion_program(plain(chain(3))).program) > operations(motion_program(chain(3)).program)
-
-
 
 
 def test_what_is_no_tree_takes_the_mass_matrix() -> None:
