@@ -36,14 +36,6 @@ class Small:
     def __getitem__(self, key: Any) -> Any:
         return self.rows[key[0]][key[1]] if isinstance(key, tuple) else self.rows[key][0]
 
-    def col(self, j: int) -> "Small":
-        """Column j."""
-        return Small([[row[j]] for row in self.rows])
-
-    def row(self, i: int) -> "Small":
-        """Row i as a column."""
-        return Small([[e] for e in self.rows[i]])
-
     @property
     def T(self) -> "Small":
         """The transpose."""
