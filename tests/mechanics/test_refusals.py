@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from sympy.physics.mechanics import KanesMethod, ReferenceFrame, dynamicsymbols
+from sympy.physics.mechanics import System as TheirSystem
 
 from lagrotor.errors import (
     ConstraintError,
@@ -414,7 +415,10 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "with its coordinates": lambda: System.from_sympy(q1.diff() ** 2),
         "must be dynamicsymbols": lambda: System.from_sympy(q1.diff() ** 2, (sp.Symbol("q1"),)),
         "must be a tuple of coordinates": lambda: System.from_sympy(q1.diff() ** 2, q1),
-        "call it first": lambda: System.from_sympy(KanesMethod(ReferenceFrame("N"), [q1], [u1], [q1.diff() - u1])),
+        "after form_eoms": lambda: System.from_sympy(TheirSystem()),
+        "after kanes_equations": lambda: System.from_sympy(
+            KanesMethod(ReferenceFrame("N"), [q1], [u1], [q1.diff() - u1])
+        ),
         "modes: .* give linearise values": lambda: THREE.modes(),
     },
     SingularError: {
