@@ -133,13 +133,10 @@ def _in_box(
     elif undecided:
         shown = _about(undecided[kinks.index([])], c.q)
         proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
-        acting = set().union(*(e.free_symbols for e in (*forces, *constraints)))
-        free = [f" (no force depends on {q})" for q in c.q if q not in acting]
-        bound = ", or a constraint whose derivative is zero" if constraints else ""
         raise SingularError(
             f"equilibria: {len(undecided)} parts of the box are undecided, the first about {shown}: an equilibrium that is "
-            f"not isolated{''.join(free)}, or degenerate{bound}, forces that jump or have no value, or too large a box for the "
-            f"search; choose another one, or coordinates on which they depend. Proved elsewhere in it: {proved or 'none'}"
+            "not isolated or degenerate, a coordinate on which no force depends, a constraint whose derivative is zero, forces "
+            f"that jump, or too large a box; choose another one. Proved elsewhere in it: {proved or 'none'}"
         )
     return tuple(
         Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)

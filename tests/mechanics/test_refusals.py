@@ -459,7 +459,9 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "2 parts .* the first about theta = 0.999.*, or degenerate": lambda: boxed(
             System(A, v**2 / 2, forces=(sp.Abs(q) * (q - 1) ** 3,)), {}, {q: (-0.5, 3)}
         ),
-        "no force depends on y": lambda: boxed(System(P, FLAT - x**2), {m: 1}, BOX),
+        "undecided, the first about x = .*a coordinate on which no force depends": lambda: boxed(
+            System(P, FLAT - x**2), {m: 1}, BOX
+        ),
         "or a constraint whose derivative is zero": lambda: boxed(System(P, FLAT - y, (x**2 - y**3,)), {m: 1}, BOX),
         "k is too large there": lambda: System(A, UNIT - k * q**3 / 3).averaged(2, k).run({k: 1}, 1, 0.3, [0, 1]),
     },

@@ -57,25 +57,6 @@ class Turn:
         rows[i], rows[j] = keep.each(turned).rows
         return Small(rows)
 
-    def of_symmetric(self, A: Small, keep: Stages) -> Small:
-        """R A Rᵀ; where A is round about the axis, nothing is done.
-
-        With e = a − d and w = c e − 2 s b the block [[a, b], [b, d]] becomes [[d + c w, b + s w], [b + s w, a − c w]].
-        """
-        if self.axis is None or self.s == 0:
-            return A
-        c, s, k = self.c, self.s, self.axis
-        i, j = (k + 1) % 3, (k + 2) % 3
-        rows = [[*row] for row in A.rows]
-        a, b, d = rows[i][i], rows[i][j], rows[j][j]
-        w = keep(c * keep(a - d) - keep(2 * s) * b)
-        if w != 0:
-            rows[i][i], rows[j][j], rows[i][j] = d + c * w, a - c * w, b + s * w
-        f, h = rows[i][k], rows[j][k]
-        rows[i][k], rows[j][k] = c * f - s * h, s * f + c * h
-        rows[j][i], rows[k][i], rows[k][j] = rows[i][j], rows[i][k], rows[j][k]
-        return keep.symmetric(Small(rows))
-
 
 @dataclass(frozen=True)
 class Joint:
@@ -105,11 +86,6 @@ class Joint:
         """A vector's components in the link → in the parent."""
         e = self.turn.of(e, keep)
         return e if self.rotation is None else keep.each(self.rotation * e)
-
-    def outward_symmetric(self, A: Small, keep: Stages) -> Small:
-        """The same of a symmetric matrix."""
-        A = self.turn.of_symmetric(A, keep)
-        return A if self.rotation is None else keep.symmetric(keep.each(self.rotation * A) * self.rotation.T)
 
 
 def joints(tree: Tree, keep: Stages) -> list[Joint]:
@@ -141,16 +117,7 @@ def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages
     b = keep.each(b + w.cross(u) + keep.each(joint.link.swing[0]))
     a = keep.each(a + w.cross(d) * 2 + keep.each(joint.link.swing[1]))
     w = keep.each(w + u)
-    return replace(joint, spin=w, lift=(b, a), bend=keep.each(wedge(b) + _centripetal(w, keep)))
-
-
-def _centripetal(w: Small, keep: Stages) -> Small:
-    """[ω]×² = ω ωᵀ − ω² 1."""
-    products = keep.symmetric(w * w.T)
-    rows = [[*row] for row in products.rows]
-    for i in range(3):
-        rows[i][i] = -products[i - 1, i - 1] - products[i - 2, i - 2]
-    return Small(rows)
+    return replace(joint, spin=w, lift=(b, a), bend=keep.each(wedge(b) + keep.symmetric(wedge(w) * wedge(w))))
 
 
 def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol], keep: Stages) -> sp.Expr:
@@ -337,8 +304,8 @@ def _inertia_left(I: Inertia, U: Pair, E: Pair, s: Pair, keep: Stages) -> Inerti
 
 def _in_parent(joint: Joint, I: Inertia, keep: Stages) -> Inertia:
     """The inertia in the parent's axes, about the parent's joint: H + [d] M, J − H [d] + [d] Hᵀ − [d] M [d]."""
-    J, M = (joint.outward_symmetric(part, keep) for part in (I.J, I.M))
-    H = joint.outward(joint.outward(I.H, keep).T, keep).T
+    J, H, M = (joint.outward(joint.outward(part, keep).T, keep).T for part in (I.J, I.H, I.M))
+    J, M = keep.symmetric(J), keep.symmetric(M)
     if joint.shift.is_zero:
         return Inertia(J, H, M)
     d = wedge(joint.shift)
