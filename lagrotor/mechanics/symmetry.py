@@ -18,13 +18,14 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import sympy as sp
+from sympy.matrices.utilities import dotprodsimp
 
 from lagrotor.algebra import Decision, along, decide_equal, decide_zero, derivative, normal_form
 from lagrotor.algebra.enclosures import apart, solved_at
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import DomainError, InputError, NotASymmetryError, NotExactError
 from lagrotor.mechanics.equations import Equations, constrained_accelerations
-from lagrotor.mechanics.expressions import expression, put_in, shortest
+from lagrotor.mechanics.expressions import expression, longer, put_in, shortest
 from lagrotor.mechanics.lagrangian import (
     Coordinates,
     euler_lagrange,
@@ -37,6 +38,7 @@ from lagrotor.mechanics.lagrangian import (
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 
 Kind = TypeVar("Kind", bound=Equations)
+_MULTIPLIED_OUT = 100  # operations of L up to which the determinants of the Legendre transform are multiplied out
 
 
 @dataclass(frozen=True)
@@ -155,7 +157,10 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
     if not all(isinstance(s, sp.Symbol) for s in p) or len({*p}) != len(p):
         raise InputError(f"legendre: momenta {tuple(p)}: each must be a symbol of its own; rename them")
     _check_momenta("legendre", c.v, p, {*c.q, *c.v, *c.a} | L.free_symbols)
-    return -_legendre(L, c.v, p, _velocities("legendre", L, c.v, p))
+    # sympy multiplies out determinants of up to three rows: of a short L H is shorter so, of a long one longer, and late.
+    with dotprodsimp(False if longer(L, _MULTIPLIED_OUT) else None):
+        velocities = _velocities("legendre", L, c.v, p)
+    return -_legendre(L, c.v, p, velocities)
 
 
 def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]) -> Kind:

@@ -1,4 +1,4 @@
-"""Matrices of three rows at most, for the many small products of a recursion: zeros cost nothing. Stages keep their entries.
+"""Matrices of six rows at most, for the many small products of a recursion: zeros cost nothing. Stages keep their entries.
 
 sympy's own matrices do the same, and take most of the recursion's time for it.
 """
@@ -85,6 +85,11 @@ def zeros(rows: int, columns: int) -> Small:
     return Small([[_0] * columns for _ in range(rows)])
 
 
+def blocks(parts: Sequence[Sequence[Small]]) -> Small:
+    """The matrix made of blocks."""
+    return Small([[e for part in row for e in part.rows[i]] for row in parts for i in range(len(row[0].rows))])
+
+
 def unit(axis: int, length: Scalar) -> Small:
     """A column of three along an axis."""
     return Small.column(*(length if i == axis else _0 for i in range(3)))
@@ -123,5 +128,6 @@ class Stages:
 
     def symmetric(self, matrix: Small) -> Small:
         """Every entry of a symmetric matrix, once."""
-        upper = {(i, j): self(matrix[i, j]) for i in range(3) for j in range(i, 3)}
-        return Small([[upper[min(i, j), max(i, j)] for j in range(3)] for i in range(3)])
+        n = len(matrix.rows)
+        upper = {(i, j): self(matrix[i, j]) for i in range(n) for j in range(i, n)}
+        return Small([[upper[min(i, j), max(i, j)] for j in range(n)] for i in range(n)])
