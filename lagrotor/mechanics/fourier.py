@@ -50,7 +50,13 @@ class FourierSeries:
         return self._known[n]
 
     def put(self, n: int, h: int, value: Coefficient) -> None:
-        """Set a coefficient of a series of given terms; `forget` what was computed without it."""
+        """Set a coefficient of a series that is made of terms; `forget` what was computed without it.
+
+        Args:
+            n: the power of eps.
+            h: the harmonic.
+            value: the coefficient.
+        """
         if value:
             self._compute(n)[h] = value  # type: ignore[index]
 

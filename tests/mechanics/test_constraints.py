@@ -14,7 +14,6 @@ from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.mechanics import (
     Frame,
     System,
-    accelerations,
     constrained_accelerations,
     coordinates,
     degrees_of_freedom,
@@ -127,17 +126,6 @@ def test_an_independent_derivation_agrees_in_accelerations_and_multipliers(syste
         np.testing.assert_allclose(np.concatenate(solved), solution, rtol=1e-9, atol=1e-11)
 
 
-def test_a_system_without_constraints_is_the_free_one() -> None:
-    bound = geared_pendulums()
-    free = System(bound.c, bound.L)
-    a, lam = constrained_accelerations(free)
-    assert a == accelerations(bound.L, bound.c)
-    assert lam.shape == (0, 1)
-    assert degrees_of_freedom(free, {}) == 3
-    nothing = np.zeros((0, 2))
-    assert solve_constrained(np.eye(2), np.ones(2), nothing, np.zeros(0), np.zeros(2))[0].tolist() == [-1, -1]
-
-
 def test_degrees_of_freedom_fall_with_each_independent_constraint() -> None:
     system = two_rods()
     hanging = dict(zip(system.c.q, (0, -1, 0, -2), strict=True))
@@ -158,17 +146,6 @@ def test_projection_of_a_position_keeps_the_direction_and_stays_where_it_is() ->
     q = project_position(circle, circle_normal, np.array([3.0, 4.0]))
     np.testing.assert_allclose(q, [0.6, 0.8], rtol=1e-15)
     np.testing.assert_allclose(project_position(circle, circle_normal, q), q, rtol=1e-15)
-
-
-def test_projection_is_nearest_in_the_mass_metric_to_first_order() -> None:
-    mass = np.diag([1.0, 9.0])
-    on, off = np.array([0.6, 0.8]), np.array([1.0, 0.3])
-    tangent = np.array([-0.8, 0.6])
-    misses = []
-    for distance in (1e-2, 1e-3):
-        q = on + distance * off
-        misses.append(abs(tangent @ mass @ (project_position(circle, circle_normal, q, mass) - q)))
-    assert misses[1] < 0.02 * misses[0]
 
 
 @settings(max_examples=25, deadline=None)

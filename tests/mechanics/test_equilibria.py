@@ -70,31 +70,6 @@ def test_a_pole_of_a_force_is_no_equilibrium() -> None:
     assert float(second.at[y]) == 0 and abs(place - 0.8 / (place + 0.2) ** 2 - 0.2 / (place - 0.8) ** 2) < 1e-12
 
 
-@pytest.mark.parametrize(
-    ("force", "roots"),
-    [
-        (sp.tan(x), (-np.pi, 0, np.pi)),
-        (sp.cot(x), (-np.pi / 2, np.pi / 2)),
-        (sp.tan(x) - x - 1, (brentq(lambda s: np.tan(s) - s - 1, 0.5, 1.5),)),  # it rises from pole to pole
-    ],
-)
-def test_equilibria_lie_between_the_poles_of_a_tangent(force: sp.Expr, roots: tuple[float, ...]) -> None:
-    rests = System(c, v**2 / 2, forces=(force,)).equilibria(values={}, box={x: (-4, 4)})
-    assert sorted(float(rest.at[x]) for rest in rests) == pytest.approx(roots, abs=1e-9)
-
-
-def test_forces_that_are_linear_have_their_one_equilibrium() -> None:
-    """Krawczyk's box is then a point, narrower than the root's."""
-    c, k = coordinates("x y"), sp.Symbol("k", positive=True)
-    (x, y), (u, v) = c.q, c.v
-    L = (u**2 + v**2) / 2 - k * (x**2 + y**2 + (x - y) ** 2) / 2
-    (place,) = System(c, L).equilibria(values={k: 4}, box={x: (-1, 2), y: (-1, 1)})
-    assert not any(map(float, place.at.values())) and all(low < 0 < high for low, high in place.enclosure.values())
-    (place,) = System(c, L + x).equilibria(values={k: 1}, box={x: (-1, 2), y: (-1, 1)})
-    assert [float(e) for e in place.at.values()] == pytest.approx([2 / 3, 1 / 3])
-    assert System(c, L + 9 * x).equilibria(values={k: 1}, box={x: (-1, 2), y: (-1, 1)}) == ()
-
-
 @pytest.mark.parametrize("edge", [np.pi, sp.pi])
 def test_an_equilibrium_on_an_edge_that_is_rounded_is_in_the_box(edge: float | sp.Expr) -> None:
     """The double next to π is less than π, and 0.3 less than 3/10."""
@@ -109,6 +84,7 @@ def test_an_equilibrium_on_an_edge_that_is_rounded_is_in_the_box(edge: float | s
     ("force", "roots"),
     [
         (1 - x * sp.Abs(x), (1.0,)),
+        (sp.tan(x) - x - 1, (brentq(lambda s: np.tan(s) - s - 1, 0.5, 1.5),)),  # it rises from pole to pole
         (sp.Rational(1, 2) - x - 50 * sp.Max(x - 1, 0) ** 2 + sp.Max(-x, 0), (0.5,)),  # stops on both sides
         (sp.Min(sp.sin(x), sp.cos(x)), (0.0, np.pi / 2)),
         (sp.Piecewise((1, x < 0), (2, True)), ()),  # a jump that does not pass zero

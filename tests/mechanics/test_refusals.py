@@ -138,17 +138,13 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         # Lagrangians
         "System: two different symbols are called 'theta',": lambda: System(A, v**2 / 2 + sp.cos(STRANGER)),
         "called 't'": lambda: System(A, sp.Function("q")(sp.Symbol("t")).diff() ** 2),
-        "called 'theta_ddot'": lambda: System(A, v**2 / 2, forces=(sp.Symbol("theta_ddot"),)),
         "called 'x'": lambda: System(P, FLAT, (sp.Symbol("x") - y,)),
-        "called 'y_dot'": lambda: System(P, FLAT, rolling=(u - sp.Symbol("y_dot"),)),
         "called 'theta_dot'": lambda: System(A, SWING, dissipation=sp.Symbol("theta_dot") ** 2),
         "called 'phi'": lambda: System(S, Frame(S).turned("x", S.q[0]).body(sp.Symbol("phi"), (1, 1, 1)).kinetic),
-        "called 'psi'": lambda: System(S, Frame(S).moved(*S.q).body(1).potential((0, 0, sp.Symbol("psi")))),
         "Frame: two different symbols": lambda: ground.turned("x", STRANGER),
         "L contains theta_ddot": lambda: System(A, a * q),
         r"L contains theta\(t\): .* plain symbols here": lambda: System(A, sp.Function("theta")(t) ** 2),
         r"L = 'theta_dot\*\*2' is no expression": lambda: System(A, "theta_dot**2"),
-        "L = None is no expression": lambda: System(A, None),
         "L = Matrix.* is no expression": lambda: System(A, sp.Matrix([v])),
         "is complex": lambda: System(A, sp.I * v**2),
         "L = oo is not finite": lambda: System(A, v**2 + sp.oo),
@@ -156,7 +152,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         # Constraints, forces and friction
         "constraints.0.: 1 = 0 binds no coordinate": lambda: System(A, SWING, (sp.S.One,)),
         "- 2 = 0 binds no coordinate": lambda: System(A, SWING, (sp.sin(q) ** 2 + sp.cos(q) ** 2 - 2,)),
-        "t - 1 = 0 binds no coordinate": lambda: System(A, SWING, (t - 1,)),
         r"constraints\[1\] contains y_dot: .* give it to rolling": lambda: System(P, FLAT, (x, w - x)),
         r"constraints = x - y must be .* write \(x - y,\)": lambda: System(P, FLAT, x - y),
         r"Eq\(x, y\) is no expression": lambda: System(P, FLAT, (sp.Eq(x, y),)),
@@ -166,13 +161,10 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "'' in constraints is no name": lambda: System(P, FLAT, {"": x}),
         "'a' in rolling is no name": lambda: System(P, FLAT, {"a": x}, {"a": u}),
         "System: 1 forces for 2": lambda: System(P, FLAT, forces=(1,)),
-        "accelerations: 1 forces for 2": lambda: accelerations(FLAT, P, [sp.S.One]),
         r"forces\[0\] contains theta_ddot": lambda: System(A, SWING, forces=(a,)),
         r"forces = .* must be a tuple of expressions$": lambda: System(A, SWING, forces={q: 1}),
         r"dissipation = theta\*\*2 has no velocity": lambda: System(A, SWING, dissipation=q**2),
         r"= -k\*theta_dot\*\*2 falls": lambda: System(A, SWING, dissipation=-k * v**2),
-        r"theta_dot\*\*3 falls": lambda: System(A, SWING, dissipation=k * v**3),
-        r"theta\*theta_dot\*\*2 falls": lambda: System(A, SWING, dissipation=q * v**2),
         r"3\*x_dot\*y_dot .* falls": lambda: System(P, FLAT, dissipation=u**2 + w**2 + 3 * u * w),
         "simulate: dissipation = -1.0": lambda: run(System(A, SWING, dissipation=b * v**2), VALUES | {b: -1}),
         "y without a value: the rank": lambda: degrees_of_freedom(circle, {x: 0}),
@@ -186,7 +178,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "contains x_ddot: write it": lambda: own({w1: P.a[0], w2: w}),
         "w_2 follows from those before it": lambda: own({w1: u + w, w2: 2 * u + 2 * w}),
         "contains w_2, which is given after it": lambda: own({w1: u + w2, w2: w}),
-        "contains w_1, which is given after it": lambda: own({w1: u + w1, w2: w}),
         "do not give x_dot, y_dot: 1 more": lambda: own({w1: u}),
         "at most as many": lambda: own({w1: u, w2: w, r: u - w}),
         "must be 1 finite numbers, of w_1": lambda: run(
@@ -198,7 +189,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "with R Rᵀ = 1": lambda: ground.turned([[1, 1, 0], [0, 1, 0], [0, 0, 1]]),
         "neither letters": lambda: ground.turned(7),
         "axes 'w' and angles theta: one angle": lambda: ground.turned("w", q),
-        "axes 'xyz' .* one angle": lambda: ground.turned("xyz", (q, q)),
         "turned: angle = 'q' is no expression": lambda: ground.turned("x", "q"),
         r"moved: \(x, y, z\)\[0\] = 'x' is no": lambda: ground.moved("x"),
         "from which this one was turned": lambda: ground.velocity(seen=ground.turned("z", 1)),
@@ -206,10 +196,8 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "must be 3 names": lambda: GROUND.ball("q0 q1 q2 q3", "p q"),
         "z is none of the coordinates": lambda: GROUND.ball("q0 q1 q2 z", "p q r"),
         "'q0 q1 q2 q2' .* different names": lambda: GROUND.ball("q0 q1 q2 q2", "p q r"),
-        "'p q q1': seven different names": lambda: GROUND.ball("q0 q1 q2 q3", "p q q1"),
         "another ball joint": lambda: GROUND.ball("q0 q1 q2 q3", "p q r").ball("q0 q1 q2 q3", "u v w"),
         "p is in two ball joints": lambda: jointed("p q r", "e0 e1 e2 e3", "p v w"),
-        "q0 is in two ball joints": lambda: jointed("p q r", "q0 e1 e2 e3", "u v w"),
         "p is a velocity of a ball joint and a letter of": lambda: System(
             Q, GROUND.ball("q0 q1 q2 q3", "p q r").body(p, (1, 2, 2.5)).kinetic
         ),
@@ -222,18 +210,15 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "coincides: 0, 0, 0 = 0 binds no coordinate": lambda: ground.coincides(ground, (l, 0, 0), (l, 0, 0)),
         "keeps_axis: .* binds no coordinate": lambda: ground.keeps_axis(ground.turned("x", 1), (0, 3, 4)),
         "coincides: 3 must be a Frame": lambda: ground.pin(q).coincides(3),
-        "keeps_axis: None must be a Frame": lambda: ground.pin(q).keeps_axis(None),
         r"quaternion \(q0, q1, q2, q3\) has norm 1e-09": lambda: run(ball_top(), BODY, (1e-9, 0, 0, 0), (0, 0, 1)),
         "linearise: the quaternion .* has norm 0": lambda: ball_top().linearise(TURNED),
         "mass = -m must not be negative": lambda: body(-m),
         "inertia = .* must not be negative about": lambda: body(1, (1, -1, 1)),
         "no body has the inertia .*5.0": lambda: body(1, (1, 1, 5)),
-        "no body has the inertia .*2.0": lambda: body(1, [[1, 0, 0], [0, 1, 2], [0, 2, 1]]),
         "or a symmetric": lambda: body(1, [[1, 1, 0], [0, 1, 0], [0, 0, 1]]),
         r"inertia = \(1, 1, 1, 1\) must be": lambda: body(1, (1, 1, 1, 1)),
         "inertia = 'abc', centre": lambda: body(1, "abc"),
         r"\(1, 1, 1\) must be .* the centre": lambda: body(1, (1, 1, 1), (0, 1)),
-        "body: theta_dot in a rigid body": lambda: body(1 + v**2),
         "body: t in a rigid body": lambda: body(m * sp.exp(-t)),
         "body: theta in a rigid body.* move its frame": lambda: body(1, (1, 1, 1), (q, 0, 0)),
         r"field = \(0, -g\) must be 3 expressions": lambda: body(1).potential((0, -g)),
@@ -243,7 +228,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         # Contacts and force elements
         "'table' is no surface": lambda: BALL.rolls_on("table", l),
         r"Plane\(frame=3\) is no surface": lambda: BALL.rolls_on(Plane(3), l),
-        "radius = -1 must be positive": lambda: BALL.rolls_on(Plane(ground), -1),
         "other coordinates than the body": lambda: BALL.rolls_on(Plane(Frame(P)), l),
         "radius of the surface = 'R'": lambda: BALL.rolls_on(Sphere(ground, "R"), l),
         "radius = 0 of the surface must be positive": lambda: BALL.rolls_on(Cylinder(ground, 0), l),
@@ -252,7 +236,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "is no direction": lambda: BALL.rolls_on(Plane(ground), l, axis=(0, 0, 0)),
         "rolls_on: centre = .* 3 expressions": lambda: BALL.rolls_on(Plane(ground), l, centre=(0, 0)),
         "Pathway: a point": lambda: Pathway.line(P, (0, 0), (x, y, 0)),
-        "Pathway: 'c' must be Coordinates": lambda: Pathway.line("c", (0, 0, 0), (x, y, 0)),
         r"axis = \(0, 0, 0\), side = 1: .* a direction": lambda: Pathway.around(
             P, (2, 0, 0), (x, y, 0), 1, axis=(0, 0, 0)
         ),
@@ -268,32 +251,25 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "simulate: values name lenght": lambda: run(values={"m": 1, "l": 1, "g": 10, "lenght": 2}),
         "rhs: values name lenght": lambda: pendulum.rhs({"m": 1, "l": 1, "g": 10, "lenght": 2}),
         "values give theta a value, which moves": lambda: run(values=VALUES | {"theta": 1}),
-        "values give t a value, which moves": lambda: run(timed, VALUES | {"t": 1}),
         "simulate: m = -1 was declared positive": lambda: run(values=VALUES | {m: -1}),
-        "rhs: l = -1 was declared positive": lambda: pendulum.rhs(VALUES | {l: -1}),
         "declared a whole number": lambda: run(System(A, UNIT - sp.Symbol("n", integer=True) * q**2), {"n": 0.5}),
         r"simulate: values = \[1, 1, 10\] must be {symbol": lambda: run(values=[1, 1, 10]),
         "m = '1' must be a number": lambda: run(values=VALUES | {m: "1"}),
-        "m = nan must be finite": lambda: run(values=VALUES | {m: float("nan")}),
         "m = 1j must be a number": lambda: run(values=VALUES | {m: 1j}),
         "m = array.* must be a number": lambda: run(values=VALUES | {m: np.ones(3)}),
         "rhs: m = 1j must be a real number": lambda: pendulum.rhs(VALUES | {m: 1j}),
         r"y = \[1, 2, 3\] must be 2 numbers": lambda: pendulum.rhs(VALUES)(0.0, [1, 2, 3]),
         "y = array.*U3": lambda: pendulum.rhs(VALUES)(0.0, np.array(["0.1", "2"])),
-        "y = array.*2.j": lambda: pendulum.rhs(VALUES)(0.0, np.array([0.1, 2j])),
         "dry friction in several": lambda: run(
             System(P, FLAT, dissipation=k * sp.sqrt(u**2 + w**2)), {m: 1, k: 1}, (0, 0), (1, 2)
         ),
         r"q0 = \(1, 2\) must be 1 finite": lambda: run(q0=(1, 2)),
         r"q0 = array\(\[ True\]\) must be 1": lambda: run(q0=np.array([True])),
-        "v0 = None must be 1 finite": lambda: run(v0=None),
         r"v0 = \(inf,\) must be 1 finite": lambda: run(v0=(np.inf,)),
         r"t = \[1, 0\] must be an increasing": lambda: run(times=[1, 0]),
-        r"t = \[\[0, 1\]\] must be an increasing": lambda: run(times=[[0, 1]]),
         r"t = \[\] must be an increasing": lambda: run(times=[]),
         "t = 5 must be an increasing array.*linspace": lambda: run(times=5),
         "tol = 2 must lie between": lambda: run(tol=2),
-        "tol = '1e-9' must lie": lambda: run(tol="1e-9"),
         "engine = 'slow' is neither": lambda: run(engine="slow"),
         "events = theta must be Event": lambda: run(events=q),
         "section = 1 is a number": lambda: Event(sp.S.One),
@@ -304,7 +280,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "evaluate: expression = Matrix.* is no": lambda: run().evaluate(sp.Matrix([q])),
         "at: times must lie between 0 and 1 s": lambda: run().at(2),
         "crossings: section = m does not change": lambda: run().crossings(m),
-        "section = theta > 0 is no expression": lambda: run().crossings(q > 0),
         "of = theta must be 2 expressions": lambda: run().poincare(q, q),
         "plot: the run has no times": lambda: run().crossings(q - 7).plot(),
         "load: system = None must be the System": lambda: SystemRun.load("run.npz", None),
@@ -313,7 +288,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "the Lagrangian jumps where theta = 0": lambda: run(System(A, v**2 - sp.Heaviside(q) / 3), {}, (-0.5,), (1,)),
         "floquet: at = 'here' must be": lambda: pendulum.floquet("here", VALUES, 1),
         "the motion has not come back": lambda: pendulum.floquet({q: 1}, VALUES, 1),
-        r"floquet: values = \[1, 1, 10\]": lambda: pendulum.floquet({q: 0}, [1, 1, 10], 1),
         "t = nan must be a time": lambda: pendulum.floquet({q: 0, t: np.nan}, VALUES, 1),
         # Symmetry and other coordinates
         r"ξ = \(1, 0\): a transformation has one": lambda: pendulum.noether((1, 0)),
@@ -321,7 +295,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "free of accelerations": lambda: pendulum.variation(A.a),
         "gauge = theta_ddot contains theta_ddot": lambda: pendulum.noether((1,), a),
         "conserved: f = 'E' is no": lambda: pendulum.conserved("E"),
-        "conserved: f = theta_ddot must be": lambda: pendulum.conserved(a),
         "conserved: f = g must be": lambda: pendulum.conserved(g),
         "no coordinate is left to move": lambda: point.routh("x y"),
         "routh: phi not among": lambda: pendulum.routh("phi"),
@@ -339,7 +312,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         # Equilibria
         "unknowns must be names of letters: values": lambda: pendulum.equilibria(VALUES),
         "phi not in the system": lambda: pendulum.equilibria("phi"),
-        "theta_dot not in the system": lambda: pendulum.equilibria("theta_dot"),
         "unknowns = 3 must be names": lambda: pendulum.equilibria(3),
         "equilibria: .* depends on time: .* simulate it": lambda: timed.equilibria(),
         "name another unknown": lambda: heavy_top().routh("phi psi").equilibria("theta"),
@@ -349,13 +321,10 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "equilibria: g = inf must be a finite": lambda: boxed(values=VALUES | {"g": np.inf}),
         "values name z": lambda: boxed(values=VALUES | {"z": 1}),
         "g without a value: in a box": lambda: boxed(values={m: 1, l: 1}),
-        "t without a value: in a box": lambda: boxed(timed),
         "box = {} must be": lambda: boxed(box={}),
         "box = {'phi'": lambda: boxed(box={"phi": (-1, 1)}),
-        "box = 3 must be": lambda: boxed(box=3),
         "box of theta is empty": lambda: boxed(box={q: (1, -1)}),
         "box of theta = inf": lambda: boxed(box={q: (0, np.inf)}),
-        "box of theta = 'a'": lambda: boxed(box={q: ("a", "b")}),
         "one constraint at most: .* in_coordinates": lambda: boxed(
             replace(circle, constraints=(x * y - 1, x - y)), box=BOX
         ),
@@ -365,7 +334,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "linearise: theta without a value": lambda: pendulum.linearise({}),
         "at = 'here' must be an equilibrium": lambda: pendulum.linearise("here"),
         "linearise: .* depends on time explicitly: .*simulate it": lambda: timed.linearise({q: 0}),
-        "theta = None is no expression": lambda: pendulum.linearise({q: None}),
         "3 is left of one": lambda: System(P, FLAT, (x**2 + y**2 - 1,)).linearise({x: 2, y: 0}),
         "y moves there and enters": lambda: System(P, FLAT - x**2 + sp.cos(y)).linearise({x: 0, y: 0, w: 1}),
         "x = nan is not finite": lambda: point.linearise({x: np.nan}, {m: 1}),
@@ -373,7 +341,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "phi in the point": lambda: pendulum.linearise({q: 0, "phi": 0}, VALUES),
         r"gives coordinates and velocities \(p, q, r\)": lambda: ball_top().linearise(UPRIGHT | {"q0_dot": 1}, BODY),
         "W in the point": lambda: ball_top().linearise(UPRIGHT | {"W": 1}),
-        r"linearise: values = \[1, 1, 10\]": lambda: pendulum.linearise({q: 0}, [1, 1, 10]),
         r"linearise: m = \[1\] must be a real": lambda: pendulum.linearise({q: 0}, VALUES | {m: [1]}),
         "values name k": lambda: pendulum.linearise({q: 0}, VALUES, (k,)),
         "the input theta moves": lambda: pendulum.linearise({q: 0}, VALUES, (q,)),
@@ -407,7 +374,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "order = 3: 1 or 2": lambda: weak.averaged(3, k),
         "must be a letter of the system, at which": lambda: pendulum.averaged(1, s),
         "with ν = 2": lambda: weak.averaged(1, k, frequency=2),
-        "averaged: k without a value": lambda: weak.averaged(1, k).run({}, 1, 0, [0, 1]),
         "q0 = nan and v0 = 0": lambda: weak.averaged(1, k).run({k: 0.1}, np.nan, 0, [0, 1]),
         r"averaged: t = \[1, 0\]": lambda: weak.averaged(1, k).run({k: 0.1}, 1, 0, [1, 0]),
         # Systems of sympy
@@ -426,7 +392,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "not regular in theta_dot": lambda: run(System(A, sp.cos(q)), {}),
         "not regular in x_dot, y_dot": lambda: accelerations((u * sp.cos(x) + w * sp.cos(x)) ** 2 - x**2, P),
         "no mass moves with theta_dot": lambda: run(System(A, M * v**2 - q**2), {M: 0}),
-        "no mass moves with x_dot": lambda: run(System(P, u**2 * x**2 + w**2), {}, (0, 0), (1, 0)),
         "no mass moves with phi_dot, psi_dot": lambda: top(start=(0, 0, 0)),
         "y_dot moves no mass; use fewer coordinates": lambda: run(spun_point(), {m: 1, l: 1}, (0.1, 0), (0, 0)),
         r"sin\(theta\)": lambda: run(turning_top(), BODY | {"I_2": 0.4}, (0, 0, 0), (0, 0, 4)),
@@ -443,7 +408,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "project_position": lambda: project_position(lambda q: q[:1] - 1, lambda q: 0 * q[None], np.zeros(2)),
         "does not determine the velocities": lambda: legendre((u + w) ** 2, P, sp.symbols("p:2")),
         "{theta: 1} is no equilibrium": lambda: pendulum.linearise({q: 1}),
-        "theta_ddot = -8.41 is left over": lambda: pendulum.linearise({q: 1}, VALUES),
         "theta_ddot = -8.41e-10 is left over": lambda: pendulum.linearise({q: 1}, VALUES | {g: 1e-9}),
         "is no steady motion: .* is left over": lambda: CART.linearise({cx: 0, ct: 1}, inputs=(F,)),
         "the constraints are dependent at": lambda: System(P, FLAT, (x**2 + y**2 - 1, x**2 + y**2 - 1)).linearise(
@@ -456,13 +420,15 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         r"first about theta = 1(.|\n)*Proved elsewhere in it: theta = 2$": lambda: boxed(
             System(A, v**2 / 2, forces=((q - 1) ** 3 * (2 - q),)), {}, {q: (0.5, 3)}
         ),
-        "2 parts .* the first about theta = 0.999.*, or degenerate": lambda: boxed(
+        "2 parts .* the first about theta = 0.999.* or degenerate": lambda: boxed(
             System(A, v**2 / 2, forces=(sp.Abs(q) * (q - 1) ** 3,)), {}, {q: (-0.5, 3)}
         ),
         "undecided, the first about x = .*a coordinate on which no force depends": lambda: boxed(
             System(P, FLAT - x**2), {m: 1}, BOX
         ),
-        "or a constraint whose derivative is zero": lambda: boxed(System(P, FLAT - y, (x**2 - y**3,)), {m: 1}, BOX),
+        "undecided, the first about x = .*, a constraint whose derivative is zero": lambda: boxed(
+            System(P, FLAT - y, (x**2 - y**3,)), {m: 1}, BOX
+        ),
         "k is too large there": lambda: System(A, UNIT - k * q**3 / 3).averaged(2, k).run({k: 1}, 1, 0.3, [0, 1]),
     },
     ConstraintError: {

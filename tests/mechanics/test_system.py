@@ -1,13 +1,11 @@
 """Systems with time, forces, friction and velocity constraints: textbook equations, laws of energy, refusals."""
 
 import numpy as np
-import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor.algebra import decide_equal
-from lagrotor.errors import NotASymmetryError
 from lagrotor.mechanics import System, constrained_accelerations, coordinates, t, total_derivative
 from tests.systems import J, Omega, R, g, hoop, k, l, m, sleigh
 
@@ -84,17 +82,6 @@ def test_a_moving_constraint_gives_the_motion_of_its_solution_and_its_power() ->
     assert decide_equal(work, 2 * m * Omega**2 * r.q[0] * r.v[0]).answer == "zero"
 
 
-def test_friction_and_forces_feed_the_energy_by_their_power() -> None:
-    drive = A * sp.cos(w * t)
-    L = m * l**2 * theta_v**2 / 2 + m * g * l * sp.cos(theta)
-    pendulum = System(ANGLE, L, dissipation=k * theta_v**2 / 2, forces=(drive,))
-    expected = (-m * g * l * sp.sin(theta) - k * theta_v + drive) / (m * l**2)
-    assert decide_equal(constrained_accelerations(pendulum)[0][0], expected).answer == "zero"
-    assert decide_equal(pendulum.power, drive * theta_v - k * theta_v**2).answer == "zero"
-    moved = total_derivative(pendulum.energy, ANGLE).subs(theta_a, expected)
-    assert decide_equal(moved, pendulum.power).answer == "zero"
-
-
 def test_chaplygins_sleigh_has_its_equations() -> None:
     """Neimark & Fufaev, ch. II: u' = l omega², (J + m l²) omega' = −m l omega u, u the speed along the blade."""
     system = sleigh()
@@ -118,14 +105,6 @@ def test_a_gauge_term_makes_the_motion_of_the_centre_a_noether_integral() -> Non
     found = boosted.noether((t, 0), gauge=m * c.q[0])
     assert sp.expand(found.expression - (m * c.v[0] * t - m * c.q[0])) == 0
     assert boosted.conserved(found.expression).answer == "zero"
-
-
-def test_time_translation_is_the_field_v_with_gauge_L() -> None:
-    bead = hoop()
-    assert decide_equal(bead.noether(ANGLE.v, gauge=bead.L).expression, bead.energy).answer == "zero"
-    driven = kapitza()
-    with pytest.raises(NotASymmetryError):
-        driven.noether(ANGLE.v, gauge=driven.L)
 
 
 def test_what_acts_on_the_others_goes_along_with_the_routhian() -> None:

@@ -133,38 +133,25 @@ def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages
 def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol], keep: Stages) -> sp.Expr:
     """v·∂L/∂v − L, in stages, with the velocities (ω, v) of the links.
 
-    Where time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the Jacobi integral is T₂ − T₀ + V. With v* the
-    velocity that time alone gives, T₂ − T₀ is ½ m (v − 2 v*)·v, and likewise for the turning. Goldstein §2.7.
+    Where time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the Jacobi integral is T₂ − T₀ + V. With the
+    velocities V = (ω, v) and V* that time alone gives, T₂ − T₀ is ½ V·I V − V·I V*. Goldstein §2.7.
     """
-    total, fields, depths = -tree.rest.subs(dict.fromkeys(speeds, 0)), list[Small](), list[sp.Expr]()
-    moving = _velocities(chain, [joint.rate for joint in chain], keep)
-    by_time = [(_at_rest(u, speeds), _at_rest(d, speeds)) for u, d in (joint.link.rate for joint in chain)]
-    driven = _velocities(chain, by_time, keep)
-    for joint, (w, v), (w_t, v_t) in zip(chain, moving, driven, strict=True):
-        parent = joint.link.parent
+    still = dict.fromkeys(speeds, 0)
+    total, motions, fields, depths = -tree.rest.subs(still), list[Small](), list[Small](), list[sp.Expr]()
+    for joint in chain:
+        parent, (u, d) = joint.link.parent, joint.link.rate
+        before = motions[parent] if parent >= 0 else zeros(6, 2)
+        rate = blocks([[u, u.each(lambda e: e.subs(still))], [d, d.each(lambda e: e.subs(still))]])
+        V = keep.each(joint.both(joint.inward, keep.each(joint.lever.T * before), keep) + rate)
+        motions.append(V)
+        products = V.T * keep.each(_rigid(joint, keep) * V)
+        total += keep(products[0, 0] / 2 - products[0, 1])
         field, depth = (fields[parent], depths[parent]) if parent >= 0 else (Small.of(tree.field), sp.S.Zero)
         fields.append(joint.inward(field, keep))
         depths.append(keep(depth + field.dot(joint.shift)))
         for mass in joint.link.masses:
-            centre, I = mass.centre, mass.inertia
-            at, at_t = keep.each(v + w.cross(centre)), keep.each(v_t + w_t.cross(centre))
-            total += keep(mass.mass * at.dot(at - at_t * 2) / 2 + w.dot(I * (w - w_t * 2)) / 2)
-            total -= keep(mass.mass * (depths[-1] + fields[-1].dot(centre)))
+            total -= keep(mass.mass * (depths[-1] + fields[-1].dot(mass.centre)))
     return total
-
-
-def _at_rest(rate: Small, speeds: Sequence[sp.Symbol]) -> Small:
-    return rate.each(lambda e: e.subs(dict.fromkeys(speeds, 0)))
-
-
-def _velocities(chain: Sequence[Joint], rates: Sequence[Pair], keep: Stages) -> list[Pair]:
-    """(ω, v) of each link, in its axes: its parent's, and its own relative to it."""
-    velocities: list[Pair] = []
-    for joint, (u, d) in zip(chain, rates, strict=True):
-        w, v = velocities[joint.link.parent] if joint.link.parent >= 0 else (ZERO, ZERO)
-        v = joint.inward(keep.each(v + w.cross(joint.shift)), keep)
-        velocities.append((keep.each(joint.inward(w, keep) + u), keep.each(v + d)))
-    return velocities
 
 
 Column = list[sp.Expr]

@@ -5,8 +5,6 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.special import ellipj
 
 from lagrotor.errors import InputError, SingularError
@@ -84,58 +82,6 @@ def test_a_tree_with_ball_joints_moves_as_in_eulers_angles() -> None:
         )
         for frame, wanted in zip(turned, w, strict=True):
             np.testing.assert_allclose(at(quaternions, y, *frame.own_rate), wanted, atol=1e-12)
-
-
-STEPS = st.tuples(st.sampled_from(["ball", "turn", "slide"]), st.integers(0, 2), st.integers(0, 3))
-
-
-@settings(max_examples=2, deadline=None)
-@given(st.lists(STEPS, min_size=2, max_size=4), st.integers(0, 100))
-def test_random_trees_with_ball_joints_keep_energy_and_momentum(steps: list, seed: int) -> None:
-    """On a free base without a field: energy, momentum and angular momentum about the centre of the ground."""
-    names = ["x", "y", "z", *(f"b{i}" for i in range(4))]
-    for k, (kind, *_) in enumerate(steps):
-        names += [f"q{k}_{i}" for i in range(4)] if kind == "ball" else [f"q{k}"]
-    c = coordinates(names)
-    frames = [Frame(c).free("x y z", "b0 b1 b2 b3", omega="b_1 b_2 b_3")]
-    bodies = [frames[0].body(m, (I1, I2, I3), (0, l / 3, 0))]
-    for k, (kind, axis, parent) in enumerate(steps):
-        frame = frames[parent % len(frames)].moved(l, 0, -l / 2)
-        if kind == "ball":
-            frame = frame.ball([f"q{k}_{i}" for i in range(4)], [f"w{k}_{i}" for i in range(3)])
-        else:
-            q = c.q[names.index(f"q{k}")]
-            frame = frame.pin(q, "xyz"[axis]) if kind == "turn" else frame.prismatic(q, "xyz"[axis])
-        frames.append(frame)
-        bodies.append(frame.body(m, (I2, I1, I3), (l / 2, 0, l / 4)))
-    system = System(c, sum((b.kinetic for b in bodies), sp.S.Zero))
-    assert tree_of(system) is not None
-    rng = np.random.default_rng(seed)
-    q0 = rng.uniform(-0.5, 0.5, len(names))
-    for i, name in enumerate(names):
-        if name == "b0" or name.endswith("_0"):
-            q0[i : i + 4] /= np.linalg.norm(q0[i : i + 4])
-    u0 = rng.uniform(-1, 1, len(system.speeds))
-    values = {s: VALUES[s] for s in (m, l, I1, I2, I3)}
-    run = system.simulate(values, q0, u0, np.linspace(0, 1, 6), 1e-8)
-
-    def along(e: sp.Expr) -> np.ndarray:
-        return run.evaluate(e)
-
-    P, N = np.zeros((3, 6)), np.zeros((3, 6))
-    for body in bodies:
-        R = sp.Matrix.hstack(*(body.frame.place(list(e)) - body.frame.place() for e in np.eye(3, dtype=int)))
-        rows = np.array([[along(e) for e in R.row(i)] for i in range(3)])
-        v = np.einsum("ijn,jn->in", rows, np.array([along(e) for e in body.velocity]))
-        spin = np.einsum("ijn,jn->in", rows, np.array([along(e) for e in body.inertia * body.frame.angular_velocity]))
-        place = np.array([along(e) for e in body.frame.place(body.centre)])
-        P += VALUES[m] * v
-        N += VALUES[m] * np.cross(place.T, v.T).T + spin
-    scale = np.abs(run.energy).max()
-    assert np.ptp(run.energy) < 1e-6 * scale and run.drift.max() < 1e-12
-    assert np.ptp(P, axis=1).max() < 1e-6 * (1 + np.abs(P).max()) and np.ptp(N, axis=1).max() < 1e-6 * (
-        1 + np.abs(N).max()
-    )
 
 
 def test_a_top_started_at_its_pole_runs_as_quickly_as_any_other() -> None:
