@@ -41,11 +41,6 @@ class Small:
         """The transpose."""
         return Small(list(zip(*self.rows, strict=True)))
 
-    @property
-    def is_zero(self) -> bool:
-        """Whether every entry is zero in its structure."""
-        return all(e == 0 for row in self.rows for e in row)
-
     def each(self, function: Callable[[Any], Any]) -> "Small":
         """A function of every entry."""
         return Small([[function(e) for e in row] for row in self.rows])

@@ -86,14 +86,7 @@ def tree_of(system: Equations) -> Tree | None:
 
 def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
     """The generalised forces of the rest of the Lagrangian, (n, 1), which give no accelerations a part."""
-    symbols = tree.rest.free_symbols
-    own = [i for i in range(len(c.q)) if c.q[i] in symbols or c.v[i] in symbols]
-    Q = sp.zeros(len(c.q), 1)
-    if own:
-        forces = -bias(tree.rest, Coordinates(*(tuple(part[i] for i in own) for part in (c.q, c.v, c.a))))
-        for i, force in zip(own, forces, strict=True):
-            Q[i] = force
-    return Q
+    return -bias(tree.rest, c)
 
 
 class _NoTreeError(Exception):
