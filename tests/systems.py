@@ -10,9 +10,10 @@ import sympy as sp
 
 from lagrotor.mechanics import Frame, System, coordinates
 
-m, l, g, k, R, J, Omega, I1, I2, I3 = sp.symbols("m l g k R J Omega I_1 I_2 I_3", positive=True)
+m, M, l, g, k, R, J, Omega, I1, I2, I3 = sp.symbols("m M l g k R J Omega I_1 I_2 I_3", positive=True)
 VALUES: dict[sp.Symbol, float] = {
     m: 1.3,
+    M: 2.1,
     l: 0.7,
     g: 9.81,
     k: 2.0,
@@ -73,6 +74,29 @@ def heavy_top() -> System:
     spin = spinning + turning * sp.cos(theta)
     T = (I1 * (tilting**2 + turning**2 * sp.sin(theta) ** 2) + I3 * spin**2) / 2
     return System(c, T - m * g * l * sp.cos(theta))
+
+
+def ball_top(inertia: Any = (I1, I1, I3), centre: Any = (0, 0, l)) -> System:
+    """Return a top on a ball joint, which has no pole; q0 to q3 turn it, p, q and r are its angular velocities."""
+    frame = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r")
+    body = frame.body(m, inertia, centre)
+    return System(frame.c, body.kinetic - body.potential((0, 0, -g)) if any(centre) else body.kinetic)
+
+
+def turning_top() -> System:
+    """Return a top of unlike inertias about its tip in Euler's angles and, p q r, the angular velocities in its axes."""
+    c = coordinates("phi theta psi")
+    frame = Frame(c).turned("zxz", c.q)
+    velocities = dict(zip(sp.symbols("p q r", real=True), frame.angular_velocity, strict=True))
+    return System(c, frame.body(0, (I1, I2, I3)).kinetic - m * g * l * sp.cos(c.q[1]), velocities=velocities)
+
+
+def cart_and_pole(force: Any = 0) -> System:
+    """Return a mass m on a rod of length l that stands up at theta = 0, on a cart of mass M at x, which the force moves."""
+    c = coordinates("x theta")
+    theta, (v, w) = c.q[1], c.v
+    kinetic = M * v**2 / 2 + m * (v**2 + 2 * l * v * w * sp.cos(theta) + l**2 * w**2) / 2
+    return System(c, kinetic - m * g * l * sp.cos(theta), forces=(force, 0))
 
 
 def kepler(dimensions: int = 3) -> System:

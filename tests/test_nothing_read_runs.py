@@ -233,7 +233,6 @@ def system_text(folder: Path, text: str) -> None:
         lambda: system.simulate({m: 1}, q0=(text,), v0=(0.0,), t=(0.0, 0.1)),
         lambda: system.simulate({text: 1}, q0=(0.1,), v0=(0.0,), t=(0.0, 0.1)),
         lambda: system.linearise({q: text}, values),
-        lambda: system.linearise({q: 0}).modes(values),
         lambda: system.equilibria(values=values),
         lambda: system.equilibria(values={m: 1}, box={q: (text, text)}),
         lambda: system.floquet({q: 0}, values, 1.0),

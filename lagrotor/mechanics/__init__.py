@@ -43,8 +43,6 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.equations import reaction as reaction
     from lagrotor.mechanics.equilibria import Equilibrium as Equilibrium
     from lagrotor.mechanics.fourier import FourierSeries as FourierSeries
-    from lagrotor.mechanics.fourier import GrowingSeries as GrowingSeries
-    from lagrotor.mechanics.fourier import Unknowns as Unknowns
     from lagrotor.mechanics.lagrangian import Coordinates as Coordinates
     from lagrotor.mechanics.lagrangian import accelerations as accelerations
     from lagrotor.mechanics.lagrangian import bias as bias

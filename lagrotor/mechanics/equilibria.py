@@ -7,7 +7,6 @@ is not returned. Where no factor can be solved so, the equilibrium is refused wi
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import product
 from math import isfinite
 from typing import Any
 
@@ -23,7 +22,6 @@ from lagrotor.mechanics.lagrangian import euler_lagrange, t
 
 _HOPELESS = 1000  # the effort of a factor that is not solved for any unknown
 _SHOWN = 300  # letters of the conditions in a refusal
-_TRIED = 4  # coordinates, of which each multiple of a right angle is tried
 Solution = dict[sp.Symbol, sp.Expr]
 
 
@@ -51,9 +49,8 @@ def equilibria(
 ) -> tuple[Equilibrium, ...]:
     """Configurations at rest where no force is left: ∂L/∂q + Q + Gᵀ λ = 0 and g = 0 at v = 0.
 
-    unknowns: what to solve for, the coordinates unless others are named. Where these are not solved exactly in a system
-    from `routh`, the momentum is found that a steady motion needs at any value of them, as p_phi for a top at an
-    inclination. Angles in sines and cosines are found between −π and π.
+    unknowns: what to solve for, the coordinates unless others are named: in a system from `routh` the momentum, as p_phi, that
+    a steady motion needs at any inclination. Angles in sines and cosines are found between −π and π.
 
     With values of the parameters and a box, {coordinate: (least, largest)}: all equilibria there, each alone in its
     `enclosure`, and none elsewhere in the box, by interval Newton, also under one constraint g(q) = 0. A pole of a force is no
@@ -72,15 +69,7 @@ def equilibria(
         if unknowns:
             raise InputError(f"equilibria: in a box all coordinates are unknown: leave out unknowns = {unknowns!r}")
         return _in_box(system, values or {}, box or {})
-    if unknowns:
-        return _equilibria(system, unknowns)
-    try:
-        return _equilibria(system, ())
-    except InputError:
-        for momentum in sorted((s for s in system.L.free_symbols if str(s).startswith("p_")), key=str):
-            if len(system.c.q) == 1:
-                return _equilibria(system, (momentum,))
-        raise
+    return _equilibria(system, unknowns)
 
 
 def _in_box(
@@ -144,13 +133,10 @@ def _in_box(
     elif undecided:
         shown = _about(undecided[kinks.index([])], c.q)
         proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
-        acting = set().union(*(e.free_symbols for e in (*forces, *constraints)))
-        free = [f" (no force depends on {q})" for q in c.q if q not in acting]
-        bound = ", or a constraint whose derivative is zero" if constraints else ""
         raise SingularError(
             f"equilibria: {len(undecided)} parts of the box are undecided, the first about {shown}: an equilibrium that is "
-            f"not isolated{''.join(free)}, or degenerate{bound}, forces that jump or have no value, or too large a box for the "
-            f"search; choose another one, or coordinates on which they depend. Proved elsewhere in it: {proved or 'none'}"
+            "not isolated or degenerate, a coordinate on which no force depends, a constraint whose derivative is zero, forces "
+            f"that jump, or too large a box; choose another one. Proved elsewhere in it: {proved or 'none'}"
         )
     return tuple(
         Equilibrium(at, regular=_regular(system, numbers | at), enclosure=root)
@@ -215,13 +201,7 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
     fixed = {q: q for q in c.q if q not in wanted and any(q in e.free_symbols for e in conditions)}
     places: list[Equilibrium] = []
     circles = {c**2 + s**2 - 1 for c, s in pairs.values()}
-    try:
-        solutions = [*_solve(polynomials, symbols, {}, circles)]
-    except InputError as refusal:
-        if system.multipliers or not {*wanted} <= {*system.c.q}:
-            raise
-        raise InputError(f"{refusal}{_at_right_angles(system, conditions, wanted)}") from None
-    for solution in solutions:
+    for solution in _solve(polynomials, symbols, {}, circles):
         equilibrium = _equilibrium(solution, wanted, pairs, fixed)
         if equilibrium is not None:
             equilibrium = replace(equilibrium, regular=_regular(system, equilibrium.at))
@@ -232,17 +212,6 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
 
 def _regular(system: Equations, at: Mapping[sp.Symbol, sp.Expr]) -> bool:
     return decide_zero(system.mass.subs(dict(at)).det(method="berkowitz")).answer != "zero"
-
-
-def _at_right_angles(system: Equations, conditions: Sequence[sp.Expr], wanted: Sequence[sp.Symbol]) -> str:
-    """The equilibria whose coordinates are zero or right angles, where they are few enough to be tried one by one."""
-    solutions = []
-    for values in product((0, sp.pi / 2, sp.pi, -sp.pi / 2), repeat=len(wanted) if len(wanted) <= _TRIED else 0):
-        put = dict(zip(wanted, values, strict=False))
-        if put and all(sp.expand(e.subs(put)) == 0 for e in conditions) and _regular(system, put):
-            solutions.append(put)
-    first = f", the first at {solutions[0]}" if solutions else ""
-    return f"; {len(solutions)} are at multiples of a right angle{first}" if len(wanted) <= _TRIED else ""
 
 
 def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[sp.Symbol, ...]:

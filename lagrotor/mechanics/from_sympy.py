@@ -36,30 +36,14 @@ def parts_from_sympy(given: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
     from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System, dynamicsymbols
 
     clock = dynamicsymbols._t
-    if isinstance(given, System) and isinstance(given.eom_method, LagrangesMethod):
+    if isinstance(given, System):
+        if given.eom_method is None:
+            raise InputError("from_sympy: a System of sympy has its equations after form_eoms(): call it first")
         given = given.eom_method
     if isinstance(given, KanesMethod):
         if not given.bodies:
             raise InputError("from_sympy: a KanesMethod has bodies after kanes_equations(bodies, loads): call it first")
-        kinematic = given._k_kqdot_implicit * given._qdot + given._k_ku_implicit * given.u + given._f_k_implicit
-        held = given._k_nh * given.u + given._f_nh if len(given._k_nh) else []
-        return _of_speeds(
-            given._inertial, given.q, given.u, kinematic, given.bodies, given.forcelist, given._f_h, held, given._uaux
-        )
-    if isinstance(given, System):
-        loads = [*given.loads, *(load for actuator in given.actuators for load in actuator.to_loads())]
-        held = [*given.velocity_constraints]
-        return _of_speeds(
-            given.frame,
-            given.q,
-            given.u,
-            given.kdes,
-            given.bodies,
-            loads,
-            given.holonomic_constraints,
-            held,
-            given.u_aux,
-        )
+        return _of_speeds(given)
     lagrange = isinstance(given, LagrangesMethod)
     if not lagrange and (not isinstance(given, sp.Expr) or q in ((), [])):
         raise InputError(
@@ -94,38 +78,33 @@ def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Ex
     return Q
 
 
-def _of_speeds(
-    frame: Any,
-    q: Sequence[Any],
-    u: Sequence[Any],
-    kinematic: Sequence[Any],
-    bodies: Sequence[Any],
-    loads: Sequence[Any] | None,
-    holonomic: Sequence[Any],
-    velocity: Sequence[Any],
-    auxiliary: Sequence[Any],
-) -> dict[str, Any]:
-    """The parts of a system of bodies whose velocities are linear in the speeds u."""
+def _of_speeds(given: Any) -> dict[str, Any]:
+    """The parts of a KanesMethod, whose velocities are linear in its speeds u."""
     from sympy.physics.mechanics import KanesMethod, dynamicsymbols
 
+    frame, q, u, bodies = given._inertial, given.q, given.u, given.bodies
+    kinematic = given._k_kqdot_implicit * given._qdot + given._k_ku_implicit * u + given._f_k_implicit
+    velocity = given._k_nh * u + given._f_nh if len(given._k_nh) else []
     clock = dynamicsymbols._t
     if len(kinematic) != len(q):
         raise InputError(f"from_sympy: {len(kinematic)} kinematic equations for {len(q)} coordinates: give as many")
     q, kinematic = _with_own_coordinates(list(q), list(u), list(kinematic))
     c, functions = _coordinates(q, clock)
-    still = dict.fromkeys(auxiliary, 0)
+    still = dict.fromkeys(given._uaux, 0)
     equations = sp.Matrix([*kinematic, *velocity]).xreplace(still)
     speeds, left = _solved(equations, list(u))
     put = dict(zip(u, speeds, strict=True)) | still
     put |= {s.diff(clock): e.diff(clock) for s, e in zip(u, speeds, strict=True)} | {
-        s.diff(clock): 0 for s in auxiliary
+        s.diff(clock): 0 for s in given._uaux
     }
 
     def plain(e: Any) -> sp.Expr:
         return _plain(sp.sympify(e, strict=True).xreplace(put), functions, c, clock)
 
     method = KanesMethod(frame, q, list(u), kd_eqs=list(equations[: len(q), :]))
-    loads = [(place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in loads or ()]
+    loads = [
+        (place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in given.forcelist or ()
+    ]
     method.kanes_equations(list(bodies), loads or None)
     energy = sp.Add(*(body.kinetic_energy(frame) for body in bodies))
     L = plain(energy)
@@ -138,7 +117,7 @@ def _of_speeds(
     active = list(W.T * sp.Matrix(acting))
     missing = [a - b for a, b in zip(whole, active, strict=True)]
     forces = [b if _vanishes(e) else b + e for b, e in zip(active, missing, strict=True)]
-    constraints = tuple(plain(e) for e in holonomic)
+    constraints = tuple(plain(e) for e in given._f_h)
     return {
         "c": c,
         "lagrangian": L,

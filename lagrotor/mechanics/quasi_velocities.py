@@ -115,9 +115,8 @@ def kinematics(
         name = next(u for i, (u, _) in enumerate(pairs) if i not in kept)
         raise InputError(f"System: velocities: {name} follows from those before it: leave it out")
     if len(kept) < len(c.q):
-        lost = [str(v) for j, v in enumerate(c.v) if _determined(matrix, kept, j)]
         raise InputError(
-            f"System: {len(own)} velocities and {len(residual)} constraints do not give {', '.join(lost) or 'v'}: "
+            f"System: {len(own)} velocities and {len(residual)} constraints do not give {', '.join(map(str, c.v))}: "
             f"{len(c.q) - len(kept)} more are needed; one may be a velocity of a coordinate, {{c.v[0]: c.v[0]}}"
         )
     used = tuple(order[i - len(own)] for i in kept[len(own) :])
@@ -284,14 +283,6 @@ def independent_rows(matrix: sp.Matrix, most: int) -> list[int]:
                 basis.append([x / size for x in rest])
         best = kept if len(kept) > len(best) else best
     return best
-
-
-def _determined(matrix: sp.Matrix, kept: Sequence[int], j: int) -> bool:
-    """Whether v_j is left open by the rows."""
-    unit = sp.zeros(1, matrix.cols)
-    unit[j] = sp.S.One
-    rows = matrix.extract(list(kept), list(range(matrix.cols))).col_join(unit)
-    return len(independent_rows(rows, matrix.cols)) > len(kept)
 
 
 def _without(row: Sequence[float], basis: Sequence[Sequence[float]]) -> list[float]:

@@ -277,14 +277,13 @@ def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
 
 
 _POINTS = 3  # at which accelerations are compared before anything is derived
-_MOST, _MOST_OPERATIONS = 3, 1000  # coordinates up to which, and operations of M up to which, accelerations are derived
 
 
 def same_as(system: Equations, other: Equations) -> Decision:
     """Whether both have the same accelerations in the same coordinates: zero, or nonzero with a witness, and the domain.
 
-    Lagrangians may differ by a factor and a total time derivative; forces and constraints are compared by what they do.
-    Under constraints, what agrees only by virtue of them is "undecided".
+    Lagrangians may differ by a factor and a total time derivative; parts that do not interact, each with another factor, are
+    "undecided". Forces and constraints are compared by what they do; what agrees only by virtue of constraints is "undecided".
 
     Raises InputError when the coordinates are not the same: bring one into those of the other by `in_coordinates`.
     """
@@ -295,37 +294,24 @@ def same_as(system: Equations, other: Equations) -> Decision:
             f"same_as: {system.c.q} and {other.c.q} are not the same coordinates: write one system in those of the other "
             "with in_coordinates"
         )
-    if (direct := _from_lagrangians(system, other)).answer == "zero":
+    parts = [(e.constraints, e.rolling, e.dissipation, e.forces) for e in (system, other)]
+    if parts[0] == parts[1] and (direct := decide_equal(system.L, other.L)).answer == "zero":
         return direct
-    if not (system.multipliers or other.multipliers):
-        return _refutation(system, other) or _without_constraints(system, other)
-    decision = _accelerations(system, other)
+    if system.multipliers or other.multipliers:
+        decision = decide_equal(*(constrained_accelerations(each)[0] for each in (system, other)))
+        reason = "Off the constraints they differ."
+    elif refuted := _refutation(system, other):
+        return refuted
+    else:
+        factor = _factor(system, other)
+        left = factor * system.L - other.L
+        with suppress(NotExactError):
+            left = normal_form(left)
+        decision = decide_equal(euler_lagrange(left, system.c), factor * system.push - other.push)
+        reason = "Their Lagrangians differ by more than one factor and a total derivative."
     if decision.answer == "nonzero":
-        return replace(decision, answer="undecided", reason=f"Off the constraints they differ. {decision.reason}")
+        return replace(decision, answer="undecided", reason=f"{reason} {decision.reason}")
     return decision
-
-
-def _without_constraints(system: Equations, other: Equations) -> Decision:
-    """From the Euler–Lagrange expression of what is left of the Lagrangians, then from the accelerations."""
-    factor = _factor(system, other)
-    left = factor * system.L - other.L
-    with suppress(NotExactError):
-        left = normal_form(left)
-    direct = decide_equal(euler_lagrange(left, system.c), factor * system.push - other.push)
-    if direct.answer == "nonzero":
-        return _accelerations(system, other)
-    return direct
-
-
-def _accelerations(system: Equations, other: Equations) -> Decision:
-    """From both accelerations, where they are short enough to be derived."""
-    if (
-        len(system.c.q) > _MOST
-        and (size := sum(sp.count_ops(each.mass) for each in (system, other))) > _MOST_OPERATIONS
-    ):
-        return Decision("undecided", (), f"Their mass matrices are too large to be inverted: {size} operations.")
-    left, right = (constrained_accelerations(each)[0] for each in (system, other))
-    return decide_equal(left, right)
 
 
 def _refutation(system: Equations, other: Equations) -> Decision | None:
@@ -354,14 +340,6 @@ def _factor(system: Equations, other: Equations) -> sp.Expr:
     except NotExactError:
         return sp.S.One
     return sp.S.One if ratio.free_symbols & {*system.c.q, t} else ratio
-
-
-def _from_lagrangians(system: Equations, other: Equations) -> Decision:
-    """Whether only the Lagrangians may differ, and do not."""
-    parts = [(e.constraints, e.rolling, e.dissipation, e.forces) for e in (system, other)]
-    if parts[0] != parts[1]:
-        return Decision("undecided", (), "More than the Lagrangians may differ.")
-    return decide_equal(system.L, other.L)
 
 
 def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Expr]) -> Kind:

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics import equilibria, glossary, linear_modes, steady_motions, symmetry, weakly_nonlinear
+from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix
     from lagrotor.mechanics.running.root_loci import RootLocus, StabilityChart
     from lagrotor.mechanics.running.simulation import SystemRun
-    from lagrotor.mechanics.running.state_space import StateSpace
     from lagrotor.mechanics.running.switches import Event, Impact
     from lagrotor.numerics.integrate import Engine
 
@@ -71,35 +70,13 @@ class System(Equations):
     latex = glossary.in_latex
     _repr_markdown_ = glossary.in_markdown
 
-    @overload
-    def linearise(self, at: "Mapping[Any, Any] | Equilibrium") -> "linear_modes.LinearSystem": ...
-
-    @overload
-    def linearise(
-        self,
-        at: "Mapping[Any, Any] | Equilibrium",
-        values: None = None,
-        *,
-        inputs: Sequence[sp.Symbol],
-        outputs: Sequence[sp.Expr] = (),
-    ) -> "steady_motions.StateEquations": ...
-
-    @overload
-    def linearise(
-        self,
-        at: "Mapping[Any, Any] | Equilibrium",
-        values: "Values",
-        inputs: Sequence[sp.Symbol] = (),
-        outputs: Sequence[sp.Expr] = (),
-    ) -> "StateSpace": ...
-
     def linearise(
         self,
         at: "Mapping[Any, Any] | Equilibrium",
         values: "Values | None" = None,
         inputs: Sequence[sp.Symbol] = (),
         outputs: Sequence[sp.Expr] = (),
-    ) -> "linear_modes.LinearSystem | steady_motions.StateEquations | StateSpace":
+    ) -> Any:
         """Small motion about an equilibrium or a steady motion, also where bodies roll.
 
         Without values: M a + C v + K q = 0 in symbols, see `steady_motions.linearise`; for inputs and outputs, and about a motion
@@ -110,6 +87,9 @@ class System(Equations):
             values: of the parameters.
             inputs: u, parameters or functions F(t), zero unless they have a value.
             outputs: y, expressions in q, v, a and the multipliers.
+
+        Returns:
+            A LinearSystem, a StateEquations, or with values a StateSpace.
 
         Raises:
             SingularError: where accelerations are left.

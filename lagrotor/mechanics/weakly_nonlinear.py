@@ -40,7 +40,7 @@ from lagrotor.algebra import decide_zero, truncated_series
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest
-from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Unknowns, Waves, constant_series
+from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Waves, constant_series, forget
 from lagrotor.mechanics.lagrangian import t
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
@@ -77,7 +77,6 @@ def lindstedt_poincare(
     mode: Sequence[Mapping[int, Coefficient]],
     order: int,
     field: Domain,
-    amplitude: int = 0,
     numeric: Residual | None = None,
     begins_at: int = 1,
 ) -> PeriodicSeries:
@@ -89,12 +88,11 @@ def lindstedt_poincare(
     Args:
         residual: (unknowns, frequency) → the equations of motion as Fourier series, zero on the orbit; derivatives by the
             phase, time derivatives carried by the frequency.
-        rest: unknowns at equilibrium.
+        rest: unknowns at equilibrium; the value of the first at Phi = 0, less rest, is eps.
         mode: {harmonic: coefficient} of each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's
             parity by its sign; an unknown without a first-order part is a cosine series.
         order: through eps^order.
         field: that of the coefficients.
-        amplitude: the number of the unknown whose value at Phi = 0, less rest, is eps.
         numeric: the same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
         begins_at: the power of eps of the mode; 0 where eps is another small quantity, at which the equations are linear, and the
             mode an amplitude.
@@ -109,8 +107,7 @@ def lindstedt_poincare(
         for r, m in zip(rest, mode, strict=True)
     ]
     value = field.convert if numeric is None else float
-    growing = Unknowns()
-    *unknowns, frequency = (growing.series(begin.convert(value)) for begin in (*begins, constant_series(one, order)))
+    *unknowns, frequency = (begin.convert(value) for begin in (*begins, constant_series(one, order)))
     equations = (numeric or residual)(unknowns, frequency)
     operators = _columns(residual, rest, sines, order, one)
     drift, solvers = _frequency_column(residual, begins, one, begins_at), dict[int, Solver]()
@@ -122,17 +119,17 @@ def lindstedt_poincare(
             if h not in operators:
                 operators = _columns(residual, rest, sines, 2 * h, one)
             if h not in solvers:
-                extra, fixed = (drift, amplitude) if h == 1 else (None, None)
+                extra, fixed = (drift, 0) if h == 1 else (None, None)
                 solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)
             values, shift = solvers[h](now, h, -at_zero)
             for j, coefficient in enumerate(values):
-                growing.put(unknowns[j], n, -h if sines[j] else h, coefficient)
-            at_zero += 0 if sines[amplitude] else values[amplitude]
+                unknowns[j].put(n, -h if sines[j] else h, coefficient)
+            at_zero += 0 if sines[0] else values[0]
             if shift:
-                growing.put(frequency, n - begins_at, 0, shift)
-                growing.forget(n - begins_at)
-        growing.forget(n)
-    return PeriodicSeries(tuple(growing.through(u, order) for u in unknowns), growing.through(frequency, order))
+                frequency.put(n - begins_at, 0, shift)
+                forget(equations, n - begins_at)
+        forget(equations, n)
+    return PeriodicSeries(tuple(u.through(order) for u in unknowns), frequency.through(order))
 
 
 def _columns(
@@ -328,12 +325,9 @@ def characteristic_exponents(
     rest = orbit.at_rest(field)
     drift = {part: variation.of_drift(part, parts, rest) for part in "pq"}
     value = field.convert if numeric is None else float
-    growing = Unknowns()
-    unknowns = {part: [growing.series(series.convert(value)) for series in parts[part]] for part in "pq"}
-    slow = {
-        part: growing.series(FourierSeries({}, order)) for part in "pq"
-    }  # B from the equations' p part, A from their q part
-    equations = variation.put_in(numeric or residual, growing.series, unknowns, slow, orbit)
+    unknowns = {part: [series.convert(value) for series in parts[part]] for part in "pq"}
+    slow = {part: FourierSeries({}, order) for part in "pq"}  # B from the equations' p part, A from their q part
+    equations = variation.put_in(numeric or residual, unknowns, slow, orbit)
     operators = variation.operators(parity, rest)
     solvers: dict[tuple[str, int], Solver] = {}
     for n in range(1, order + 1):
@@ -345,11 +339,10 @@ def characteristic_exponents(
                     solvers[part, h] = harmonic_solver(operators[part, h], extra, mean, field, value)
                 values, shift = solvers[part, h](now[part], h, value(field.zero))
                 for j, coefficient in enumerate(values):
-                    growing.put(unknowns[part][j], n, -h if parity[part][j] else h, coefficient)
-                growing.put(slow[part], n, 0, shift)
-        growing.forget(n)
-    p, q = (tuple(growing.through(series, order) for series in unknowns[part]) for part in "pq")
-    return ExponentSeries(growing.through(slow["q"], order), growing.through(slow["p"], order), p, q)
+                    unknowns[part][j].put(n, -h if parity[part][j] else h, coefficient)
+                slow[part].put(n, 0, shift)
+        forget([part for equation in equations for part in (equation.p, equation.q)], n)
+    return ExponentSeries(slow["q"], slow["p"], tuple(unknowns["p"]), tuple(unknowns["q"]))
 
 
 @dataclass(frozen=True)
@@ -364,25 +357,18 @@ class _Variation:
     def put_in(
         self,
         residual: Residual,
-        series: Callable[[FourierSeries], Series],
         parts: Mapping[str, Sequence[Series]],
         slow: Mapping[str, Series],
         orbit: PeriodicSeries,
     ) -> list[Perturbed]:
-        """The equations with a perturbation put in whose parts and rates A, B are still to be found; series: of a known one."""
+        """The equations with a perturbation put in whose parts and rates A, B are still unknown."""
 
         def at(f: FourierSeries, p: Series, q: Series) -> Perturbed:
-            return Perturbed(series(f), p, q, slow["q"], slow["p"], self.exchange)
+            return Perturbed(f, p, q, slow["q"], slow["p"], self.exchange)
 
-        nothing = series(FourierSeries({}, self.order))
+        nothing = FourierSeries({}, self.order)
         unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
         return residual(unknowns, at(orbit.frequency, nothing, nothing))
-
-    def of(self, n: int, parts: Parts, slow: dict[str, FourierSeries], orbit: PeriodicSeries) -> list[Perturbed]:
-        """The equations with the perturbation put in, through eps**n."""
-        kept = {part: [series.through(n) for series in parts[part]] for part in "pq"}
-        rates = {part: series.through(n) for part, series in slow.items()}
-        return self.put_in(self.residual, lambda f: f.through(n), kept, rates, orbit)
 
     @staticmethod
     def column(equations: Sequence[Perturbed], part: str, n: int) -> Column:
@@ -394,7 +380,7 @@ class _Variation:
         nothing = FourierSeries({}, self.order)
         other = {part: [nothing] * len(parts[part]), _OTHER[part]: parts[_OTHER[part]]}
         slow = {part: constant_series(self.field.one, self.order), _OTHER[part]: nothing}
-        return self.column(self.of(0, other, slow, orbit), part, 0)
+        return self.column(self.put_in(self.residual, other, slow, orbit), part, 0)
 
     def operators(
         self, parity: Mapping[str, Sequence[bool]], rest: PeriodicSeries
@@ -408,7 +394,7 @@ class _Variation:
             moved = {part: [nothing] * len(rest.unknowns) for part in "pq"}
             for part in "pq":
                 moved[part][j] = waves(parity[part][j], self.order, 0, self.field.one)
-            answer = self.of(0, moved, dict.fromkeys("pq", nothing), rest)
+            answer = self.put_in(self.residual, moved, dict.fromkeys("pq", nothing), rest)
             for part in "pq":
                 for h, column in by_harmonic([getattr(r, part) for r in answer], self.order, 0).items():
                     columns.setdefault((part, h), []).append(column)
@@ -425,7 +411,7 @@ class Oscillation:
     """A family of periodic motions: its frequency, and q over the phase Φ = ω t (Symbol("Phi", real=True)), with q' = 0 at Φ = 0,
     in powers of the small quantity and, where that is a parameter, of the `amplitude`, the value of q at Φ = 0 less its rest.
 
-    Both are known through small**known_through and carry their O(). `system` and `values`: of what, for `error`.
+    Both are known through small**known_through and carry their O().
     """
 
     frequency: sp.Expr
@@ -434,7 +420,6 @@ class Oscillation:
     small: sp.Symbol
     amplitude: sp.Symbol
     system: Equations
-    values: Mapping[Any, Any]
 
     def error(self, values: Mapping[Any, Any]) -> float:
         """The relative error of the frequency for values of all letters, small and amplitude among them, measured against the
@@ -449,8 +434,7 @@ class Oscillation:
         from lagrotor.mechanics.running import simulation
 
         letters = self.frequency.free_symbols | self.motion.free_symbols | self.system.motion.free_symbols
-        whole = {**self.values, **by_symbol("error: values", values, letters)}
-        known = {s: sp.sympify(x, strict=True) for s, x in by_symbol("error: values", whole, letters).items()}
+        known = {s: sp.sympify(x, strict=True) for s, x in by_symbol("error: values", values, letters).items()}
         omega = self.frequency.removeO().subs(known)
         start = self.motion.removeO().subs(_PHASE, 0).subs(known)
         no_letter("error", omega.free_symbols | start.free_symbols)
@@ -473,14 +457,13 @@ def oscillation(
     system: Equations,
     order: int,
     small: sp.Symbol,
-    values: Mapping[Any, Any] | None = None,
     at: Any = 0,
     amplitude: sp.Symbol | None = None,
 ) -> Oscillation:
     """The Lindstedt–Poincaré series of the periodic motions about the equilibrium q = at, through small**order.
 
     small: a parameter of the system, which is linear where it is zero, or a letter of your own, the amplitude then: the value
-    of q at Φ = 0, less its rest. amplitude: its name where small is a parameter. values: of parameters, exact as they are given.
+    of q at Φ = 0, less its rest. amplitude: its name where small is a parameter.
 
     Raises InputError for a system with several coordinates, constraints, or time in it, and where q = at is no equilibrium or
     the motion is damped or grows; DomainError where it is no polynomial.
@@ -491,7 +474,7 @@ def oscillation(
     A = amplitude or sp.Symbol("A", positive=True)
     rest = expression("lindstedt_poincare: at", at)
     inside = small in system.motion.free_symbols
-    terms = _terms_about(rest, system, order, small, values or {}, A if inside else None)
+    terms = _terms_about(rest, system, order, small, A if inside else None)
     K, M = _stiffness_and_mass(terms, f"{system.c.q[0]} = {rest}")
     if inside and any(sum(powers) > 1 and n == 0 for n, *powers in terms):
         raise InputError(
@@ -513,7 +496,7 @@ def oscillation(
     factor, moved = (_written(s, field, _PHASE, small) for s in (solved.frequency, solved.unknowns[0]))
     powers = sp.Poly(factor, small).terms()
     frequency = sp.Add(*(sp.sqrt(sp.cancel(K / M)) * sp.factor(c) * small**n for (n,), c in powers)) + bound
-    return Oscillation(frequency, rest + moved + bound, solved.known_through, small, A, system, values or {})
+    return Oscillation(frequency, rest + moved + bound, solved.known_through, small, A, system)
 
 
 def _terms_about(
@@ -521,17 +504,14 @@ def _terms_about(
     system: Equations,
     order: int,
     small: sp.Symbol,
-    values: Mapping[Any, Any],
     amplitude: sp.Symbol | None,
 ) -> dict[tuple[int, ...], sp.Expr]:
     """The coefficients of the equation of q − rest by the powers of small, q, v and a. Without an `amplitude` small is
     no letter of the system, but the size of the motion."""
     (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
-    equation = _with_values("lindstedt_poincare", system, system.motion[0], values)
-    gone = small not in equation.free_symbols
-    if amplitude is not None and (gone or str(amplitude) in map(str, equation.free_symbols)):
-        wrong = f"small = {small} has a value" if gone else f"amplitude = {amplitude} is a letter of the system"
-        raise InputError(f"lindstedt_poincare: {wrong}: both stay letters, each its own")
+    equation = system.motion[0]
+    if amplitude is not None and str(amplitude) in map(str, equation.free_symbols):
+        raise InputError(f"lindstedt_poincare: amplitude = {amplitude} is a letter of the system: give it another name")
     if t in equation.free_symbols:
         raise InputError("lindstedt_poincare: the system depends on time: use averaged")
     equation = equation.subs(q, rest + q) if rest != 0 else equation
@@ -575,8 +555,6 @@ class AveragedMotion:
     frequency: sp.Expr
     small: sp.Symbol
     order: int
-    system: Equations
-    values: Mapping[Any, Any]
 
     @property
     def polar(self) -> tuple[sp.Expr, sp.Expr]:
@@ -615,13 +593,7 @@ class AveragedMotion:
         if given is None or given.shape != (2,) or not np.isfinite(given).all():
             raise InputError(f"averaged: q0 = {q0!r} and v0 = {v0!r} must be finite numbers")
         own = set().union(*(e.free_symbols for e in (*self.rates, *self.state))) - {*self.letters, t}
-        known = {
-            s: float(x)
-            for s, x in by_symbol(
-                "averaged: values", {**self.values, **by_symbol("averaged: values", values, own)}, own
-            ).items()
-            if s in own
-        }
+        known = {s: float(x) for s, x in by_symbol("averaged: values", values, own).items() if s in own}
         no_letter("averaged", own - known.keys())
         slow = sp.lambdify(self.letters, [e.subs(known) for e in self.rates], "numpy")
         there = sp.lambdify((*self.letters, t), [e.subs(known) for e in self.state], "numpy")
@@ -635,26 +607,8 @@ class AveragedMotion:
         Y = np.vstack([start, integrate(problem, grid[1:] - grid[0], 1e-11).states])
         return np.array([np.broadcast_to(e, grid.shape) for e in there(*Y.T, grid)])
 
-    def error(self, values: Mapping[Any, Any], q0: float, v0: float, times: Any) -> float:
-        """The largest difference of q from an exact run, measured, m or rad: O(small**order) through times of 1/small.
 
-        Args:
-            values: of all letters.
-            q0: at times[0].
-            v0: q' there.
-            times: (n,).
-        """
-        import numpy as np
-
-        from lagrotor.mechanics.running import simulation
-
-        exact = simulation.simulate_system(self.system, {**self.values, **values}, (q0,), (v0,), times, 1e-10)
-        return float(np.abs(self.run(values, q0, v0, times)[0] - exact.q[:, 0]).max())
-
-
-def averaged(
-    system: Equations, order: int, small: sp.Symbol, frequency: Any = None, values: Mapping[Any, Any] | None = None
-) -> AveragedMotion:
+def averaged(system: Equations, order: int, small: sp.Symbol, frequency: Any = None) -> AveragedMotion:
     """The slow motion of the amplitudes through small**order, 1 or 2: see the head of the module.
 
     small: a parameter; where it is zero, q'' = −ν² q. frequency: ν, where it is not read off; a detuning is written into the
@@ -667,7 +621,7 @@ def averaged(
     if order > _MOST_ORDER:
         raise InputError(f"averaged: order = {order}: 1 or 2 are known")
     (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
-    equation = _with_values("averaged", system, system.motion[0], values)
+    equation = system.motion[0]
     slope = sp.diff(equation, a)
     if small not in equation.free_symbols or a in slope.free_symbols:
         raise InputError(f"averaged: small = {small} must be a letter of the system, at which it is linear when zero")
@@ -712,9 +666,7 @@ def averaged(
     rates = tuple(plain(sp.Add(*(field.to_sympy(c) * small ** (n + 1) for n, c in enumerate(mean)))) for mean in means)
     c, s = sp.cos(nu * t), sp.sin(nu * t)
     state = (moved[0] * c + moved[1] * s, nu * (moved[1] * c - moved[0] * s))
-    return AveragedMotion(
-        (A, B), (rates[0], rates[1]), (plain(state[0]), plain(state[1])), nu, small, order, system, values or {}
-    )
+    return AveragedMotion((A, B), (rates[0], rates[1]), (plain(state[0]), plain(state[1])), nu, small, order)
 
 
 @dataclass(frozen=True)
@@ -737,14 +689,10 @@ def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
         ratio = sp.cancel(e.args[0] / (nu * t))
         ratio = sp.Rational(str(ratio)) if ratio.is_Float else ratio
         if not ratio.is_Rational or ratio <= 0:
-            phase = e.args[0].as_independent(t, as_Add=True)[0]
-            way = (
-                "write it with rates like 2 ν"
-                if phase == 0
-                else f"count time from another start, or write it by cos({e.args[0] - phase}), sin({e.args[0] - phase}), with "
-                f"letters for cos({phase}) and sin({phase})"
+            raise DomainError(
+                f"averaged: {e} has no rate that is a rational part of ν = {nu}, or has a phase: write rates like 2 ν, and a "
+                "phase by letters for its cosine and sine"
             )
-            raise DomainError(f"averaged: {e} has no rate that is a rational part of ν = {nu}, without a phase: {way}")
         ratios.append(ratio)
     base = lcm(*(int(ratio.q) for ratio in ratios)) if ratios else 1
     numbers = tuple(
@@ -789,15 +737,6 @@ def _check_one(where: str, system: Equations, order: int, small: sp.Symbol) -> N
         raise InputError(f"{where}: small = {small!r} must be a symbol, a parameter or the amplitude")
 
 
-def _with_values(where: str, system: Equations, e: sp.Expr, values: Mapping[Any, Any] | None) -> sp.Expr:
-    """The expression with values for parameters, decimals as the rationals that they print."""
-    known = by_symbol(f"{where}: values", values or {}, e.free_symbols)
-    if strangers := [str(s) for s in known if s not in e.free_symbols]:
-        raise InputError(f"{where}: values name {', '.join(strangers)}, which the equation does not have: leave it out")
-    put = {s: sp.Rational(str(x)) if isinstance(x, float) else sp.sympify(x, strict=True) for s, x in known.items()}
-    return e.subs(put)
-
-
 def _series(e: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
     return sp.expand(truncated_series(e, small, order))
 
@@ -818,5 +757,7 @@ def _field(coefficients: Sequence[sp.Expr]) -> tuple[Domain, Any]:
     if field.is_EX:
         field, _ = sp.construct_domain([*coefficients, sp.S.Half], field=True, extension=True)
     if field.is_EX or not field.is_Exact:
-        raise DomainError(f"the coefficients {coefficients} are in no field that is decided: give values of letters")
+        raise DomainError(
+            f"the coefficients {coefficients} are in no field that is decided: write decimals as fractions"
+        )
     return field, lambda e: field.from_sympy(sp.sympify(e, strict=True))

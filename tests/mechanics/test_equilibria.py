@@ -5,8 +5,8 @@ import pytest
 import sympy as sp
 from scipy.optimize import brentq, fsolve
 
-from lagrotor.errors import InputError, LagrotorWarning, SingularError
-from lagrotor.mechanics import System, coordinates, reaction
+from lagrotor.errors import LagrotorWarning
+from lagrotor.mechanics import System, coordinates
 
 c, d = coordinates("x"), coordinates("a b")
 (x,), (v,) = c.q, c.v
@@ -59,18 +59,8 @@ def test_roots_on_the_rim_and_on_a_cut_are_found_once() -> None:
     assert System(c, v**2 / 2 - sp.exp(x)).equilibria(values={}, box={x: (-9, 9)}) == ()
 
 
-def test_a_bead_on_a_hoop_has_those_of_the_exact_solver() -> None:
-    hoop = System(c, R**2 * (v**2 + Omega**2 * sp.sin(x) ** 2) / 2 + g * R * sp.cos(x))
-    values = {R: 1, g: 10, Omega: 4}
-    found = [float(e.at[x]) for e in hoop.equilibria(values=values, box={x: (-3, 3)})]
-    exact = [float(e.at[x].subs(values)) for e in hoop.equilibria() if e.at[x] != sp.pi]
-    np.testing.assert_allclose(found, sorted(exact), atol=1e-14)
-    slow = hoop.equilibria(values=values | {Omega: 3}, box={x: (-3, 3)})
-    assert len(slow) == 1  # Omega² < g/R: the lowest point alone
-
-
-def test_a_pole_of_a_force_is_no_equilibrium_and_what_is_proved_is_told() -> None:
-    """Beside the lesser of two primaries that turn: Lagrange's L2. A degenerate rest hides no other."""
+def test_a_pole_of_a_force_is_no_equilibrium() -> None:
+    """Beside the lesser of two primaries that turn: Lagrange's L2."""
     nu = sp.Rational(1, 5)
     (x, y), (X, Y) = d.q, d.v
     far, near = sp.sqrt((x + nu) ** 2 + y**2), sp.sqrt((x - 1 + nu) ** 2 + y**2)
@@ -78,33 +68,6 @@ def test_a_pole_of_a_force_is_no_equilibrium_and_what_is_proved_is_told() -> Non
     (second,) = moon.equilibria(values={}, box={x: (0.79, 1.3), y: (-0.01, 0.02)})  # the lesser primary is at 0.8
     place = float(second.at[x])
     assert float(second.at[y]) == 0 and abs(place - 0.8 / (place + 0.2) ** 2 - 0.2 / (place - 0.8) ** 2) < 1e-12
-    with pytest.raises(SingularError, match=r"undecided, the first about x = 1(.|\n)*Proved elsewhere in it: x = 2$"):
-        System(c, v**2 / 2, forces=((c.q[0] - 1) ** 3 * (2 - c.q[0]),)).equilibria(values={}, box={c.q[0]: (0.5, 3)})
-
-
-@pytest.mark.parametrize(
-    ("force", "roots"),
-    [
-        (sp.tan(x), (-np.pi, 0, np.pi)),
-        (sp.cot(x), (-np.pi / 2, np.pi / 2)),
-        (sp.tan(x) - x - 1, (brentq(lambda s: np.tan(s) - s - 1, 0.5, 1.5),)),  # it rises from pole to pole
-    ],
-)
-def test_equilibria_lie_between_the_poles_of_a_tangent(force: sp.Expr, roots: tuple[float, ...]) -> None:
-    rests = System(c, v**2 / 2, forces=(force,)).equilibria(values={}, box={x: (-4, 4)})
-    assert sorted(float(rest.at[x]) for rest in rests) == pytest.approx(roots, abs=1e-9)
-
-
-def test_forces_that_are_linear_have_their_one_equilibrium() -> None:
-    """Krawczyk's box is then a point, narrower than the root's."""
-    c, k = coordinates("x y"), sp.Symbol("k", positive=True)
-    (x, y), (u, v) = c.q, c.v
-    L = (u**2 + v**2) / 2 - k * (x**2 + y**2 + (x - y) ** 2) / 2
-    (place,) = System(c, L).equilibria(values={k: 4}, box={x: (-1, 2), y: (-1, 1)})
-    assert not any(map(float, place.at.values())) and all(low < 0 < high for low, high in place.enclosure.values())
-    (place,) = System(c, L + x).equilibria(values={k: 1}, box={x: (-1, 2), y: (-1, 1)})
-    assert [float(e) for e in place.at.values()] == pytest.approx([2 / 3, 1 / 3])
-    assert System(c, L + 9 * x).equilibria(values={k: 1}, box={x: (-1, 2), y: (-1, 1)}) == ()
 
 
 @pytest.mark.parametrize("edge", [np.pi, sp.pi])
@@ -115,14 +78,13 @@ def test_an_equilibrium_on_an_edge_that_is_rounded_is_in_the_box(edge: float | s
     assert len(pendulum.equilibria(box={x: (0, float(edge) - 1e-15)})) == 1
     spring = System(c, v**2 / 2 - (x - sp.Rational(3, 10)) ** 2 / 2)
     assert [len(spring.equilibria(box={x: (0, end)})) for end in (0.3, 0.3 - 1e-16, sp.Rational(0.3))] == [1, 0, 0]
-    with pytest.raises(InputError, match="all coordinates are unknown"):
-        spring.equilibria("x", box={x: (0, 1)})
 
 
 @pytest.mark.parametrize(
     ("force", "roots"),
     [
         (1 - x * sp.Abs(x), (1.0,)),
+        (sp.tan(x) - x - 1, (brentq(lambda s: np.tan(s) - s - 1, 0.5, 1.5),)),  # it rises from pole to pole
         (sp.Rational(1, 2) - x - 50 * sp.Max(x - 1, 0) ** 2 + sp.Max(-x, 0), (0.5,)),  # stops on both sides
         (sp.Min(sp.sin(x), sp.cos(x)), (0.0, np.pi / 2)),
         (sp.Piecewise((1, x < 0), (2, True)), ()),  # a jump that does not pass zero
@@ -145,22 +107,6 @@ def test_a_jump_through_zero_proves_nothing(force: sp.Expr, roots: list[float]) 
     with pytest.warns(LagrotorWarning, match="nothing is decided where (x|x - 1) = 0"):
         rests = System(c, v**2 / 2, forces=(force,)).equilibria(box={x: (-0.5, 1.4)})
     assert [float(e.at[x]) for e in rests] == roots
-
-
-def test_a_coordinate_on_which_no_force_depends_is_named() -> None:
-    two = coordinates("x y")
-    sliding = System(two, (two.v[0] ** 2 + two.v[1] ** 2) / 2 - two.q[0] ** 2)
-    with pytest.raises(SingularError, match="no force depends on y"):
-        sliding.equilibria(box={two.q[0]: (-1, 1), two.q[1]: (-1, 1)})
-
-
-def test_equilibria_under_one_constraint_lie_between_rationals() -> None:
-    """A pendulum in x and y."""
-    pendulum = System(d, (u**2 + w**2) / 2 - g * b, constraints=(a**2 + b**2 - R**2,))
-    box = {a: (-2, 2), b: (-2, 2)}
-    places = pendulum.equilibria(values={g: 9.81, R: 1.5}, box=box)
-    assert [(float(e.at[a]), float(e.at[b])) for e in places] == [(0, -1.5), (0, 1.5)]
-    assert all(low <= 0 <= high for low, high in (e.enclosure[a] for e in places))
 
 
 @pytest.mark.parametrize(
@@ -206,45 +152,10 @@ KINKS = {
 
 @pytest.mark.parametrize("kind", KINKS)
 def test_a_kink_is_named_and_hides_no_equilibrium(kind: str) -> None:
-    """The spring of length l hangs at −l − m g/k and balances at l − m g/k; twin: a degenerate rest is still refused."""
+    """The spring of length l hangs at −l − m g/k and balances at l − m g/k."""
     potential, place, expected = KINKS[kind]
     with pytest.warns(LagrotorWarning, match=f"nothing is decided where {place}"):
         places = System(d, (u**2 + w**2) / 2 + potential).equilibria(values={}, box={a: (-3, 3), b: (-3, 3)})
     assert np.array([(e.at[a], e.at[b]) for e in places], float).reshape(-1, 2) == pytest.approx(
         np.array(expected, float).reshape(-1, 2), abs=1e-12
     )
-    with pytest.raises(SingularError, match="undecided"):
-        System(d, (u**2 + w**2) / 2 - a**4 - (b - 2) ** 2 - sp.Abs(b)).equilibria(
-            values={}, box={a: (-3, 3), b: (-3, 3)}
-        )
-
-
-def test_a_cusp_of_a_constraint_is_left_undecided() -> None:
-    cusp = System(d, (u**2 + w**2) / 2 - b, constraints=(a**2 - b**3,))
-    with pytest.raises(SingularError, match=r"the first about a = .*, or a constraint whose derivative is zero"):
-        cusp.equilibria(values={}, box={a: (-1, 1), b: (-1, 1)})
-
-
-def test_a_box_is_refused_where_bodies_roll_or_constraints_are_many() -> None:
-    kinetic = (u**2 + w**2) / 2
-    with pytest.raises(InputError, match="one constraint at most: solve the others for coordinates by in_coordinates"):
-        System(d, kinetic, constraints=(a**2 + b**2 - 1, a - b)).equilibria(values={}, box={a: (0, 1), b: (0, 1)})
-    with pytest.raises(InputError, match="a force at rest has the reaction of a constraint"):
-        System(d, kinetic, constraints=(a**2 + b**2 - 1,), forces=(reaction(1), 0)).equilibria(
-            values={}, box={a: (0, 1), b: (0, 1)}
-        )
-    with pytest.raises(InputError, match="where a body rolls"):
-        System(d, kinetic, rolling=(u - 2 * w,)).equilibria(values={}, box={a: (0, 1), b: (0, 1)})
-
-
-def test_an_equilibrium_between_two_stretched_springs_is_kept_beside_their_kinks() -> None:
-    """Newton's method from 3,000 places comes to one; at each end a force has no direction, and about it nothing is decided."""
-    c = coordinates("x y")
-    (x, y), R = c.q, sp.Rational
-    springs = (
-        10 * (sp.sqrt((x - 1) ** 2 + y**2) - R(4, 5)) ** 2 + R(15, 2) * (sp.sqrt((x + 1) ** 2 + y**2) - R(7, 10)) ** 2
-    )
-    system = System(c, (c.v[0] ** 2 + c.v[1] ** 2) / 2 - y - springs)
-    with pytest.warns(LagrotorWarning, match="nothing is decided where"):
-        (only,) = system.equilibria(values={}, box={x: (-3, 3), y: (-3, 3)})
-    assert [float(only.at[q]) for q in c.q] == pytest.approx([-0.013397, -0.114423], abs=1e-6)

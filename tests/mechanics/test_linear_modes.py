@@ -1,7 +1,5 @@
 """Linear modes, equilibria and conditions of stability of textbook systems."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import sympy as sp
@@ -9,51 +7,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor.algebra import decide_equal
-from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics import Frame, LinearSystem, System, coordinates, t
-from tests.systems import I1, I3, Omega, R, g, heavy_top, hoop, k, l, m, pendulum
+from lagrotor.mechanics import Frame, LinearSystem, System, coordinates
+from tests.systems import I1, I3, Omega, R, g, heavy_top, hoop, k, l, m, pendulum, rod_pendulum
 
 
-def test_linear_modes_of_a_double_pendulum() -> None:
-    # Equal masses and lengths, g = l = 1: w² = 2 ± sqrt 2.
-    c = coordinates("p q")
-    (p, q), (pv, qv) = c.q, c.v
-    lagrangian = pv**2 + qv**2 / 2 + pv * qv * sp.cos(p - q) + 2 * sp.cos(p) + sp.cos(q)
-    s = sp.Symbol("s")
-    polynomial = System(c, lagrangian).linearise({p: 0, q: 0}).characteristic(s)
-    assert sp.expand(polynomial - (s**4 + 4 * s**2 + 2)) == 0
-
-
-def test_linear_modes_in_redundant_coordinates() -> None:
-    """A mass on a horizontal circle held by a spring along y: x'' = 0 is bound by the constraint, w² = stiffness."""
-    c = coordinates("x y")
-    (x, y), (xv, yv) = c.q, c.v
-    k = sp.Symbol("k", positive=True)
-    system = System(c, (xv**2 + yv**2) / 2 - k * y**2 / 2, (x**2 + y**2 - 1,))
-    s = sp.Symbol("s")
-    linear = system.linearise({x: 1, y: 0})
-    assert linear.basis.shape == (2, 1)
-    assert sp.expand(linear.characteristic(s) / linear.mass[0] - (s**2 + k)) == 0
-    twice = replace(system, constraints=(*system.constraints, 3 * system.constraints[0]))
-    with pytest.raises(SingularError, match="the constraints are dependent at"):
-        twice.linearise({x: 1, y: 0})
-    with pytest.raises(InputError, match="off the constraints: 3 is left of one"):
-        system.linearise({x: 2, y: 0})
-
-
-def test_a_place_that_is_no_equilibrium_is_refused() -> None:
-    c = coordinates("p")
-    with pytest.raises(SingularError, match="no equilibrium"):
-        System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0])).linearise({c.q[0]: 1})
-
-
-def test_a_pendulum_hangs_stably_and_stands_unstably() -> None:
-    found = pendulum().equilibria()
-    (theta,) = pendulum().c.q
-    assert [dict(e.at) for e in found] == [{theta: 0}, {theta: sp.pi}]
-    hanging, standing = (pendulum().linearise(e) for e in found)
-    assert hanging.stable_if == sp.true and standing.stable_if == sp.false
-    assert {mode.rate**2 for mode in hanging.modes()} == {-g / l}
+def test_a_rod_holds_its_pendulum_by_a_multiplier() -> None:
+    """x² + y² = l²: hanging, the linear stiffness comes from the rod's force alone; w² = g/l, as of the angle."""
+    system = rod_pendulum()
+    (x, y), (theta,) = system.c.q, pendulum().c.q
+    assert {e.at[y] for e in system.equilibria()} == {l, -l}
+    assert [dict(e.at) for e in pendulum().equilibria()] == [{theta: 0}, {theta: sp.pi}]
+    hanging, standing = (system.linearise({x: 0, y: end}) for end in (-l, l))
+    assert hanging.basis.shape == (2, 1) and standing.stable_if == sp.false and hanging.stable_if == sp.true
+    for mode in (*hanging.modes(), *pendulum().linearise({theta: 0}).modes()):
+        assert decide_equal(mode.rate**2, -g / l).answer == "zero"
 
 
 def test_a_bead_leaves_the_lowest_point_when_the_hoop_turns_faster_than_g_over_R() -> None:
@@ -79,17 +46,12 @@ def test_a_top_sleeps_when_its_momentum_squared_exceeds_4_I1_m_g_l() -> None:
     across = a_v**2 * sp.cos(b) ** 2 + b_v**2
     regular = System(c, (I1 * across + I3 * (psi_v + a_v * sp.sin(b)) ** 2) / 2 - m * g * l * sp.cos(a) * sp.cos(b))
     assert regular.routh({"psi": p}).linearise({a: 0, b: 0}).stable_if == sp.Gt(p**2 - 4 * I1 * m * g * l, 0)
-    # Equal momenta are needed: with others the upright place is singular.
-    with pytest.raises(SingularError, match="singular at"):
-        heavy_top().routh("phi psi").linearise({heavy_top().c.q[0]: 0})
 
 
 def test_steady_precession_is_solved_for_the_momentum_where_the_angle_is_a_quartic() -> None:
     reduced = heavy_top().routh("phi psi")
-    with pytest.raises(InputError, match="name another unknown"):
-        reduced.equilibria("theta")
     found = reduced.equilibria("p_phi")
-    assert reduced.equilibria() == found and len(found) == 2
+    assert len(found) == 2
     # Against the quadratic of the precession rate, I1 cos(theta) n² − p_psi n + m g l = 0 with p_phi = I1 n sin² + p_psi cos.
     values = {I1: 0.7, m: 1.1, g: 9.81, l: 0.4, sp.Symbol("p_psi", real=True): 5.0, heavy_top().c.q[0]: 0.6}
     rates = np.roots([0.7 * np.cos(0.6), -5.0, 1.1 * 9.81 * 0.4])
@@ -98,40 +60,11 @@ def test_steady_precession_is_solved_for_the_momentum_where_the_angle_is_a_quart
     assert solved == pytest.approx(expected, rel=1e-12)
 
 
-def test_a_rod_holds_its_pendulum_by_a_multiplier() -> None:
-    """x² + y² = l²: hanging, the linear stiffness comes from the rod's force alone; w² = g/l."""
-    c = coordinates("x y")
-    (x, y), (x_v, y_v) = c.q, c.v
-    rod = System(c, m * (x_v**2 + y_v**2) / 2 - m * g * y, (x**2 + y**2 - l**2,))
-    assert [dict(e.at) for e in rod.equilibria()] == [{x: 0, y: -l}, {x: 0, y: l}] or len(rod.equilibria()) == 2
-    hanging = rod.linearise({x: 0, y: -l})
-    assert decide_equal(hanging.stiffness[0] / hanging.mass[0], g / l).answer == "zero"
-    assert rod.linearise({x: 0, y: l}).stable_if == sp.false
-
-
-def test_a_singular_mass_matrix_is_no_small_motion() -> None:
-    """Swinging Atwood's machine at r = 0, where the angle moves no mass."""
-    c = coordinates("r theta")
-    (r, theta), (r_v, theta_v) = c.q, c.v
-    M = sp.Symbol("M", positive=True)
-    L = m * (r_v**2 + r**2 * theta_v**2) / 2 + M * r_v**2 / 2 - M * g * r + m * g * r * sp.cos(theta)
-    system = System(c, L)
-    with pytest.raises(SingularError, match="mass matrix is singular"):
-        system.linearise(system.equilibria()[0])
-
-
 def test_what_no_force_depends_on_stays_free_in_an_equilibrium() -> None:
     """At x = 0 the angle is any; elsewhere cos φ would have to be −2."""
     c = coordinates("x phi")
     (x, phi), (x_v, phi_v) = c.q, c.v
     assert [e.at for e in System(c, x_v**2 + phi_v**2 - x**2 * (2 + sp.cos(phi))).equilibria()] == [{x: 0, phi: phi}]
-
-
-def test_roots_of_the_unknowns_are_refused_at_once() -> None:
-    c = coordinates("x y")
-    distance = sp.sqrt(c.q[0] ** 2 + c.q[1] ** 2)
-    with pytest.raises(InputError, match="linearise a point of your own"):
-        System(c, c.v[0] ** 2 + c.v[1] ** 2 + 1 / distance - distance).equilibria()
 
 
 def test_friction_makes_the_condition_of_routh_and_hurwitz() -> None:
@@ -146,44 +79,23 @@ def test_friction_makes_the_condition_of_routh_and_hurwitz() -> None:
 def test_a_steady_turn_is_linearised_with_its_velocity() -> None:
     """A spherical pendulum that turns at the rate Omega: the frequency of its nutation, Omega² (1 + 3 cos² theta)."""
     c = coordinates("theta phi")
-    (theta, phi), (theta_v, phi_v) = c.q, c.v
+    (theta, _), (theta_v, phi_v) = c.q, c.v
     L = m * l**2 * (theta_v**2 + sp.sin(theta) ** 2 * phi_v**2) / 2 + m * g * l * sp.cos(theta)
     tilt = sp.Symbol("theta_0", real=True)
     steady = System(c, L.subs(g, l * Omega**2 * sp.cos(tilt))).linearise({theta: tilt, phi_v: Omega})
     s = sp.Symbol("s")
     squared = steady.characteristic(s) / (steady.mass.det() * s**2) - s**2
     assert decide_equal(squared, Omega**2 * (1 + 3 * sp.cos(tilt) ** 2)).answer == "zero"
-    with pytest.raises(SingularError, match="no equilibrium"):
-        System(c, L).linearise({theta: tilt, phi_v: Omega})
-    with pytest.raises(InputError, match="phi moves there and enters"):
-        System(c, L + sp.cos(phi)).linearise({theta: 0, phi: 0, phi_v: Omega})
-
-
-def test_points_are_complete_and_time_has_no_equilibrium() -> None:
-    with pytest.raises(InputError, match="theta without a value"):
-        pendulum().linearise({})
-    c = coordinates("x")
-    shaken = System(c, c.v[0] ** 2 / 2 - t * c.q[0] ** 2)
-    with pytest.raises(InputError, match="simulate it"):
-        shaken.equilibria()
-    with pytest.raises(InputError, match="simulate it"):
-        shaken.linearise({c.q[0]: 0})
-    with pytest.raises(InputError, match="nothing not in the system"):
-        pendulum().equilibria("nothing")
 
 
 def test_modes_are_numbers_where_no_closed_form_is() -> None:
     c = coordinates("x y z")
     springs = sum((k + i) * (a - b) ** 2 for i, (a, b) in enumerate(zip(c.q, (*c.q[1:], 0), strict=True)))
-    linear = System(c, sum(v**2 for v in c.v) / 2 - springs / 2).linearise(dict.fromkeys(c.q, 0))
-    with pytest.raises(InputError, match="give values"):
-        linear.modes()
-    found = linear.modes({k: 2.0})
+    system = System(c, sum(v**2 for v in c.v) / 2 - springs / 2)
+    linear = system.linearise(dict.fromkeys(c.q, 0))
+    rates = system.linearise(dict.fromkeys(c.q, 0), {k: 2.0}).rates
     stiffness = np.array(linear.stiffness.subs(k, 2.0).tolist(), float)
-    expected = np.sqrt(np.linalg.eigvalsh(stiffness)).repeat(2)
-    assert [abs(complex(mode.rate)) for mode in found] == pytest.approx(expected.tolist(), rel=1e-12)
-    with pytest.raises(InputError, match="k without a value"):
-        linear.modes({})
+    assert sorted(abs(rates)) == pytest.approx(np.sqrt(np.linalg.eigvalsh(stiffness)).repeat(2), rel=1e-12)
 
 
 @settings(max_examples=25, deadline=None)
@@ -222,17 +134,6 @@ def test_where_the_coordinates_are_singular_an_equilibrium_says_so() -> None:
     bob = Frame(c).turned("xy", c.q).body(m, centre=(0, 0, -l))
     found = System(c, bob.kinetic - bob.potential((0, 0, -g))).equilibria()
     assert {(e.regular, abs(e.at[c.q[0]])) for e in found} == {(True, 0), (True, sp.pi), (False, sp.pi / 2)}
-
-
-def test_what_cannot_be_solved_is_tried_at_right_angles() -> None:
-    """Forces that factors of degree two do not solve. A sine of a is zero at eight points; both cosines are at four more."""
-    c = coordinates("a b")
-    (a, b), (a_v, b_v) = c.q, c.v
-    V = sp.sin(a) ** 3 * sp.sin(b) + 2 * sp.cos(a) * sp.cos(b) ** 3
-    system = System(c, a_v**2 + b_v**2 - V)
-    with pytest.raises(InputError, match=r"12 are at multiples of a right angle, the first at \{a: 0, b: 0\}"):
-        system.equilibria()
-    assert system.linearise({a: 0, b: 0}).modes()
 
 
 def test_rates_of_independent_modes_may_be_equal_and_those_of_dependent_ones_not() -> None:

@@ -1,9 +1,6 @@
 """The articulated-body recursion as stages of a program: operations linear in the bodies, nothing multiplied out.
 
 From the ground outward, each joint of a tree has at one state its axes, turn, velocity, acceleration without q'', and energy.
-A link that turns is seen in axes that do not turn with it where that is shorter: where it is symmetric about the axis of its
-turn and carries nothing, and where all that it carries turns about the same axis, so that angles add. Bodies and shifts
-are then turned in place of velocities, forces and inertias.
 
 Each link has in its own axes the angular velocity ω and the accelerations (α, a) that it would have with all q'' = 0,
 and from them the torque and force (N, F) about its joint that its bodies then need; a uniform field g is an acceleration −g
@@ -19,14 +16,14 @@ column, for the constraints.
 Featherstone, Rigid Body Dynamics Algorithms (2008), ch. 7; Luh, Walker & Paul (1980) for the accelerations.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics.bodies.small_matrices import Small, Stages, wedge, zeros
-from lagrotor.mechanics.bodies.trees import ZERO, Mass, Pair, Tree, TreeLink
+from lagrotor.mechanics.bodies.small_matrices import Small, Stages, blocks, wedge, zeros
+from lagrotor.mechanics.bodies.trees import ZERO, Pair, Tree, TreeLink
 
 _EYE = sp.eye(3)
 _STILL = zeros(3, 3)
@@ -60,51 +57,20 @@ class Turn:
         rows[i], rows[j] = keep.each(turned).rows
         return Small(rows)
 
-    def of_symmetric(self, A: Small, keep: Stages) -> Small:
-        """R A Rᵀ; where A is round about the axis, nothing is done.
-
-        With e = a − d and w = c e − 2 s b the block [[a, b], [b, d]] becomes [[d + c w, b + s w], [b + s w, a − c w]].
-        """
-        if self.axis is None or self.s == 0:
-            return A
-        c, s, k = self.c, self.s, self.axis
-        i, j = (k + 1) % 3, (k + 2) % 3
-        rows = [[*row] for row in A.rows]
-        a, b, d = rows[i][i], rows[i][j], rows[j][j]
-        w = keep(c * keep(a - d) - keep(2 * s) * b)
-        if w != 0:
-            rows[i][i], rows[j][j], rows[i][j] = d + c * w, a - c * w, b + s * w
-        f, h = rows[i][k], rows[j][k]
-        rows[i][k], rows[j][k] = c * f - s * h, s * f + c * h
-        rows[j][i], rows[k][i], rows[k][j] = rows[i][j], rows[i][k], rows[j][k]
-        return keep.symmetric(Small(rows))
-
-
-@dataclass(frozen=True)
-class JointMass:
-    """A body in the axes of its joint: mass, centre (3, 1), inertia about that centre and about the joint, (3, 3)."""
-
-    mass: sp.Expr
-    centre: Small
-    inertia: Small
-    about_joint: Small
-
 
 @dataclass(frozen=True)
 class Joint:
     """A link at one state.
 
-    shift, rotation, turn: from the parent's axes. own: what is left from its axes to those of the link. spin: ω.
-    lift: (α, a) with all q'' = 0. bend: K = [α]× + [ω]×², so that the point r has the acceleration a + K r.
+    shift, rotation, turn: from the parent's axes. spin: ω. lift: (α, a) with all q'' = 0. bend: K = [α]× + [ω]×², so that the
+    point r has the acceleration a + K r.
     """
 
     link: TreeLink
     shift: Small
     rotation: Small | None
     turn: Turn
-    own: Turn
-    masses: tuple[JointMass, ...]
-    columns: tuple[Pair, ...]
+    columns: tuple[Small, ...]
     rate: Pair
     spin: Small = ZERO
     lift: Pair = (ZERO, ZERO)
@@ -121,48 +87,32 @@ class Joint:
         e = self.turn.of(e, keep)
         return e if self.rotation is None else keep.each(self.rotation * e)
 
-    def outward_symmetric(self, A: Small, keep: Stages) -> Small:
-        """The same of a symmetric matrix."""
-        A = self.turn.of_symmetric(A, keep)
-        return A if self.rotation is None else keep.symmetric(keep.each(self.rotation * A) * self.rotation.T)
+    def both(self, change: Callable[[Small, Stages], Small], e: Small, keep: Stages) -> Small:
+        """The change of axes, inward or outward, of the angular and of the linear rows of e, (6, m)."""
+        return blocks([[change(Small(e.rows[:3]), keep)], [change(Small(e.rows[3:]), keep)]])
+
+    @property
+    def lever(self) -> Small:
+        """[[1, [d]×], [0, 1]] of the shift d: it takes (N, F) from the link's origin to that of the parent."""
+        one = Small.of(_EYE)
+        return blocks([[one, wedge(self.shift)], [zeros(3, 3), one]])
 
 
 def joints(tree: Tree, keep: Stages) -> list[Joint]:
     """From the ground outward, link by link: ω, and (α, a)."""
     chain: list[Joint] = []
-    for number, link in enumerate(tree.links):
+    for link in tree.links:
         before = chain[link.parent] if link.parent >= 0 else None
-        carried = [other for other in tree.links if other.parent == number]
-        chain.append(_with_motion(_joint(link, carried, before, keep), before, -Small.of(tree.field), keep))
+        joint = Joint(
+            link,
+            keep.each(Small.of(link.shift)),
+            None if link.rotation == _EYE else keep.each(Small.of(link.rotation)),
+            Turn.by(link.axis, link.angle, keep) if link.axis is not None else Turn(),
+            tuple(keep.each(blocks([[w], [v]])) for w, v in link.columns),
+            (keep.each(link.rate[0]), keep.each(link.rate[1])),
+        )
+        chain.append(_with_motion(joint, before, -Small.of(tree.field), keep))
     return chain
-
-
-def _joint(link: TreeLink, carried: Sequence[TreeLink], before: Joint | None, keep: Stages) -> Joint:
-    """The joint without its motion."""
-    turn, own = Turn(), Turn()
-    if link.axis is not None and not (link.is_round and not carried):
-        angle = keep(link.angle + before.own.angle) if before else link.angle
-        turn = Turn.by(link.axis, angle, keep)
-        if all(other.axis == link.axis and other.rotation == _EYE for other in carried):
-            turn, own = own, turn
-    shift = keep.each(Small.of(link.shift))
-    return Joint(
-        link,
-        before.own.of(shift, keep) if before else shift,
-        None if link.rotation == _EYE else keep.each(Small.of(link.rotation)),
-        turn,
-        own,
-        tuple(_joint_mass(mass, own, keep) for mass in link.masses),
-        tuple((keep.each(w), keep.each(v)) for w, v in link.columns),
-        (keep.each(link.rate[0]), keep.each(link.rate[1])),
-    )
-
-
-def _joint_mass(mass: Mass, own: Turn, keep: Stages) -> JointMass:
-    centre, inertia = keep.each(Small.of(mass.centre)), Small.of(mass.inertia)
-    c = wedge(centre)
-    about = keep.symmetric(inertia - c * c * mass.mass)
-    return JointMass(mass.mass, own.of(centre, keep), own.of_symmetric(inertia, keep), own.of_symmetric(about, keep))
 
 
 def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages) -> Joint:
@@ -177,74 +127,43 @@ def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages
     b = keep.each(b + w.cross(u) + keep.each(joint.link.swing[0]))
     a = keep.each(a + w.cross(d) * 2 + keep.each(joint.link.swing[1]))
     w = keep.each(w + u)
-    return replace(joint, spin=w, lift=(b, a), bend=keep.each(wedge(b) + _centripetal(w, keep)))
-
-
-def _centripetal(w: Small, keep: Stages) -> Small:
-    """[ω]×² = ω ωᵀ − ω² 1."""
-    products = keep.symmetric(w * w.T)
-    rows = [[*row] for row in products.rows]
-    for i in range(3):
-        rows[i][i] = -products[i - 1, i - 1] - products[i - 2, i - 2]
-    return Small(rows)
+    return replace(joint, spin=w, lift=(b, a), bend=keep.each(wedge(b) + keep.symmetric(wedge(w) * wedge(w))))
 
 
 def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol], keep: Stages) -> sp.Expr:
     """v·∂L/∂v − L, in stages, with the velocities (ω, v) of the links.
 
-    Where time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the Jacobi integral is T₂ − T₀ + V. With v* the
-    velocity that time alone gives, T₂ − T₀ is ½ m (v − 2 v*)·v, and likewise for the turning. Goldstein §2.7.
+    Where time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the Jacobi integral is T₂ − T₀ + V. With the
+    velocities V = (ω, v) and V* that time alone gives, T₂ − T₀ is ½ V·I V − V·I V*. Goldstein §2.7.
     """
-    total, fields, depths = -tree.rest.subs(dict.fromkeys(speeds, 0)), list[Small](), list[sp.Expr]()
-    moving = _velocities(chain, [joint.rate for joint in chain], keep)
-    by_time = [(_at_rest(u, speeds), _at_rest(d, speeds)) for u, d in (joint.link.rate for joint in chain)]
-    driven = _velocities(chain, by_time, keep)
-    for joint, (w, v), (w_t, v_t) in zip(chain, moving, driven, strict=True):
-        parent = joint.link.parent
+    still = dict.fromkeys(speeds, 0)
+    total, motions, fields, depths = -tree.rest.subs(still), list[Small](), list[Small](), list[sp.Expr]()
+    for joint in chain:
+        parent, (u, d) = joint.link.parent, joint.link.rate
+        before = motions[parent] if parent >= 0 else zeros(6, 2)
+        rate = blocks([[u, u.each(lambda e: e.subs(still))], [d, d.each(lambda e: e.subs(still))]])
+        V = keep.each(joint.both(joint.inward, keep.each(joint.lever.T * before), keep) + rate)
+        motions.append(V)
+        products = V.T * keep.each(_rigid(joint, keep) * V)
+        total += keep(products[0, 0] / 2 - products[0, 1])
         field, depth = (fields[parent], depths[parent]) if parent >= 0 else (Small.of(tree.field), sp.S.Zero)
         fields.append(joint.inward(field, keep))
         depths.append(keep(depth + field.dot(joint.shift)))
-        for mass in joint.masses:
-            centre, I = mass.centre, mass.inertia
-            at, at_t = keep.each(v + w.cross(centre)), keep.each(v_t + w_t.cross(centre))
-            total += keep(mass.mass * at.dot(at - at_t * 2) / 2 + w.dot(I * (w - w_t * 2)) / 2)
-            total -= keep(mass.mass * (depths[-1] + fields[-1].dot(centre)))
+        for mass in joint.link.masses:
+            total -= keep(mass.mass * (depths[-1] + fields[-1].dot(mass.centre)))
     return total
-
-
-def _at_rest(rate: Small, speeds: Sequence[sp.Symbol]) -> Small:
-    return rate.each(lambda e: e.subs(dict.fromkeys(speeds, 0)))
-
-
-def _velocities(chain: Sequence[Joint], rates: Sequence[Pair], keep: Stages) -> list[Pair]:
-    """(ω, v) of each link, in its axes: its parent's, and its own relative to it."""
-    velocities: list[Pair] = []
-    for joint, (u, d) in zip(chain, rates, strict=True):
-        w, v = velocities[joint.link.parent] if joint.link.parent >= 0 else (ZERO, ZERO)
-        v = joint.inward(keep.each(v + w.cross(joint.shift)), keep)
-        velocities.append((keep.each(joint.inward(w, keep) + u), keep.each(v + d)))
-    return velocities
 
 
 Column = list[sp.Expr]
 
 
 @dataclass(frozen=True)
-class Inertia:
-    """J (3, 3) symmetric, H (3, 3), M (3, 3) symmetric."""
-
-    J: Small
-    H: Small
-    M: Small
-
-
-@dataclass(frozen=True)
 class Factor:
-    """What a coordinate leaves: its number and column s, E = U/D, and x = (τ − s·(N, F))/D for each column of torques."""
+    """What a coordinate leaves: its number and column s, E = U/D, (6, 1), and x = (τ − s·(N, F))/D for each column of torques."""
 
     number: int
-    s: Pair
-    E: Pair
+    s: Small
+    E: Small
     x: Column
 
 
@@ -256,40 +175,41 @@ def tree_accelerations(
     Raises SingularError where a coordinate moves no mass.
     """
     inertias = [_rigid(joint, keep) for joint in chain]
-    forces = [[_bias_force(joint, keep), *[(ZERO, ZERO)] * (len(torques) - 1)] for joint in chain]
+    forces = [[_bias_force(joint, keep), *[zeros(6, 1)] * (len(torques) - 1)] for joint in chain]
     factors: list[list[Factor]] = []
     for i in reversed(range(len(chain))):
         joint, I, parent = chain[i], inertias[i], chain[i].link.parent
         factors.append([])
         for number, s in zip(joint.link.coordinates, joint.columns, strict=True):
-            U = keep.each(I.J * s[0] + I.H * s[1]), keep.each(I.H.T * s[0] + I.M * s[1])
-            D = keep(s[0].dot(U[0]) + s[1].dot(U[1]))
+            U = keep.each(I * s)
+            D = keep(s.dot(U))
             if D == 0:
                 raise SingularError(
                     f"System: the mass matrix is singular: {speeds[number]} moves no mass; use fewer coordinates, or give the "
                     "bodies that it turns an inertia"
                 )
-            inverse = keep(1 / D)
-            E = _share(U, inverse, s, keep)
-            left = [
-                keep(tau[number] - s[0].dot(N) - s[1].dot(F)) for tau, (N, F) in zip(torques, forces[i], strict=True)
-            ]
-            factors[-1].append(Factor(number, s, E, [keep(u * inverse) for u in left]))
+            inverse, axes = keep(1 / D), [k for k in range(6) if s[k] != 0]
+            E = keep.each(U * inverse)
+            x = [keep(keep(tau[number] - s.dot(f)) * inverse) for tau, f in zip(torques, forces[i], strict=True)]
+            if len(axes) == 1:  # s·E = 1: no division is left
+                E.rows[axes[0]][0] = 1 / s[axes[0]]
+            factors[-1].append(Factor(number, s, E, x))
             if parent < 0 and s is joint.columns[-1]:
                 break
-            I = _inertia_left(I, U, E, s, keep)
-            forces[i] = [
-                _net_force(needed, U, x, tau[number], s, keep)
-                for needed, x, tau in zip(forces[i], factors[-1][-1].x, torques, strict=True)
-            ]
+            I = I - U * E.T
+            forces[i] = [keep.each(f + U * e) for f, e in zip(forces[i], x, strict=True)]
+            if len(axes) == 1:  # along s no inertia is left, and the force is τ
+                for k in range(6):
+                    I.rows[axes[0]][k] = I.rows[k][axes[0]] = sp.S.Zero
+                for f, tau in zip(forces[i], torques, strict=True):
+                    f.rows[axes[0]][0] = keep(tau[number] / s[axes[0]])
+            I = keep.symmetric(I)
         if parent >= 0:
-            mine, own = inertias[parent], _in_parent(joint, I, keep)
-            inertias[parent] = Inertia(
-                keep.symmetric(mine.J + own.J), keep.each(mine.H + own.H), keep.symmetric(mine.M + own.M)
-            )
-            for j, (N, F) in enumerate(forces[i]):
-                N, F, (to_N, to_F) = joint.outward(N, keep), joint.outward(F, keep), forces[parent][j]
-                forces[parent][j] = keep.each(to_N + N + joint.shift.cross(F)), keep.each(to_F + F)
+            outer = joint.both(joint.outward, joint.both(joint.outward, I, keep).T, keep)
+            moved = keep.each(joint.lever * keep.symmetric(outer)) * joint.lever.T
+            inertias[parent] = keep.symmetric(inertias[parent] + keep.symmetric(moved))
+            for j, f in enumerate(forces[i]):
+                forces[parent][j] = keep.each(forces[parent][j] + joint.lever * joint.both(joint.outward, f, keep))
     factors.reverse()
     return [_outcome(chain, factors, j, keep) for j in range(len(torques))]
 
@@ -297,91 +217,32 @@ def tree_accelerations(
 def _outcome(chain: Sequence[Joint], factors: Sequence[Sequence[Factor]], j: int, keep: Stages) -> Column:
     """Outward again: the accelerations of column j, in the order of the coordinates."""
     solved: dict[int, sp.Expr] = {}
-    places: list[Pair] = []
+    places: list[Small] = []
     for joint, eliminated in zip(chain, factors, strict=True):
-        b, a = places[joint.link.parent] if joint.link.parent >= 0 else (ZERO, ZERO)
-        a = joint.inward(keep.each(a + b.cross(joint.shift)), keep)
-        b = joint.inward(b, keep)
+        a = places[joint.link.parent] if joint.link.parent >= 0 else zeros(6, 1)
+        a = joint.both(joint.inward, keep.each(joint.lever.T * a), keep)
         for f in reversed(eliminated):
-            x = solved[f.number] = keep(f.x[j] - f.E[0].dot(b) - f.E[1].dot(a))
-            b, a = keep.each(b + f.s[0] * x), keep.each(a + f.s[1] * x)
-        places.append((b, a))
+            x = solved[f.number] = keep(f.x[j] - f.E.dot(a))
+            a = keep.each(a + f.s * x)
+        places.append(a)
     return [solved[number] for number in range(len(solved))]
 
 
-def _rigid(joint: Joint, keep: Stages) -> Inertia:
-    """The inertia of the bodies on a link, about its joint."""
+def _rigid(joint: Joint, keep: Stages) -> Small:
+    """The inertia of the bodies on a link about its joint, (6, 6)."""
     J, H, m = zeros(3, 3), zeros(3, 3), sp.S.Zero
-    for mass in joint.masses:
-        J, H, m = J + mass.about_joint, H + wedge(mass.centre) * mass.mass, m + mass.mass
-    m = keep(m)
-    return Inertia(
-        keep.symmetric(J), keep.each(H), Small([[m if i == j else sp.S.Zero for j in range(3)] for i in range(3)])
-    )
+    for mass in joint.link.masses:
+        c = wedge(mass.centre)
+        J, H, m = J + mass.inertia - c * c * mass.mass, H + c * mass.mass, m + mass.mass
+    return keep.symmetric(blocks([[J, H], [H.T, Small.of(_EYE) * m]]))
 
 
-def _bias_force(joint: Joint, keep: Stages) -> Pair:
+def _bias_force(joint: Joint, keep: Stages) -> Small:
     """(N, F) about the joint, Σ m (a + K c) and its moment, with I α + ω × I ω, for the motion without q''."""
     b, a = joint.lift
     N, F = ZERO, ZERO
-    for mass in joint.masses:
+    for mass in joint.link.masses:
         force = keep.each(keep.each(a + joint.bend * mass.centre) * mass.mass)
-        N = keep.each(N + mass.inertia * b + _gyroscopic(mass.inertia, joint.spin, keep) + mass.centre.cross(force))
-        F = keep.each(F + force)
-    return N, F
-
-
-def _gyroscopic(I: Small, w: Small, keep: Stages) -> Small:
-    """ω × I ω; in the principal axes, (I_k − I_j) ω_j ω_k in turn."""
-    if any(I[i, j] != 0 for i in range(3) for j in range(i)):
-        return w.cross(keep.each(I * w))
-    products = keep.symmetric(w * w.T)
-    return Small.column(*(keep(I[k, k] - I[j, j]) * products[j, k] for j, k in ((1, 2), (2, 0), (0, 1))))
-
-
-def _only_axis(s: Pair) -> tuple[int, int] | None:
-    """Whether a column turns (0) or shifts (1), and about which axis, where it is one alone."""
-    axes = [(part, k) for part in (0, 1) for k in range(3) if s[part][k] != 0]
-    return axes[0] if len(axes) == 1 else None
-
-
-def _share(U: Pair, inverse: sp.Expr, s: Pair, keep: Stages) -> Pair:
-    """E = U/D, with s·E = 1: along s, where that is one axis, no division is left."""
-    E = keep.each(U[0] * inverse), keep.each(U[1] * inverse)
-    if along := _only_axis(s):
-        part, k = along
-        E[part].rows[k][0] = 1 / s[part][k]
-    return E
-
-
-def _net_force(needed: Pair, U: Pair, x: sp.Expr, tau: sp.Expr, s: Pair, keep: Stages) -> Pair:
-    """(N, F) + U x, with s·((N, F) + U x) = τ."""
-    wrench = keep.each(needed[0] + U[0] * x), keep.each(needed[1] + U[1] * x)
-    if along := _only_axis(s):
-        part, k = along
-        wrench[part].rows[k][0] = keep(tau / s[part][k])
-    return wrench
-
-
-def _inertia_left(I: Inertia, U: Pair, E: Pair, s: Pair, keep: Stages) -> Inertia:
-    """I − U Uᵀ/D; along s, where that is one axis, nothing is left."""
-    J, H, M = I.J - U[0] * E[0].T, I.H - U[0] * E[1].T, I.M - U[1] * E[1].T
-    if along := _only_axis(s):
-        part, k = along
-        for i in range(3):
-            if part == 0:
-                J.rows[k][i] = J.rows[i][k] = H.rows[k][i] = sp.S.Zero
-            else:
-                M.rows[k][i] = M.rows[i][k] = H.rows[i][k] = sp.S.Zero
-    return Inertia(keep.symmetric(J), keep.each(H), keep.symmetric(M))
-
-
-def _in_parent(joint: Joint, I: Inertia, keep: Stages) -> Inertia:
-    """The inertia in the parent's axes, about the parent's joint: H + [d] M, J − H [d] + [d] Hᵀ − [d] M [d]."""
-    J, M = (joint.outward_symmetric(part, keep) for part in (I.J, I.M))
-    H = joint.outward(joint.outward(I.H, keep).T, keep).T
-    if joint.shift.is_zero:
-        return Inertia(J, H, M)
-    d = wedge(joint.shift)
-    carried = keep.each(H + keep.each(d * M))
-    return Inertia(keep.symmetric(J - keep.each(H * d) + d * carried.T), carried, M)
+        turning = mass.inertia * b + joint.spin.cross(keep.each(mass.inertia * joint.spin))
+        N, F = keep.each(N + turning + mass.centre.cross(force)), keep.each(F + force)
+    return blocks([[N], [F]])

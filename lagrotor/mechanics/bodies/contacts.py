@@ -15,8 +15,7 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
-from lagrotor.mechanics.bodies.force_elements import ground_axes, ground_spin
-from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
+from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector, in_ground
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
 from lagrotor.mechanics.lagrangian import total_derivative
 
@@ -126,7 +125,7 @@ def contact(
         if not R.is_positive or (surface.hollow and (R - r).is_nonpositive):
             least = f"larger than that of the ball inside, {r}" if surface.hollow else "positive"
             raise InputError(f"rolls_on: radius = {R} of the surface must be {least}")
-    ground, axes = surface.frame, ground_axes(surface.frame)
+    ground, (axes, drift) = surface.frame, in_ground(surface.frame)
     if frame.c != ground.c:
         raise InputError("rolls_on: the surface has other coordinates than the body: build both from one Frame(c)")
     at = frame.place(vector_of("rolls_on: centre", centre, 3))
@@ -142,13 +141,13 @@ def contact(
         own = sp.Matrix(vector_of("rolls_on: axis", axis, 3))
         if own.dot(own) == 0:
             raise InputError(f"rolls_on: axis = {axis} is no direction")
-        a = (axes.T * ground_axes(frame) * own).applyfunc(shortest) / sp.sqrt(own.dot(own))
+        a = (axes.T * in_ground(frame)[0] * own).applyfunc(shortest) / sp.sqrt(own.dot(own))
         lean = sp.sqrt(1 - n.dot(a) ** 2)
         below, gap = (n - a * n.dot(a)) * r / lean, surface.height(p) - r * lean
     point = at - axes * below
-    spin = ground_spin(frame) - ground_spin(ground)
+    spin = in_ground(frame)[1] - drift
     # Relative to the surface: of the body's centre, and of the point about it.
-    carried = ground_spin(ground).cross(at - ground.place())
+    carried = drift.cross(at - ground.place())
     centre_moves = (at - ground.place()).applyfunc(lambda e: total_derivative(e, frame.c)) - carried
     slip = axes.T * centre_moves - (axes.T * spin).cross(below)
     slips = tuple(shortest(slip.dot(e)) for e in surface.tangents(n))

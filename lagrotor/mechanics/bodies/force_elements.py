@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
-from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
+from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector, in_ground
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, t, total_derivative
 
@@ -156,21 +156,8 @@ def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None = Non
     if against is not None:
         if not isinstance(against, MovingFrame):
             raise InputError(f"torque: against = {against!r} must be a Frame")
-        w = w - ground_axes(frame).T * ground_spin(against)
+        w = w - in_ground(frame)[0].T * in_ground(against)[1]
     return (jacobian(w, frame.c.v).T * T).applyfunc(shortest)
-
-
-def ground_axes(frame: MovingFrame) -> sp.Matrix:
-    """R: components in the frame → in the ground."""
-    return sp.eye(3) if frame.parent is None else ground_axes(frame.parent) * frame.rotation
-
-
-def ground_spin(frame: MovingFrame) -> sp.Matrix:
-    """The angular velocity of the frame in the ground's axes: the sum of its turns, each about an axis of its parent."""
-    if frame.parent is None:
-        return sp.zeros(3, 1)
-    about = ground_axes(frame.parent) if frame.axis is not None else ground_axes(frame)
-    return ground_spin(frame.parent) + about * frame.own_rate
 
 
 def _points(*given: Vector) -> list[sp.Matrix]:

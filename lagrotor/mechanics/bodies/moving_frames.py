@@ -156,26 +156,26 @@ class MovingFrame:
         seen: this frame, or one that it descends from, as the frame of a wheel's axle for the point of contact.
         """
         at, other = sp.Matrix(list(point)), seen or self
-        spin, origin, drift = self._relative(other)
+        _, spin, origin, drift = self.relative(other)
         return other.origin_velocity + other.angular_velocity.cross(at) + drift + spin.cross(at - origin)
 
-    def _relative(self, seen: "MovingFrame") -> tuple[sp.Matrix, sp.Matrix, sp.Matrix]:
-        """ω, origin and its velocity relative to the frame `seen`, in the axes of that frame."""
-        chain: list[MovingFrame] = []
-        frame = self
-        while frame is not seen:
-            if frame.parent is None:
-                raise InputError("velocity: `seen` must be a frame from which this one was turned or moved")
-            chain.append(frame)
-            frame = frame.parent
+    def relative(self, seen: "MovingFrame") -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
+        """Rotation, ω, origin and its velocity relative to the frame `seen`, in the axes of that frame."""
+        steps = self.to_the_ground
+        if seen not in steps:
+            raise InputError("velocity: `seen` must be a frame from which this one was turned or moved")
         R, spin, origin, drift = sp.eye(3), sp.zeros(3, 1), sp.zeros(3, 1), sp.zeros(3, 1)
-        for step in reversed(chain):
-            d = R * step.shift
-            drift += spin.cross(d) + R * step.shift.applyfunc(lambda e: total_derivative(e, self.c))
-            origin += d
-            R = R * step.rotation
-            spin += R * step.own_rate
-        return spin, origin, drift
+        for step in reversed(steps[: steps.index(seen)]):
+            drift += spin.cross(R * step.shift) + R * step.shift.applyfunc(lambda e: total_derivative(e, self.c))
+            origin += R * step.shift
+            before, R = R, R * step.rotation
+            spin += (R if step.axis is None else before) * step.own_rate  # a turn keeps its axis
+        return R, spin, origin, drift
+
+
+def in_ground(frame: MovingFrame) -> tuple[sp.Matrix, sp.Matrix]:
+    """Rotation and ω of a frame in the axes of the ground."""
+    return frame.relative(frame.to_the_ground[-1])[:2]
 
 
 def quaternion_rows(a: Any, b: Any, c: Any, d: Any) -> tuple[tuple[Any, ...], ...]:

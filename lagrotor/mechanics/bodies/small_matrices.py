@@ -1,4 +1,4 @@
-"""Matrices of three rows at most, for the many small products of a recursion: zeros cost nothing. Stages keep their entries.
+"""Matrices of six rows at most, for the many small products of a recursion: zeros cost nothing. Stages keep their entries.
 
 sympy's own matrices do the same, and take most of the recursion's time for it.
 """
@@ -36,23 +36,10 @@ class Small:
     def __getitem__(self, key: Any) -> Any:
         return self.rows[key[0]][key[1]] if isinstance(key, tuple) else self.rows[key][0]
 
-    def col(self, j: int) -> "Small":
-        """Column j."""
-        return Small([[row[j]] for row in self.rows])
-
-    def row(self, i: int) -> "Small":
-        """Row i as a column."""
-        return Small([[e] for e in self.rows[i]])
-
     @property
     def T(self) -> "Small":
         """The transpose."""
         return Small(list(zip(*self.rows, strict=True)))
-
-    @property
-    def is_zero(self) -> bool:
-        """Whether every entry is zero in its structure."""
-        return all(e == 0 for row in self.rows for e in row)
 
     def each(self, function: Callable[[Any], Any]) -> "Small":
         """A function of every entry."""
@@ -93,6 +80,11 @@ def zeros(rows: int, columns: int) -> Small:
     return Small([[_0] * columns for _ in range(rows)])
 
 
+def blocks(parts: Sequence[Sequence[Small]]) -> Small:
+    """The matrix made of blocks."""
+    return Small([[e for part in row for e in part.rows[i]] for row in parts for i in range(len(row[0].rows))])
+
+
 def unit(axis: int, length: Scalar) -> Small:
     """A column of three along an axis."""
     return Small.column(*(length if i == axis else _0 for i in range(3)))
@@ -131,5 +123,6 @@ class Stages:
 
     def symmetric(self, matrix: Small) -> Small:
         """Every entry of a symmetric matrix, once."""
-        upper = {(i, j): self(matrix[i, j]) for i in range(3) for j in range(i, 3)}
-        return Small([[upper[min(i, j), max(i, j)] for j in range(3)] for i in range(3)])
+        n = len(matrix.rows)
+        upper = {(i, j): self(matrix[i, j]) for i in range(n) for j in range(i, n)}
+        return Small([[upper[min(i, j), max(i, j)] for j in range(n)] for i in range(n)])

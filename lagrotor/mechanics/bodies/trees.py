@@ -30,8 +30,8 @@ class Mass:
     """A body in the axes of its link: mass, centre (3, 1), inertia about that centre (3, 3)."""
 
     mass: sp.Expr
-    centre: sp.Matrix
-    inertia: sp.Matrix
+    centre: Small
+    inertia: Small
 
 
 @dataclass(frozen=True)
@@ -53,24 +53,6 @@ class TreeLink:
     rate: Pair
     swing: Pair
     masses: tuple[Mass, ...] = ()
-
-    @property
-    def turns(self) -> bool:
-        """Whether its origin stays where its parent has it."""
-        return self.rate[1].is_zero
-
-    @property
-    def is_round(self) -> bool:
-        """Whether it turns about an axis about which the bodies on it are symmetric."""
-        if self.axis is None or not self.turns:
-            return False
-        k, i, j = self.axis, (self.axis + 1) % 3, (self.axis + 2) % 3
-        return all(
-            mass.centre[i] == mass.centre[j] == 0
-            and mass.inertia[i, i] == mass.inertia[j, j]
-            and mass.inertia[i, j] == mass.inertia[i, k] == mass.inertia[j, k] == 0
-            for mass in self.masses
-        )
 
 
 @dataclass(frozen=True)
@@ -104,14 +86,7 @@ def tree_of(system: Equations) -> Tree | None:
 
 def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
     """The generalised forces of the rest of the Lagrangian, (n, 1), which give no accelerations a part."""
-    symbols = tree.rest.free_symbols
-    own = [i for i in range(len(c.q)) if c.q[i] in symbols or c.v[i] in symbols]
-    Q = sp.zeros(len(c.q), 1)
-    if own:
-        forces = -bias(tree.rest, Coordinates(*(tuple(part[i] for i in own) for part in (c.q, c.v, c.a))))
-        for i, force in zip(own, forces, strict=True):
-            Q[i] = force
-    return Q
+    return -bias(tree.rest, c)
 
 
 class _NoTreeError(Exception):
@@ -125,46 +100,14 @@ def _links(system: Equations, bodies: list[Body]) -> tuple[TreeLink, ...] | None
         for body in bodies:
             number, d, R = walk.place_of(body.frame)
             if number >= 0:
-                walk.masses[number].append(Mass(body.mass, d + R * body.centre, R * body.inertia * R.T))
+                walk.masses[number].append(
+                    Mass(body.mass, Small.of(d + R * body.centre), Small.of(R * body.inertia * R.T))
+                )
     except _NoTreeError:
         return None
     if len(walk.used) != len(system.c.q) or len(walk.turned) != len(system.speeds):
         return None
-    return _distribute(
-        [replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True)]
-    )
-
-
-def _distribute(links: list[TreeLink]) -> tuple[TreeLink, ...]:
-    """The links, each with the bodies that cost it least.
-
-    A point at the joint of a link that turns is that link's. A round link that carries nothing keeps the inertia about its
-    axis alone: the mass and the inertia across the axis do not feel its turn, and are its parent's.
-    """
-    carrying = {link.parent for link in links}
-    for number, link in enumerate(links):
-        if link.parent < 0:
-            continue
-        parent = links[link.parent]
-        if link.is_round and number not in carrying and link.masses:
-            own, across = zip(*(_split(mass, link) for mass in link.masses), strict=True)
-            links[number] = replace(link, masses=own)
-            links[link.parent] = replace(parent, masses=(*parent.masses, *across))
-        elif link.turns:
-            points = [e for e in parent.masses if e.inertia.is_zero_matrix and e.centre == link.shift]
-            links[number] = replace(link, masses=(*link.masses, *(replace(e, centre=sp.zeros(3, 1)) for e in points)))
-            links[link.parent] = replace(parent, masses=tuple(e for e in parent.masses if e not in points))
-    return tuple(links)
-
-
-def _split(mass: Mass, link: TreeLink) -> tuple[Mass, Mass]:
-    """A body's inertia about the axis of a round link, and the rest of it in the axes of the link's parent."""
-    k = link.axis
-    axial = sp.Matrix(3, 3, lambda i, j: mass.inertia[k, k] if i == j == k else sp.S.Zero)
-    R = link.rotation
-    return Mass(sp.S.Zero, sp.zeros(3, 1), axial), Mass(
-        mass.mass, link.shift + R * mass.centre, R * (mass.inertia - axial) * R.T
-    )
+    return tuple(replace(link, masses=tuple(masses)) for link, masses in zip(walk.links, walk.masses, strict=True))
 
 
 class _Walk:

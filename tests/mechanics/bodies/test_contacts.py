@@ -93,33 +93,6 @@ def test_names_go_with_their_constraints() -> None:
             System(c, rod.L, constraints, rolling)
 
 
-def test_what_does_not_touch_is_refused() -> None:
-    other = Frame(coordinates("u"))
-    for make, words in (
-        (lambda: BALL.rolls_on("table", r), "is no surface"),
-        (lambda: BALL.rolls_on(Plane(GROUND), -1), "must be positive"),
-        (lambda: BALL.rolls_on(Plane(other), r), "other coordinates"),
-        (lambda: BALL.rolls_on(Plane(3), r), "is no surface"),
-        (lambda: BALL.rolls_on(Sphere(GROUND, "R"), r), "radius of the surface"),
-        (lambda: BALL.rolls_on(Cylinder(GROUND, 0), r), "radius = 0 of the surface must be positive"),
-        (lambda: BALL.rolls_on(Sphere(GROUND, 1, hollow=True), 3), "larger than that of the ball inside, 3"),
-        (lambda: BALL.rolls_on(Sphere(GROUND, R), r, axis=(0, 0, 1)), "rolls on a Plane"),
-        (lambda: BALL.rolls_on(Plane(GROUND), r, axis=(0, 0, 0)), "no direction"),
-        (lambda: BALL.rolls_on(Plane(GROUND), r, centre=(0, 0)), "centre"),
-    ):
-        with pytest.raises(InputError, match=words):
-            make()
-
-
-def test_a_letter_of_a_multipliers_name_is_not_one() -> None:
-    c = coordinates("lambda_1 y")
-    x, y = c.q
-    rod = System(c, m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - m * g * y, (sp.sqrt(x**2 + y**2) - R,))
-    assert [str(s) for s in rod.multipliers] == ["Lambda_1"]
-    run = rod.simulate({m: 1, R: 1, g: 9.81}, (0, -1), (2, 0), np.linspace(0, 1, 5), 1e-9)
-    assert run.reactions["1"] == pytest.approx(-(run.v**2).sum(1) + 9.81 * run.q[:, 1], abs=1e-7)
-
-
 SWING = coordinates("phi")
 STOPS = {
     "Heaviside": 500 * sp.sin(SWING.q[0]) ** 2 * sp.Heaviside(sp.sin(SWING.q[0])),

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, Pathway, System, coordinates, t
 
 C = coordinates("x y z")
@@ -124,29 +123,3 @@ def test_forces_and_torques_are_those_of_virtual_work() -> None:
     assert sp.simplify(pushed[1] - F * l * sp.cos(a + b)) == 0
     moving = Frame(c).moved(sp.sin(t), 0, 0).turned("z", c.q[0])
     assert list(moving.push((F, 0, 0))) == [0, 0]
-
-
-def test_what_is_no_element_is_refused() -> None:
-    line = Pathway.line(C, (0, 0, 0), C.q)
-    for make, words in (
-        (lambda: Pathway.line(C, (0, 0), C.q), "a point"),
-        (lambda: Pathway.around(C, (0, 0, 0), C.q, 1, axis=(0, 0, 0)), "a direction"),
-        (lambda: Pathway.around(C, (0, 0, 0), C.q, -1), "positive radius"),
-        (lambda: Pathway.around(C, (0, 0, 0), C.q, 1, side=2), "±1"),
-        (lambda: Pathway.around(C, (0.5, 0, 0), C.q, 1), "inside the cylinder of radius 1"),
-        (lambda: Pathway.line("c", (0, 0, 0), (x, y, z)), "must be Coordinates"),
-        (lambda: line.spring("k"), "is no expression"),
-        (lambda: Frame(C).push((1, 2)), "force"),
-        (lambda: Frame(C).torque((1, 0, 0), against="b"), "must be a Frame"),
-    ):
-        with pytest.raises(InputError, match=words):
-            make()
-
-
-def test_a_path_of_other_coordinates_is_refused_and_a_moving_end_is_not() -> None:
-    other = coordinates("a b")
-    fixed = Pathway.line(C, (0, 0, 0), (*other.q, 0))
-    for element in (fixed.spring, fixed.damper, fixed.actuator, fixed.dry_friction):
-        with pytest.raises(InputError, match="depends on none of"):
-            element(1)
-    assert Pathway.line(C, (0, 0, 0), (t, 0, 0)).rate == sp.sign(t)

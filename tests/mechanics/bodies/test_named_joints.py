@@ -5,36 +5,23 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.special import ellipj
 
-from lagrotor.errors import ConstraintError, InputError, SingularError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import Frame, System, coordinates, motion_program
 from lagrotor.mechanics.bodies.trees import tree_of
 from lagrotor.mechanics.running import programs
 from lagrotor.mechanics.running.programs import function_program
 from lagrotor.numerics import operations
+from tests.systems import I1, I2, I3, VALUES, ball_top, g, l, m, values_of
 
-m, l, g, I1, I2, I3 = sp.symbols("m l g I_1 I_2 I_3", positive=True)
-VALUES = {m: 1.3, l: 0.7, g: 9.81, I1: 0.3, I2: 0.4, I3: 0.2}
 GRAVITY = (0, 0, -g)
 
 
 def at(system: System, y: np.ndarray, *expressions: sp.Expr) -> np.ndarray:
     """Expressions at a state (q, u)."""
-    letters = {str(s): x for s, x in VALUES.items()}
+    letters = {str(s): VALUES[s] for s in (m, l, g, I1, I2, I3)}
     return function_program(system, *expressions).along(letters)(y[None], np.zeros(1))[:, 0]
-
-
-def top(inertia: tuple[sp.Expr, ...] = (I1, I2, I3), centre: tuple[sp.Expr, ...] = (0, 0, l)) -> System:
-    body = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, inertia, centre)
-    return System(body.frame.c, body.kinetic - body.potential(GRAVITY))
-
-
-def numbers(system: System) -> dict[sp.Symbol, float]:
-    """The values of the letters that the system has."""
-    return {s: VALUES[s] for s in VALUES if s in system.L.free_symbols}
 
 
 def of_angles(angles: np.ndarray) -> np.ndarray:
@@ -97,62 +84,10 @@ def test_a_tree_with_ball_joints_moves_as_in_eulers_angles() -> None:
             np.testing.assert_allclose(at(quaternions, y, *frame.own_rate), wanted, atol=1e-12)
 
 
-STEPS = st.tuples(st.sampled_from(["ball", "turn", "slide"]), st.integers(0, 2), st.integers(0, 3))
-
-
-@settings(max_examples=2, deadline=None)
-@given(st.lists(STEPS, min_size=2, max_size=4), st.integers(0, 100))
-def test_random_trees_with_ball_joints_keep_energy_and_momentum(steps: list, seed: int) -> None:
-    """On a free base without a field: energy, momentum and angular momentum about the centre of the ground."""
-    names = ["x", "y", "z", *(f"b{i}" for i in range(4))]
-    for k, (kind, *_) in enumerate(steps):
-        names += [f"q{k}_{i}" for i in range(4)] if kind == "ball" else [f"q{k}"]
-    c = coordinates(names)
-    frames = [Frame(c).free("x y z", "b0 b1 b2 b3", omega="b_1 b_2 b_3")]
-    bodies = [frames[0].body(m, (I1, I2, I3), (0, l / 3, 0))]
-    for k, (kind, axis, parent) in enumerate(steps):
-        frame = frames[parent % len(frames)].moved(l, 0, -l / 2)
-        if kind == "ball":
-            frame = frame.ball([f"q{k}_{i}" for i in range(4)], [f"w{k}_{i}" for i in range(3)])
-        else:
-            q = c.q[names.index(f"q{k}")]
-            frame = frame.pin(q, "xyz"[axis]) if kind == "turn" else frame.prismatic(q, "xyz"[axis])
-        frames.append(frame)
-        bodies.append(frame.body(m, (I2, I1, I3), (l / 2, 0, l / 4)))
-    system = System(c, sum((b.kinetic for b in bodies), sp.S.Zero))
-    assert tree_of(system) is not None
-    rng = np.random.default_rng(seed)
-    q0 = rng.uniform(-0.5, 0.5, len(names))
-    for i, name in enumerate(names):
-        if name == "b0" or name.endswith("_0"):
-            q0[i : i + 4] /= np.linalg.norm(q0[i : i + 4])
-    u0 = rng.uniform(-1, 1, len(system.speeds))
-    values = {s: VALUES[s] for s in (m, l, I1, I2, I3)}
-    run = system.simulate(values, q0, u0, np.linspace(0, 1, 6), 1e-8)
-
-    def along(e: sp.Expr) -> np.ndarray:
-        return run.evaluate(e)
-
-    P, N = np.zeros((3, 6)), np.zeros((3, 6))
-    for body in bodies:
-        R = sp.Matrix.hstack(*(body.frame.place(list(e)) - body.frame.place() for e in np.eye(3, dtype=int)))
-        rows = np.array([[along(e) for e in R.row(i)] for i in range(3)])
-        v = np.einsum("ijn,jn->in", rows, np.array([along(e) for e in body.velocity]))
-        spin = np.einsum("ijn,jn->in", rows, np.array([along(e) for e in body.inertia * body.frame.angular_velocity]))
-        place = np.array([along(e) for e in body.frame.place(body.centre)])
-        P += VALUES[m] * v
-        N += VALUES[m] * np.cross(place.T, v.T).T + spin
-    scale = np.abs(run.energy).max()
-    assert np.ptp(run.energy) < 1e-6 * scale and run.drift.max() < 1e-12
-    assert np.ptp(P, axis=1).max() < 1e-6 * (1 + np.abs(P).max()) and np.ptp(N, axis=1).max() < 1e-6 * (
-        1 + np.abs(N).max()
-    )
-
-
 def test_a_top_started_at_its_pole_runs_as_quickly_as_any_other() -> None:
     """Evaluations from upright, and from a tilt at which Euler's angles are at their best; upright these have a pole."""
-    system = top((I1, I1, I3))
-    values, times = numbers(system), np.linspace(0, 5, 11)
+    system = ball_top()
+    values, times = values_of(system), np.linspace(0, 5, 11)
     upright = system.simulate(values, (1, 0, 0, 0), (0.3, 0, 30), times)
     tilted = system.simulate(values, of_angles(np.array([0, 1.2, 0])), (0.3, 0, 30), times)
     assert upright.evaluations < 1.3 * tilted.evaluations
@@ -164,13 +99,12 @@ def test_a_top_started_at_its_pole_runs_as_quickly_as_any_other() -> None:
     assert np.abs(heights[0] - heights[1]).max() < 1e-7
     general = Frame(c).turned("zxz", c.q).body(m, (I1, I2, I3), (0, 0, l))
     by_angles = System(c, general.kinetic - general.potential(GRAVITY))
-    assert operations(motion_program(top()).program) < operations(motion_program(by_angles).program)
+    assert operations(motion_program(ball_top((I1, I2, I3))).program) < operations(motion_program(by_angles).program)
 
 
 def test_a_free_body_turns_by_jacobis_elliptic_functions() -> None:
     """I1 > I2 > I3 about its long axis, Landau & Lifshitz, Mechanics, §37."""
-    body = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, (I1, I2, I3))
-    system = System(body.frame.c, body.kinetic)
+    system = ball_top((I1, I2, I3), (0, 0, 0))
     A, B, C = 0.5, 0.4, 0.2
     w1, w3, times = 0.3, 2.0, np.linspace(0, 20, 41)
     run = system.simulate({I1: A, I2: B, I3: C}, (1, 0, 0, 0), (w1, 0, w3), times, 1e-10)
@@ -183,34 +117,6 @@ def test_a_free_body_turns_by_jacobis_elliptic_functions() -> None:
     wanted = np.stack([w1 * cn, np.sqrt((M2 - E2 * C) / (B * (B - C))) * sn, w3 * dn], 1)
     signs = np.sign(run.u[1] * wanted[1])
     np.testing.assert_allclose(run.u, wanted * signs, atol=1e-7)
-
-
-def test_a_symmetric_body_precesses_regularly() -> None:
-    """Its axis turns about the angular momentum M at M/I1."""
-    body = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, (I1, I1, I3))
-    system = System(body.frame.c, body.kinetic)
-    A, C, u = 0.5, 0.8, np.array([0.4, 0, 3.0])
-    times = np.linspace(0, 10, 21)
-    run = system.simulate({I1: A, I3: C}, (1, 0, 0, 0), u, times, 1e-10)
-    M = np.array([A * u[0], 0, C * u[2]])
-    axis, e, rate = M / np.linalg.norm(M), np.array([0, 0, 1.0]), np.linalg.norm(M) / A
-    cos, sin = np.cos(rate * times)[:, None], np.sin(rate * times)[:, None]
-    wanted = e * cos + np.cross(axis, e) * sin + axis * (axis @ e) * (1 - cos)
-    seen = np.stack([run.evaluate(x) for x in body.frame.place((0, 0, 1))], 1)
-    np.testing.assert_allclose(seen, wanted, atol=1e-7)
-
-
-def test_a_spherical_pendulum_swings_through_its_pole() -> None:
-    """Hung on a ball joint, from rest: through the lowest place as a plane pendulum does, where angles from it have a pole."""
-    body = Frame(coordinates("q0 q1 q2 q3")).ball("q0 q1 q2 q3", omega="p q r").body(m, (I1, I1, I3), (0, 0, -l))
-    hung = System(body.frame.c, body.kinetic - body.potential(GRAVITY))
-    values, times = {s: VALUES[s] for s in (m, l, g, I1, I3)}, np.linspace(0, 4, 17)
-    run = hung.simulate(values, (np.cos(0.5), np.sin(0.5), 0, 0), (0, 0, 0), times)
-    c = coordinates("theta")
-    J = I1 + m * l**2
-    plane = System(c, J * c.v[0] ** 2 / 2 + m * g * l * sp.cos(c.q[0]))
-    twin = plane.simulate({s: VALUES[s] for s in (m, l, g, I1)}, (1.0,), (0,), times)
-    np.testing.assert_allclose(run.u[:, 0], twin.v[:, 0], atol=1e-6)
 
 
 A_, S_, B_ = sp.symbols("a s b", real=True)
@@ -256,15 +162,6 @@ def test_a_joint_by_name_moves_as_its_steps(name: str) -> None:
     np.testing.assert_allclose(at(by_name, y, *c.a, by_name.energy), at(by_steps, y, *c.a, by_steps.energy), rtol=1e-9)
 
 
-def test_a_screw_shifts_as_it_turns_and_is_no_joint_of_a_tree() -> None:
-    c = coordinates("a b")
-    nut = System(c, Frame(c).screw(c.q[0], l).body(m, (I1, I1, I3)).kinetic + c.v[1] ** 2 / 2)
-    assert sp.expand(nut.mass[0, 0] - I3 - m * l**2 / (4 * sp.pi**2)) == 0
-    shifted = Frame(c).moved(0, 0, c.q[0])
-    for screw in (shifted.turned("z", c.q[0]), shifted.turned("x", c.q[0]), Frame(c).screw(c.q[0], l)):
-        assert tree_of(System(c, screw.moved(l, 0, 0).pin(c.q[1]).body(m, (I1, I2, I3)).kinetic)) is None
-
-
 def test_axes_kept_along_each_other_close_a_pin() -> None:
     """A door on a ball joint: its point and its axis held leave one angle, as a pin; and a shaft kept along a tilted one."""
     c = coordinates("q0 q1 q2 q3")
@@ -289,27 +186,6 @@ def test_axes_kept_along_each_other_close_a_pin() -> None:
     assert len(held) == len(wanted) == 2 and np.abs(seen).max() < 1e-15
     with pytest.raises(InputError, match="binds no coordinate"):
         Frame(c).keeps_axis(tilted, axis)
-
-
-def test_loops_are_closed_by_joints() -> None:
-    """A four-bar linkage in the plane, and the same by a pin, whose axis is kept as it is; its twin in one angle."""
-    c = coordinates("a b d")
-    crank = Frame(c).pin(c.q[0], "y")
-    coupler = crank.moved(l, 0, 0).pin(c.q[1], "y")
-    rocker = Frame(c).moved(9 * l / 5, 0, 0).pin(c.q[2], "y")
-    bodies = [f.body(m, (0, I2, 0), (l / 2, 0, 0)) for f in (crank, coupler, rocker)]
-    L = sum((b.kinetic - b.potential(GRAVITY) for b in bodies), sp.S.Zero)
-    closed = coupler.coincides(rocker, (2 * l, 0, 0), (l, 0, 0))
-    assert len(closed) == 2
-    system = System(c, L, closed)
-    values = {s: VALUES[s] for s in (m, l, g, I2)}
-    q0, v0 = system.consistent(values, (-1.2, 1.0, -1.5), (0.5, 0, 0))
-    run = system.simulate(values, q0, v0, np.linspace(0, 1, 11))
-    assert run.drift.max() < 1e-11 and np.ptp(run.energy) < 1e-6 * np.abs(run.energy).max()
-    ends = [
-        np.stack([run.evaluate(e) for e in f.place(p)], 1) for f, p in ((coupler, (2 * l, 0, 0)), (rocker, (l, 0, 0)))
-    ]
-    assert np.abs(ends[0] - ends[1]).max() < 1e-11
 
 
 def test_a_loop_of_ball_joints_moves_as_a_pendulum_about_the_line_of_its_ends() -> None:
@@ -355,62 +231,3 @@ def test_a_tree_moves_alike_in_velocities_that_are_no_joints(written: bool, monk
     y = np.array([*q, VALUES[l] * 0.7 * (2 + np.cos(0.4)) + 0.3, 0.3, -0.2, 0.5])
     wanted = (*c.v, *c.a, natural.multipliers[0], natural.energy)
     np.testing.assert_allclose(at(own, y, *wanted), at(natural, twin, *wanted), rtol=1e-9, atol=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("make", "words"),
-    [
-        (lambda f, q: f.ball("q0 q1 q2", "p q r"), "must be 4 names"),
-        (lambda f, q: f.ball("q0 q1 q2 q3", "p q"), "must be 3 names"),
-        (lambda f, q: f.ball("q0 q1 q2 z", "p q r"), "none of the coordinates"),
-        (lambda f, q: f.ball("q0 q1 q2 q2", "p q r"), "different names"),
-        (lambda f, q: f.ball("q0 q1 q2 q3", "p q q1"), "different names"),
-        (lambda f, q: f.ball("q0 q1 q2 q3", "p q r").ball("q0 q1 q2 q3", "u v w"), "another ball joint"),
-        (lambda f, q: f.weld((q[0], 0, 0)), "a weld is fixed"),
-        (lambda f, q: f.pin(q[0], "w"), "axis = 'w'"),
-        (lambda f, q: f.pin(q[0], (0, 0, 0)), "not zero"),
-        (lambda f, q: f.prismatic(q[0], (q[1], 0, 0)), "in numbers"),
-        (lambda f, q: f.universal(q[0], q[1], "xx"), "two different letters"),
-        (lambda f, q: f.pin("a"), "no expression"),
-        (lambda f, q: f.coincides(f, (l, 0, 0), (l, 0, 0)), "binds no coordinate"),
-    ],
-)
-def test_what_is_no_joint_is_refused(make: Callable, words: str) -> None:
-    c = coordinates("q0 q1 q2 q3 s")
-    with pytest.raises(InputError, match=words):
-        make(Frame(c), c.q)
-
-
-def test_letters_of_ball_joints_are_their_own() -> None:
-    ground = Frame(coordinates("q0 q1 q2 q3 r0 r1 r2 r3"))
-    first = ground.ball("q0 q1 q2 q3", "p q r")
-
-    def energy(*frames: Frame) -> object:
-        return sum(frame.body(mass=1, inertia=(1, 2, 2.5)).kinetic for frame in frames)
-
-    with pytest.raises(InputError, match="p is in two ball joints"):
-        System(ground.c, energy(first, ground.ball("r0 r1 r2 r3", "p v w")))
-    with pytest.raises(InputError, match="q0 is in two ball joints"):
-        System(ground.c, energy(first, ground.ball("q0 r1 r2 r3", "u v w")))
-    p, own = sp.Symbol("p", real=True), Frame(coordinates("q0 q1 q2 q3"))
-    with pytest.raises(InputError, match="p is a velocity of a ball joint and a letter of a body"):
-        System(own.c, own.ball("q0 q1 q2 q3", "p q r").body(mass=p, inertia=(1, 2, 2.5)).kinetic)
-    # Twins: each with its own, and one joint that carries two bodies.
-    assert len(System(ground.c, energy(first, ground.ball("r0 r1 r2 r3", "u v w"))).speeds) == 6
-    assert len(System(own.c, energy(own.ball("q0 q1 q2 q3", "p q r"), own.ball("q0 q1 q2 q3", "p q r"))).speeds) == 3
-
-
-@pytest.mark.parametrize("size", [0, 1e-9])
-def test_a_quaternion_without_a_norm_is_named(size: float) -> None:
-    with pytest.raises(InputError, match=rf"quaternion \(q0, q1, q2, q3\) has norm {size:g}"):
-        top().simulate(VALUES, (size, 0, 0, 0), (0, 0, 1), (0, 1))
-    with pytest.raises(ConstraintError, match="off the constraints"):  # the twin: from there the nearest is told
-        top().simulate(VALUES, (1e-3, 0, 0, 0), (0, 0, 1), (0, 1))
-    if not size:
-        with pytest.raises(InputError, match="has norm 0"):
-            top().linearise(dict.fromkeys(("q0", "q1", "q2", "q3"), 0))
-
-
-def test_a_start_off_the_unit_length_is_refused() -> None:
-    with pytest.raises(ConstraintError, match="off the constraints"):
-        top().simulate(VALUES, (1, 0.2, 0, 0), (0, 0, 1), (0, 1))
