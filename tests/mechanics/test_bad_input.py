@@ -18,7 +18,6 @@ from lagrotor.mechanics import (
     SystemRun,
     coordinates,
     legendre,
-    libration,
     t,
 )
 
@@ -258,7 +257,6 @@ BAD: dict[str, Callable[[], Any]] = {
     "whether an acceleration is conserved": lambda: pendulum.conserved(a),
     "whether a letter is conserved": lambda: pendulum.conserved(g),
     "old coordinates for new": lambda: pendulum.in_coordinates(3, {q: q}),  # type: ignore[arg-type]
-    "a system for a Hamiltonian": lambda: libration(pendulum, 1.0, 0.0),  # type: ignore[arg-type]
     "a run of nothing": lambda: SystemRun.load("run.npz", None),  # type: ignore[arg-type]
     "an energy that is not real": lambda: run(System(A, v**2 / 2 - sp.log(q)), {}, (-1,)),
     "a section that does not change": lambda: run().crossings(m),

@@ -7,12 +7,10 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import DomainError, InputError
-from lagrotor.mechanics import System, coordinates, energy, rotational_bracket, t
+from lagrotor.mechanics import System, coordinates, energy, t
 from lagrotor.pair import bar_curve, mercator_lagrangian, minimal_embedding
 from lagrotor.pair.notation import MERCATOR, MINIMAL
 from tests.systems import g, k, kepler, m
-
-B = sp.Symbol("B", positive=True)
 
 
 def angular_momentum(h):
@@ -36,20 +34,6 @@ def test_the_rate_of_what_depends_on_time_has_its_derivative():
     h = System(c, m * c.v[0] ** 2 / 2 - m * g * c.q[0]).hamiltonian()
     assert h.conserved(h.q[0] - h.p[0] * t / m - g * t**2 / 2).answer == "zero"
     assert h.rate(h.p[0]) == -m * g
-
-
-def test_a_charge_by_canonical_and_by_kinetic_momenta_moves_alike():
-    c = coordinates("x y")
-    (x, y), (u, w) = c.q, c.v
-    charge = System(c, m * (u**2 + w**2) / 2 + B * (x * w - y * u) / 2 - k * x**2)
-    plain, kinetic = charge.hamiltonian(), charge.hamiltonian(kinetic=True)
-    px, py = kinetic.p
-    assert kinetic.bracket(px, py) == B and plain.bracket(px, py) == 0
-    assert sp.expand(kinetic.H - (px**2 + py**2) / (2 * m) - k * x**2) == 0
-    shift = {px: px + B * y / 2, py: py - B * x / 2}  # p − b(q)
-    for f in (x, px, py):
-        moved = plain.rate(f.xreplace(shift))
-        assert sp.expand(moved - kinetic.rate(f).xreplace(shift)) == 0
 
 
 def test_diracs_bracket_holds_a_pendulum_on_its_circle():
@@ -77,21 +61,6 @@ def test_canonical_transformations_and_one_that_is_none():
     assert h.canonical([sp.atan(w * x / p)], [p**2 / (2 * w) + w * x**2 / 2]).answer == "zero"  # angle and action
     assert h.canonical([p], [-x]).answer == "zero" and h.canonical([p], [x]).answer == "nonzero"
     assert h.canonical([2 * x], [p]).answer == "nonzero"
-
-
-def test_the_rotational_bracket_gives_eulers_equations_and_its_casimirs():
-    M, gamma = sp.symbols("M1:4", real=True), sp.symbols("gamma1:4", real=True)
-    inertia = sp.symbols("I1:4", positive=True)
-    H = sum(a**2 / (2 * b) for a, b in zip(M, inertia, strict=True)) + m * g * gamma[2]
-    omega = sp.Matrix([a / b for a, b in zip(M, inertia, strict=True)])
-    euler = sp.Matrix(M).cross(omega) + sp.Matrix(gamma).cross(sp.Matrix([0, 0, m * g]))
-    poisson = sp.Matrix(gamma).cross(omega)
-    for i in range(3):
-        assert sp.expand(rotational_bracket(M[i], H, M, gamma) - euler[i]) == 0
-        assert sp.expand(rotational_bracket(gamma[i], H, M, gamma) - poisson[i]) == 0
-    for casimir in (sum(x**2 for x in gamma), sum(x * y for x, y in zip(M, gamma, strict=True))):
-        assert sp.expand(rotational_bracket(casimir, H, M, gamma)) == 0
-    assert sp.expand(rotational_bracket(sum(x**2 for x in M), H, M, gamma)) != 0
 
 
 def test_it_moves_as_the_lagrangian_does():
@@ -147,8 +116,6 @@ def test_what_has_no_hamiltonian_is_refused():
     c = coordinates("x")
     with pytest.raises(DomainError, match="no Hamiltonian"):
         System(c, c.v[0] ** 2 / 2, dissipation=c.v[0] ** 2).hamiltonian()
-    with pytest.raises(DomainError, match="canonical momenta"):
-        System(c, c.v[0] ** 2 / 2 - c.q[0] ** 2 * (1 + sp.cos(t))).hamiltonian().normal_form(4, {"x": 0})
 
 
 def test_another_symbol_of_the_same_name_and_a_velocity_are_no_constants():
@@ -163,13 +130,3 @@ def test_another_symbol_of_the_same_name_and_a_velocity_are_no_constants():
     assert h.conserved(m * k).answer == "zero" and h.conserved(p).answer == "nonzero"  # letters are constants
     with pytest.raises(InputError, match="k = nan is not finite"):
         h.normal_form(4, {x: 0}, {k: sp.nan, m: 1})
-
-
-def test_a_rotational_bracket_takes_three_symbols_and_no_others_of_their_names():
-    M = sp.symbols("M1:4", real=True)
-    assert rotational_bracket(M[0], M[1], M) == -M[2]
-    with pytest.raises(InputError, match="another symbol"):
-        rotational_bracket(sp.Symbol("M1"), M[1], M)
-    for few in (M[:2], (1, 2, 3)):
-        with pytest.raises(InputError, match="three symbols"):
-            rotational_bracket(M[0], M[1], few)
