@@ -48,22 +48,6 @@ def test_the_cart_and_pole_of_textbooks() -> None:
     assert sp.Matrix([[1, 0, 0, 0], [0, -g * m / M, 0, 0]]) == linear.C and list(linear.D) == [0, 1 / M]
 
 
-def test_functions_of_time_are_inputs() -> None:
-    """As a letter is, by numbers and in symbols; of a support the acceleration enters, which is another input."""
-    pushed = sp.Function("F")(t)
-    system = System(CART, POLE.L, forces=(pushed, 0))
-    linear, wanted = (s.linearise({x: 0, theta: 0}, inputs=(f,)) for s, f in ((system, pushed), (POLE, F)))
-    assert linear.A == wanted.A and linear.B == wanted.B
-    values = {m: 1, M: 2, g: 9.81, l: 0.5}
-    numbers = system.linearise({x: 0, theta: 0}, values, inputs=(pushed,))
-    assert pytest.approx(np.array(wanted.B.subs(values).tolist(), float)) == numbers.B
-    moved = System(CART, POLE.L + m * v * pushed.diff(t))
-    with pytest.raises(InputError, match="F' of the input F enters"):
-        moved.linearise({x: 0, theta: 0}, inputs=(pushed,))
-    with pytest.raises(InputError, match=r"functions F\(t\) as inputs"):
-        system.linearise({x: 0, theta: 0}, outputs=(x,))
-
-
 def test_a_rolling_disc_has_its_characteristic_polynomial() -> None:
     """s² = 4 g/(5 r) − 12 w²/5: it stands for w² > g/(3 r)."""
     s = sp.Symbol("s")

@@ -2,13 +2,7 @@
 
     q' = ∂H/∂p,   p' = −∂H/∂q,       {f, g} = ∂f/∂q·∂g/∂p − ∂f/∂p·∂g/∂q.
 
-Holonomic constraints φ = (g, g') are put into Dirac's
-bracket,
-
-    {f, g}* = {f, g} − {f, φ_a} (C⁻¹)_ab {φ_b, g},     C_ab = {φ_a, φ_b},
-
-for which they commute with everything. Dirac, Lectures on Quantum Mechanics (1964); Arnold, Mathematical Methods of Classical
-Mechanics, §§ 38–45; Marsden & Ratiu, Introduction to Mechanics and Symmetry, chs. 6, 10, 15.
+Arnold, Mathematical Methods of Classical Mechanics, §§ 38–45; Marsden & Ratiu, Introduction to Mechanics and Symmetry, ch. 6.
 
 Canonical transformations (q, p) → (Q, P) come from a generating function of the second kind, F(q, P, t),
 
@@ -19,8 +13,7 @@ Goldstein, Classical Mechanics, § 9.1, ch. 10; Arnold, § 48.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -39,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Hamiltonian:
-    """H(q, p, t) with the bracket of its variables. constraints: g(q) = 0; v: q' of the Lagrangian.
+    """H(q, p, t) with the bracket of its variables. v: q' of the Lagrangian.
 
     Every method raises InputError for a function with a velocity, or with another symbol of the name of q, p or t: it would
     count as a constant.
@@ -48,18 +41,13 @@ class Hamiltonian:
     H: sp.Expr
     q: tuple[sp.Symbol, ...]
     p: tuple[sp.Symbol, ...]
-    constraints: tuple[sp.Expr, ...] = ()
     v: tuple[sp.Symbol, ...] = ()
 
     def bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
-        """{f, g}; under constraints Dirac's, which is that of functions on them."""
+        """{f, g}."""
         f, g = self._function("bracket", f), self._function("bracket", g)
-        plain = self._bracket(f, g)
-        if not self.constraints:
-            return shortest(plain)
-        left = sp.Matrix([[self._bracket(f, phi) for phi in self._bound]])
-        right = sp.Matrix([self._bracket(phi, g) for phi in self._bound])
-        return shortest(plain - (left * self._dirac * right)[0])
+        fq, fp, gq, gp = (gradient(e, s) for e in (f, g) for s in (self.q, self.p))
+        return shortest(fq.dot(gp) - fp.dot(gq))
 
     def _function(self, where: str, given: sp.Expr) -> sp.Expr:
         e, names = expression(where, given), {str(s): s for s in (*self.q, *self.p, t)}
@@ -72,51 +60,13 @@ class Hamiltonian:
                 )
         return e
 
-    def _bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
-        fq, fp, gq, gp = (gradient(e, s) for e in (f, g) for s in (self.q, self.p))
-        return fq.dot(gp) - fp.dot(gq)
-
-    @cached_property
-    def _bound(self) -> tuple[sp.Expr, ...]:
-        """The constraints and their rates."""
-        return (*self.constraints, *(self._bracket(g, self.H) for g in self.constraints))
-
-    @cached_property
-    def _dirac(self) -> sp.Matrix:
-        n = len(self._bound)
-        C = sp.Matrix(n, n, lambda a, b: self._bracket(self._bound[a], self._bound[b]))
-        return linear_solve(
-            C, sp.eye(n), "bracket: the constraints are dependent: leave out what follows from the others"
-        )
-
     def rate(self, f: sp.Expr) -> sp.Expr:
         """df/dt = {f, H} + ∂f/∂t along a motion."""
         return shortest(self.bracket(f, self.H) + derivative(f, t))
 
     def conserved(self, f: sp.Expr) -> Decision:
-        """Return whether f(q, p, t) is a first integral, decided; under constraints what vanishes only on them is "undecided"."""
-        return self._on_constraints(self.bracket(f, self.H) + derivative(f, t))
-
-    def in_involution(self, *integrals: sp.Expr) -> Decision:
-        """Return whether each is a first integral and every bracket of two of them vanishes, decided.
-
-        n of them that are independent make the system integrable (Liouville; Arnold § 49).
-        """
-        pairs = [(f, g) for i, f in enumerate(integrals) for g in integrals[:i]]
-        decisions = [*map(self.conserved, integrals), *(self._on_constraints(self.bracket(f, g)) for f, g in pairs)]
-        if not decisions:
-            raise InputError("in_involution: give the first integrals")
-        worst = {answer: d for d in decisions for answer in [d.answer]}
-        decision = worst.get("nonzero") or worst.get("undecided") or decisions[0]
-        return replace(decision, domain=tuple(dict.fromkeys(factor for d in decisions for factor in d.domain)))
-
-    def _on_constraints(self, e: sp.Expr) -> Decision:
-        decision = decide_zero(e)
-        if decision.answer == "nonzero" and self.constraints:
-            return replace(
-                decision, answer="undecided", reason=f"Off the constraints it is not zero. {decision.reason}"
-            )
-        return decision
+        """Return whether f(q, p, t) is a first integral, decided."""
+        return decide_zero(self.bracket(f, self.H) + derivative(f, t))
 
     def canonical(self, Q: Sequence[sp.Expr], P: Sequence[sp.Expr]) -> Decision:
         """Return whether (q, p) → (Q, P) keeps the brackets, {Q_i, P_j} = δ_ij and all others zero: decided. Arnold § 45."""
@@ -131,12 +81,9 @@ class Hamiltonian:
         P: the new momenta, symbols of their own.
 
         Raises:
-            DomainError: for constraints.
             InputError: for a P that is no symbol or is already one of H, and an F with old momenta.
             SingularError: where det ∂²F/∂q∂P vanishes identically: it generates nothing.
         """
-        if self.constraints:
-            raise DomainError("generated: H must have no constraints: use independent coordinates")
         F, q, p = self._function("generated: F", F), self.q, self.p
         new = vector_of("generated: P", P, len(q))
         taken = {*q, *p, t} | self.H.free_symbols
@@ -177,17 +124,14 @@ class Hamiltonian:
 
         Raises:
             InputError: where `at` is none of these, a coordinate is not named or a letter needs a value.
-            DomainError: where there are constraints, H is not analytic there, or depends on time without a period.
+            DomainError: where H is not analytic there, or depends on time without a period.
             SingularError: where a multiplier of an orbit is 1 or −1.
         """
         from lagrotor.mechanics.canonical.normal_forms import normal_form_at
 
         x = (*self.q, *self.p)
-        if self.constraints or (self.H.has(t) and period is None):
-            raise DomainError(
-                "normal_form: H must have no constraints: use independent coordinates; where it depends on time, name the period "
-                "of an orbit"
-            )
+        if self.H.has(t) and period is None:
+            raise DomainError("normal_form: H depends on time: name the period of an orbit")
         if period is not None:
             return self._about_orbit(order, at, values or {}, detuning, period)
         H, point = self._with_values(at, x, values or {})
@@ -253,19 +197,19 @@ class Hamiltonian:
 def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -> Hamiltonian:
     """H = p·v − L with the momenta p = ∂L/∂v, named p_q unless given.
 
-    Raises DomainError for what no Hamiltonian has: forces, friction, rolling constraints, constraints that move, or an L that is
-    not quadratic in the velocities; SingularError where det M vanishes.
+    Raises DomainError for what no Hamiltonian has: forces, friction, constraints, or an L that is not quadratic in the
+    velocities; SingularError where det M vanishes.
     """
-    if system.forces or system.dissipation != 0 or system.rolling or any(g.has(t) for g in system.constraints):
+    if system.forces or system.dissipation != 0 or system.rolling or system.constraints:
         raise DomainError(
-            "hamiltonian: forces, friction, rolling and moving constraints have no Hamiltonian: write what has a potential "
-            "into L, and leave the others out"
+            "hamiltonian: forces, friction and constraints have no Hamiltonian here: write what has a potential into L, and use "
+            "independent coordinates, System.in_coordinates"
         )
     c, L = system.c, system.L
     if momenta is not None and not isinstance(momenta, Iterable):
         raise InputError(f"hamiltonian: momenta = {momenta!r} must be symbols, one for each of {c.q}")
     p = tuple(momenta) if momenta is not None else tuple(sp.Symbol(f"p_{q}", real=True) for q in c.q)
-    return Hamiltonian(shortest(legendre(L, c, p)), c.q, p, system.constraints, c.v)
+    return Hamiltonian(shortest(legendre(L, c, p)), c.q, p, c.v)
 
 
 @dataclass(frozen=True)

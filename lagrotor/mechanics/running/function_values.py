@@ -129,35 +129,6 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     return (_with_expressions(system, written) if written else system), numbers
 
 
-def inputs_as_letters(where: str, system: Kind, inputs: Sequence[Any]) -> tuple[Kind, tuple[Any, ...]]:
-    """The system with letters of their names for functions of time F(t) that are inputs, and the inputs as letters.
-
-    Raises InputError where a derivative of one enters, or one of another argument than t.
-    """
-    functions = [u for u in inputs if isinstance(u, AppliedUndef)]
-    if other := [u for u in functions if u.args != (t,)]:
-        raise InputError(f"{where}: the input {other[0]} must be a function of t alone, F(t), or a letter")
-    names = {str(u.func): sp.Symbol(str(u.func), real=True) for u in functions}
-    acting = (system.L, *system.acting)
-    if twice := names.keys() & {str(s) for e in acting for s in e.free_symbols}:
-        raise InputError(f"{where}: {min(twice)} is a letter and a function: rename one")
-
-    def refused(name: str, orders: Orders, arguments: tuple[sp.Expr, ...]) -> None:
-        if name in names and arguments != (t,):
-            entered = f"{name}({', '.join(map(str, arguments))})"
-            raise InputError(f"{where}: {entered} enters beside the input {name}(t): rename it")
-        if name in names and any(orders):
-            raise InputError(
-                f"{where}: {jet_name(name, orders)} of the input {name} enters: write it as a coordinate, or a letter"
-            )
-
-    for e in acting:
-        with_jets(e, refused)
-    forms = {name: sp.Lambda(t, letter) for name, letter in names.items()}
-    letters = tuple(names[str(u.func)] if isinstance(u, AppliedUndef) else u for u in inputs)
-    return _with_expressions(system, forms), letters
-
-
 def _with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
     """The system with expressions in place of functions."""
 

@@ -71,7 +71,3 @@ def test_what_generates_nothing_or_is_no_generating_function_is_refused() -> Non
             h.generated(x * P, bad)
     with pytest.raises(DomainError, match="2 solutions"):
         h.generated(x * P**2 / 2, [P]).explicit()
-    c = coordinates("x y")
-    bound = System(c, (c.v[0] ** 2 + c.v[1] ** 2) / 2, constraints=[c.q[0] ** 2 + c.q[1] ** 2 - 1]).hamiltonian()
-    with pytest.raises(DomainError, match="no constraints"):
-        bound.generated(c.q[0] * P, [P])

@@ -550,14 +550,13 @@ def test_the_time_of_a_drive_is_not_added_up(monkeypatch: pytest.MonkeyPatch) ->
         assert exact < 1e-10 and off() > 5 * max(exact, 1e-12)  # twin
 
 
-def test_a_function_of_time_that_ends_before_the_run_does_ends_it_in_words() -> None:
-    """It is looked at over the whole run; the pulse before its end is not passed over."""
+def test_a_function_of_time_that_ends_before_the_run_does_is_refused_and_one_without_a_number_ends_it() -> None:
     (x,), (v,) = ANGLE.q, ANGLE.v
     system = System(ANGLE, v**2 / 2 - x**2 / 2, forces=(sp.Function("F")(t),))
+    with pytest.raises(InputError, match=r"refuses a time between t = 0 and 10 s \(math domain error\)"):
+        system.simulate({"F": lambda s: math.sqrt(8 - s)}, (0,), (0,), [0, 10])
+    force = {"F": lambda s: bell(s, 5.1, 0.02) if s < 8 else math.nan}
     with pytest.warns(LagrotorWarning, match="ended early"):
-        run = system.simulate(
-            {"F": lambda s: math.sqrt(8 - s) * 0 + bell(s, 5.1, 0.02)}, (0,), (0,), np.linspace(0, 10, 51)
-        )
-    assert run.t[-1] <= 8 and run.q[-1, 0] == pytest.approx(
-        math.sqrt(math.pi) * 0.02 * math.sin(run.t[-1] - 5.1), rel=1e-3
-    )
+        run = system.simulate(force, (0,), (0,), np.linspace(0, 10, 51))
+    pulse = math.sqrt(math.pi) * 0.02 * math.sin(run.t[-1] - 5.1)
+    assert run.t[-1] <= 8 and run.q[-1, 0] == pytest.approx(pulse, rel=1e-3)
