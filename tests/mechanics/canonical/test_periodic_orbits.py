@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics import System, coordinates, map_normal_form, t
@@ -182,35 +181,6 @@ def test_normal_coordinates_are_canonical_and_the_section_has_the_orbits_energy(
     value = sp.lambdify((*h.q, *h.p), h.H)
     gaps = [abs(value(*n.place([s]).values()) - value(*n.orbit.values())) for s in (0.04, 0.02)]
     assert gaps[0] < 1e-6 and np.log2(gaps[0] / gaps[1]) > 5.5
-
-
-def test_a_circular_orbit_is_the_steady_motion():
-    """Turns of the radius in one of the angle, ∂H/∂I over ∂H/∂p of the form that Routh leaves at the same energy."""
-    p = coordinates("r a")
-    (r, angle), (r_v, a_v) = p.q, p.v
-    polar = System(p, (r_v**2 + r**2 * a_v**2) / 2 - r**4 / 4)
-    n = plane((x**2 + y**2) ** 2 / 4).normal_form(order=6, at={x: 1, y: 0, w: 1}, period=6.3)
-    momenta = 1 + np.linspace(-0.03, 0.03, 9)
-    reduced = [(m, polar.routh({angle: sp.Float(m)}).hamiltonian()) for m in momenta]
-    forms = [h.normal_form(order=6, at={r: m ** (1 / 3)}).actions for m, h in reduced]
-    rows = [np.polynomial.Polynomial.fit(momenta, [f.get((k,), 0.0) for f in forms], 8) for k in range(4)]
-    for action, near in ((0.0, 1e-11), (1e-3, 1e-8)):
-        energy = sum(f * action**k for k, f in enumerate(rows))
-        momentum = brentq(lambda m, e=energy: e(m) - 0.75, 0.97, 1.03, xtol=1e-15)
-        rate = sum(k * f(momentum) * action ** (k - 1) for k, f in enumerate(rows) if k)
-        turns = rate / energy.deriv()(momentum)
-        assert n.rotation_numbers([action])[0] + 2 == pytest.approx(turns, abs=near)
-
-
-def test_the_twist_of_a_weak_oscillator_is_its_averaged_one():
-    """x'' + x + ε x³ = ε cos ωt off resonance: in a period T = 2π/ω the angle is T, ∂α/∂I = 3εT/4 + O(ε²) of the average."""
-    eps = np.array([0.02, 0.01])
-    gaps = []
-    for e in eps:
-        h = driven(lambda x, e=e: x**2 / 2 + e * x**4 / 4 - e * x * sp.cos(R(9, 5) * t))
-        n = h.normal_form(order=4, at={line.q[0]: 0}, period=2 * pi / 1.8)
-        gaps.append(abs(abs(n.twist[0, 0]) / (0.75 * e * 2 * pi / 1.8) - 1))
-    assert gaps[0] < 0.1 and gaps[0] / gaps[1] > 1.6
 
 
 def test_an_ion_at_rest_in_a_trap():

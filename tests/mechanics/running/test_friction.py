@@ -130,19 +130,6 @@ def test_a_force_that_does_not_jump_is_run_through() -> None:
     assert (drag.simulate({k: 0.5}, (0,), (0,), (0, 1.0)).q == 0).all()
 
 
-def test_a_potential_with_an_edge_has_the_period_of_its_flights() -> None:
-    """x'' = −sign(x): from rest at h back in 4 sqrt(2 h)."""
-    edge = System(C, v**2 / 2 - sp.Abs(x))
-    run = edge.simulate({}, (0.5,), (0,), 4 * np.arange(6.0), 1e-10)
-    assert run.q[:, 0] == pytest.approx(0.5, abs=1e-9) and np.abs(run.v).max() < 1e-8
-
-
-def test_a_force_that_drives_away_from_both_sides_ends_the_run_in_words() -> None:
-    with pytest.warns(LagrotorWarning, match="either side"):
-        run = System(C, v**2 / 2, forces=(F * sp.sign(v),)).simulate({F: 1}, (0,), (0,), (0, 1.0))
-    assert run.ending.kind == "stopped" and run.t[-1] == 0
-
-
 def test_a_force_that_holds_but_is_no_friction_ends_the_run_in_words_and_at_once() -> None:
     """Two forces that push across one another's velocity: their sliding motion is outside what is followed."""
     c = coordinates("a b")
@@ -259,13 +246,6 @@ def test_friction_by_a_reaction_in_a_tree_and_in_velocities_of_ones_own() -> Non
     ):
         with pytest.raises(InputError, match=words):
             make()
-
-
-def test_the_sign_of_the_friction_is_not_arbitrary() -> None:
-    """The twin of the oscillator whose force is of the other sign gains what the first one loses."""
-    gaining = System(C, v**2 / 2 - x**2 / 2, forces=(F * sp.sign(v - 10),))
-    run = gaining.simulate({F: 0.1}, (1,), (0,), (0, np.pi), 1e-9)
-    assert run.q[-1, 0] == pytest.approx(-1.2, abs=1e-8)  # a constant force −F moves the centre to −F
 
 
 def test_rounding_where_a_mass_is_let_go_hides_no_event() -> None:

@@ -51,13 +51,6 @@ def test_each_kind_of_value_gives_the_motion_of_the_expression(value: object) ->
     assert run.energy == pytest.approx(exact.energy, abs=1e-9)
 
 
-def test_a_support_and_a_control_are_functions_of_time() -> None:
-    exact = SUPPORTED.simulate(NUMBERS | {y: sp.sin(t) / 10, u: 0}, (0.1,), (0,), T, 1e-9)
-    sines = (lambda s: np.sin(s) / 10, lambda s: np.cos(s) / 10, lambda s: -np.sin(s) / 10)
-    run = SUPPORTED.simulate(NUMBERS | {y: sines, "u": lambda s: 0.0}, (0.1,), (0,), T, 1e-9)
-    assert run.q == pytest.approx(exact.q, abs=1e-9) and run.evaluations == exact.evaluations
-
-
 KNOTS, HEIGHTS = np.array([0, 1.3, 2.1, 6.0]), np.array([0, 1.0, -1.0, 0.5])
 BENDS = np.diff(np.diff(HEIGHTS) / np.diff(KNOTS), prepend=0.0)
 SINCE = np.maximum(T[:, None] - KNOTS[:-1], 0)

@@ -10,9 +10,8 @@ import sympy as sp
 from benchmarks.mechanisms.chains import VALUES, chain, g, l, m
 from lagrotor.errors import InputError
 from lagrotor.mechanics import Coordinates, System, SystemRun, coordinates, motion_program, t
-from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.running.programs import equations_of_speeds
-from lagrotor.mechanics.running.sweeps import backward_sweep, expression_stages, forward_sweep, without_turns
+from lagrotor.mechanics.running.sweeps import without_turns
 from lagrotor.numerics import operations
 
 
@@ -26,33 +25,6 @@ def rods(n: int, weight: sp.Expr = g) -> System:
         height += l * sp.cos(angle)
         L += m * (x**2 + z**2) / 2 + m * weight * height
     return System(c, L)
-
-
-def test_gradients_and_derivatives_along_a_direction_are_sympys() -> None:
-    a, b, d, rate = sp.symbols("a b d r", real=True)
-    e = (a + b) ** 2 * sp.sin(a * d) + sp.exp(-b) / (a + b + d) - sp.sqrt(a**2 + 2) * (a + b + d) ** 3
-    keep = Stages()
-    whole = expression_stages(keep, e)
-    slopes = backward_sweep(keep, whole, (a, b, d))
-    (turned,) = forward_sweep(keep, [slopes[0]], {a: rate, d: sp.S.One})
-    first = sp.diff(e, a)
-    wanted = [sp.diff(e, a), sp.diff(e, b), sp.diff(e, d), first.diff(a) * rate + first.diff(d)]
-    at = {a: sp.Rational(3, 7), b: sp.Rational(-2, 5), d: sp.Rational(5, 3), rate: sp.Rational(4, 9)}
-    for short, long in zip((*slopes, turned), wanted, strict=True):
-        for name, part in reversed(keep.made):
-            short = short.xreplace({name: part})
-        assert abs((short - long).xreplace(at).evalf(30)) < 1e-25
-    assert any(part == keep.names[a + b] + d for _, part in keep.made)  # a sum is made of a shorter one
-
-
-def test_a_term_that_is_left_twice_in_a_sum_counts_twice() -> None:
-    a, b, d = sp.symbols("a b d", real=True)
-    for twice, times in (((a, a), 2), ((a,), 1)):
-        keep = Stages()
-        short = expression_stages(keep, sp.Add(*twice, b, d, evaluate=False) * sp.cos(a + b))
-        for name, part in reversed(keep.made):
-            short = short.xreplace({name: part})
-        assert sp.expand(short - (times * a + b + d) * sp.cos(a + b)) == 0
 
 
 def test_squares_of_turned_components_lose_the_turn() -> None:
