@@ -214,31 +214,13 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -
 
 @dataclass(frozen=True)
 class GeneratedTransformation:
-    """new: P, old: p, symbols; p_of and Q_of: old momenta and new coordinates of (q, P, t), and the new Hamiltonian K."""
+    """new: P, old: p, symbols; p_of and Q_of: old momenta and new coordinates of (q, P, t), and the new Hamiltonian K.
+
+    Q and P of (q, p, t) are solutions of p = p_of for P, as of sympy's solve.
+    """
 
     new: tuple[sp.Symbol, ...]
     old: tuple[sp.Symbol, ...]
     p_of: tuple[sp.Expr, ...]
     Q_of: tuple[sp.Expr, ...]
     K: sp.Expr
-
-    def explicit(self) -> tuple[tuple[sp.Expr, ...], tuple[sp.Expr, ...]]:
-        """Q and P of (q, p, t), p = ∂F/∂q solved for P.
-
-        Raises:
-            DomainError: where no solution in closed form is known, or more than one.
-        """
-        rows = [own - of for own, of in zip(self.old, self.p_of, strict=True)]
-        try:
-            solutions = sp.solve(rows, self.new, dict=True)
-        except NotImplementedError:
-            solutions = []
-        kept = [
-            s for s in solutions if len(s) == len(rows) and all(decide_zero(e.subs(s)).answer == "zero" for e in rows)
-        ]
-        if len(kept) != 1:
-            raise DomainError(f"explicit: p = ∂F/∂q has {len(kept)} solutions {kept} for {self.new}: use p_of and Q_of")
-        return (
-            tuple(shortest(Q.subs(kept[0])) for Q in self.Q_of),
-            tuple(shortest(kept[0][P]) for P in self.new),
-        )

@@ -92,17 +92,6 @@ class ReturnMapForm(NormalForm):
             a / (2 * pi) if c == -1j else np.nan for a, c in zip(self.frequencies_at(at), self.weights, strict=True)
         )
 
-    @property
-    def stable(self) -> bool | None:
-        """Of the motion of the orbit's energy, or of a drive: False where a multiplier is larger than 1. True by Moser's theorem
-        for one pair: no resonance of an order up to four, a twist that is by far larger than the error. None: undecided.
-        """
-        if (self.weights != -1j).any():
-            return False
-        low = min((sum(e) for e in self.resonances), default=5)
-        decided = len(self.frequencies) == 1 and self.known_through >= 4 and low > 4
-        return True if decided and abs(self.twist[0, 0]) * self.unit > 1e3 * self.error else None
-
     def place(self, z: Sequence[complex]) -> dict[sp.Symbol, float]:
         """The point (q, p) on the section whose normal coordinates are z and w = z̄ (oscillations)."""
         point = np.concatenate([z, np.conj(z)])

@@ -33,21 +33,7 @@ from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.printers import compile_program, rhs_source
 
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
-_OWN = (
-    "s",
-    "y",
-    "t",
-    "I",
-    "Q",
-    "rate",
-    "bare",
-    "make",
-    "pulse",
-    "width",
-    "begin",
-    "LOST",
-    "OutsideError",
-)  # of generated code
+_OWN = "s y t I Q rate bare make pulse width begin LOST OutsideError"  # names of generated code
 _LONG = 300  # operations of a Lagrangian from which on its equations are made by sweeps
 _STATES = 3  # random ones, at which the rank of a matrix is read off
 _NEWTON = 20  # steps that bring them onto the constraints
@@ -278,7 +264,11 @@ def energy_program(system: Equations) -> Generated:
 def _is_plain(name: str) -> bool:
     """Return whether generated code may have it for a name: one of mathematics, no word of a language, none that stages have."""
     return name.isidentifier() and not (
-        iskeyword(name) or name in vars(math) or name in _OWN or name.startswith(("_", "c_")) or name.endswith("_")
+        iskeyword(name)
+        or name in vars(math)
+        or name in _OWN.split()
+        or name.startswith(("_", "c_"))
+        or name.endswith("_")
     )
 
 

@@ -11,7 +11,6 @@ from benchmarks.mechanisms.chains import VALUES, chain, g, l, m
 from lagrotor.errors import InputError
 from lagrotor.mechanics import Coordinates, System, SystemRun, coordinates, motion_program, t
 from lagrotor.mechanics.running.programs import equations_of_speeds
-from lagrotor.mechanics.running.sweeps import without_turns
 from lagrotor.numerics import operations
 
 
@@ -25,20 +24,6 @@ def rods(n: int, weight: sp.Expr = g) -> System:
         height += l * sp.cos(angle)
         L += m * (x**2 + z**2) / 2 + m * weight * height
     return System(c, L)
-
-
-def test_squares_of_turned_components_lose_the_turn() -> None:
-    """Two turns one after another; not where the weights differ, or a sign makes it no turn."""
-    a, b, d, x, y, m, n = sp.symbols("a b d x y m n", real=True)
-    p, q, s = a * sp.cos(x) + b * sp.sin(x), b * sp.cos(x) - a * sp.sin(x), d + a
-    turned = (p * sp.cos(y) - s * sp.sin(y)) ** 2 + (p * sp.sin(y) + s * sp.cos(y)) ** 2 + q**2
-    assert sp.expand(without_turns(1 + m * turned / 2) - 1 - m * (a**2 + b**2 + s**2) / 2) == 0
-    assert not without_turns(m * turned).has(sp.sin, sp.cos)
-    for kept in (m * p**2 + n * q**2, m * p**2 + m * (b * sp.cos(x) + a * sp.sin(x)) ** 2, m * p**2 + m * (q + d) ** 2):
-        assert without_turns(kept) == kept
-    again = sp.Mul(sp.cos(x), sp.cos(x), a, evaluate=False) + b * sp.sin(x)
-    for left in (sp.Add(m * p**2, m * p**2, m * q**2, evaluate=False), again**2 + q**2):  # unevaluated: nothing is lost
-        assert sp.expand(without_turns(left) - left).subs({sp.sin(x) ** 2: 1 - sp.cos(x) ** 2}).expand() == 0
 
 
 @pytest.mark.parametrize("n", [6, 9])
