@@ -37,19 +37,6 @@ def test_point_transformations_identity_and_shears_are_canonical() -> None:
         assert h.canonical([2 * Q[0], Q[1]], new).answer == "nonzero"  # twin
 
 
-def test_a_turn_in_phase_space_is_generated_and_its_hamiltonian_is_that_of_the_new_variables() -> None:
-    h = oscillator()
-    (x,), (p,), P = h.q, h.p, sp.Symbol("P", real=True)
-    made = h.generated(x * P / sp.cos(a) - (x**2 + P**2) * sp.tan(a) / 2, [P])
-    (Q,), (new,) = explicit(made)
-    assert h.canonical([Q], [new]).answer == "zero"
-    assert (
-        sp.simplify(Q - (x * sp.cos(a) - p * sp.sin(a))) == 0
-        and sp.simplify(new - (p * sp.cos(a) + x * sp.sin(a))) == 0
-    )
-    assert sp.simplify(made.K.subs(P, new) - h.H) == 0
-
-
 def test_hamiltons_principal_function_leaves_no_hamiltonian() -> None:
     """A body thrown up: K = 0, P and Q = ∂F/∂P are integrals. Arnold § 47; the twin has another factor."""
     c = coordinates("y")

@@ -239,28 +239,6 @@ def test_a_steady_motion_is_the_equilibrium_that_routh_leaves():
     assert form(r**2 / 2, P**2, P).actions == {(0,): P**2, (1,): 2}
 
 
-def test_conical_pendulums_shift_by_their_amplitude_as_exact_runs_do():
-    """The spherical pendulum about its conical motion: rate² = (g/l) (1 + 3 cos²)/cos; its shift against the turns of runs."""
-    c = coordinates("theta phi")
-    (theta, phi), (u, w) = c.q, c.v
-    pendulum, lean = System(c, (u**2 + sp.sin(theta) ** 2 * w**2) / 2 + sp.cos(theta)), 0.7
-    reduced = pendulum.routh({phi: sp.Float(float(sp.sin(lean) ** 2 / sp.sqrt(sp.cos(lean))))})
-    form = reduced.hamiltonian().normal_form(4, {theta: lean})
-    assert form.frequencies[0] == pytest.approx(float(sp.sqrt((1 + 3 * sp.cos(lean) ** 2) / sp.cos(lean))))
-    off, sizes = [], np.array([0.04, 0.08])
-    for size in sizes:
-        run = reduced.simulate({}, (lean,), (size,), np.linspace(0, 40, 801), 1e-11)
-        turns = run.crossings(theta - lean, 1).t
-        rate, more = 2 * np.pi / np.diff(turns).mean(), size**2 / 2
-        action = more / form.frequencies[0]
-        action -= form.actions[(2,)] * action**2 / form.frequencies[0]
-        off.append(abs(rate - form.frequencies_at([action])[0]))
-        assert abs(rate - form.frequencies[0]) > 30 * off[-1]
-    assert off[0] < 1e-5 and off[1] / off[0] > 8
-    with pytest.raises(InputError, match=r"that System\.routh leaves"):
-        pendulum.hamiltonian().normal_form(4, {theta: lean, phi: 0, "p_phi": 0.3})
-
-
 def test_what_is_taken_to_be_zero_and_is_not_is_refused_where_its_series_has_no_end() -> None:
     def form(slow: float):
         rates = {0: 1e4, 1: 0.011, 2: slow}

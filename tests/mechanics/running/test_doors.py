@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor.errors import InputError, IntegrationError
+from lagrotor.errors import InputError, IntegrationError, SingularError
 from lagrotor.mechanics import Event, Impact, System, coordinates, t
 
 m, length, e = sp.symbols("m length e", positive=True)
@@ -93,6 +93,19 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
         "add the square of a small speed under the root",
     ),
 }
+
+
+SINGULAR = {
+    "not regular in y_dot; use fewer": System(plane, plane.v[0] ** 2 / 2 - plane.q[1] ** 2),
+    "dependent": System(plane, bound.L, (*bound.constraints, 2 * bound.constraints[0])),
+}
+
+
+@pytest.mark.parametrize("words", SINGULAR)
+def test_a_system_without_one_acceleration_is_refused(words: str) -> None:
+    values = {} if "regular" in words else {m: 1, length: 1}
+    with pytest.raises(SingularError, match=words):
+        SINGULAR[words].simulate(values, (1, 0), (0, 0), T)
 
 
 @pytest.mark.parametrize("name", REFUSED)

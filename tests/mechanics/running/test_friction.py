@@ -43,20 +43,6 @@ def test_an_oscillator_loses_twice_the_same_length_each_half_cycle_and_stops(fri
     assert run.evaluate(-F * sp.sign(v))[-1] == pytest.approx(places[-1], abs=1e-7)
 
 
-@pytest.mark.parametrize("tilt", [0.2, 0.5])
-def test_a_block_on_an_incline_stays_if_its_tangent_is_below_the_coefficient(tilt: float) -> None:
-    """mu = tan(0.35): thrown upward it stops; on the steep incline it slides back."""
-    block = System(C, v**2 / 2 + g * sp.sin(angle) * x, dissipation=mu * g * sp.cos(angle) * sp.Abs(v))
-    rough = np.tan(0.35)
-    run = block.simulate({g: 9.81, mu: rough, angle: tilt}, (0,), (-2,), np.linspace(0, 3, 61), 1e-10)
-    down, hold = 9.81 * np.sin(tilt), 9.81 * rough * np.cos(tilt)
-    stop, top = 2 / (down + hold), -2 / (down + hold)
-    end = top + max(down - hold, 0) * (3 - stop) ** 2 / 2
-    assert run.q[-1, 0] == pytest.approx(end, abs=1e-8)
-    resting = block.simulate({g: 9.81, mu: rough, angle: tilt}, (0,), (0,), (0, 1.0), 1e-10)
-    assert resting.q[-1, 0] == pytest.approx(max(down - hold, 0) / 2, abs=1e-9)
-
-
 def test_sticking_in_two_directions_is_refused_and_the_way_out_creeps_as_said() -> None:
     """On the floor and on a belt; with v_0 under the root the load f = 0.6 F creeps at 0.6/0.8 v_0."""
     plane, small = coordinates("x y"), sp.Symbol("v_0", positive=True)

@@ -20,23 +20,6 @@ NUMBERS = {m: 1, k: 4, d: 0.1}
 T, FINE = np.linspace(0, 6, 25), np.linspace(0.3, 1.2, 1000)
 
 
-def test_derivatives_stand_in_the_equations_as_what_they_are() -> None:
-    assert CENTRAL.motion[0] - (m * PLANE.a[0] - m * r * phi_dot**2 + U(r).diff(r)) == 0
-    assert (SUPPORTED.motion[0] - (m * (C.a[0] + y(t).diff(t, 2)) + k * x + d * v - u(t))).expand() == 0
-
-
-def test_what_is_conserved_is_so_for_every_function() -> None:
-    assert CENTRAL.cyclic == (PLANE.q[1],)
-    assert CENTRAL.energy == (m * (r_dot**2 + r**2 * phi_dot**2) / 2 + U(r)).expand()
-    assert CENTRAL.conserved(CENTRAL.energy).answer == "zero" and CENTRAL.conserved(U(r)).answer == "nonzero"
-    p = sp.Symbol("p_phi", real=True)
-    assert CENTRAL.routh("phi").motion[0] - (m * PLANE.a[0] - p**2 / (m * r**3) + U(r).diff(r)) == 0
-    driven = System(C, m * v**2 / 2 - y(t) * x)
-    assert driven.cyclic == () and driven.conserved(driven.energy).answer == "nonzero"
-    held = System(coordinates("x z"), v**2, constraints=(sp.Symbol("z", real=True) - F(x),))
-    assert held.residual[0] == sp.Symbol("z_dot", real=True) - F(x).diff(x) * v
-
-
 @pytest.mark.parametrize(
     "value",
     [sp.Lambda(x, -1 / x), (lambda r: -1 / r, lambda r: 1 / r**2), CubicSpline(FINE, -1 / FINE)],

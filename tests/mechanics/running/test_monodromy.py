@@ -8,7 +8,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk, mathieu_a, mathieu_b
 
-from lagrotor.errors import InputError, SingularError
+from lagrotor.errors import InputError
 from lagrotor.mechanics import MonodromyMatrix, System, coordinates, t
 from lagrotor.mechanics.running import monodromy
 
@@ -34,12 +34,6 @@ def test_the_tongues_of_mathieu_begin_and_end_at_its_characteristic_values(n: in
     assert abs(of((low + high) / 2)[0]) > 1 + 1e-4
     for outside in (low - 0.05, high + 0.05):
         np.testing.assert_allclose(np.abs(of(outside)), 1, atol=1e-7)
-
-
-@pytest.mark.parametrize("force", [-sp.sqrt(x), -sp.cbrt(x)])
-def test_a_start_without_a_derivative_is_refused_before_the_run(force: sp.Expr) -> None:
-    with pytest.raises(SingularError, match="floquet: the rate of x_dot has no value or no derivative"):
-        System(C, v**2 / 2, forces=(force,)).floquet({x: 0, v: 0}, {}, 2)
 
 
 def test_a_swing_has_two_multipliers_of_one_at_its_own_period() -> None:

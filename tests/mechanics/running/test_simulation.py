@@ -11,10 +11,9 @@ import sympy as sp
 from scipy.integrate import simpson, solve_ivp
 from scipy.special import ellipj, ellipk
 
-from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning, SingularError
+from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning
 from lagrotor.mechanics import System, SystemRun, coordinates, t
 from lagrotor.mechanics.running import programs, simulation
-from lagrotor.mechanics.running.scales import defect_of
 from lagrotor.mechanics.running.start import rounding_of_start
 from tests.systems import double_pendulum, henon_heiles, values_of
 
@@ -101,17 +100,12 @@ def test_a_parameter_may_have_any_name(name: str) -> None:
     np.testing.assert_array_equal(run.evaluate(K * theta), 1.7 * run.q[:, 0])
 
 
-def test_a_start_off_the_constraints_is_refused_with_the_nearest_on_them() -> None:
-    with pytest.raises(ConstraintError, match=r"nearest state on them is q0 = \(0\.8, 0\), v0 = \(0, 1\)"):
-        rod().simulate(VALUES, (1.0, 0), (0.5, 1), [0, 1])
-    q, v = rod().consistent(VALUES, (1.0, 0), (0.5, 1))
-    assert rod().simulate(VALUES, q, v, [0, 1]).drift.max() < 1e-12
-
-
 @pytest.mark.parametrize("size", [1e-6, 1e6])
 def test_how_far_off_the_constraints_a_start_may_be_goes_by_the_size_of_the_motion(size: float) -> None:
     values, times = {m: 1.0, g: 9.81, l: size}, [0, size**0.5]
-    with pytest.raises(ConstraintError, match="off the constraints"):
+    with pytest.raises(
+        ConstraintError, match=r"off the constraints.*nearest state on them is q0 = \(1(e-06|000000), 0\), v0"
+    ):
         rod().simulate(values, (1.0001 * size, 0), (0, 0), times)
     with pytest.raises(ConstraintError, match="off the constraints"):
         rod().linearise({"x": 0, "y": -1.0001 * size}, values)
@@ -176,14 +170,6 @@ def test_expressions_are_evaluated_along_a_run() -> None:
     assert run.evaluate(sp.S.One).shape == (31,)
     with pytest.raises(InputError, match="unheard without a value"):
         run.evaluate(sp.Symbol("unheard"))
-
-
-def test_a_lagrangian_without_a_mass_is_refused() -> None:
-    with pytest.raises(SingularError, match=r"not regular in y_dot; use fewer"):
-        System(PLANE, PLANE.v[0] ** 2 / 2 - PLANE.q[1] ** 2).simulate({}, (0, 0), (0, 0), [0, 1])
-    twice = System(PLANE, rod().L, (rod().constraints[0], 2 * rod().constraints[0]))
-    with pytest.raises(SingularError, match="dependent"):
-        twice.simulate(VALUES, (0.8, 0), (0, 0), [0, 1])
 
 
 def test_crossings_are_found_where_the_solution_has_them(engine: str) -> None:
@@ -353,15 +339,6 @@ def test_constraints_that_are_nearly_dependent_are_known_no_better_than_they_can
     monkeypatch.setattr(simulation, "DEPENDENT", simulation.DEPENDENT._replace(value=0.0))  # twin
     told, true = told_and_true()
     assert true > 2 * told
-
-
-def test_an_integral_is_heard_where_its_slope_cannot_be_measured() -> None:
-    """A step from x = 10⁻¹² leaves the domain of √x: not a number there made all else unheard, as its twin in numpy shows."""
-    c = coordinates("x")
-    defect = defect_of(System(c, c.v[0] ** 2 / 2 - sp.sqrt(c.q[0])), {}, np.ones(2))
-    off = defect(np.arange(3.0), np.array([[1, 0], [1e-12, 1.4], [1, 0.1]]))
-    assert np.isfinite(off).all() and np.abs(off).max() > 1e-3
-    assert not np.array([1.0, np.nan]).max() > 1e-3
 
 
 @pytest.mark.parametrize("unit", [1.0, 1e-5])

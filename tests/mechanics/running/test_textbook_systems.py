@@ -152,21 +152,6 @@ def test_a_ball_on_a_turntable_goes_in_circles_at_two_sevenths_of_its_rate() -> 
     assert circle(values | {I: 1 / 2 * m_ * r_**2}) > 1e-3
 
 
-def test_the_tension_of_a_rod_is_its_multiplier_and_an_acceleration_is_evaluated() -> None:
-    """T = m g cos θ + m v²/l of a pendulum in x and y; T along the rod is 2 l λ."""
-    c = coordinates("x y")
-    x, y = c.q
-    rod = System(c, m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - m * g * y, (x**2 + y**2 - l**2,))
-    run = rod.simulate(VALUES, (l_, 0), (0, -1), np.linspace(0, 1, 21), 1e-11)
-    (lam,) = rod.multipliers
-    tension = m_ * g_ * -run.q[:, 1] / l_ + m_ * (run.v**2).sum(1) / l_
-    np.testing.assert_allclose(-2 * l_ * run.evaluate(lam), tension, atol=1e-9)
-    np.testing.assert_allclose(run.evaluate(m * c.a[0]), run.evaluate(2 * lam * x), atol=1e-9)
-    assert (
-        np.abs(run.evaluate(m * c.a[1]) - run.evaluate(2 * lam * y)).min() > 1
-    )  # gravity is no force of the constraint
-
-
 def test_the_hinge_force_of_a_tree_is_the_multiplier_of_what_holds_it() -> None:
     """A four-bar linkage by the recursion: multipliers as from the mass matrix."""
     c = coordinates("a b c")
