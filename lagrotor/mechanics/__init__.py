@@ -26,11 +26,8 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.bodies.contacts import Sphere as Sphere
     from lagrotor.mechanics.bodies.force_elements import Pathway as Pathway
     from lagrotor.mechanics.bodies.rigid_bodies import Frame as Frame
-    from lagrotor.mechanics.canonical.action_variables import Libration as Libration
-    from lagrotor.mechanics.canonical.action_variables import libration as libration
     from lagrotor.mechanics.canonical.hamiltonians import GeneratedTransformation as GeneratedTransformation
     from lagrotor.mechanics.canonical.hamiltonians import Hamiltonian as Hamiltonian
-    from lagrotor.mechanics.canonical.hamiltonians import rotational_bracket as rotational_bracket
     from lagrotor.mechanics.canonical.normal_forms import NormalForm as NormalForm
     from lagrotor.mechanics.canonical.normal_forms import birkhoff as birkhoff
     from lagrotor.mechanics.canonical.return_maps import ReturnMapForm as ReturnMapForm

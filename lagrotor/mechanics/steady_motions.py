@@ -204,7 +204,7 @@ def _place(
             raise InputError(f"linearise: {no_turn(joint.quaternion, 0)}")
     if any(decide_zero(derivative(e, t)).answer != "zero" for e in parts):
         raise InputError(
-            "linearise: the motion depends on time explicitly: give functions F(t) as inputs, or simulate it"
+            "linearise: the motion depends on time explicitly: write a letter for an input F(t), or simulate it"
         )
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")

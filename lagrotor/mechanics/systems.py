@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
@@ -85,7 +84,7 @@ class System(Equations):
         Args:
             at: the equilibrium, or the coordinates and velocities of the motion.
             values: of the parameters.
-            inputs: u, parameters or functions F(t), zero unless they have a value.
+            inputs: u, parameters, zero unless they have a value.
             outputs: y, expressions in q, v, a and the multipliers.
 
         Returns:
@@ -99,14 +98,10 @@ class System(Equations):
         for name, listed in (("inputs", inputs), ("outputs", outputs)):
             if isinstance(listed, str) or not isinstance(listed, Sequence | sp.MatrixBase):
                 raise InputError(f"linearise: {name} = {listed!r} must be a tuple")
-        if len({*map(str, inputs)}) < len(inputs) or not all(
-            isinstance(u, sp.Symbol | AppliedUndef | str) for u in inputs
-        ):
-            raise InputError(f"linearise: inputs = {inputs} must be different letters, parameters or functions F(t)")
-        if any(isinstance(u, AppliedUndef) for u in inputs):
-            from lagrotor.mechanics.running import function_values
-
-            self, inputs = function_values.inputs_as_letters("linearise", self, inputs)
+        if len({*map(str, inputs)}) < len(inputs) or not all(isinstance(u, sp.Symbol | str) for u in inputs):
+            raise InputError(
+                f"linearise: inputs = {inputs} must be different letters: of a function F(t) write a letter F"
+            )
         point = at.at if isinstance(at, Equilibrium) else at
         if not isinstance(point, Mapping):
             raise InputError(f"linearise: at = {at!r} must be an equilibrium or {{coordinate or velocity: value, …}}")

@@ -109,13 +109,6 @@ KEPT = Calibrated(
     f"{_WIDE}: 99 of 100 runs are off by less than twice the estimate",
     "test_estimated.py::test_a_run_that_does_not_conserve_is_refused",
 )
-COMPANION_FIRST = Calibrated(
-    0.6,
-    "first step of a phase of a run's companion over that of the run: phases shorter than the step that the local error allows "
-    "are one step in both",
-    "wells whose potential is a spline of up to 196 knots: of 1, errors up to 2.5 times their estimate",
-    "test_functions.py::test_where_knots_set_the_steps_two_runs_take_others",
-)
 MOST_EVENTS = Calibrated(
     20_000,
     "events of a run, beyond which its budget is spent",

@@ -47,11 +47,10 @@ _PIECE = 2_000  # steps, after which a longer one than had failed before is trie
 _IN_VAIN = 3  # times that a step is shortened at one place by what its order says, and leaves too much as before
 
 
-def dop853_steps(segment: Segment, error: float, first: float = 1.0) -> Iterator[Any]:
+def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
     """scipy's solver after each step at a local error `error`, relative and absolute: its t_old, t, y and dense_output().
 
-    first: the first step over the one that scipy would take. A state is brought back onto constraints before the next step.
-    Raises StopError where it stops.
+    A state is brought back onto constraints before the next step. Raises StopError where it stops.
     """
     from scipy.integrate import DOP853
 
@@ -70,7 +69,6 @@ def dop853_steps(segment: Segment, error: float, first: float = 1.0) -> Iterator
         raise StopError(segment.left, "the right-hand side is not finite", evaluations=solver.nfev)
     if not np.isfinite(solver.h_abs):  # the first step, which scipy would take for ever
         solver.h_abs = _FIRST * (segment.right - segment.left)
-    solver.h_abs *= first
     while solver.status == "running":
         if project is not None:  # no step over where the constraints fail
             turned = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)

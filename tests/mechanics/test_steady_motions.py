@@ -6,7 +6,7 @@ import sympy as sp
 from scipy.linalg import expm
 
 from lagrotor.errors import InputError, SingularError
-from lagrotor.mechanics import Frame, System, coordinates, t
+from lagrotor.mechanics import Frame, System, coordinates
 from tests.systems import I1, I3, M, R, ball_top, cart_and_pole, g, l, m, rolling_disc
 
 F, w = sp.symbols("F w", positive=True)
@@ -22,17 +22,6 @@ def test_the_cart_and_pole_of_textbooks() -> None:
     assert sp.Matrix([[0, 0, 1, 0], [0, 0, 0, 1], [0, -g * m / M, 0, 0], [0, g * (M + m) / (M * l), 0, 0]]) == linear.A
     assert list(linear.B) == [0, 0, 1 / M, -1 / (M * l)]
     assert sp.Matrix([[1, 0, 0, 0], [0, -g * m / M, 0, 0]]) == linear.C and list(linear.D) == [0, 1 / M]
-
-
-def test_functions_of_time_are_inputs() -> None:
-    """As a letter is, by numbers and in symbols; of a support the acceleration enters, which is another input."""
-    pushed = sp.Function("F")(t)
-    system = cart_and_pole(pushed)
-    linear, wanted = (s.linearise({x: 0, theta: 0}, inputs=(f,)) for s, f in ((system, pushed), (POLE, F)))
-    assert linear.A == wanted.A and linear.B == wanted.B
-    values = {m: 1, M: 2, g: 9.81, l: 0.5}
-    numbers = system.linearise({x: 0, theta: 0}, values, inputs=(pushed,))
-    assert pytest.approx(np.array(wanted.B.subs(values).tolist(), float)) == numbers.B
 
 
 def test_a_rolling_disc_has_its_characteristic_polynomial() -> None:

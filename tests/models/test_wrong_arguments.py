@@ -52,7 +52,6 @@ class Client:
         (lambda: STRUCTURE.upright_tip(2), r"upright_tip: i = 2 must be a rotor's number, from 0 to 1"),
         (lambda: SYSTEM.hamiltonian(5), r"hamiltonian: momenta = 5 must be symbols"),
         (lambda: SYSTEM.consistent({}, [1.0], [0.0], [1, "a"]), r"consistent: t = \[1, 'a'\] must be numbers"),
-        (lambda: SYSTEM.simulate({}, [1.0], [0.0], TIMES).plot(glossary=5), r"plot: glossary = 5 must be"),
     ],
 )
 def test_a_wrong_type_is_refused_in_words(call: Callable[[], object], said: str) -> None:

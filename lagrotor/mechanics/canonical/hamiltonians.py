@@ -1,15 +1,8 @@
 """The Hamiltonian of a system: momenta, Poisson brackets, what is conserved, canonical transformations.
 
-    q' = ∂H/∂p,   p' = −∂H/∂q,       {f, g} = ∂f/∂q·∂g/∂p − ∂f/∂p·∂g/∂q + ∂f/∂p·F ∂g/∂p.
+    q' = ∂H/∂p,   p' = −∂H/∂q,       {f, g} = ∂f/∂q·∂g/∂p − ∂f/∂p·∂g/∂q.
 
-F = 0 for canonical momenta p = ∂L/∂v. For kinetic ones, p = M v, what is linear in the velocities, L = … + b·v, is left in the
-bracket: F_ij = ∂b_j/∂q_i − ∂b_i/∂q_j, of a charge the magnetic field. Holonomic constraints φ = (g, g') are put into Dirac's
-bracket,
-
-    {f, g}* = {f, g} − {f, φ_a} (C⁻¹)_ab {φ_b, g},     C_ab = {φ_a, φ_b},
-
-for which they commute with everything. Dirac, Lectures on Quantum Mechanics (1964); Arnold, Mathematical Methods of Classical
-Mechanics, §§ 38–45; Marsden & Ratiu, Introduction to Mechanics and Symmetry, chs. 6, 10, 15.
+Arnold, Mathematical Methods of Classical Mechanics, §§ 38–45; Marsden & Ratiu, Introduction to Mechanics and Symmetry, ch. 6.
 
 Canonical transformations (q, p) → (Q, P) come from a generating function of the second kind, F(q, P, t),
 
@@ -20,8 +13,7 @@ Goldstein, Classical Mechanics, § 9.1, ch. 10; Arnold, § 48.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -40,7 +32,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Hamiltonian:
-    """H(q, p, t) with the bracket of its variables; p_dot F as in the module. constraints: g(q) = 0; v: q' of the Lagrangian.
+    """H(q, p, t) with the bracket of its variables. v: q' of the Lagrangian.
 
     Every method raises InputError for a function with a velocity, or with another symbol of the name of q, p or t: it would
     count as a constant.
@@ -49,19 +41,13 @@ class Hamiltonian:
     H: sp.Expr
     q: tuple[sp.Symbol, ...]
     p: tuple[sp.Symbol, ...]
-    field: sp.Matrix
-    constraints: tuple[sp.Expr, ...] = ()
     v: tuple[sp.Symbol, ...] = ()
 
     def bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
-        """{f, g}; under constraints Dirac's, which is that of functions on them."""
+        """{f, g}."""
         f, g = self._function("bracket", f), self._function("bracket", g)
-        plain = self._bracket(f, g)
-        if not self.constraints:
-            return shortest(plain)
-        left = sp.Matrix([[self._bracket(f, phi) for phi in self._bound]])
-        right = sp.Matrix([self._bracket(phi, g) for phi in self._bound])
-        return shortest(plain - (left * self._dirac * right)[0])
+        fq, fp, gq, gp = (gradient(e, s) for e in (f, g) for s in (self.q, self.p))
+        return shortest(fq.dot(gp) - fp.dot(gq))
 
     def _function(self, where: str, given: sp.Expr) -> sp.Expr:
         e, names = expression(where, given), {str(s): s for s in (*self.q, *self.p, t)}
@@ -74,51 +60,13 @@ class Hamiltonian:
                 )
         return e
 
-    def _bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
-        fq, fp, gq, gp = (gradient(e, s) for e in (f, g) for s in (self.q, self.p))
-        return fq.dot(gp) - fp.dot(gq) + (fp.T * self.field * gp)[0]
-
-    @cached_property
-    def _bound(self) -> tuple[sp.Expr, ...]:
-        """The constraints and their rates."""
-        return (*self.constraints, *(self._bracket(g, self.H) for g in self.constraints))
-
-    @cached_property
-    def _dirac(self) -> sp.Matrix:
-        n = len(self._bound)
-        C = sp.Matrix(n, n, lambda a, b: self._bracket(self._bound[a], self._bound[b]))
-        return linear_solve(
-            C, sp.eye(n), "bracket: the constraints are dependent: leave out what follows from the others"
-        )
-
     def rate(self, f: sp.Expr) -> sp.Expr:
         """df/dt = {f, H} + ∂f/∂t along a motion."""
         return shortest(self.bracket(f, self.H) + derivative(f, t))
 
     def conserved(self, f: sp.Expr) -> Decision:
-        """Return whether f(q, p, t) is a first integral, decided; under constraints what vanishes only on them is "undecided"."""
-        return self._on_constraints(self.bracket(f, self.H) + derivative(f, t))
-
-    def in_involution(self, *integrals: sp.Expr) -> Decision:
-        """Return whether each is a first integral and every bracket of two of them vanishes, decided.
-
-        n of them that are independent make the system integrable (Liouville; Arnold § 49).
-        """
-        pairs = [(f, g) for i, f in enumerate(integrals) for g in integrals[:i]]
-        decisions = [*map(self.conserved, integrals), *(self._on_constraints(self.bracket(f, g)) for f, g in pairs)]
-        if not decisions:
-            raise InputError("in_involution: give the first integrals")
-        worst = {answer: d for d in decisions for answer in [d.answer]}
-        decision = worst.get("nonzero") or worst.get("undecided") or decisions[0]
-        return replace(decision, domain=tuple(dict.fromkeys(factor for d in decisions for factor in d.domain)))
-
-    def _on_constraints(self, e: sp.Expr) -> Decision:
-        decision = decide_zero(e)
-        if decision.answer == "nonzero" and self.constraints:
-            return replace(
-                decision, answer="undecided", reason=f"Off the constraints it is not zero. {decision.reason}"
-            )
-        return decision
+        """Return whether f(q, p, t) is a first integral, decided."""
+        return decide_zero(self.bracket(f, self.H) + derivative(f, t))
 
     def canonical(self, Q: Sequence[sp.Expr], P: Sequence[sp.Expr]) -> Decision:
         """Return whether (q, p) → (Q, P) keeps the brackets, {Q_i, P_j} = δ_ij and all others zero: decided. Arnold § 45."""
@@ -133,14 +81,9 @@ class Hamiltonian:
         P: the new momenta, symbols of their own.
 
         Raises:
-            DomainError: for kinetic momenta or constraints.
             InputError: for a P that is no symbol or is already one of H, and an F with old momenta.
             SingularError: where det ∂²F/∂q∂P vanishes identically: it generates nothing.
         """
-        if self.constraints or not self.field.is_zero_matrix:
-            raise DomainError(
-                "generated: H must have canonical momenta and no constraints: use independent coordinates"
-            )
         F, q, p = self._function("generated: F", F), self.q, self.p
         new = vector_of("generated: P", P, len(q))
         taken = {*q, *p, t} | self.H.free_symbols
@@ -164,54 +107,37 @@ class Hamiltonian:
         detuning: float = 0.0,
         period: float | None = None,
     ) -> "NormalForm":
-        """Birkhoff's normal form through an order about the equilibrium or steady motion `at`: see `normal_forms.NormalForm`.
+        """Birkhoff's normal form through an order about the equilibrium `at`: see `normal_forms.NormalForm`.
 
         With a period about the periodic orbit that begins near `at`, of the same energy, or driven: a `ReturnMapForm`.
 
-        A steady motion is named by the momenta of the angles that turn, which H does not have: it is an equilibrium of what is
-        left, whose form is given. With letters for these momenta the derivatives of the actions' coefficients by them are
-        the mean rates of the angles.
+        A steady motion is an equilibrium of what `System.routh` leaves of its angles. With letters for their momenta the
+        derivatives of the actions' coefficients by them are the mean rates of the angles.
 
         Args:
             at: {coordinate or momentum: value}; where no momentum is named they are those of rest, of an orbit those of the
                 velocities in it; t: of a drive.
-            values: of the parameters; without them the coefficients are exact where the frequencies are rational, algebraic or
-                rational in the parameters.
+            values: of the parameters; without them the coefficients are exact where the frequencies are rational, or rational in
+                the parameters.
             detuning: what is combined of the frequencies, in rad/s, up to which a resonance is kept.
             period: of the orbit, s; near enough is enough, but that of a drive.
 
         Raises:
             InputError: where `at` is none of these, a coordinate is not named or a letter needs a value.
-            DomainError: where there are constraints, H is not analytic there, or depends on time without a period.
+            DomainError: where H is not analytic there, or depends on time without a period.
             SingularError: where a multiplier of an orbit is 1 or −1.
         """
         from lagrotor.mechanics.canonical.normal_forms import normal_form_at
 
         x = (*self.q, *self.p)
-        if self.constraints or not self.field.is_zero_matrix or (self.H.has(t) and period is None):
-            raise DomainError(
-                "normal_form: H must have canonical momenta and no constraints: use independent coordinates; where it depends on "
-                "time, name the period of an orbit"
-            )
+        if self.H.has(t) and period is None:
+            raise DomainError("normal_form: H depends on time: name the period of an orbit")
         if period is not None:
             return self._about_orbit(order, at, values or {}, detuning, period)
         H, point = self._with_values(at, x, values or {})
         if strange := [str(s) for s in point if s not in x]:
             raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}: name coordinates and momenta")
-        turning = {p: point[p] for q, p in zip(self.q, self.p, strict=True) if p in point and not H.has(q)}
-        if turning and len(turning) < len(self.q):
-            if H.xreplace({q: v for q, v in point.items() if q in self.q}).has(sp.zoo, sp.nan):
-                raise DomainError(
-                    f"normal_form: with other momenta than {turning} H is singular at {point}: use coordinates that are "
-                    "regular there"
-                )
-            H = H.xreplace(turning)
-            angles = {q for q, p in zip(self.q, self.p, strict=True) if p in turning}
-            x, point = (
-                tuple(s for s in x if s not in {*turning, *angles}),
-                {s: v for s, v in point.items() if s not in {*turning, *angles}},
-            )
-        q, p = x[: len(x) // 2], x[len(x) // 2 :]
+        q, p = self.q, self.p
         if missing := [str(s) for s in q if s not in point and H.has(s)]:
             raise InputError(f"normal_form: {', '.join(missing)} without a value: the point needs each coordinate's")
         at_rest = dict.fromkeys(x, sp.S.Zero) | point
@@ -268,87 +194,33 @@ class Hamiltonian:
         return return_map_form(H, x, start, duration, int(order), float(detuning))
 
 
-def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None, kinetic: bool = False) -> Hamiltonian:
-    """H = p·v − L with the momenta p = ∂L/∂v, named p_q unless given; kinetic: with p = M v and magnetic terms in the bracket.
+def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -> Hamiltonian:
+    """H = p·v − L with the momenta p = ∂L/∂v, named p_q unless given.
 
-    Raises DomainError for what no Hamiltonian has: forces, friction, rolling constraints, constraints that move, or an L that is
-    not quadratic in the velocities; SingularError where det M vanishes.
+    Raises DomainError for what no Hamiltonian has: forces, friction, constraints, or an L that is not quadratic in the
+    velocities; SingularError where det M vanishes.
     """
-    if system.forces or system.dissipation != 0 or system.rolling or any(g.has(t) for g in system.constraints):
+    if system.forces or system.dissipation != 0 or system.rolling or system.constraints:
         raise DomainError(
-            "hamiltonian: forces, friction, rolling and moving constraints have no Hamiltonian: write what has a potential "
-            "into L, and leave the others out"
+            "hamiltonian: forces, friction and constraints have no Hamiltonian here: write what has a potential into L, and use "
+            "independent coordinates, System.in_coordinates"
         )
     c, L = system.c, system.L
     if momenta is not None and not isinstance(momenta, Iterable):
         raise InputError(f"hamiltonian: momenta = {momenta!r} must be symbols, one for each of {c.q}")
     p = tuple(momenta) if momenta is not None else tuple(sp.Symbol(f"p_{q}", real=True) for q in c.q)
-    b = gradient(L, c.v).subs(dict.fromkeys(c.v, 0))
-    curl = jacobian(b, c.q)
-    field = (curl.T - curl).applyfunc(shortest) if kinetic else sp.zeros(len(c.q))
-    return Hamiltonian(
-        shortest(legendre(L - b.dot(sp.Matrix(c.v)) if kinetic else L, c, p)), c.q, p, field, system.constraints, c.v
-    )
-
-
-def rotational_bracket(f: sp.Expr, g: sp.Expr, momentum: Sequence[sp.Symbol], *vectors: Sequence[sp.Symbol]) -> sp.Expr:
-    """The Lie–Poisson bracket of a body's angular momentum M and of vectors γ fixed in space, all in the body's frame:
-
-        {M_i, M_j} = −ε_ijk M_k,   {M_i, γ_j} = −ε_ijk γ_k,   {γ_i, γ_j} = 0,
-
-    so that M' = {M, H} = M × ∂H/∂M + γ × ∂H/∂γ are Euler's equations. Marsden & Ratiu, ch. 15.
-
-    Args:
-        f: of M and γ.
-        g: of M and γ.
-        momentum: M, three symbols.
-        vectors: each γ, three symbols.
-
-    Raises:
-        InputError: for a vector that is not three symbols, and for another symbol of the name of one of them.
-    """
-    for vector in (momentum, *vectors):
-        if len(vector) != 3 or not all(isinstance(s, sp.Symbol) for s in vector):
-            raise InputError(f"rotational_bracket: {tuple(vector)} must be three symbols")
-    names = {str(s): s for vector in (momentum, *vectors) for s in vector}
-    f, g = (expression("rotational_bracket", e) for e in (f, g))
-    if strange := [s for s in f.free_symbols | g.free_symbols if names.get(str(s), s) != s]:
-        raise InputError(f"rotational_bracket: {strange[0]} is another symbol than that of the vectors: use theirs")
-    by_M = [gradient(e, momentum) for e in (f, g)]
-    result = -sp.Matrix(momentum).dot(by_M[0].cross(by_M[1]))
-    for gamma in vectors:
-        first, second = (gradient(e, gamma) for e in (f, g))
-        result -= sp.Matrix(gamma).dot(by_M[0].cross(second) + first.cross(by_M[1]))
-    return shortest(result)
+    return Hamiltonian(shortest(legendre(L, c, p)), c.q, p, c.v)
 
 
 @dataclass(frozen=True)
 class GeneratedTransformation:
-    """new: P, old: p, symbols; p_of and Q_of: old momenta and new coordinates of (q, P, t), and the new Hamiltonian K."""
+    """new: P, old: p, symbols; p_of and Q_of: old momenta and new coordinates of (q, P, t), and the new Hamiltonian K.
+
+    Q and P of (q, p, t) are solutions of p = p_of for P, as of sympy's solve.
+    """
 
     new: tuple[sp.Symbol, ...]
     old: tuple[sp.Symbol, ...]
     p_of: tuple[sp.Expr, ...]
     Q_of: tuple[sp.Expr, ...]
     K: sp.Expr
-
-    def explicit(self) -> tuple[tuple[sp.Expr, ...], tuple[sp.Expr, ...]]:
-        """Q and P of (q, p, t), p = ∂F/∂q solved for P.
-
-        Raises:
-            DomainError: where no solution in closed form is known, or more than one.
-        """
-        rows = [own - of for own, of in zip(self.old, self.p_of, strict=True)]
-        try:
-            solutions = sp.solve(rows, self.new, dict=True)
-        except NotImplementedError:
-            solutions = []
-        kept = [
-            s for s in solutions if len(s) == len(rows) and all(decide_zero(e.subs(s)).answer == "zero" for e in rows)
-        ]
-        if len(kept) != 1:
-            raise DomainError(f"explicit: p = ∂F/∂q has {len(kept)} solutions {kept} for {self.new}: use p_of and Q_of")
-        return (
-            tuple(shortest(Q.subs(kept[0])) for Q in self.Q_of),
-            tuple(shortest(kept[0][P]) for P in self.new),
-        )

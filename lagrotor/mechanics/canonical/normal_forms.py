@@ -19,11 +19,10 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from sympy.polys.polyerrors import CoercionFailed
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotExactError, SingularError
-from lagrotor.mechanics.canonical.normal_coordinates import elements, exact_coordinates, normal_coordinates
+from lagrotor.mechanics.canonical.normal_coordinates import element, exact_coordinates, normal_coordinates
 from lagrotor.mechanics.canonical.polynomials import (
     Coefficients,
     Exponents,
@@ -38,7 +37,7 @@ from lagrotor.mechanics.canonical.taylor_series import LocalSeries
 from lagrotor.shown import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
-_STEADY = "of a steady motion name the momenta of its angles, of another periodic orbit its period"
+_STEADY = "of a steady motion take the equilibrium that System.routh leaves, of another periodic orbit name its period"
 _LARGE = 1e30  # times the first term: a series of a nilpotent part that has an end does not grow so
 _SMALL = 1e-16  # of the largest coefficient: what is left of a nilpotent part's series
 
@@ -104,31 +103,6 @@ class NormalForm(Shown):
         for generator in self.generators:
             f = lie_transform(f, generator, self.weights, self.known_through)
         return f
-
-    def in_numbers(self) -> "NormalForm":
-        """The same with floating-point coefficients, and w_j = z̄_j.
-
-        Raises:
-            InputError: where letters have no values.
-        """
-        if self.field is None:
-            return self
-        n = len(self.frequencies)
-        if letters := set().union(*(w.free_symbols for w in self.frequencies)):
-            raise InputError(f"in_numbers: {', '.join(map(str, letters))} without a value: give values to normal_form")
-        vectors = np.array(self.vectors.evalf().tolist(), dtype=complex)
-        lead = np.abs(vectors[:, :n]).argmax(0), np.arange(n)
-        scale = np.sqrt((vectors[:, n:][lead] / vectors[:, :n].conj()[lead]).real)
-        scales = np.concatenate([scale, 1 / scale])
-
-        def numbers(f: Polynomial) -> Polynomial:
-            plain = np.array([complex(self._plain(c)) for c in f.coefficients], dtype=complex)
-            return Polynomial(f.exponents, plain * np.prod(scales**f.exponents, axis=1))
-
-        return NormalForm(
-            tuple(map(float, self.frequencies)), numbers(self.series), np.full(n, -1j),
-            tuple(map(numbers, self.generators)), vectors * scales, self.known_through, 0.0,
-        )  # fmt: skip
 
     def summary(self) -> dict[str, str]:
         """Frequencies, the series in the actions, resonances and what is known of the error, name → words."""
@@ -236,8 +210,8 @@ def normal_form_at(
 ) -> NormalForm:
     """The normal form of H(x), x = (q_1 … q_n, p_1 … p_n) with canonical brackets, about the equilibrium `at`.
 
-    Exact where no number of H is a floating-point one and the frequencies are rational, algebraic or rational in H's letters;
-    numbers otherwise. Raises InputError where `at` is no equilibrium or letters are left that need values, DomainError
+    Exact where no number of H is a floating-point one and the frequencies are rational, or rational in H's letters; numbers
+    otherwise. Raises InputError where `at` is no equilibrium or letters are left that need values, DomainError
     where H is not analytic there, SingularError where a rate other than zero is double and not diagonal.
     """
     check_form_order(order, detuning)
@@ -320,14 +294,10 @@ def _exact(
         raise NotExactError(f"normal_form: whether ∂H/∂x = {list(slope)} is zero at {dict(at)} is not decided")
     bracket = sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]]))
     letters = H.free_symbols - {*x} | A.free_symbols
-    normal = exact_coordinates(A, bracket, letters, H)
-    field = normal.field
+    normal = exact_coordinates(A, bracket, letters)
 
     def value(e: sp.Expr) -> Any:
-        try:
-            return elements(field)(sp.sympify(e, strict=True))
-        except (CoercionFailed, ValueError, NotImplementedError):
-            raise NotExactError(f"normal_form: {e} is not in the field of the frequencies") from None
+        return element(normal.field, sp.sympify(e, strict=True))
 
     full = _expanded(H, x, at, normal.vectors, order, value, object)
     pair = [tuple(int(k in (j, n + j)) for k in range(2 * n)) for j in range(n)]
@@ -335,7 +305,7 @@ def _exact(
         raise NotExactError("normal_form: the quadratic part is not diagonal")
     weights = np.empty(n, dtype=object)
     weights[:] = [value(-sp.I)] * n
-    return birkhoff(full, weights, order, detuning, normal.vectors, field)
+    return birkhoff(full, weights, order, detuning, normal.vectors, normal.field)
 
 
 def _expanded(

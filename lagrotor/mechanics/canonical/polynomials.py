@@ -1,6 +1,6 @@
 """Polynomials in many variables as arrays, cut off at an order: products, Poisson brackets, Lie transforms.
 
-Coefficients are floating-point numbers, or elements of a field in arrays of objects: rational, algebraic, or rational in
+Coefficients are floating-point numbers, or elements of a field in arrays of objects: rational, or rational in
 parameters. Variables come in canonical pairs, z_1 … z_n and then w_1 … w_n, with {z_j, w_j} = c_j:
 
     {f, g} = sum_j c_j (∂f/∂z_j ∂g/∂w_j − ∂f/∂w_j ∂g/∂z_j),       exp(L_g) f = f + {f, g} + {{f, g}, g}/2! + …

@@ -43,7 +43,6 @@ from lagrotor.mechanics.canonical.taylor_series import JetSpace, TruncatedSeries
 from lagrotor.mechanics.lagrangian import clock_parts, gradient, t
 from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.codegen import Program
-from lagrotor.numerics.floquet_multipliers import multiplier_rows
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.printers import compile_program
 from lagrotor.numerics.pulse import Window, brief_windows
@@ -80,14 +79,6 @@ class ReturnMapForm(NormalForm):
         rates = self.weights * np.array(self.frequencies)
         return np.exp(np.concatenate([rates, -rates]))
 
-    @property
-    def errors(self) -> Array:
-        """The errors of the multipliers; of a pair μ, 1/μ both have the same relative one."""
-        sizes, right, left = np.abs(self.multipliers), np.abs(self.vectors), np.abs(np.linalg.inv(self.vectors))
-        largest = ((right * sizes) @ left).max()  # no element of the map's first order is larger
-        relative = self.error * largest * left.sum(1) * right.sum(0) / sizes
-        return sizes * np.tile(np.minimum(*np.split(relative, 2)), 2)
-
     @cached_property
     def twist(self) -> Array:
         """∂α_j/∂I_k (m, m) at the orbit, rad per unit of action."""
@@ -101,17 +92,6 @@ class ReturnMapForm(NormalForm):
             a / (2 * pi) if c == -1j else np.nan for a, c in zip(self.frequencies_at(at), self.weights, strict=True)
         )
 
-    @property
-    def stable(self) -> bool | None:
-        """Of the motion of the orbit's energy, or of a drive: False where a multiplier is larger than 1. True by Moser's theorem
-        for one pair: no resonance of an order up to four, a twist that is by far larger than the error. None: undecided.
-        """
-        if (self.weights != -1j).any():
-            return False
-        low = min((sum(e) for e in self.resonances), default=5)
-        decided = len(self.frequencies) == 1 and self.known_through >= 4 and low > 4
-        return True if decided and abs(self.twist[0, 0]) * self.unit > 1e3 * self.error else None
-
     def place(self, z: Sequence[complex]) -> dict[sp.Symbol, float]:
         """The point (q, p) on the section whose normal coordinates are z and w = z̄ (oscillations)."""
         point = np.concatenate([z, np.conj(z)])
@@ -119,9 +99,8 @@ class ReturnMapForm(NormalForm):
         return {s: x + float(f.at(np.array(y)).real) for (s, x), f in zip(self.orbit.items(), self.frame, strict=True)}
 
     def summary(self) -> dict[str, str]:
-        """As `NormalForm.summary`, with the period and the multipliers."""
-        listed = multiplier_rows(self.multipliers, self.errors)
-        return {"period": f"{self.period:.10g} s"} | listed | super().summary()
+        """As `NormalForm.summary`, with the period."""
+        return {"period": f"{self.period:.10g} s"} | super().summary()
 
 
 def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) -> NormalForm:
@@ -280,6 +259,17 @@ class _Motion:
     def rate(self, X: list[TruncatedSeries], time: float) -> list[TruncatedSeries]:
         return [_jet(f, X[0].space) for f in self._rates(*X, time)]
 
+    def is_periodic(self, path: Array, period: float) -> bool:
+        """Return whether the rates at a path (m, 2n), and at places about it, are the same a period later, to rounding."""
+        about = path + np.random.default_rng(1).normal(size=path.shape)
+        for share, places in zip(np.linspace(0, 1, len(path)), zip(path, about, strict=True), strict=True):
+            time = self.begin + share * period
+            for place in places:
+                now, later = (np.array(self._rates(*place, at), float) for at in (time, time + period))
+                if not np.abs(later - now).max() <= 1e-9 * np.abs(now).max() + 1e-14:
+                    return False
+        return True
+
     def energy(self, X: list[TruncatedSeries]) -> TruncatedSeries:
         return _jet(self._H(*X, self.begin)[0], X[0].space)
 
@@ -386,7 +376,7 @@ def return_map_form(
     """
     n, begin, driven = len(x) // 2, float(at.get(t, 0.0)), H.has(t)
     if n == 1 and not driven:
-        raise DomainError("normal_form: about an orbit of one degree of freedom nothing is left: see `libration`")
+        raise DomainError("normal_form: about an orbit of one degree of freedom nothing is left: leave out the period")
     start, units = np.array([float(at[s]) for s in x]), np.ones(2 * n)
     there = {s: sp.Float(at[s]) for s in (*x, t)}
     mobility = [derivative(derivative(H, s), s).xreplace(there) for s in x[n:]]
@@ -400,7 +390,7 @@ def return_map_form(
             if np.abs(np.log2(wide / units)).max() < 1:
                 break
             units = wide
-        if driven and not _of_drive(motion, path, period, order):
+        if driven and not motion.is_periodic(path, period):
             raise InputError(f"normal_form: H has not the period {period:.9g} s: give that of what drives")
         turned = np.round((path[-1] * units - start) / (2 * pi)) * (np.arange(2 * n) < n)
         same = {s: s + 2 * sp.pi * int(k) for s, k in zip(x, turned, strict=True) if k}
@@ -453,22 +443,6 @@ def return_map_form(
         period=returns[1].period, orbit=beginning,
         frame=tuple(scaled((f - f.coefficients[0]).polynomial, 0) for f in begins), unit=float(unit),
     )  # fmt: skip
-
-
-def _of_drive(motion: _Motion, path: Array, period: float, order: int) -> bool:
-    """Whether the rates' series through the form's degree are the same a period later, to rounding of its number."""
-    n = path.shape[1]
-    space = jet_space(n, order - 1)
-    degrees = space.exponents.sum(1)
-    for share, place in zip(np.linspace(0, 1, len(path)), path, strict=True):
-        time, near = motion.begin + share * period, [space.variable(k) + place[k] for k in range(n)]
-        now, later = (np.array([f.coefficients for f in motion.rate(near, s)]) for s in (time, time + period))
-        least = 1e-14 * np.abs(now).max()
-        for d in range(order):
-            part = np.abs(now[:, degrees == d]).max(), np.abs((later - now)[:, degrees == d]).max()
-            if not part[1] <= 1e-9 * part[0] + least:
-                return False
-    return True
 
 
 def _units(path: Array, ratios: Array) -> Array:

@@ -102,14 +102,7 @@ def _derivative(f: sp.Expr, m: int) -> sp.Expr:
     return f if m == 0 else _derivative(f, m - 1).diff(_Z)
 
 
-_NAMES = {
-    "arcsin": "asin",
-    "arccos": "acos",
-    "arctan": "atan",
-    "arcsinh": "asinh",
-    "arccosh": "acosh",
-    "arctanh": "atanh",
-}
+_NAMES = {f"arc{f}": f"a{f}" for f in ("sin", "cos", "tan", "sinh", "cosh", "tanh")}
 _SMOOTH = ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", *_NAMES)
 
 

@@ -22,8 +22,6 @@ from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
-_AHEAD = 0.05  # of a turn, in which it is seen what spent the evaluations of a run
-_STEPS_AHEAD, _ERROR_AHEAD = 100, 1e-6
 _LIKE = 8.0  # ratio of a component to one below which none is scaled
 
 
@@ -151,35 +149,13 @@ def smooth_motion(
                 return by_taylor(begin, start, since, local, companion).cut(d)
             return by_core(begin, start, since, local, companion, budget).cut(d)
         except StopError as stop:
-            at, spent = stop.at, stop.evaluations
-            end = stop.reached.end if stop.reached else start
-            reached = stop.reached and stop.reached.cut(d)
-            if not (singular := words(end)) and stop.cause == "budget":  # spent on the way to one?
-                rest = min(float(times[-1]) - begin - at, _AHEAD * turn)
-                at, end, more = _some_steps_on(program.rate(parameters, begin), at, end, rest)
-                singular, spent = words(end), spent + more
+            singular = words(stop.reached.end if stop.reached else start)
             cause: Cause = "singular" if singular else stop.cause
-            at = at if singular else stop.at
-            raise StopError(begin + at, singular or stop.reason, reached, spent, cause) from None
+            reached = stop.reached and stop.reached.cut(d)
+            raise StopError(begin + stop.at, singular or stop.reason, reached, stop.evaluations, cause) from None
 
     return motion
 
 
 def _as_in_pulse(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     return by_fastest(segment, pulsed or tol >= CROSSOVER.value, tol)
-
-
-def _some_steps_on(rate: Rhs, since: float, y: Array, rest: float) -> tuple[float, Array, int]:
-    """The time and the state that a hundred steps of DOP853 lead to, or those before they cannot go on; their evaluations."""
-    from scipy.integrate import DOP853
-
-    with np.errstate(all="ignore"):
-        solver = DOP853(rate, since, y, since + rest, rtol=_ERROR_AHEAD, atol=_ERROR_AHEAD * np.abs(y).max())
-        for _ in range(_STEPS_AHEAD):
-            if solver.status != "running" or not np.isfinite(solver.h_abs):
-                break
-            solver.step()
-            if not np.isfinite(solver.y).all():
-                break
-            since, y = float(solver.t), solver.y
-    return since, y, solver.nfev

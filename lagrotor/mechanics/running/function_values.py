@@ -1,14 +1,11 @@
 """What unknown functions in a Lagrangian, a force or a constraint are when it runs: U(r), a support y_s(t), a control u(t).
 
 A value is an expression, put in before anything else; a callable with the derivatives that the equations need; or a table or
-a piecewise polynomial of scipy, which is followed piece by piece, each knot an end of a phase: between knots a motion is
-smooth, so that a solver's error is what it estimates. A table is interpolated by a cubic spline (de Boor, A Practical Guide
-to Splines, ch. IV), whose derivatives are those of its polynomials.
+a spline of scipy. A table is interpolated by a cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import factorial
 from typing import Any, TypeVar
 
 import numpy as np
@@ -24,18 +21,16 @@ from lagrotor.numerics.arrays import Array as Array
 
 Orders = tuple[int, ...]
 Kind = TypeVar("Kind", bound=Equations)
-_BEYOND = 1e-12  # of a piece, by which it is followed beyond its knots
 
 
 @dataclass(frozen=True, eq=False)
 class FunctionValue:
-    """A function in numbers: its derivatives by orders, those that are known; of a spline its knots (m + 1,) and the
-    coefficients (k + 1, m) of (w − knot)^k … 1 on each piece."""
+    """A function in numbers: its derivatives by orders, those that are known, or a spline of scipy, not a number beyond its
+    knots."""
 
     name: str
     derivatives: Mapping[Orders, Callable[..., Any]]
-    knots: Array | None = None
-    coefficients: Array | None = None
+    spline: Any = None
 
     def jet(self, where: str, orders: Orders) -> Callable[..., Any]:
         """A derivative as a function of numbers, or of arrays, or of numbers with small imaginary parts (a complex step).
@@ -68,55 +63,16 @@ class FunctionValue:
         return call
 
     def _known(self, where: str, orders: Orders) -> Callable[..., Any]:
-        if self.knots is not None and len(orders) == 1:
-            return self._spline(orders[0])
+        if self.spline is not None:
+            return self.spline.derivative(orders[0]) if orders[0] else self.spline
         if orders not in self.derivatives:
-            one = len(orders) == 1
-            way = (
-                f"give values={{{self.name}: ({', '.join(jet_name(self.name, (k,)) for k in range(orders[0] + 1))})}}, "
-                "callables, "
-                "a table (x, y), or an expression"
-                if one
-                else f"give values={{{self.name}: {{{orders}: callable, …}}}}, or an expression"
-            )
+            called = ", ".join(jet_name(self.name, (k,)) for k in range(sum(orders) + 1))
+            way = f"give values={{{self.name}: ({called})}}, callables, a table (x, y), or an expression"
             raise InputError(
                 f"{where}: the equations contain {jet_name(self.name, orders)}, which a callable for {self.name} alone does not "
-                f"give: {way}"
+                f"give: {way if len(orders) == 1 else 'give an expression'}"
             )
         return self.derivatives[orders]
-
-    def _spline(self, order: int) -> Callable[[float], float]:
-        knots, c = self.knots, self.coefficients
-        assert knots is not None and c is not None
-        k = len(c) - 1
-        if order > k:
-            return lambda x: 0.0
-        factors = [factorial(k - i) / factorial(k - i - order) for i in range(k + 1 - order)]
-
-        def value(x: float) -> float:
-            i = self.piece(x)
-            if i is None:
-                return np.nan
-            total = 0.0
-            for factor, coefficient in zip(factors, c[:, i], strict=False):
-                total = total * (x - knots[i]) + factor * coefficient
-            return float(total)
-
-        return value
-
-    def piece(self, x: float) -> int | None:
-        """The number of the piece that x lies in; None outside the table."""
-        assert self.knots is not None
-        low, high = self.knots[0], self.knots[-1]
-        room = 2 * self.room(0 if x < low else len(self.knots) - 2)
-        if not low - room <= x <= high + room:
-            return None
-        return int(np.clip(np.searchsorted(self.knots, x, side="right") - 1, 0, len(self.knots) - 2))
-
-    def room(self, i: int) -> float:
-        """By how much a piece is followed beyond its knots, above rounding."""
-        assert self.knots is not None
-        return float(_BEYOND * (self.knots[i + 1] - self.knots[i]) + 8 * np.finfo(float).eps * np.abs(self.knots).max())
 
 
 def jet_name(name: str, orders: Orders) -> str:
@@ -173,50 +129,19 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     return (_with_expressions(system, written) if written else system), numbers
 
 
-def inputs_as_letters(where: str, system: Kind, inputs: Sequence[Any]) -> tuple[Kind, tuple[Any, ...]]:
-    """The system with letters of their names for functions of time F(t) that are inputs, and the inputs as letters.
-
-    Raises InputError where a derivative of one enters, or one of another argument than t.
-    """
-    functions = [u for u in inputs if isinstance(u, AppliedUndef)]
-    if other := [u for u in functions if u.args != (t,)]:
-        raise InputError(f"{where}: the input {other[0]} must be a function of t alone, F(t), or a letter")
-    names = {str(u.func): sp.Symbol(str(u.func), real=True) for u in functions}
-    acting = (system.L, *system.acting)
-    if twice := names.keys() & {str(s) for e in acting for s in e.free_symbols}:
-        raise InputError(f"{where}: {min(twice)} is a letter and a function: rename one")
-
-    def refused(name: str, orders: Orders, arguments: tuple[sp.Expr, ...]) -> None:
-        if name in names and arguments != (t,):
-            entered = f"{name}({', '.join(map(str, arguments))})"
-            raise InputError(f"{where}: {entered} enters beside the input {name}(t): rename it")
-        if name in names and any(orders):
-            raise InputError(
-                f"{where}: {jet_name(name, orders)} of the input {name} enters: write it as a coordinate, or a letter"
-            )
-
-    for e in acting:
-        with_jets(e, refused)
-    forms = {name: sp.Lambda(t, letter) for name, letter in names.items()}
-    letters = tuple(names[str(u.func)] if isinstance(u, AppliedUndef) else u for u in inputs)
-    return _with_expressions(system, forms), letters
-
-
 def _with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
     """The system with expressions in place of functions."""
 
     def put(e: sp.Expr) -> sp.Expr:
         return with_values(e, written)
 
+    lagrangian: Any = system.lagrangian
     if not system.bodies:
-        return _with_each(system, put(system.lagrangian), put)
-    energy = system.lagrangian
-    of_bodies = unknown_functions(system.L - sp.sympify(energy.rest, strict=True))  # in the place of a frame
-    return _with_each(system, put(system.L) if of_bodies else replace(energy, rest=put(energy.rest)), put)
-
-
-def _with_each(system: Kind, lagrangian: Any, put: Callable[[sp.Expr], sp.Expr]) -> Kind:
-    """The system with another Lagrangian, and `put` applied to all else that acts."""
+        lagrangian = put(lagrangian)
+    elif unknown_functions(system.L - sp.sympify(lagrangian.rest, strict=True)):  # in the place of a frame
+        lagrangian = put(system.L)
+    else:
+        lagrangian = replace(lagrangian, rest=put(lagrangian.rest))
     return replace(
         system,
         lagrangian=lagrangian,
@@ -279,10 +204,6 @@ def _value(where: str, name: str, places: set[tuple[sp.Expr, ...]], given: Any) 
         and count == 1
     ):
         return FunctionValue(name, {(k,): f for k, f in enumerate(given)})
-    if isinstance(given, Mapping) and given and all(map(callable, given.values())):
-        orders = {key if isinstance(key, tuple) else (key,): f for key, f in given.items()}
-        if all(len(key) == count and all(isinstance(k, int) and k >= 0 for k in key) for key in orders):
-            return FunctionValue(name, orders)
     raise InputError(
         f"{where}: {name} = {given!r} is no function of {count} argument{'s' * (count > 1)}: give an expression, a callable, "
         "callables "
@@ -297,87 +218,28 @@ def _alone(where: str, name: str, form: sp.Lambda) -> sp.Lambda:
 
 
 def _spline_of(where: str, name: str, given: Any) -> FunctionValue | None:
-    """The piecewise polynomial of a table or a spline; None for what is neither. Raises InputError for a table that is none."""
+    """The spline of a table, or of scipy; None for what is neither. Raises InputError for a table that is none."""
     from scipy.interpolate import BSpline, CubicSpline, PPoly
 
-    if isinstance(given, BSpline):
-        given = PPoly.from_spline(given)
-    if not isinstance(given, PPoly):
-        pair = isinstance(given, Sequence | np.ndarray) and not isinstance(given, str) and len(given) == 2
-        if not pair or any(callable(part) or np.ndim(part) != 1 for part in given):
-            return None
-        try:
-            x, y = (np.array(part, float) for part in given)
-        except (TypeError, ValueError):
-            raise InputError(f"{where}: {name} = {given!r}: a table is two arrays of numbers, (x, y)") from None
-        if len(x) != len(y) or len(x) < 2 or not (np.isfinite(x).all() and np.isfinite(y).all()):
-            raise InputError(
-                f"{where}: {name}: a table (x, y) has as many finite y as x, at least two: these are {len(x)} and {len(y)}"
-            )
-        if (np.diff(x) <= 0).any():
-            raise InputError(f"{where}: {name}: the x of a table increase, each greater than the one before: sort it")
-        given = CubicSpline(x, y)
-    c, knots = np.asarray(given.c), np.asarray(given.x, float)
-    if c.ndim != 2 or np.iscomplexobj(c) or not (np.isfinite(c).all() and np.isfinite(knots).all()):
-        raise InputError(f"{where}: {name}: a spline of scipy must have real, finite values, one at each place")
-    own = np.flatnonzero(np.diff(knots) > 0)
-    return FunctionValue(name, {}, np.append(knots[own], knots[-1]), np.asarray(c[:, own], float))
-
-
-@dataclass(frozen=True)
-class Piece:
-    """U(w) of a spline, on one of its pieces a polynomial in `argument` less `start` with the `coefficients`, whose values are
-    those of the piece, as those of `low` and `high`, between which it holds."""
-
-    value: FunctionValue
-    argument: sp.Expr
-    start: sp.Symbol
-    coefficients: tuple[sp.Symbol, ...]
-    low: sp.Symbol
-    high: sp.Symbol
-
-    def numbers(self, i: int) -> dict[str, float]:
-        """The values of its symbols on piece i."""
-        assert self.value.knots is not None and self.value.coefficients is not None
-        knots, room = self.value.knots, self.value.room(i)
-        known = {str(self.start): knots[i], str(self.low): knots[i] - room, str(self.high): knots[i + 1] + room}
-        return known | dict(zip(map(str, self.coefficients), self.value.coefficients[:, i], strict=True))
-
-    def polynomial(self, order: int) -> sp.Expr:
-        """U(w), or a derivative."""
-        k, w, total = len(self.coefficients) - 1, self.argument - self.start, sp.S.Zero
-        for i, c in enumerate(self.coefficients[: k + 1 - order]):
-            total = total * w + sp.Integer(factorial(k - i) // factorial(k - i - order)) * c
-        return total
-
-
-def in_pieces(
-    system: Equations, events: tuple[Event | Impact, ...], values: Mapping[Any, Any]
-) -> tuple[Equations, tuple[Event | Impact, ...], tuple[Piece, ...]]:
-    """The system and its events with polynomials for the splines among the values, and these, one for each argument."""
-    splines = {name: f for name, f in values.items() if isinstance(f, FunctionValue) and f.knots is not None}
-    if not splines:
-        return system, events, ()
-    pieces: dict[tuple[str, sp.Expr], Piece] = {}
-
-    def made(name: str, orders: Orders, arguments: tuple[sp.Expr, ...]) -> sp.Expr | None:
-        if name not in splines:
-            return None
-        key = (name, arguments[0])
-        if key not in pieces:
-            c, stem = splines[name].coefficients, f"{name}{len(pieces)}"
-            assert c is not None
-            start, low, high = (sp.Symbol(f"{stem} {part}", real=True) for part in ("start", "low", "high"))
-            letters = tuple(sp.Symbol(f"{stem} c{i}", real=True) for i in range(len(c)))
-            pieces[key] = Piece(splines[name], arguments[0], start, letters, low, high)
-        return pieces[key].polynomial(orders[0])
-
-    def put(e: sp.Expr) -> sp.Expr:
-        return with_jets(e, made)
-
-    lagrangian = put(system.L) if unknown_functions(system.L) else system.lagrangian
-    new = _with_each(system, lagrangian, put)
-    return new, tuple(event_with(event, put) for event in events), tuple(pieces.values())
+    if isinstance(given, BSpline | PPoly):
+        pieces = PPoly.from_spline(given, False) if isinstance(given, BSpline) else PPoly(given.c, given.x, False)
+        if pieces.c.ndim != 2 or np.iscomplexobj(pieces.c) or not np.isfinite(pieces.c).all():
+            raise InputError(f"{where}: {name}: a spline of scipy must have real, finite values, one at each place")
+        return FunctionValue(name, {}, pieces)
+    pair = isinstance(given, Sequence | np.ndarray) and not isinstance(given, str) and len(given) == 2
+    if not pair or any(callable(part) or np.ndim(part) != 1 for part in given):
+        return None
+    try:
+        x, y = (np.array(part, float) for part in given)
+    except (TypeError, ValueError):
+        raise InputError(f"{where}: {name} = {given!r}: a table is two arrays of numbers, (x, y)") from None
+    if len(x) != len(y) or len(x) < 2 or not (np.isfinite(x).all() and np.isfinite(y).all()):
+        raise InputError(
+            f"{where}: {name}: a table (x, y) has as many finite y as x, at least two: these are {len(x)} and {len(y)}"
+        )
+    if (np.diff(x) <= 0).any():
+        raise InputError(f"{where}: {name}: the x of a table increase, each greater than the one before: sort it")
+    return FunctionValue(name, {}, CubicSpline(x, y, extrapolate=False))
 
 
 def event_with(event: Event | Impact, put: Callable[[sp.Expr], sp.Expr]) -> Event | Impact:

@@ -13,11 +13,9 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 import sympy as sp
 
-from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
 from lagrotor.mechanics.running.flow import Array, projection_of
-from lagrotor.mechanics.running.function_values import Piece, in_pieces
 from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import (
     Generated,
@@ -28,7 +26,7 @@ from lagrotor.mechanics.running.programs import (
 )
 from lagrotor.mechanics.running.singular import mass_at, rows_at, unbounded_force
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
-from lagrotor.numerics.calibrated import COMPANION_FIRST, MOST_EVENTS
+from lagrotor.numerics.calibrated import MOST_EVENTS
 from lagrotor.numerics.estimated_run import start_beside
 from lagrotor.numerics.pulse import Window, segments, windows_since
 from lagrotor.numerics.run import Ending
@@ -47,15 +45,14 @@ SAFETY = 20.0  # local error of a run over that of the steps on which its events
 
 
 class ContactMode(NamedTuple):
-    """The sign of each surface, 0 where it sticks; whether each impact's gap is closed; the piece that each spline is on; ended:
-    0, or which ending froze the motion, counted from 1. Components of the state of a run, after q, v and t."""
+    """The sign of each surface, 0 where it sticks; whether each impact's gap is closed; ended: 0, or which ending froze the
+    motion, counted from 1. Components of the state of a run, after q, v and t."""
 
     signs: tuple[int, ...]
     closed: tuple[int, ...]
-    pieces: tuple[int, ...] = ()
     ended: int = 0
 
-    def put(self, part: Literal["signs", "closed", "pieces"], i: int, value: int) -> "ContactMode":
+    def put(self, part: Literal["signs", "closed"], i: int, value: int) -> "ContactMode":
         """The mode with another value of one component."""
         values: list[int] = [*getattr(self, part)]
         values[i] = int(value)
@@ -100,8 +97,7 @@ Observer = Callable[[float, float, float, Callable[[Array], Array]], None]
 
 @dataclass(frozen=True, eq=False)
 class Switched:
-    """A system with events: its smooth part, the surfaces of its jumps, the events, the values of the parameters, the splines
-    among them, and the events as they were given.
+    """A system with events: its smooth part, the values of the parameters, the surfaces of its jumps, and the events.
 
     scale (N + m,): of each component, for the solver; sizes: of each, zero before they are known.
     windows: where something acts briefly by the clock. narrow: parts that change within a small part of the swing.
@@ -114,8 +110,6 @@ class Switched:
     events: tuple[Event | Impact, ...]
     scale: Array
     sizes: Array
-    splines: tuple[Piece, ...] = ()
-    shown: tuple[Event | Impact, ...] = ()
     windows: tuple[Window, ...] = ()
     narrow: tuple[NarrowPart, ...] = ()
     phases: dict[tuple[Any, ...], Phase] = field(default_factory=dict)
@@ -143,12 +137,12 @@ class Switched:
     @property
     def smooth(self) -> bool:
         """Whether nothing switches."""
-        return not (self.surfaces or self.events or self.splines)
+        return not (self.surfaces or self.events)
 
     @property
     def slipping(self) -> ContactMode:
-        """The mode in which nothing sticks, no gap is closed, and splines are on their first pieces."""
-        return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts), (0,) * len(self.splines))
+        """The mode in which nothing sticks and no gap is closed."""
+        return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts))
 
     @property
     def impacts(self) -> tuple[Impact, ...]:
@@ -156,12 +150,12 @@ class Switched:
 
     def mode(self, state: Array) -> ContactMode:
         parts = tuple(int(x) for x in np.rint(state[self.size + 1 :]))
-        signs, closed = len(self.surfaces), len(self.surfaces) + len(self.impacts)
-        return ContactMode(parts[:signs], parts[signs:closed], parts[closed:-1], parts[-1])
+        signs = len(self.surfaces)
+        return ContactMode(parts[:signs], parts[signs:-1], parts[-1])
 
     def state(self, y: Array, time: float, mode: ContactMode) -> Array:
         """(q, v, t, mode): what a run carries from stage to stage."""
-        return np.concatenate([y[: self.size], [time], mode.signs, mode.closed, mode.pieces, [mode.ended]])
+        return np.concatenate([y[: self.size], [time], mode.signs, mode.closed, [mode.ended]])
 
     def evaluate(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
         """Expressions at one moment, of the motion of `system`."""
@@ -180,13 +174,10 @@ class Switched:
         return np.asarray(np.nan_to_num(sizes, posinf=0.0))
 
     def numbers(self, mode: ContactMode) -> dict[str, Any]:
-        """The values of the parameters, of the signs in this mode, and of the polynomials of its pieces."""
+        """The values of the parameters, and of the signs in this mode."""
         if not isinstance(self.values, Mapping):
             return self.values  # and are refused where a parameter is sought
-        known = self.named_values | dict(zip(self.sign_names, map(float, mode.signs), strict=True))
-        for spline, i in zip(self.splines, mode.pieces, strict=True):
-            known |= spline.numbers(i)
-        return known
+        return self.named_values | dict(zip(self.sign_names, map(float, mode.signs), strict=True))
 
     def phase(self, mode: ContactMode) -> Phase:
         """The phase of a mode. Which way what slips does not change its equations, only the value of a sign."""
@@ -228,56 +219,27 @@ class Switched:
         for i, impact in enumerate(self.impacts):
             if not closed[i]:
                 conditions.append(("gap", i, impact.gap))
-            elif not impact.latched:
+            else:
                 conditions.append(("reaction", i, lam[first + gaps.index(i)]))
-        for i, spline in enumerate(self.splines):
-            conditions += [
-                ("knot below", i, spline.argument - spline.low),
-                ("knot above", i, spline.high - spline.argument),
-            ]
         conditions += [("event", i, e.section) for i, e in enumerate(self.events) if isinstance(e, Event)]
         return Phase(system, tuple(conditions))
 
 
 def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
     """The system with its events and the surfaces of its jumps."""
-    whole, followed, splines = (
-        in_pieces(system, events, values) if isinstance(values, Mapping) else (system, events, ())
-    )
-    smooth, surfaces = without_jumps(whole)
+    smooth, surfaces = without_jumps(system)
     size = len(system.c.q) + len(system.speeds)
-    return Switched(smooth, values, surfaces, followed, np.ones(size), np.zeros(size), splines, events)
+    return Switched(smooth, values, surfaces, events, np.ones(size), np.zeros(size))
 
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
     """The state (q, v, t, mode) at the start: signs as the velocities are, all gaps open but those that are at rest on zero."""
     start = Moment(np.concatenate([q, v]), time, h.slipping)
-    start = start._replace(mode=start.mode._replace(pieces=_pieces(h, start)))
     try:
         mode = _settle(h, start)
     except StopError as stop:
         mode = _end(h, start.mode, Ending(stop.cause, time, stop.reason))
     return h.state(start.y, time, mode)
-
-
-def _pieces(h: Switched, at: Moment) -> tuple[int, ...]:
-    """The pieces that the splines are on at a start. Raises InputError where it is outside a table."""
-    if not h.splines:
-        return ()
-    places = h.evaluate(h.system, [s.argument for s in h.splines], at)
-    pieces = [spline.value.piece(float(w)) for spline, w in zip(h.splines, places, strict=True)]
-    for spline, w, piece in zip(h.splines, places, pieces, strict=True):
-        if piece is None:
-            raise InputError(
-                f"simulate: the start is outside the table of {spline.value.name}: {_outside(spline, float(w))}"
-            )
-    return tuple(i for i in pieces if i is not None)
-
-
-def _outside(spline: Piece, w: float) -> str:
-    knots = spline.value.knots
-    assert knots is not None
-    return f"{spline.argument} = {w:.6g}, and it is known from {knots[0]:.6g} to {knots[-1]:.6g}"
 
 
 def march(
@@ -295,7 +257,7 @@ def march(
 
     Where an event ends the motion, or it cannot be followed further, the state stays as it is there, its time included.
     observe: called with the time at which a phase began, the ends of each step since then, and its dense output, (q, u).
-    companion: by steps that a run without it does not take, in phases that are too short for the local error to set them.
+    companion: by other steps in narrow parts and brief windows.
     Raises StopError with what was reached, where the solver stops.
     """
     clock, since = float(start[h.size]), times - times[0]
@@ -303,7 +265,6 @@ def march(
     if mode.ended:
         return Stretch(np.repeat(start[None], len(times), axis=0), start, 0)
     parts, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
-    first = COMPANION_FIRST.value if companion else 1.0
 
     def add(states: Array) -> None:
         later = times[since > now]
@@ -314,7 +275,7 @@ def march(
     while now < end and not mode.ended:
         try:
             later = since[since > now] - now
-            stretch, hit = _smooth(h, y, clock + now, mode, later, local, budget - spent, observe, habit, first)
+            stretch, hit = _smooth(h, y, clock + now, mode, later, local, budget - spent, observe, habit, companion)
         except StopError as stop:
             reached = stop.reached or Stretch(np.empty((0, h.size)), y, 0)
             add(reached.states)
@@ -362,16 +323,16 @@ def _smooth(
     budget: float,
     observe: Observer | None,
     habit: float,
-    first: float,
+    companion: bool,
 ) -> tuple[Stretch, Hit | None]:
     """The motion in one phase, from `now` to the first of its conditions that ends, or to the last of the times, which count
-    from there. habit: the time that has passed between the last two events of a kind. first: as `dop853_steps` has it."""
+    from there. habit: the time that has passed between the last two events of a kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
     motion = motion_program(system, h.narrow)
-    y, scale = np.append(y, np.zeros(len(h.narrow))), with_followed(scale, h.narrow, local / SAFETY, first < 1)
+    y, scale = np.append(y, np.zeros(len(h.narrow))), with_followed(scale, h.narrow, local / SAFETY, companion)
     project = projection_of(system, numbers) if system.multipliers else None
     y = y if project is None else project(y)
     watch = phase.condition_program.along(numbers)
@@ -380,7 +341,7 @@ def _smooth(
     segment = in_units(Segment(rhs, y, 0.0, times[-1], times, np.inf, budget, project), scale)
     parts, done, solver = [np.empty((0, len(y)))], 0, None
     try:
-        for solver in _steps(segment, windows_since(now, h.windows, first < 1), local / SAFETY, first):
+        for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY):
             left, right, dense = solver.t_old, solver.t, solver.dense_output()
 
             def curve(s: Array, dense: Any = dense) -> Array:
@@ -413,13 +374,13 @@ def _smooth(
     return Stretch(np.concatenate(parts), solver.y * scale, solver.nfev), None
 
 
-def _steps(segment: Segment, windows: Sequence[Window], error: float, first: float) -> Iterator[Any]:
+def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
     """As `dop853_steps` has it, by steps that are bounded in windows; evaluations are those of all of the segment."""
     y, spent = segment.start, 0
     for left, right, longest in segments(segment.left, segment.right, windows):
         part = replace(segment, start=y, left=left, right=right, longest=longest, budget=segment.budget - spent)
         try:
-            for solver in dop853_steps(part, error, first):
+            for solver in dop853_steps(part, error):
                 solver.nfev += spent
                 yield solver
                 solver.nfev -= spent
@@ -493,13 +454,6 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
         mode = mode.put("signs", i, -1 if kind == "above" else 1)
     elif kind == "reaction":
         mode = mode.put("closed", i, False)
-    elif kind in ("knot below", "knot above"):
-        spline, piece = h.splines[i], mode.pieces[i] + (1 if kind == "knot above" else -1)
-        assert spline.value.knots is not None
-        if not 0 <= piece < len(spline.value.knots) - 1:
-            w = float(h.evaluate(h.system, [spline.argument], at)[0])
-            raise StopError(at.t, f"the end of the table of {spline.value.name}: {_outside(spline, w)}")
-        return at._replace(mode=mode.put("pieces", i, piece))
     elif kind == "gap":
         e = float(h.evaluate(h.system, [h.impacts[i].restitution], at)[0])
         if gone is not None:
@@ -513,7 +467,7 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
         if gone is not None:
             raise StopError(at.t + gone, "infinitely many events accumulate there", cause="event")
         if event.velocities is None:
-            raise StopError(at.t, f"{h.shown[i].expressions[0]} = 0", cause="event")
+            raise StopError(at.t, f"{event.section} = 0", cause="event")
         v = h.evaluate(h.system, event.velocities, at)
     if not np.isfinite(v).all():
         raise StopError(at.t, "the velocities after an event are not finite")

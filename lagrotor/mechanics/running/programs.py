@@ -24,31 +24,16 @@ from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.bodies.trees import rest_forces, tree_of
 from lagrotor.mechanics.equations import Equations, push_left, rows_left
 from lagrotor.mechanics.expressions import longer, unknown_functions, with_jets
-from lagrotor.mechanics.lagrangian import clock_parts, dependent_rows, jacobian, singular_mass, t, total_derivative
+from lagrotor.mechanics.lagrangian import clock_parts, dependent_rows, jacobian, singular_mass, t
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 from lagrotor.mechanics.running.function_values import Array, FunctionValue, jet_name
 from lagrotor.mechanics.running.sweeps import swept_energy, swept_equations
-from lagrotor.numerics.codegen import Program, Stage, operations, solve_symmetric, tangent_program
+from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_program
 from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.printers import compile_program, rhs_source
 
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
-_OWN = (
-    "s",
-    "y",
-    "t",
-    "I",
-    "Q",
-    "rate",
-    "bare",
-    "make",
-    "pulse",
-    "width",
-    "begin",
-    "LOST",
-    "OutsideError",
-)  # of generated code
-_REDUCED = 600  # operations of a Lagrangian up to which a tree is not followed in the velocities of its joints
+_OWN = "s y t I Q rate bare make pulse width begin LOST OutsideError"  # names of generated code
 _LONG = 300  # operations of a Lagrangian from which on its equations are made by sweeps
 _STATES = 3  # random ones, at which the rank of a matrix is read off
 _NEWTON = 20  # steps that bring them onto the constraints
@@ -265,22 +250,25 @@ def clock_program(system: Equations) -> Generated | None:
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
     """(q, u, t) → the Jacobi integral."""
-    base = _joint_speeds(system) or system
-    tree = tree_of(base) if len(system.c.q) >= LEAST_TREE else None
+    tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None and _is_long(system):
         swept, energy = swept_energy(system)
         return _program((*system.c.q, *system.speeds, t), [*velocity_stages(system), *swept], [energy])
     if tree is None:
         return function_program(system, system.energy)
     keep = Stages()
-    energy = tree_energy(tree, joints(tree, keep), (*system.c.v, *base.speeds), keep)
-    return _program((*system.c.q, *system.speeds, t), [*_base_stages(system, base), *keep.made], [energy])
+    energy = tree_energy(tree, joints(tree, keep), (*system.c.v, *system.speeds), keep)
+    return _program((*system.c.q, *system.speeds, t), [*velocity_stages(system), *keep.made], [energy])
 
 
 def _is_plain(name: str) -> bool:
     """Return whether generated code may have it for a name: one of mathematics, no word of a language, none that stages have."""
     return name.isidentifier() and not (
-        iskeyword(name) or name in vars(math) or name in _OWN or name.startswith(("_", "c_")) or name.endswith("_")
+        iskeyword(name)
+        or name in vars(math)
+        or name in _OWN.split()
+        or name.startswith(("_", "c_"))
+        or name.endswith("_")
     )
 
 
@@ -316,31 +304,10 @@ def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], lis
     friction = bool(system.push.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
         return under_constraints(*by_tree, G, gamma, friction)
-    if (base := _joint_speeds(system)) is not None and longer(system.L, _REDUCED):
-        stages, a, held = constrained_motion(base, every=False)
-        lam = dict(zip(base.left, held, strict=True))
-        own = sp.Matrix([e for _, e in system.velocities])
-        rates = own.applyfunc(lambda e: total_derivative(e, system.c)).xreplace(dict(zip(system.c.a, a, strict=True)))
-        return [*_base_stages(system, base), *stages], list(rates), [lam[i] for i in system.left]
     (first, _, push), (added, weight, M) = equations_of_speeds(system), inertia(system)
     push, by_reaction = push_left(system, push)
     stages, solved = solve_symmetric(M, (push - G.T * weight * gamma).row_join(G.T + by_reaction), "_m")
     return under_constraints([*first, *added, *stages], solved, G, gamma, friction)
-
-
-@lru_cache(maxsize=64)
-def _joint_speeds(system: Equations) -> Equations | None:
-    """A tree of bodies in the velocities of its joints, where those of the system are others."""
-    if system.kinematics is None or not system.bodies or len(system.c.q) < LEAST_TREE:
-        return None
-    base = replace(system, velocities=())
-    return base if tree_of(base) is not None else None
-
-
-def _base_stages(system: Equations, base: Equations) -> list[Stage]:
-    """v, and of it the velocities of the joints."""
-    known = {*system.speeds, *system.c.v}
-    return [*velocity_stages(system), *((u, e) for u, e in base.velocities if u not in known)]
 
 
 @lru_cache(maxsize=64)
@@ -352,8 +319,8 @@ def _is_long(system: Equations) -> bool:
 def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
     """Stages, and made of them M and Q − h of M u' = Q − h + Gᵀ λ, with v in them.
 
-    Of a long Lagrangian by sweeps; of a short one for velocities of one's own as they are projected, or by the equations of
-    Boltzmann and Hamel: whichever takes fewer operations.
+    Of a long Lagrangian by sweeps; of a short one for velocities of one's own by the equations of Boltzmann and Hamel, or,
+    where these velocities are made in stages, as they are projected.
     """
     if _is_long(system):
         return swept_equations(system)
@@ -361,18 +328,11 @@ def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.M
     M, push = system.mass, system.push - system.bias
     if given is None:
         return first, M, push
-    projected = given.B.T * M * given.B, given.B.T * (push - M * given.alpha)
     if given.stages:
-        return first, *projected
+        return first, given.B.T * M * given.B, given.B.T * (push - M * given.alpha)
     M, h = boltzmann_hamel(system.L, system.c, given, system.speeds)
     put = dict(zip(system.c.v, given.velocity, strict=True))
-    reduced = M, given.B.T * system.push.xreplace(put) - h
-    free = dict.fromkeys(system.multipliers, sp.S.Zero)
-
-    def size(form: tuple[sp.Matrix, sp.Matrix]) -> int:
-        return operations(function_program(system, *form[0], *form[1].xreplace(free)).program)
-
-    return first, *min(projected, reduced, key=size)
+    return first, M, given.B.T * system.push.xreplace(put) - h
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:

@@ -21,15 +21,14 @@ if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
 
 _GROWS = 1e-6  # of the largest rate: a real part that is above rounding, of double roots too
-_ZERO = 1e-5  # of the largest rate: one that is zero but for rounding, of double ones too
 _HALVINGS = 40  # halvings of the interval between two numbers
 
 
 @dataclass(frozen=True, eq=False)
 class RootLocus:
     """rates (m, n), 1/s, at the numbers (m,) of a letter; boundaries: its values at which the motion becomes stable or unstable,
-    each alone between two of the numbers that were given, among which they are put. Where nothing is damped they are known to
-    about a millionth: rates that coincide are not known better than to the root of rounding."""
+    each alone between two of the numbers that were given, among which they are put. There the largest real part is a millionth of
+    the largest rate: rates that coincide are not known better than to the root of rounding."""
 
     letter: sp.Symbol
     numbers: Array
@@ -149,27 +148,19 @@ def _boundaries(
     known: Sequence[NDArray[np.complex128]],
     halvings: int,
 ) -> list[float]:
-    """Where the motion becomes stable or unstable between two numbers: where the largest real part but those of rates that stay
-    zero passes zero, or rounding, where nothing is damped."""
+    """Where the motion becomes stable or unstable between two numbers."""
 
     def grows(rates: NDArray[np.complex128]) -> bool:
         return bool(rates.real.max() > _GROWS * np.abs(rates).max())
 
     boundaries = list[float]()
     for low, high, *ends in zip(grid.tolist(), grid[1:].tolist(), known, known[1:], strict=False):
-        if grows(ends[0]) == grows(ends[1]):
+        before, after = map(grows, ends)
+        if before == after:
             continue
-        size = max(float(np.abs(rates).max()) for rates in ends)
-        zeros = min(int((np.abs(rates) < _ZERO * size).sum()) for rates in ends)
-
-        def largest(rates: NDArray[np.complex128], zeros: int = zeros) -> float:
-            return float(rates[np.argsort(np.abs(rates))[zeros:]].real.max())
-
-        level = 0.0 if min(map(largest, ends)) < -_GROWS * size else _GROWS * size
-        before = largest(ends[0]) > level
         for _ in range(halvings):
             middle = (low + high) / 2
-            low, high = (middle, high) if (largest(rates_at(middle)) > level) == before else (low, middle)
+            low, high = (middle, high) if grows(rates_at(middle)) == before else (low, middle)
         boundaries.append((low + high) / 2)
     return boundaries
 

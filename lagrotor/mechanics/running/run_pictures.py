@@ -1,6 +1,6 @@
 """Pictures of any run: its coordinates and energy over time, and a film of its bodies."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
@@ -28,35 +28,31 @@ _NOTHING = (
 )
 
 
-def plot(run: SampledMotion, *what: Any, glossary: Mapping[sp.Symbol, Any] | None = None) -> "RunFigure":
+def plot(run: SampledMotion, *what: Any) -> "RunFigure":
     """A figure of what is named, over time: coordinates, velocities and those of one's own, "E" the energy, reactions by the
     names of their constraints, or expressions as `evaluate` takes them, a long one by its name, Eq(F, expression). Without any:
     the coordinates, the change of the energy and, under constraints, their violation.
 
-    glossary: units of letters, as a paper's; without it t is in s and the energy in J, and others have none.
     Raises InputError for what is none of these.
     """
     from lagrotor.drawing.run_figure import coordinates_figure, curves_figure
 
     run.check_times("plot")
-    if glossary is not None and not isinstance(glossary, Mapping):
-        raise InputError(f"plot: glossary = {glossary!r} must be the letters of a paper with their units")
-    units = {str(s): f" [{entry.unit}]" for s, entry in (glossary or {}).items() if entry.unit not in ("", "1")}
     if not what:
-        labels = {f"${letter_latex(q)}${units.get(str(q), '')}": run.q[:, i] for i, q in enumerate(run.system.c.q)}
+        labels = {f"${letter_latex(q)}$": run.q[:, i] for i, q in enumerate(run.system.c.q)}
         return coordinates_figure(run.t, labels, run.energy, run.drift)
-    curves = (_curve(run, each, units) for each in what)
+    curves = (_curve(run, each) for each in what)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # as matplotlib has it
 
 
-def _curve(run: SampledMotion, what: Any, units: Mapping[str, str]) -> tuple[str, Array]:
+def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     """The label and the values of a curve."""
     c, name = run.system.c, str(what)
     letters = (*c.q, *c.v, *run.system.speeds)
     moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T), strict=True))
     if name in moving:
         letter = next(s for s in letters if str(s) == name)
-        return f"${letter_latex(letter)}${units.get(name, '')}", moving[name]
+        return f"${letter_latex(letter)}$", moving[name]
     if name in ("E", "energy"):
         return "$E$ [J]", run.energy
     if isinstance(what, str) and name in run.system.names:
@@ -84,10 +80,7 @@ def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
 
     run.check_times("view")
     frames = run.at(view_times(run.t[0], run.t[-1]))
-    drawn = [
-        np.stack([_vectors(frames, vector_of("view: a point of lines", e, 3)) for e in _sequence(line)], 1)
-        for line in (_sequence(lines) if lines else ())
-    ]
+    drawn = _drawn("view", frames, lines)
     outlines = [(ROTORS[i % len(ROTORS)], _outline(frames, body)) for i, body in enumerate(run.system.bodies)]
     inks = [*(ink for ink, carried in outlines for _ in carried), *(ROTORS[i % len(ROTORS)] for i in range(len(drawn)))]
     moving = [*(line for _, carried in outlines for line in carried), *drawn]
@@ -109,22 +102,21 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
     run.check_times("animate")
     check_film(path, float(run.t[-1] - run.t[0]), fps)
     frames = run.at(frame_times(run.t[0], run.t[-1], fps))
-    if lines:
-        points = [[vector_of("animate: a point of lines", e, 3) for e in _sequence(line)] for line in _sequence(lines)]
-        drawn = [np.stack([_vectors(frames, point) for point in line], 1) for line in points]
-    else:
-        drawn = [carried for body in run.system.bodies for carried in _outline(frames, body)]
+    drawn = _drawn("animate", frames, lines) or [line for body in run.system.bodies for line in _outline(frames, body)]
     if not drawn:
         raise InputError(_NOTHING.format("animate"))
     return animate_lines(path, frames.t, drawn, fps)
 
 
-def _sequence(given: Sequence[Any]) -> Sequence[Any]:
-    if not isinstance(given, Sequence) or not given:
-        raise InputError(
-            f"animate: {given!r} in lines is no line: lines=[[(0, 0, 0), (x, y, z)], …], each of points (x, y, z)"
-        )
-    return given
+def _drawn(where: str, frames: SampledMotion, lines: Sequence[Sequence[Point]]) -> list[Array]:
+    """The lines along the run, each (m, p, 3)."""
+    for given in (*([lines] if lines else ()), *lines):
+        if not isinstance(given, Sequence) or not given:
+            raise InputError(
+                f"{where}: {given!r} in lines is no line: lines=[[(0, 0, 0), (x, y, z)], …], each of points (x, y, z)"
+            )
+    points = [[vector_of(f"{where}: a point of lines", e, 3) for e in line] for line in lines]
+    return [np.stack([_vectors(frames, point) for point in line], 1) for line in points]
 
 
 def _outline(frames: SampledMotion, body: Body) -> list[Array]:

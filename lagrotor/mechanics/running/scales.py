@@ -70,28 +70,21 @@ class Scales:
 
 
 def clock_windows(system: Equations, values: Values, times: Array) -> tuple[Window, ...]:
-    """Where something that is made of the time alone changes faster than it mostly does."""
+    """Where something that is made of the time alone changes faster than it mostly does.
+
+    Raises InputError where a function refuses a time of the run.
+    """
     program = clock_program(system)
     if program is None:
         return ()
     along = program.along(values)
-    return brief_windows(lambda looks: _where_known(along, looks), float(times[0]), float(times[-1]))
-
-
-def _where_known(along: Callable[[Array, Array], Array], times: Array) -> Array:
-    """What depends on t alone, (k, n) at times (n,); nan where a function of the user's refuses one."""
     try:
-        return along(times[:, None], times)
-    except (ArithmeticError, ValueError):
-        pass
-    columns: list[Array] = []
-    for time in times:
-        try:
-            columns.append(along(np.array([[time]]), np.array([time]))[:, 0])
-        except (ArithmeticError, ValueError):
-            columns.append(np.full(1, np.nan))
-    most = max(map(len, columns))
-    return np.stack([column if len(column) == most else np.full(most, np.nan) for column in columns], 1)
+        return brief_windows(lambda looks: along(looks[:, None], looks), float(times[0]), float(times[-1]))
+    except (ArithmeticError, ValueError) as refusal:
+        raise InputError(
+            f"simulate: a function of time refuses a time between t = {times[0]:g} and {times[-1]:g} s ({refusal}): end the run "
+            "before, or return a number"
+        ) from None
 
 
 def motion_scales(

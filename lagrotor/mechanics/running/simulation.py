@@ -36,7 +36,6 @@ from lagrotor.numerics.calibrated import DEPENDENT
 from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
 from lagrotor.numerics.run import read_run
-from lagrotor.numerics.segment import StopError
 
 _BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
 _PATIENCE = Patience(20_000, 1_600)
@@ -186,7 +185,7 @@ def simulate_system(
     hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)
     estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, 3, hint)
     if system.multipliers:
-        run = replace(run, evaluations=run.evaluations + _warn_of_dependence(run))
+        _warn_of_dependence(run)
     return run if h.smooth else _up_to_its_end(run)
 
 
@@ -228,7 +227,7 @@ def _up_to_its_end(run: SystemRun) -> SystemRun:
     ended = np.rint(run.states[:, -1]).astype(int)
     if not ended[-1]:
         rest = [
-            f"impacts on {[e for e in h.shown if isinstance(e, Impact)][i].gap} accumulate at t = {at:.9g} s"
+            f"impacts on {[e for e in h.events if isinstance(e, Impact)][i].gap} accumulate at t = {at:.9g} s"
             for i, at in h.accumulations.items()
             if at < run.t[-1]
         ]
@@ -255,47 +254,29 @@ def _on_constraints(system: Equations, values: Values, start: Array, times: Arra
     return q, v
 
 
-def _warn_of_dependence(run: SystemRun) -> int:
-    """A LagrotorWarning with the time where the constraints of a run are dependent between two of its samples: there the
-    product of the rows of G, g₁ ∧ … ∧ g_k, is zero. Where it is simply zero it is reversed beyond, and then
-    det(G(t) G(t')ᵀ) < 0 for times before and after it. Returns the evaluations that it took to look."""
+def _warn_of_dependence(run: SystemRun) -> None:
+    """Warn with the time where the constraints of a run are dependent between two of its samples: there the product of the rows
+    of G, g₁ ∧ … ∧ g_k, is zero. Where it is simply zero it is reversed beyond, and then det(G(t) G(t')ᵀ) < 0 for times before and
+    after it. Samples that are so far apart that a row may turn right round between them are passed over."""
     rows = run.system.rows
     if len(run.t) < 2 or not run.system.left or not rows.free_symbols & {*run.system.c.q, time}:
-        return 0
+        return
     from scipy.interpolate import CubicHermiteSpline
 
-    spent = 0
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
-    suspected = _reversals(run, CubicHermiteSpline(run.t, run.q, run.v)(fine), fine)
-    for k in np.unique(np.searchsorted(run.t, suspected, side="right") - 1):
-        at, (a, b) = suspected[suspected >= run.t[k]][0], run.t[k : k + 2]
-        count = int(np.ceil(_A_TURN * (b - a) / run.scales.turn))
-        if count > _BETWEEN:  # too long an interval to be interpolated
-            fine = np.linspace(a, b, count + 1)
-            try:
-                again = run.at(fine)
-                spent, there = spent + again.evaluations - run.evaluations, _reversals(run, again.q, fine)
-            except StopError as stop:  # the run had passed there by other steps
-                spent, there = spent + stop.evaluations, np.array([stop.at])
-            if not len(there):
-                continue
-            at = there[0]
+    still = np.zeros((len(fine), len(run.system.speeds)))
+    states = np.hstack([CubicHermiteSpline(run.t, run.q, run.v)(fine), still])
+    G = rows_program(run.system).along(run.values)(states, fine)
+    G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
+    near = np.repeat(np.diff(run.t) < _BETWEEN / _A_TURN * run.scales.turn, _BETWEEN)
+    reversed_after = fine[:-1][near & (np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0)]
+    if len(reversed_after):
         warnings.warn(
-            f"simulate: near t = {at:.6g} s the constraints become dependent: their reactions may have no limit there, "
-            "and the motion beyond may be one of several; end the run before",
+            f"simulate: near t = {reversed_after[0]:.6g} s the constraints become dependent: their reactions may have no limit "
+            "there, and the motion beyond may be one of several; end the run before",
             LagrotorWarning,
             stacklevel=3,
         )
-        break
-    return spent
-
-
-def _reversals(run: SystemRun, q: Array, times: Array) -> Array:
-    """Those of the times (n,), with coordinates q (n, N), after which the rows of the constraints are reversed at the next."""
-    still = np.zeros((len(times), len(run.system.speeds)))
-    G = rows_program(run.system).along(run.values)(np.hstack([q, still]), times)
-    G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
-    return np.asarray(times[:-1][np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0])
 
 
 def _as_text(values: Sequence[float] | Array) -> str:

@@ -87,7 +87,7 @@ def state_space(
     check_values(where, system, known, wanted)
     if depends_on_time(system):
         raise InputError(
-            f"{where}: the motion depends on time explicitly: give functions F(t) as inputs, or simulate it"
+            f"{where}: the motion depends on time explicitly: write a letter for an input F(t), or simulate it"
         )
     start = point_state(where, system, at, known)
     motion = motion_slope(where, motion_program(system), known, inputs)

@@ -37,7 +37,7 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
         place = len(keep.made)
         gamma = forward_sweep(keep, [expression_stages(keep, e) for e in given.rows], onward)
         alpha = (-inverse * sp.Matrix(gamma)).applyfunc(keep)
-    slopes = backward_sweep(keep, expression_stages(keep, without_turns(system.L)), (*c.q, *c.v))
+    slopes = backward_sweep(keep, expression_stages(keep, system.L), (*c.q, *c.v))
     momenta = slopes[n:]
     drift = forward_sweep(keep, momenta, onward | dict(zip(c.v, alpha, strict=True)))
     rest = sp.Matrix([keep(a - b) for a, b in zip(slopes[:n], drift, strict=True)])
@@ -57,59 +57,8 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
 def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
     """Stages, and the Jacobi integral v·∂L/∂v − L made of them."""
     keep, v = Stages(), system.c.v
-    L = expression_stages(keep, without_turns(system.L))
+    L = expression_stages(keep, system.L)
     return keep.made, sp.Add(-L, *(a * p for a, p in zip(v, backward_sweep(keep, L, v), strict=True)))
-
-
-def without_turns(e: sp.Expr) -> sp.Expr:
-    """The expression with w A² + w B² for w (A cos θ + B sin θ)² + w (B cos θ − A sin θ)² in its sums.
-
-    Of a body in the axes that turn with it the angles about its centre, and about its axis of symmetry, fall out.
-    """
-    known = dict[sp.Expr, sp.Expr]()
-
-    def straight(part: sp.Expr) -> sp.Expr:
-        if part.is_Atom or not all(isinstance(a, sp.Expr) for a in part.args):
-            return part
-        if part not in known:
-            args = [*map(straight, part.args)]
-            new = part if all(a is b for a, b in zip(args, part.args, strict=True)) else part.func(*args)
-            while new.is_Add and (pair := _turned_pair(new)):
-                new = sp.Add(new, *(b - a for a, b in pair.items()))
-            known[part] = new
-        return known[part]
-
-    return straight(e)
-
-
-def _turned_pair(total: sp.Expr) -> dict[sp.Expr, sp.Expr]:
-    """Two terms of a sum whose squares are of a turned pair, with what they are without the turn."""
-    sides: dict[tuple[sp.Expr, sp.Expr], list[tuple[sp.Expr, sp.Expr, sp.Expr]]] = defaultdict(list)
-    for term in total.args:
-        for square in sp.Mul.make_args(term):
-            if not (square.is_Pow and square.exp == 2 and square.base.is_Add):
-                continue
-            weight = term / square
-            for angle, (a, b) in _sides(square.base).items():
-                for other, c, d in sides[weight, angle]:
-                    if (c, d) in ((b, -a), (-b, a)):
-                        return {term: weight * a**2, other: weight * b**2}
-                sides[weight, angle].append((term, a, b))
-    return {}
-
-
-def _sides(e: sp.Expr) -> dict[sp.Expr, tuple[sp.Expr, sp.Expr]]:
-    """{θ: (A, B)} with the sum equal to A cos θ + B sin θ."""
-    factors = [sp.Mul.make_args(term) for term in e.args]
-    sides = {}
-    for angle in {f.args[0] for f in factors[0] if isinstance(f, sp.sin | sp.cos)}:
-        parts = [
-            sp.Add(*(sp.Mul(*(f for f in term if f != turn)) for term in factors if turn in term))
-            for turn in (sp.cos(angle), sp.sin(angle))
-        ]
-        if 0 not in parts and all(sum(f in (sp.cos(angle), sp.sin(angle)) for f in term) == 1 for term in factors):
-            sides[angle] = (parts[0], parts[1])
-    return sides
 
 
 def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:

@@ -60,12 +60,11 @@ class Impact:
     """A gap g(q, t) that does not become negative: where it closes, the velocity of approach is reversed and multiplied by the
     coefficient of restitution, a number from 0 to 1 or a parameter.
 
-    Where nothing rebounds the gap stays closed, as a constraint, while its reaction pushes; latched: for good.
+    Where nothing rebounds the gap stays closed, as a constraint, while its reaction pushes.
     """
 
     gap: sp.Expr
     restitution: sp.Expr = sp.S.One
-    latched: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "gap", expression("Impact: gap", self.gap))
@@ -73,10 +72,6 @@ class Impact:
         object.__setattr__(self, "restitution", e)
         if e.is_number and not 0 <= e <= 1:
             raise InputError(f"Impact: restitution = {e} must lie between 0, nothing rebounds, and 1, nothing is lost")
-        if not isinstance(self.latched, bool):
-            raise InputError(f"Impact: latched = {self.latched!r} must be True or False")
-        if self.latched and e != 0:
-            raise InputError(f"Impact: restitution = {e} of what is latched: give 0, or latched=False")
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:

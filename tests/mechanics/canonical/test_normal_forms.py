@@ -1,18 +1,16 @@
 """Normal forms against published coefficients, and as what they are: a canonical transformation and the same Hamiltonian."""
 
-from math import prod, sqrt
+from math import sqrt
 
 import numpy as np
 import pytest
 import sympy as sp
 from scipy.linalg import expm
-from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
-from lagrotor.mechanics import NormalForm, System, coordinates, libration
+from lagrotor.mechanics import NormalForm, System, coordinates, t
 from lagrotor.mechanics.canonical.normal_forms import normal_form_of_series
-from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, poisson_bracket, polynomial, variable
-from lagrotor.numerics import measured_order
+from lagrotor.mechanics.canonical.polynomials import linear_form, poisson_bracket, polynomial
 from tests.systems import henon_heiles, plane_motion
 
 R = sp.Rational
@@ -22,19 +20,9 @@ def plane(V, magnetic=0):
     return plane_motion(V, magnetic).hamiltonian()
 
 
-def transformation(n: NormalForm) -> list[Polynomial]:
-    """x − x₀ as polynomials of the normal coordinates, in floating-point numbers."""
-    size = len(n.frequencies) * 2
-    linear = [
-        polynomial({tuple(int(i == j) for i in range(size)): c for j, c in enumerate(row)}, size) for row in n.vectors
-    ]
-    return [n.original(f) for f in linear]
-
-
 def check_transformation(n: NormalForm, H, x, at) -> None:
     """The bracket of the old coordinates is theirs through the order, and H in the new ones is the series."""
-    n = n.in_numbers()
-    new, half = transformation(n), len(n.frequencies)
+    new, half = [n.original(linear_form(row)) for row in n.vectors], len(n.frequencies)
     for a in range(2 * half):
         for b in range(a):
             bracket = poisson_bracket(new[a], new[b], n.weights, n.known_through - 2)
@@ -70,46 +58,29 @@ def test_henon_heiles_as_gustavson_printed_it():
     assert n.actions[0, 3] == R(-235, 432) and sum(e[0] == 3 for e in n.actions) == 1
 
 
-def test_in_numbers_it_is_the_same_and_says_its_rounding():
-    exact = henon_heiles().hamiltonian().normal_form(order=6, at={"x": 0, "y": 0})
-    c = coordinates("x y")
-    (x, y), (u, w) = c.q, c.v
-    numbers = System(c, (u**2 + w**2) / 2 - (1.0 * x**2 + y**2) / 2 - x**2 * y + y**3 / 3).hamiltonian()
-    n = numbers.normal_form(order=6, at={"x": 0, "y": 0})
-    assert 0 < n.error < 1e-13
-    assert sum(c for e, c in n.actions.items() if sum(e) == 2) == pytest.approx(-0.5)
-    assert exact.known_through == n.known_through == 6
+KINDS = {
+    "oscillations": (lambda x, y: 0.5 * x**2 + 2 * y**2 + x * y**2 / 3 - x**3 / 5 + x**2 * y**2, 0, (1, 1)),
+    "magnetic": (
+        lambda x, y: -(x**2) / 2 - y**2 + x**2 * y + x**4,
+        2.1,
+        (-1, 1),
+    ),  # slow, of negative energy, on a hill
+    "free": (lambda x, y: y**2 * 0.81 + x**2 * y + y**3, 0, (1, 0)),
+    "saddle": (lambda x, y: -(x**2) / 2 + y**2 * 0.81 + x**2 * y + y**3, 0, (1, 0)),
+}
 
 
-@pytest.mark.parametrize("kind", ["henon", "fast and slow", "magnetic", "saddle", "free"])
+@pytest.mark.parametrize("kind", KINDS)
 def test_it_is_a_canonical_transformation_and_the_same_hamiltonian(kind):
-    at = {}
-    if kind == "henon":
-        h = henon_heiles().hamiltonian()
-    elif kind == "fast and slow":
-        h = plane(lambda x, y: x**2 / 2 + R(2) * y**2 + x * y**2 / 3 - x**3 / 5 + x**2 * y**2)
-    elif kind == "magnetic":
-        h = plane(lambda x, y: -(x**2) / 2 - y**2 + x**2 * y + x**4, magnetic=2.1)
-    elif kind == "saddle":
-        h = plane(lambda x, y: -(x**2) / 2 + y**2 * 0.81 + x**2 * y + y**3)
-    else:
-        h = plane(lambda x, y: y**2 * 0.81 + x**2 * y + y**3)
+    V, magnetic, signs = KINDS[kind]
+    h = plane(V, magnetic)
     n = h.normal_form(order=5, at={"x": 0, "y": 0})
-    assert n.error < 1e-12
-    if kind == "saddle":
-        assert n.energy_signs == (1, 0)
-    else:
-        check_transformation(n, h.H, (*h.q, *h.p), at)
-    if kind == "magnetic":
-        assert sorted(n.energy_signs) == [-1, 1]  # what the field holds on a hill has a slow motion of negative energy
-
-
-def test_a_wrong_generator_is_no_normal_form():
-    h = henon_heiles().hamiltonian()
-    n = h.normal_form(order=5, at={"x": 0, "y": 0})
-    n = type(n)(**{**vars(n), "generators": (n.generators[0].times(2), *n.generators[1:])})
-    with pytest.raises(AssertionError):
+    assert n.error < 1e-12 and sorted(n.energy_signs) == sorted(signs)
+    if kind != "saddle":
         check_transformation(n, h.H, (*h.q, *h.p), {})
+        twin = type(n)(**{**vars(n), "generators": (n.generators[0].times(2), *n.generators[1:])})
+        with pytest.raises(AssertionError):
+            check_transformation(twin, h.H, (*h.q, *h.p), {})
 
 
 def test_pendulum_and_duffing_by_their_action():
@@ -148,7 +119,7 @@ def deprit(a, b):
     return own(a, b), mixed, own(b, a)
 
 
-@pytest.mark.parametrize("mu", [R(1, 100), R(2, 100), R(3, 1000)])
+@pytest.mark.parametrize("mu", [R(1, 100), R(3, 1000)])
 def test_l4_has_the_coefficients_of_deprit_and_deprit_bartholome(mu):
     n = lagrange_point(mu).normal_form(order=4, at={"x": 0, "y": 0})
     (slow, fast), minus = sorted(map(abs, n.frequencies)), n.energy_signs.index(-1)
@@ -159,38 +130,6 @@ def test_l4_has_the_coefficients_of_deprit_and_deprit_bartholome(mu):
     plus = 1 - minus
     assert of[(plus, 2),] == pytest.approx(A / 2) and of[(minus, 2),] == pytest.approx(C / 2)
     assert of[(0, 1), (1, 1)] == pytest.approx(B, rel=1e-8)
-
-
-def test_arnolds_determinant_vanishes_at_the_published_mass():
-    """D = −½ (A ω₂² + 2 B ω₁ ω₂ + C ω₁²) = 0 at μ = 0.0109136676…: Deprit & Deprit-Bartholomé."""
-
-    def D(mu):
-        n = lagrange_point(sp.Float(mu)).normal_form(order=4, at={"x": 0, "y": 0})
-        a, b = n.frequencies
-        return sum(c * prod(map(pow, (b, -a), e)) for e, c in n.actions.items() if sum(e) == 2)
-
-    assert brentq(D, 0.0105, 0.0112, xtol=1e-12) == pytest.approx(0.0109136676, abs=1e-10)
-
-
-def test_a_toda_chain_has_no_resonance_that_hinders_it():
-    """Three particles on a ring: of order 4 the Toda normal form is a function of actions of one another in involution.
-
-    Ferguson, Flaschka & McLaughlin, J. Comp. Phys. 45 (1982) 157. After the centre of mass is taken off it is Hénon–Heiles at
-    order 3, but at order 4 it has a first integral besides, L of the 1:1 resonance: I₁ and I₂ in circular modes stay apart.
-    """
-    toda = plane(
-        lambda x, y: (
-            (sp.exp(2 * y + 2 * sp.sqrt(3) * x) + sp.exp(2 * y - 2 * sp.sqrt(3) * x) + sp.exp(-4 * y)) / 24 - R(1, 8)
-        )
-    )
-    n = toda.normal_form(order=6, at={"x": 0, "y": 0})
-    L = polynomial({(1, 0, 0, 1): 1j, (0, 1, 1, 0): -1j}, 4)
-    numbers = {e: complex(c) for e, c in [*n.resonances.items(), *((e * 2, c) for e, c in n.actions.items())]}
-    bracket = poisson_bracket(polynomial(numbers, 4), L, np.array([-1j, -1j]), 6)
-    assert np.abs(bracket.coefficients).max(initial=0) < 1e-12
-    other = henon_heiles().hamiltonian().normal_form(order=6, at={"x": 0, "y": 0})
-    numbers = {e: complex(c) for e, c in [*other.resonances.items(), *((e * 2, c) for e, c in other.actions.items())]}
-    assert np.abs(poisson_bracket(polynomial(numbers, 4), L, np.array([-1j, -1j]), 6).coefficients).max() > 0.1
 
 
 def test_a_sleeping_top_precesses_at_its_published_rates():
@@ -217,16 +156,14 @@ def test_a_sleeping_top_precesses_at_its_published_rates():
         h.normal_form(order=4, at={x: 0, y: 0}, values={spin: 2.0})
 
 
-def test_frequencies_that_are_surds_or_letters_stay_exact():
-    n = plane(lambda x, y: x**2 + y**2 / 2 + x**2 * y).normal_form(order=4, at={"x": 0, "y": 0})
-    assert n.frequencies == (1, sp.sqrt(2)) and n.actions[1, 1] == -sp.sqrt(2) / 7
-    numbers = plane(lambda x, y: 1.0 * x**2 + y**2 / 2 + x**2 * y).normal_form(order=4, at={"x": 0, "y": 0})
-    assert {e: float(c) for e, c in n.actions.items()} == pytest.approx(numbers.actions, abs=1e-14)
+def test_frequencies_that_are_letters_stay_exact_and_surds_are_numbers():
     a, b = sp.symbols("a b", positive=True)
     n = plane(lambda x, y: a**2 * x**2 / 2 + b**2 * y**2 / 2 + x**2 * y**2).normal_form(order=4, at={"x": 0, "y": 0})
     assert n.actions == {(1, 0): a, (0, 1): b, (1, 1): 1 / (a * b)} and n.energy_signs == (1, 1)
-    with pytest.raises(InputError, match="in_numbers: "):
-        n.in_numbers()
+    n = plane(lambda x, y: x**2 + y**2 / 2 + x**2 * y).normal_form(order=4, at={"x": 0, "y": 0})
+    assert n.frequencies == pytest.approx((1, sqrt(2))) and n.actions[1, 1] == pytest.approx(-sqrt(2) / 7)
+    with pytest.raises(InputError, match="no rational frequency: give a values"):
+        plane(lambda x, y: a * x**2 + y**2 / 2).normal_form(order=4, at={"x": 0, "y": 0})
 
 
 def test_a_near_resonance_is_kept_within_its_detuning():
@@ -237,37 +174,27 @@ def test_a_near_resonance_is_kept_within_its_detuning():
     assert abs(complex(n.resonances[2, 0, 0, 1])) ** 2 > 0
 
 
-def test_a_lie_transform_keeps_brackets_and_is_undone():
-    w = np.array([-1j, 1.0])
-    rng = np.random.default_rng(2)
-    g = polynomial({tuple(e): complex(*rng.normal(size=2)) for e in rng.multinomial(3, [0.25] * 4, size=12)}, 4)
-    f, k = variable(0, 4), variable(2, 4).power(2, 6) + variable(3, 4)
-    one, two = (lie_transform(e, g, w, 6) for e in (f, k))
-    difference = poisson_bracket(one, two, w, 5) - lie_transform(poisson_bracket(f, k, w, 6), g, w, 5)
-    assert np.abs(difference.through(4).coefficients).max(initial=0) < 1e-9
-    back = lie_transform(lie_transform(k, g, w, 6), g.times(-1), w, 6) - k
-    assert np.abs(back.coefficients).max(initial=0) < 1e-8
+ONE = coordinates("x")
+A = sp.Symbol("a")
+REFUSED = {
+    "give a values": (InputError, sp.cos(A * ONE.q[0]), {}),
+    "no equilibrium": (InputError, sp.cos(A * ONE.q[0]), {"at": {"x": 1}, "values": {A: 1}}),
+    "x without a value": (InputError, sp.cos(ONE.q[0]), {"at": {}}),
+    "order = 1": (InputError, sp.cos(ONE.q[0]), {"order": 1}),
+    "detuning = -1": (InputError, sp.cos(ONE.q[0]), {"detuning": -1}),
+    "detuning = 'a'": (InputError, sp.cos(ONE.q[0]), {"detuning": "a"}),
+    "analytic": (DomainError, -(sp.Abs(ONE.q[0]) ** 3) - ONE.q[0] ** 2, {}),
+    "singular": (DomainError, -(ONE.q[0] ** 2) - ONE.q[0] ** 3 * sp.log(ONE.q[0]), {}),
+    "name the period": (DomainError, -(ONE.q[0] ** 2) * (1 + sp.cos(t)), {}),
+}
 
 
-def test_what_makes_no_sense_is_refused():
-    c = coordinates("x")
-    (x,), (v,) = c.q, c.v
-    a = sp.Symbol("a")
-    h = System(c, v**2 / 2 + sp.cos(a * x)).hamiltonian()
-    with pytest.raises(InputError, match="give a values"):
-        h.normal_form(order=4, at={x: 0})
-    with pytest.raises(InputError, match="no equilibrium"):
-        h.normal_form(order=4, at={x: 1}, values={a: 1})
-    with pytest.raises(InputError, match="x without a value"):
-        h.normal_form(order=4, at={}, values={a: 1})
-    with pytest.raises(InputError, match="order = 1"):
-        h.normal_form(order=1, at={x: 0}, values={a: 1})
-    with pytest.raises(InputError, match="detuning = -1"):
-        h.normal_form(order=4, at={x: 0}, values={a: 1}, detuning=-1)
-    with pytest.raises(DomainError, match="analytic"):
-        System(c, v**2 / 2 - sp.Abs(x) ** 3 - x**2).hamiltonian().normal_form(order=4, at={x: 0})
-    with pytest.raises(DomainError, match="singular"):
-        System(c, v**2 / 2 - x**2 - x**3 * sp.log(x)).hamiltonian().normal_form(order=4, at={x: 0})
+@pytest.mark.parametrize("message", REFUSED)
+def test_what_makes_no_sense_is_refused(message):
+    error, potential, more = REFUSED[message]
+    h = System(ONE, ONE.v[0] ** 2 / 2 + potential).hamiltonian()
+    with pytest.raises(error, match=message):
+        h.normal_form(**({"order": 4, "at": {"x": 0}} | more))
 
 
 def test_frequencies_that_are_taken_as_equal_tell_what_that_leaves_out():
@@ -277,8 +204,6 @@ def test_frequencies_that_are_taken_as_equal_tell_what_that_leaves_out():
     merged, apart = near(1.00000001).normal_form(4, at), near(1.0001).normal_form(4, at)
     assert merged.error == pytest.approx(5e-9, rel=0.01)
     assert apart.error < 1e-9 and apart.frequencies[1] == pytest.approx(sqrt(1.0001), rel=1e-12)
-    with pytest.raises(InputError, match="detuning"):
-        near(1.0).normal_form(4, at, detuning="a")
 
 
 def test_what_rests_and_what_drifts_keep_the_rate_zero():
@@ -297,51 +222,21 @@ def test_what_rests_and_what_drifts_keep_the_rate_zero():
         assert np.abs(np.array(form.frequencies) - [1, 0, 0]).max() < 1e-9 and form.error < 1e-9
 
 
-def central(potential):
-    c = coordinates("r phi")
-    (r, _), (u, w) = c.q, c.v
-    return r, System(c, (u**2 + r**2 * w**2) / 2 - potential(r)).hamiltonian()
-
-
-def test_a_steady_motion_is_named_by_the_momenta_of_its_angles():
+def test_a_steady_motion_is_the_equilibrium_that_routh_leaves():
     """Kepler's circles: K = −1/2(I + P)², so that the perihelion does not turn: ∂K/∂P = ∂K/∂I."""
-    P = sp.Symbol("P", positive=True)
-    r, h = central(lambda r: -1 / r)
-    form = h.normal_form(6, {r: P**2, h.p[1]: P})
-    assert form.frequencies == (P**-3,)
-    I = sp.Symbol("I")
-    K = sum(c * I ** e[0] for e, c in form.actions.items())
-    said = sp.series(-1 / (2 * (I + P) ** 2), I, 0, 4).removeO()
-    assert sp.expand(K - said) == 0
-    assert sp.expand(sp.diff(K, P) - sp.diff(K, I)).coeff(I, 2) == 0
+    c, P = coordinates("r phi"), sp.Symbol("P", positive=True)
+    (r, _), (u, w) = c.q, c.v
+
+    def form(potential, momentum, radius):
+        system = System(c, (u**2 + r**2 * w**2) / 2 - potential).routh({c.q[1]: momentum})
+        return system.hamiltonian().normal_form(6, {r: radius})
+
+    kepler, I = form(-1 / r, P, P**2), sp.Symbol("I")
+    K = sum(c * I ** e[0] for e, c in kepler.actions.items())
+    assert kepler.frequencies == (P**-3,)
+    assert sp.expand(K - sp.series(-1 / (2 * (I + P) ** 2), I, 0, 4).removeO()) == 0
     # Twin: an oscillator's ellipses, of equal rates at all amplitudes and with two swings of r a turn.
-    s = sp.Symbol("s", positive=True)
-    r, other = central(lambda r: r**2 / 2)
-    assert other.normal_form(6, {r: s, other.p[1]: s**2}).actions == {(0,): s**2, (1,): 2}
-    # Values of letters that the point alone has; where other momenta are singular nothing is said.
-    assert h.normal_form(4, {r: P**2, h.p[1]: P}, {P: 2}).actions == h.normal_form(4, {r: 4, h.p[1]: 2}).actions
-    with pytest.raises(DomainError, match="with other momenta"):
-        other.normal_form(4, {r: 0, other.p[1]: 0})
-
-
-def test_conical_pendulums_shift_by_their_amplitude_as_the_quadrature_has_it():
-    """The spherical pendulum about its conical motion: rate² = (g/l) (1 + 3 cos²)/cos; its shift against the exact libration."""
-    c = coordinates("theta phi")
-    (theta, phi), (u, w) = c.q, c.v
-    pendulum = System(c, (u**2 + sp.sin(theta) ** 2 * w**2) / 2 + sp.cos(theta))
-    h, lean = pendulum.hamiltonian(), 0.7
-    P = float(sp.sin(lean) ** 2 / sp.sqrt(sp.cos(lean)))
-    form = h.normal_form(4, {theta: lean, h.p[1]: P})
-    assert form.frequencies[0] == pytest.approx(float(sp.sqrt((1 + 3 * sp.cos(lean) ** 2) / sp.cos(lean))))
-    reduced = pendulum.routh({phi: sp.Float(P)}).hamiltonian()
-    rest, off, actions = form.actions[(0,)], [], []
-    for more in (0.002, 0.004, 0.008):
-        exact = libration(reduced, rest + more, lean)
-        off.append(abs(exact.frequency - form.frequencies_at([exact.action])[0]))
-        actions.append(exact.action)
-    assert abs(measured_order(actions, off) - 2) < 0.1 and off[0] < 1e-5
-    with pytest.raises(InputError, match="name the momenta of its angles"):
-        h.normal_form(4, {theta: lean, phi: 0, h.p[0]: 0.1, h.p[1]: P})
+    assert form(r**2 / 2, P**2, P).actions == {(0,): P**2, (1,): 2}
 
 
 def test_what_is_taken_to_be_zero_and_is_not_is_refused_where_its_series_has_no_end() -> None:

@@ -1,6 +1,5 @@
 """Normal forms about periodic orbits: published twists, steady motions, and what exact motions do."""
 
-from dataclasses import replace
 from math import acos, cos, pi, sin, tan
 
 import mpmath as mp
@@ -8,7 +7,6 @@ import numpy as np
 import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from lagrotor.errors import DomainError, InputError, SingularError
 from lagrotor.mechanics import System, coordinates, map_normal_form, t
@@ -40,16 +38,12 @@ def twist_of(a):
     return (3 / tan(a / 2) + 1 / tan(3 * a / 2)) / 8
 
 
-@pytest.mark.parametrize("a", [0.3, 1.0, 1.9, 2.4])
+@pytest.mark.parametrize("a", [0.3, 2.4, acos(-1 / 4)])
 def test_the_twist_of_henons_map(a):
     n = map_normal_form(henon(a), 6)
     assert n.frequencies == pytest.approx((-a,))
-    assert 2 * n.actions[2,] == pytest.approx(twist_of(a), rel=1e-11)
+    assert 2 * n.actions.get((2,), 0.0) == pytest.approx(twist_of(a), rel=1e-11, abs=1e-13)
     assert n.error < 1e-11 and not n.resonances
-
-
-def test_the_twist_of_henons_map_vanishes_where_it_was_published():
-    assert abs(map_normal_form(henon(acos(-1 / 4)), 4).actions.get((2,), 0.0)) < 1e-14
 
 
 def test_resonances_of_third_and_fourth_order_are_kept():
@@ -59,58 +53,45 @@ def test_resonances_of_third_and_fourth_order_are_kept():
     assert set(near.resonances) == {(3, 0), (0, 3)}
 
 
-def test_a_map_without_one_of_its_terms_is_not_canonical_and_says_so():
-    f, g = henon(1.0)
-    broken = [f, g.where(g.exponents.sum(1) < 2)]
-    assert map_normal_form(broken, 4).error > 1e-2
-
-
-def test_a_multiplier_of_one_is_refused():
-    with pytest.raises(SingularError, match="multiplier is 1"):
-        map_normal_form([variable(0, 2) + variable(1, 2), variable(1, 2)], 4)
-
-
 def turned(*angles):
     """Rotations of the pairs (u_j, v_j)."""
     c, s = np.diag(np.cos(angles)), np.diag(np.sin(angles))
     return [linear_form(row) for row in np.block([[c, s], [-s, c]])]
 
 
-def test_multipliers_near_one_and_minus_one_at_once_are_no_zero_rate():
-    with pytest.raises(SingularError, match="not separated"):  # was given as hyperbolic with the rate 0
-        map_normal_form(turned(pi - 1e-4, 1e-2), 4)
+def test_multipliers_that_are_nearly_equal_are_taken_as_equal():
     assert map_normal_form(turned(pi - 1e-2, 1e-2), 4).frequencies == pytest.approx((1e-2, pi - 1e-2), rel=1e-10)
     near = map_normal_form(turned(1.0, 1.0 + 1e-8), 4)  # taken as equal
     assert 1e-9 < near.error < 1e-7 and map_normal_form(turned(1.0, 2.0), 4).error < 1e-14
 
 
-@pytest.mark.parametrize(
-    "F",
-    [
-        [f.times(0.9) for f in turned(1.0)],
-        [f.times(c) for f, c in zip(turned(1.0, 0.5), (1, 2, 1, 1 / 3), strict=True)],
-        [turned(1.0)[0] + polynomial({(0, 0): 0.1}, 2), turned(1.0)[1]],
-        turned(1.0)[:1],
-        [],
-    ],
-)
-def test_what_is_no_canonical_map_with_a_fixed_point_is_refused(F):
-    with pytest.raises(InputError, match="map_normal_form"):
+NO_MAPS = [
+    ([f.times(c) for f, c in zip(turned(1.0, 0.5), (1, 2, 1, 1 / 3), strict=True)], InputError, "no canonical map"),
+    ([turned(1.0)[0] + polynomial({(0, 0): 0.1}, 2), turned(1.0)[1]], InputError, "a constant"),
+    (turned(1.0)[:1], InputError, "2 m polynomials"),
+    ([variable(0, 2) + variable(1, 2), variable(1, 2)], SingularError, "multiplier is 1"),
+    (turned(pi - 1e-4, 1e-2), SingularError, "not separated"),  # was given as hyperbolic with the rate 0
+]
+
+
+@pytest.mark.parametrize(("F", "error", "match"), NO_MAPS)
+def test_what_is_no_canonical_map_with_a_fixed_point_is_refused(F, error, match):
+    with pytest.raises(error, match=match):
         map_normal_form(F, 4)
+    f, g = henon(1.0)  # of a map without one of its terms the error says it
+    assert map_normal_form([f, g.where(g.exponents.sum(1) < 2)], 4).error > 1e-2
 
 
 def test_jets_are_taylor_series():
-    space = jet_space(2, 6)
-    a, b = (space.variable(k) for k in range(2))
-    values = np.array([0.7 + 0.3, 1.1])
-    p, q = a + float(values[0]), b + float(values[1])
+    space = jet_space(2, 5)
+    p, q = space.variable(0) + 1.0, space.variable(1) + 1.1
     f = np.sqrt(p) * np.sin(q) / (2 - np.exp(-p * q)) + p**-2 * np.arctan(q) + np.log(p + q**3) ** 2 + 2**p + p**q
 
     def along(h):
-        P, Q = values[0] + mp.mpf("0.6") * h, values[1] - mp.mpf("0.8") * h
+        P, Q = 1 + mp.mpf("0.6") * h, mp.mpf("1.1") - mp.mpf("0.8") * h
         return mp.sqrt(P) * mp.sin(Q) / (2 - mp.exp(-P * Q)) + mp.atan(Q) / P**2 + mp.log(P + Q**3) ** 2 + 2**P + P**Q
 
-    for d, wanted in enumerate(mp.taylor(along, 0, 6)):
+    for d, wanted in enumerate(mp.taylor(along, 0, 5)):
         assert f.polynomial.part(d).at(np.array([0.6, -0.8])).real == pytest.approx(float(wanted), rel=1e-9)
     with pytest.raises(DomainError, match="floor"):
         np.floor(p)
@@ -181,7 +162,7 @@ def test_the_angle_of_a_return_is_that_of_the_exact_motion(name):
     system, at, period, size = (ORBITS | DRIVEN)[name]
     h = system()
     n = h.normal_form(order=4, at=at, period=period)
-    assert n.error < 1e-11 and n.stable and abs(n.multipliers) == pytest.approx(1)
+    assert n.error < 1e-11 and abs(n.multipliers) == pytest.approx(1)
     sizes = np.array([1, 0.7, 0.5]) * size
     exact = np.array([exact_angle(h, n, s) for s in sizes])
     law = np.array([n.frequencies_at([s**2])[0] for s in sizes])
@@ -202,49 +183,6 @@ def test_normal_coordinates_are_canonical_and_the_section_has_the_orbits_energy(
     assert gaps[0] < 1e-6 and np.log2(gaps[0] / gaps[1]) > 5.5
 
 
-def test_a_circular_orbit_is_the_steady_motion():
-    """Turns of the radius in one of the angle, ∂H/∂I over ∂H/∂p of the form about the steady motion at the same energy."""
-    p = coordinates("r a")
-    (r, _), (r_v, a_v) = p.q, p.v
-    polar = System(p, (r_v**2 + r**2 * a_v**2) / 2 - r**4 / 4).hamiltonian()
-    n = plane((x**2 + y**2) ** 2 / 4).normal_form(order=6, at={x: 1, y: 0, w: 1}, period=6.3)
-    momenta = 1 + np.linspace(-0.03, 0.03, 9)
-    forms = [polar.normal_form(order=6, at={r: m ** (1 / 3), polar.p[1]: m}).actions for m in momenta]
-    rows = [np.polynomial.Polynomial.fit(momenta, [f.get((k,), 0.0) for f in forms], 8) for k in range(4)]
-    for action, near in ((0.0, 1e-11), (1e-3, 1e-8)):
-        energy = sum(f * action**k for k, f in enumerate(rows))
-        momentum = brentq(lambda m, e=energy: e(m) - 0.75, 0.97, 1.03, xtol=1e-15)
-        rate = sum(k * f(momentum) * action ** (k - 1) for k, f in enumerate(rows) if k)
-        turns = rate / energy.deriv()(momentum)
-        assert n.rotation_numbers([action])[0] + 2 == pytest.approx(turns, abs=near)
-
-
-def test_the_twist_of_a_weak_oscillator_is_its_averaged_one():
-    """x'' + x + ε x³ = ε cos ωt off resonance: in a period T = 2π/ω the angle is T, ∂α/∂I = 3εT/4 + O(ε²) of the average."""
-    eps = np.array([0.02, 0.01])
-    gaps = []
-    for e in eps:
-        h = driven(lambda x, e=e: x**2 / 2 + e * x**4 / 4 - e * x * sp.cos(R(9, 5) * t))
-        n = h.normal_form(order=4, at={line.q[0]: 0}, period=2 * pi / 1.8)
-        gaps.append(abs(abs(n.twist[0, 0]) / (0.75 * e * 2 * pi / 1.8) - 1))
-    assert gaps[0] < 0.1 and gaps[0] / gaps[1] > 1.6
-
-
-@pytest.mark.parametrize("size", [1e-9, 1e6])
-def test_units_change_nothing(size):
-    """Lengths in others, a mass: angles, error and verdict stay, the twist is one over the action's unit."""
-    h = driven(lambda x: x**2 / 2 + x**4 / 8 - x * sp.cos(R(17, 10) * t) / 5)
-    moved = {line.q[0]: line.q[0] / sp.Float(size), h.p[0]: h.p[0] / sp.Float(size)}
-    scaled = replace(h, H=h.H.xreplace(moved) * sp.Float(size) ** 2)
-    one, other = (
-        g.normal_form(order=4, at={line.q[0]: -0.1 * s}, period=2 * pi / 1.7) for g, s in ((h, 1), (scaled, size))
-    )
-    assert other.frequencies == pytest.approx(one.frequencies, rel=1e-11) and other.stable and other.error < 1e-11
-    assert other.twist[0, 0] * size**2 == pytest.approx(one.twist[0, 0], rel=1e-9)
-    with pytest.raises(InputError, match="what drives"):
-        scaled.normal_form(order=4, at={line.q[0]: -0.1 * size}, period=3.0)
-
-
 def test_an_ion_at_rest_in_a_trap():
     """Ω = 10⁷ rad/s, m = 10⁻²⁵ kg, q in metres: the trap of Ω = m = 1, whose unit of action is m Ω (1 mm)²."""
     q, v = line.q[0], line.v[0]
@@ -254,17 +192,17 @@ def test_an_ion_at_rest_in_a_trap():
         return System(line, m * v**2 / 2 - V).hamiltonian().normal_form(order=4, at={q: 0}, period=2 * pi / omega)
 
     plain, ion = trap(1, 1, 1), trap(R(1, 10**25), 10**7, R(1, 1000))
-    assert ion.frequencies == pytest.approx(plain.frequencies, rel=1e-10) and ion.stable
+    assert ion.frequencies == pytest.approx(plain.frequencies, rel=1e-10)
     assert ion.twist[0, 0] * 1e-24 == pytest.approx(plain.twist[0, 0], rel=1e-9)
 
 
 def test_a_pulse_by_which_an_oscillator_is_driven_is_not_passed_over(monkeypatch):
     """x'' = −(1 + 3 δ(t − s)) x, once in 7 s, about its rest: the angle of a period has the cosine cos 7 − 3/2 sin 7 at any s.
 
-    Without the cut a step may come upon the pulse, which hangs on the processor; not upon each of four.
+    Without the cut a step may come upon the pulse, which hangs on the processor; not upon each of three.
     """
     x, p = symbols = sp.symbols("x p", real=True)
-    width, times = 0.002, (1.1, 2.3, 3.3, 4.7)
+    width = 0.002
 
     def off(s):
         pulse = 3 / (width * sp.sqrt(sp.pi)) * sp.exp(-((sp.sin((t - s) * sp.pi / 7) * 7 / sp.pi / width) ** 2))
@@ -272,40 +210,34 @@ def test_a_pulse_by_which_an_oscillator_is_driven_is_not_passed_over(monkeypatch
         cosine = np.real(return_maps.return_map_form(H, symbols, rest, 7.0, 2, 1e-6).multipliers[0])
         return abs(cosine - cos(7) + 1.5 * sin(7))
 
-    assert max(map(off, times)) < 4 * width
+    assert off(1.1) < 4 * width
     monkeypatch.setattr(return_maps, "brief_windows", lambda *_: ())
-    assert max(map(off, times)) > 0.5  # twin
+    assert max(map(off, (1.1, 2.3, 3.3))) > 0.5  # twin
 
 
 def test_hyperbolic_orbits():
     q = line.q[0]
     inverted = driven(lambda x: sp.cos(x) - x * sp.cos(R(3, 2) * t) / 5)
     n = inverted.normal_form(order=4, at={q: 0}, period=2 * pi / 1.5)
-    assert n.stable is False and n.energy_signs == (0,) and np.prod(n.multipliers) == pytest.approx(1)
+    assert n.energy_signs == (0,) and np.prod(n.multipliers) == pytest.approx(1)
     whole = System(line, line.v[0] ** 2 / 2 - sp.cos(q) + q * sp.cos(R(3, 2) * t) / 5)
-    place = {q: n.orbit[q], line.v[0]: n.orbit[inverted.p[0]]}
-    assert sorted(n.multipliers.real) == pytest.approx(
-        sorted(whole.floquet(place, {}, n.period).multipliers.real), rel=1e-6
-    )
-    thrice = whole.floquet(place, {}, 3 * n.period)  # the coarser of its two integrations leaves the orbit by 10⁻⁵
-    assert thrice.multipliers.real == pytest.approx(n.multipliers.real**3, rel=1e-4, abs=0)
+    turned = whole.floquet({q: n.orbit[q], line.v[0]: n.orbit[inverted.p[0]]}, {}, n.period)
+    assert sorted(n.multipliers.real) == pytest.approx(sorted(turned.multipliers.real), rel=1e-6)
     parametric = driven(lambda x: x**2 / 2 * (1 + sp.cos(2 * t) / 5) + x**4 / 4)
     n = parametric.normal_form(order=4, at={q: 0}, period=pi)
-    assert n.stable is False and (n.multipliers.real < 0).all() and np.isnan(n.rotation_numbers()).all()
+    assert (n.multipliers.real < 0).all() and np.isnan(n.rotation_numbers()).all()
 
 
-def test_multipliers_of_a_saddle_are_known_to_their_errors_and_too_large_ones_are_refused():
+@pytest.mark.parametrize("T", [8, 20])
+def test_multipliers_of_a_saddle_are_its_rates_and_too_large_ones_are_refused(T):
     """About x = 0 of V = −x²/2 + x³ cos(2πt/T)/10 they are exp(±T)."""
-    for T in (3, 8, 20):
-        saddle = driven(lambda x, T=T: -(x**2) / 2 + x**3 * sp.cos(2 * sp.pi * t / T) / 10)
-        if T == 20:
-            with pytest.raises(SingularError, match=r"a multiplier is 4\.9e\+08, too far from its reciprocal"):
-                saddle.normal_form(order=3, at={line.q[0]: 0}, period=T)
-            continue
+    saddle = driven(lambda x: -(x**2) / 2 + x**3 * sp.cos(2 * sp.pi * t / T) / 10)
+    if T == 8:
         n = saddle.normal_form(order=3, at={line.q[0]: 0}, period=T)
-        off = np.abs(n.multipliers - np.exp([T, -T]))
-        assert (off <= n.errors).all() and (n.errors < 1e-4 * np.exp([T, -T])).all()
-        assert "known to" in n.summary()["multiplier 2"]
+        assert n.multipliers == pytest.approx(np.exp([T, -T]), rel=1e-4)
+    else:
+        with pytest.raises(SingularError, match=r"a multiplier is 4\.9e\+08, too far from its reciprocal"):
+            saddle.normal_form(order=3, at={line.q[0]: 0}, period=T)
 
 
 def test_three_degrees_of_freedom_and_the_twist_as_a_matrix():
@@ -315,7 +247,7 @@ def test_three_degrees_of_freedom_and_the_twist_as_a_matrix():
     h = System(b, sum(s**2 for s in v) / 2 - V).hamiltonian()
     n = h.normal_form(order=4, at={x: 0, y: 0, z: 0, v[0]: 0.5}, period=6.1)
     assert n.twist.shape == (2, 2) and n.twist[0, 1] == pytest.approx(n.twist[1, 0])
-    assert n.stable is None and n.error < 1e-10 and abs(n.multipliers) == pytest.approx(1)
+    assert n.error < 1e-10 and abs(n.multipliers) == pytest.approx(1)
 
 
 def test_the_start_may_be_off_and_letters_have_values():
@@ -334,23 +266,21 @@ def test_the_start_may_be_off_and_letters_have_values():
 
 
 REFUSED = [
-    ({"period": -1.0}, {}, InputError, "period"),
-    ({"period": "7"}, {}, InputError, "period"),
-    ({"period": 7.1, "order": 1}, {}, InputError, "order"),
-    ({"period": 7.1}, {"y": None}, InputError, "y"),
-    ({"period": 7.1}, {"w": 0.0, "y": 0.0}, InputError, "nothing moves"),
-    ({"period": 3.0}, {}, InputError, "normal_form"),
-    ({"period": 3.6}, {}, InputError, "another momentum"),  # the same place on the way back
+    ({"period": -1.0}, {}, "period"),
+    ({"period": "7"}, {}, "period"),
+    ({"period": 7.1, "order": 1}, {}, "order"),
+    ({"period": 7.1}, {"y": None}, "y"),
+    ({"period": 7.1}, {"y_dot": 0.0}, "nothing moves"),
+    ({"period": 3.0}, {}, "normal_form"),
+    ({"period": 3.6}, {}, "another momentum"),  # the same place on the way back
 ]
 
 
-@pytest.mark.parametrize(("options", "changed", "error", "match"), REFUSED)
-def test_what_is_no_orbit_is_refused(options, changed, error, match):
-    at = {"x": 0, "y": 0, "y_dot": 0.45} | {{"w": "y_dot"}.get(k, k): e for k, e in changed.items()}
-    with pytest.raises(error, match=match):
-        henon_heiles().hamiltonian().normal_form(
-            **({"order": 4} | options), at={k: e for k, e in at.items() if e is not None}
-        )
+@pytest.mark.parametrize(("options", "changed", "match"), REFUSED)
+def test_what_is_no_orbit_is_refused(options, changed, match):
+    at = {k: e for k, e in ({"x": 0, "y": 0, "y_dot": 0.45} | changed).items() if e is not None}
+    with pytest.raises(InputError, match=match):
+        henon_heiles().hamiltonian().normal_form(**({"order": 4} | options), at=at)
 
 
 def test_symmetries_and_single_degrees_of_freedom_are_refused():
@@ -358,10 +288,8 @@ def test_symmetries_and_single_degrees_of_freedom_are_refused():
     with pytest.raises(SingularError, match="multiplier is 1"):
         h.normal_form(order=4, at={x: 1, y: 0, w: 0.5}, period=2 * pi)
     q = line.q[0]
-    with pytest.raises(DomainError, match="libration"):
+    with pytest.raises(DomainError, match="leave out the period"):
         driven(lambda x: x**4).normal_form(order=4, at={q: 1}, period=3.0)
     for wrong in (3.0, pi / 1.7):
         with pytest.raises(InputError, match="what drives"):
             driven(lambda x: x**2 * (1 + sp.cos(R(17, 10) * t) / 5)).normal_form(order=4, at={q: 0}, period=wrong)
-    with pytest.raises(DomainError, match="period"):
-        driven(lambda x: x**2 * sp.cos(t)).normal_form(order=4, at={q: 0})

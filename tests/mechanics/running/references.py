@@ -1,4 +1,4 @@
-"""Random systems with motions that are known to 60 bits: closed forms by mpmath, and an extrapolated integration in 64 bits.
+"""Random systems with motions that are known to 60 bits: by mpmath, and an extrapolated integration in 64 bits.
 
 Nothing here is made by the package's solvers: the integrator is Gragg's method with Richardson's extrapolation (Hairer, Nørsett &
 Wanner, II.9), the equations are written by hand.
@@ -231,28 +231,29 @@ def driven(rng: np.random.Generator) -> Drawn:
     system = System(c, L, dissipation=gamma * c.v[0] ** 2, forces=(A * sp.cos(W * t),))
     times = _times(rng, float(10 ** rng.uniform(0, 1.7)), begin)
 
-    def exact() -> np.ndarray:
-        with mpmath.workprec(110):
-            d = [mpmath.mpf(z) for z in (w, gamma, A, W, x, v, begin)]
-            s, rows = mpmath.sqrt(mpmath.mpc(d[1] ** 2 - d[0] ** 2)), []
-            forced = d[2] / (d[0] ** 2 - d[3] ** 2 + 2j * d[1] * d[3])
+    def rhs(s: Any, y: np.ndarray) -> np.ndarray:
+        return np.array([y[1], Long(A) * np.cos(Long(W) * s) - 2 * Long(gamma) * y[1] - Long(w) ** 2 * y[0]], Long)
 
-            def steady(time: Any) -> tuple[Any, Any]:
-                z = forced * mpmath.expjpi(d[3] * time / mpmath.pi)
-                return z.real, (1j * d[3] * z).real
+    return Drawn("driven", system, {}, (x,), (v,), times, _tol(rng),
+                 lambda: extrapolated(rhs, [x, v], times))  # fmt: skip
 
-            one, other = -d[1] + s, -d[1] - s
-            p, u = steady(d[6])
-            a, b = d[4] - p, d[5] - u
-            second = (b - one * a) / (other - one)
-            for time in times:
-                since = mpmath.mpf(float(time)) - d[6]
-                e1, e2 = (a - second) * mpmath.exp(one * since), second * mpmath.exp(other * since)
-                p, u = steady(mpmath.mpf(float(time)))
-                rows.append([float((e1 + e2).real + p), float((one * e1 + other * e2).real + u)])
-        return np.array(rows)
 
-    return Drawn("driven", system, {}, (x,), (v,), times, _tol(rng), exact)
+def pendulums(m: Any, l: Any) -> Callable[[Any, np.ndarray], np.ndarray]:
+    """Pendulums on each other in absolute angles: their rates, in 64 bits."""
+    n, lengths = len(m), np.array(l, Long)
+    above = np.array([np.array(m[i:], Long).sum() for i in range(n)], Long)
+
+    def rhs(_: Any, y: np.ndarray) -> np.ndarray:
+        a, w = y[:n], y[n:]
+        M = [[above[max(i, j)] * lengths[i] * lengths[j] * np.cos(a[i] - a[j]) for j in range(n)] for i in range(n)]
+        b = [
+            -sum(above[max(i, j)] * lengths[i] * lengths[j] * np.sin(a[i] - a[j]) * w[j] ** 2 for j in range(n))
+            - above[i] * Long(9.81) * lengths[i] * np.sin(a[i])
+            for i in range(n)
+        ]
+        return np.concatenate([w, np.array(solved(M, b), Long)])
+
+    return rhs
 
 
 def chain(rng: np.random.Generator) -> Drawn:
@@ -270,21 +271,9 @@ def chain(rng: np.random.Generator) -> Drawn:
         L, turned = L + bob.kinetic - bob.potential((0, 0, -sp.Float(9.81, 30))), q
     wide = rng.choice([0.05, 0.5, 2.0])
     q, v = wide * rng.normal(size=n), wide * rng.normal(size=n)
-    above, lengths = np.array([m[i:].sum(dtype=Long) for i in range(n)], Long), np.array(l, Long)
-
-    def rhs(_: Any, y: np.ndarray) -> np.ndarray:
-        a, w = y[:n], y[n:]
-        M = [[above[max(i, j)] * lengths[i] * lengths[j] * np.cos(a[i] - a[j]) for j in range(n)] for i in range(n)]
-        b = [
-            -sum(above[max(i, j)] * lengths[i] * lengths[j] * np.sin(a[i] - a[j]) * w[j] ** 2 for j in range(n))
-            - above[i] * Long(9.81) * lengths[i] * np.sin(a[i])
-            for i in range(n)
-        ]
-        return np.concatenate([w, np.array(solved(M, b), Long)])
-
     times = _times(rng, float(10 ** rng.uniform(-0.3, 1.2)))
     return Drawn(f"chain of {n}", System(c, L), {}, tuple(q), tuple(v), times, _tol(rng),
-                 lambda: extrapolated(rhs, [*q, *v], times))  # fmt: skip
+                 lambda: extrapolated(pendulums(m, l), [*q, *v], times))  # fmt: skip
 
 
 def central(rng: np.random.Generator) -> Drawn:
@@ -310,7 +299,7 @@ def central(rng: np.random.Generator) -> Drawn:
 
 
 def top(rng: np.random.Generator) -> Drawn:
-    """A heavy symmetric top in Euler's angles, fast or slow; the reference by the directions of Poisson's equations."""
+    """A heavy symmetric top in Euler's angles, fast or slow."""
     c = coordinates("phi theta psi")
     A, C, P = float(rng.uniform(0.2, 1)), float(rng.uniform(0.05, 1)), float(rng.uniform(0.1, 3))
     _, theta, _ = c.q
@@ -321,35 +310,15 @@ def top(rng: np.random.Generator) -> Drawn:
     v = (float(rng.normal()), float(rng.normal()), float(rng.normal() * rng.choice([1, 30])))
 
     def rhs(_: Any, y: np.ndarray) -> np.ndarray:
-        """Along the axis e and its angular velocity; the angles phi and psi beside them, of their own rates."""
-        e, w, n = y[:3], y[3:6], y[6]  # w across e
-        de = np.array([w[1] * e[2] - w[2] * e[1], w[2] * e[0] - w[0] * e[2], w[0] * e[1] - w[1] * e[0]], Long)
-        torque = np.array([-Long(P) * e[1], Long(P) * e[0], Long(0)], Long)  # e × (0, 0, −P)
-        dw = (torque - Long(C) * n * de) / Long(A)
-        dw = dw - e * (dw @ e) - e * (w @ de)
-        across = e[0] ** 2 + e[1] ** 2
-        phi = (e[0] * de[1] - e[1] * de[0]) / across
-        return np.concatenate([de, dw, [Long(0), phi, n - phi * e[2]]])
-
-    def exact() -> np.ndarray:
-        f, th = Long(q[0]), Long(q[1])
-        # The axis of 'zxz' is (sin phi, −cos phi, 0) sin theta + z cos theta.
-        e = np.array([np.sin(th) * np.sin(f), -np.sin(th) * np.cos(f), np.cos(th)], Long)
-        by_theta = np.array([np.cos(th) * np.sin(f), -np.cos(th) * np.cos(f), -np.sin(th)], Long)
-        by_phi = np.array([np.sin(th) * np.cos(f), np.sin(th) * np.sin(f), Long(0)], Long)
-        de = Long(v[1]) * by_theta + Long(v[0]) * by_phi
-        w = np.array([e[1] * de[2] - e[2] * de[1], e[2] * de[0] - e[0] * de[2], e[0] * de[1] - e[1] * de[0]], Long)
-        n = Long(v[2]) + Long(v[0]) * np.cos(th)
-        rows = extrapolated(rhs, [*e, *w, n, Long(q[0]), Long(q[2])], times)
-        z, seen = rows, []
-        for row in z:
-            d = rhs(0, np.array(row, Long))
-            angle = np.arctan2(np.hypot(row[0], row[1]), row[2])
-            seen.append([row[7], angle, row[8], float(d[7]), float(-d[2] / np.hypot(row[0], row[1])), float(d[8])])
-        return np.array(seen)
+        S, K, (p, w, s) = np.sin(y[1]), np.cos(y[1]), y[3:]
+        spin = s + p * K
+        first = (Long(C) * spin - 2 * Long(A) * p * K) * w / (Long(A) * S)
+        second = (Long(A) * p**2 * K - Long(C) * spin * p + Long(P)) * S / Long(A)
+        return np.concatenate([y[3:], [first, second, -first * K + p * w * S]])
 
     times = _times(rng, float(10 ** rng.uniform(-0.5, 1.2)))
-    return Drawn("top", System(c, L), {}, q, v, times, _tol(rng), exact)
+    return Drawn("top", System(c, L), {}, q, v, times, _tol(rng),
+                 lambda: extrapolated(rhs, [*q, *v], times))  # fmt: skip
 
 
 def rods(rng: np.random.Generator) -> Drawn:
@@ -365,17 +334,6 @@ def rods(rng: np.random.Generator) -> Drawn:
     wide = rng.choice([0.3, 1.5])
     a, w = wide * rng.normal(size=2), wide * rng.normal(size=2)
     times = _times(rng, float(rng.uniform(0.3, 4)))
-    above, lengths = [Long(m[0]) + Long(m[1]), Long(m[1])], [Long(x) for x in l]
-
-    def rhs(_: Any, y: np.ndarray) -> np.ndarray:
-        b, u = y[:2], y[2:]
-        M = [[above[max(i, j)] * lengths[i] * lengths[j] * np.cos(b[i] - b[j]) for j in (0, 1)] for i in (0, 1)]
-        f = [
-            -sum(above[max(i, j)] * lengths[i] * lengths[j] * np.sin(b[i] - b[j]) * u[j] ** 2 for j in (0, 1))
-            - above[i] * Long(9.81) * lengths[i] * np.sin(b[i])
-            for i in (0, 1)
-        ]
-        return np.concatenate([u, np.array(solved(M, f), Long)])
 
     def placed(y: np.ndarray) -> np.ndarray:
         b, u = y[:2], y[2:]
@@ -385,34 +343,25 @@ def rods(rng: np.random.Generator) -> Drawn:
 
     start = placed(np.concatenate([a, w]))
     return Drawn("rods", System(c, L, held), {}, tuple(start[:4]), tuple(start[4:]), times, _tol(rng),
-                 lambda: np.array([placed(y) for y in extrapolated(rhs, [*a, *w], times)]))  # fmt: skip
+                 lambda: np.array([placed(y) for y in extrapolated(pendulums(m, l), [*a, *w], times)]))  # fmt: skip
 
 
 def skate(rng: np.random.Generator) -> Drawn:
-    """A skate on a slope (rolling constraint): it turns at a constant rate w; its speed is u + A sin(w t)/w."""
+    """A skate on a slope (rolling constraint): it turns at a constant rate w."""
     c = coordinates("x y phi")
     A, w, u, f = float(rng.uniform(0.2, 3)), float(rng.uniform(0.3, 4)), float(rng.normal()), float(rng.uniform(-3, 3))
     L = (c.v[0] ** 2 + c.v[1] ** 2) / 2 + c.v[2] ** 2 / 20 + sp.Float(A, 30) * c.q[0]
     system = System(c, L, rolling=(c.v[0] * sp.sin(c.q[2]) - c.v[1] * sp.cos(c.q[2]),))
     times = _times(rng, float(10 ** rng.uniform(0, 1.3)))
 
+    def rhs(_: Any, y: np.ndarray) -> np.ndarray:
+        """Of the place, the heading, and the speed along it."""
+        S, K = np.sin(y[2]), np.cos(y[2])
+        return np.array([y[3] * K, y[3] * S, Long(w), Long(A) * K], Long)
+
     def exact() -> np.ndarray:
-        rows = []
-        with mpmath.workprec(90):
-            a, rate, speed, first = (mpmath.mpf(z) for z in (A, w, u, f))
-            for s in times:
-                s = mpmath.mpf(float(s))
-                p = first + rate * s
-                k = speed - a / rate * mpmath.sin(first)  # speed along it: k + (a/rate) sin p
-                along = k + a / rate * mpmath.sin(p)
-                x = k / rate * (mpmath.sin(p) - mpmath.sin(first)) + a / rate**2 / 2 * (
-                    mpmath.sin(p) ** 2 - mpmath.sin(first) ** 2
-                )
-                y = -k / rate * (mpmath.cos(p) - mpmath.cos(first)) + a / rate**2 / 2 * (
-                    (p - mpmath.sin(2 * p) / 2) - (first - mpmath.sin(2 * first) / 2)
-                )
-                rows.append([x, y, p, along * mpmath.cos(p), along * mpmath.sin(p), rate])
-        return np.array(rows, float)
+        x, y, p, along = extrapolated(rhs, [0, 0, f, u], times).T
+        return np.stack([x, y, p, along * np.cos(p), along * np.sin(p), w + 0 * p], 1)
 
     start = (float(u * np.cos(f)), float(u * np.sin(f)), w)
     return Drawn("skate", system, {}, (0.0, 0.0, f), start, times, _tol(rng), exact)

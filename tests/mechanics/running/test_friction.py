@@ -43,20 +43,6 @@ def test_an_oscillator_loses_twice_the_same_length_each_half_cycle_and_stops(fri
     assert run.evaluate(-F * sp.sign(v))[-1] == pytest.approx(places[-1], abs=1e-7)
 
 
-@pytest.mark.parametrize("tilt", [0.2, 0.5])
-def test_a_block_on_an_incline_stays_if_its_tangent_is_below_the_coefficient(tilt: float) -> None:
-    """mu = tan(0.35): thrown upward it stops; on the steep incline it slides back."""
-    block = System(C, v**2 / 2 + g * sp.sin(angle) * x, dissipation=mu * g * sp.cos(angle) * sp.Abs(v))
-    rough = np.tan(0.35)
-    run = block.simulate({g: 9.81, mu: rough, angle: tilt}, (0,), (-2,), np.linspace(0, 3, 61), 1e-10)
-    down, hold = 9.81 * np.sin(tilt), 9.81 * rough * np.cos(tilt)
-    stop, top = 2 / (down + hold), -2 / (down + hold)
-    end = top + max(down - hold, 0) * (3 - stop) ** 2 / 2
-    assert run.q[-1, 0] == pytest.approx(end, abs=1e-8)
-    resting = block.simulate({g: 9.81, mu: rough, angle: tilt}, (0,), (0,), (0, 1.0), 1e-10)
-    assert resting.q[-1, 0] == pytest.approx(max(down - hold, 0) / 2, abs=1e-9)
-
-
 def test_sticking_in_two_directions_is_refused_and_the_way_out_creeps_as_said() -> None:
     """On the floor and on a belt; with v_0 under the root the load f = 0.6 F creeps at 0.6/0.8 v_0."""
     plane, small = coordinates("x y"), sp.Symbol("v_0", positive=True)
@@ -128,19 +114,6 @@ def test_a_force_that_does_not_jump_is_run_through() -> None:
     run = drag.simulate({k: 0.5}, (0,), (2,), np.linspace(0, 9, 10), 1e-10)
     assert run.v[:, 0] == pytest.approx(2 / (1 + run.t), abs=1e-9)
     assert (drag.simulate({k: 0.5}, (0,), (0,), (0, 1.0)).q == 0).all()
-
-
-def test_a_potential_with_an_edge_has_the_period_of_its_flights() -> None:
-    """x'' = −sign(x): from rest at h back in 4 sqrt(2 h)."""
-    edge = System(C, v**2 / 2 - sp.Abs(x))
-    run = edge.simulate({}, (0.5,), (0,), 4 * np.arange(6.0), 1e-10)
-    assert run.q[:, 0] == pytest.approx(0.5, abs=1e-9) and np.abs(run.v).max() < 1e-8
-
-
-def test_a_force_that_drives_away_from_both_sides_ends_the_run_in_words() -> None:
-    with pytest.warns(LagrotorWarning, match="either side"):
-        run = System(C, v**2 / 2, forces=(F * sp.sign(v),)).simulate({F: 1}, (0,), (0,), (0, 1.0))
-    assert run.ending.kind == "stopped" and run.t[-1] == 0
 
 
 def test_a_force_that_holds_but_is_no_friction_ends_the_run_in_words_and_at_once() -> None:
@@ -259,13 +232,6 @@ def test_friction_by_a_reaction_in_a_tree_and_in_velocities_of_ones_own() -> Non
     ):
         with pytest.raises(InputError, match=words):
             make()
-
-
-def test_the_sign_of_the_friction_is_not_arbitrary() -> None:
-    """The twin of the oscillator whose force is of the other sign gains what the first one loses."""
-    gaining = System(C, v**2 / 2 - x**2 / 2, forces=(F * sp.sign(v - 10),))
-    run = gaining.simulate({F: 0.1}, (1,), (0,), (0, np.pi), 1e-9)
-    assert run.q[-1, 0] == pytest.approx(-1.2, abs=1e-8)  # a constant force −F moves the centre to −F
 
 
 def test_rounding_where_a_mass_is_let_go_hides_no_event() -> None:

