@@ -163,7 +163,6 @@ _INCREASING: dict[Any, tuple[Any, Range, Range]] = {
     sp.atan: (None, EVERYTHING, _HALF_TURN),
     sp.asin: (None, _UNIT, _HALF_TURN),
     sp.acosh: (sp.cosh, Range(Fraction(1), inf), _NONNEGATIVE),
-    sp.erf: (None, EVERYTHING, Range(Fraction(-1), Fraction(1), True, True)),
 }
 _VALUES: dict[Any, Range] = {
     sp.sin: _UNIT,

@@ -21,8 +21,8 @@ Signs: TypeAlias = frozenset[int]
 Bound: TypeAlias = tuple[sp.Expr, bool]
 
 POSITIVE, NONNEGATIVE, ANY = frozenset({1}), frozenset({0, 1}), frozenset({-1, 0, 1})
-_ODD = (sp.sinh, sp.tanh, sp.atan, sp.asinh, sp.erf, sp.asin, sp.atanh)  # of the sign of their argument, where real
-_REAL = (sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc, sp.coth, sp.csch, sp.erfc, sp.acot, sp.gamma, sp.loggamma)
+_ODD = (sp.sinh, sp.tanh, sp.atan, sp.asinh, sp.asin, sp.atanh)  # of the sign of their argument, where real
+_REAL = (sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc, sp.coth, sp.csch, sp.acot, sp.gamma)
 # Increasing functions: their inverse, and between which numbers they are that.
 _INCREASING: dict[Any, tuple[Any, Any, Any]] = {
     sp.exp: (sp.log, None, None),
@@ -211,11 +211,8 @@ class _Signs:
             return self.of(u - 1) if found <= NONNEGATIVE else None
         if isinstance(e, sp.gamma | sp.factorial) and found <= NONNEGATIVE:
             return POSITIVE
-        if isinstance(e, sp.elliptic_k | sp.elliptic_e) and len(e.args) == 1:
-            return POSITIVE if (self.of(1 - u) or ANY) <= NONNEGATIVE else None
-        if isinstance(e, sp.besselj | sp.besseli | sp.besselk | sp.bessely):
-            positive = self.of(e.args[1]) == POSITIVE
-            return (POSITIVE if isinstance(e, sp.besselk) else ANY) if positive else None
+        if isinstance(e, sp.besselj):
+            return ANY if self.of(e.args[1]) == POSITIVE else None
         if isinstance(e, sp.sin | sp.cos | sp.tan):
             return self._circular(e, u)
         return found if isinstance(e, _ODD) else ANY if isinstance(e, _REAL) else None
