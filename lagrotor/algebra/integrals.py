@@ -16,7 +16,7 @@ from sympy.simplify.fu import TR8
 
 from lagrotor.algebra.constancy import is_continuous
 from lagrotor.algebra.differentiation import derivative
-from lagrotor.algebra.signs import Region, is_nonnegative, is_positive
+from lagrotor.algebra.signs import ANY, Region, is_nonnegative, is_positive, signs
 
 _MOST_OPERATIONS = 60
 
@@ -28,26 +28,40 @@ def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr
         inner = value_of_integral(sp.Integral(body, limits[0]), where, vanishes)
         return None if inner is None else sp.Integral(inner, *limits[1:])
     x, *ends = limits[0]
-    if len(ends) != 2 or any(end.is_infinite for end in ends) or sp.count_ops(body) > _MOST_OPERATIONS:
+    if len(ends) != 2 or sp.count_ops(body) > _MOST_OPERATIONS:
         return None
     low, high = ends
     t = sp.Dummy(str(x), real=True)
     body = body.xreplace({x: t})
-    if not body.has(t):
+    if not body.has(t) and all(end.is_finite is not False for end in ends):
         return body * (high - low)
     if body.has(sp.core.function.AppliedUndef):
         return None
     F = _antiderivative(body, t)
-    inside, whole = (where.with_(*_between(t, low, high, where, *kinds)) for kinds in ((sp.Gt, sp.Lt), (sp.Ge, sp.Le)))
-    if F.has(sp.Integral, sp.Piecewise) or not is_continuous(F, whole, frozenset({t})):
+    inside, to_high, from_low = (
+        where.with_(*_between(t, low, high, where, *kinds))
+        for kinds in ((sp.Gt, sp.Lt), (sp.Gt, sp.Le), (sp.Ge, sp.Lt))
+    )
+    if F.has(sp.Integral, sp.Piecewise) or not is_continuous(F, inside, frozenset({t})):
         return None
-    value = F.subs(t, high) - F.subs(t, low)
-    finite = not value.has(sp.nan, sp.zoo, sp.oo, -sp.oo)
-    return value if finite and vanishes(derivative(F, t) - body, inside) else None
+    if not vanishes(derivative(F, t) - body, inside):
+        return None
+    above, below = _at(F, t, high, to_high), _at(F, t, low, from_low)
+    return None if above is None or below is None else above - below
 
 
 def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
     """What may be one; with an integral left in it where none was found."""
+    power, rest = sp.S.Zero, body
+    for factor in sp.Mul.make_args(sp.factor_terms(body)):
+        base, exponent = factor.as_base_exp()
+        if base == t and exponent.is_Integer:
+            power, rest = exponent, rest / factor
+    if power > 1 and isinstance(wave := rest.as_independent(t, as_Add=False)[1], sp.exp):
+        square = sp.Poly(wave.args[0], t) if wave.args[0].is_polynomial(t) else sp.Poly(0, t)
+        if square.monoms() == [(2,)]:  # ∫ tⁿ exp(a t²) dt = (tⁿ⁻¹ exp(a t²) − (n − 1) ∫ tⁿ⁻² exp(a t²) dt)/2a
+            shorter = _antiderivative(t ** (power - 2) * rest, t)
+            return (t ** (power - 1) * rest - (power - 1) * shorter) / (2 * square.LC())
     if body.free_symbols == {t} and body.is_rational_function(t):
         return ratint(body, t, real=True).replace(lambda n: isinstance(n, sp.RootSum), lambda n: sp.Integral(body, t))
     try:
@@ -59,11 +73,63 @@ def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
 
 def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, least: Any, most: Any) -> list[sp.Basic]:
     """What is known of t between the limits: least(t, low), most(t, high)."""
-    if is_nonnegative(high - low, where):
-        above = [sp.Gt(t, 0)] if low.free_symbols and is_positive(low, where) else []
-        return [least(t, low), *above, most(t, high)]
+    if low.is_infinite or high.is_infinite or is_nonnegative(high - low, where):
+        known = [least(t, low)] if low.is_finite is not False else []
+        if low.free_symbols and is_positive(low, where):
+            known.append(sp.Gt(t, 0))
+        return known + ([most(t, high)] if high.is_finite is not False else [])
     if all(is_positive(end, where) for end in (low, high)):
         return [sp.Gt(t, 0)]
     if all(is_nonnegative(end, where) for end in (low, high)):
         return [sp.Ge(t, 0)]
     return []
+
+
+def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None:
+    """F at a limit of what `where` knows of t, where it is continuous there; else its limit, where each term's is certain."""
+    if end.is_finite is not False and is_continuous(F, where, frozenset({t})):
+        value = F.subs(t, end)
+        return None if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else value
+    if F.is_Add:
+        values = [_at(part, t, end, where) for part in F.args]
+        return None if None in values else sp.Add(*values)
+    side = 1 if end is sp.oo else -1
+    constant, rest = F.as_independent(t, as_Add=False)
+    if rest == 1:
+        return constant
+    if end.is_finite is not False:
+        return None
+    if rest.is_rational_function(t) and not rest.is_polynomial(t):
+        over, under = (sp.Poly(part, t) for part in sp.fraction(sp.together(rest)))
+        if under.LC().is_number and over.degree() < under.degree():
+            return sp.S.Zero
+    if rest.is_Add and (expanded := sp.expand(F)).is_Add:
+        return _at(expanded, t, end, where)
+    if isinstance(rest, sp.atan | sp.erf | sp.tanh):
+        slope = sp.expand(rest.args[0]).coeff(t)
+        sign = signs(slope, where) or ANY
+        if not slope.has(t) and len(sign) == 1 and sp.expand(rest.args[0] - slope * t).is_finite is not False:
+            [direction] = sign
+            return constant * side * direction * (sp.pi / 2 if isinstance(rest, sp.atan) else 1)
+    return sp.S.Zero if _falls(rest, t, side, where) else None
+
+
+def _falls(rest: sp.Expr, t: sp.Symbol, side: int, where: Region) -> bool:
+    """Whether a product of powers, bounded waves and an exponential tends to 0."""
+    power, decays = sp.S.Zero, False
+    for factor in sp.Mul.make_args(rest):
+        if isinstance(factor, sp.sin | sp.cos):
+            continue
+        base, exponent = factor.as_base_exp()
+        if isinstance(factor, sp.exp):
+            terms = sp.Poly(exponent, t).all_coeffs() if exponent.is_polynomial(t) else []
+            if len(terms) not in (2, 3):
+                return False
+            decays = is_positive(-terms[0] * side ** (len(terms) - 1), where)
+            if not decays:
+                return False
+        elif base == t and exponent.is_number and exponent.is_real:
+            power += exponent
+        else:
+            return False
+    return decays or bool(power < 0)

@@ -21,7 +21,7 @@ Signs: TypeAlias = frozenset[int]
 Bound: TypeAlias = tuple[sp.Expr, bool]
 
 POSITIVE, NONNEGATIVE, ANY = frozenset({1}), frozenset({0, 1}), frozenset({-1, 0, 1})
-_ODD = (sp.sinh, sp.tanh, sp.atan, sp.asinh, sp.asin, sp.atanh)  # of the sign of their argument, where real
+_ODD = (sp.sinh, sp.tanh, sp.atan, sp.asinh, sp.erf, sp.asin, sp.atanh)  # of the sign of their argument, where real
 _REAL = (sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc, sp.coth, sp.csch, sp.acot, sp.gamma)
 # Increasing functions: their inverse, and between which numbers they are that.
 _INCREASING: dict[Any, tuple[Any, Any, Any]] = {
