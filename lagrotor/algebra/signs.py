@@ -86,6 +86,11 @@ def signs(e: sp.Expr, where: Region = Region()) -> Signs | None:
     return _signs_in(where).of(e)
 
 
+def bounds(e: sp.Expr, where: Region) -> tuple[Bound | None, Bound | None]:
+    """The least and the largest value that are known of a real expression, each with whether it is only approached."""
+    return _signs_in(where).range_of(e)
+
+
 @kept(64)
 def _signs_in(where: Region) -> _Signs:
     return _Signs(where)
@@ -251,7 +256,7 @@ class _Signs:
 
     def _linear(self, e: sp.Expr) -> Signs | None:
         """Of a sum from the ranges of its terms, each a number times something of known range."""
-        ranges = [self._range(term) for term in e.args]
+        ranges = [self.range_of(term) for term in e.args]
         least, most = zip(*ranges, strict=True)
         for ends, side in ((least, 1), (most, -1)):
             if None in ends:
@@ -263,7 +268,7 @@ class _Signs:
                 return frozenset({0, side})
         return None
 
-    def _range(self, term: sp.Expr) -> tuple[Bound | None, Bound | None]:
+    def range_of(self, term: sp.Expr) -> tuple[Bound | None, Bound | None]:
         """The least and the largest value, each with whether it is only approached."""
         c, rest = term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, sp.S.One)
         base, power = rest.as_base_exp()
