@@ -86,10 +86,8 @@ def test_an_orbit_proved() -> None:
     pytest.importorskip("flint", reason="the extra `proof` is not installed")
     names, ends = ran("an_orbit_proved")
     assert ends[0] is names["orbit"] and "period [6.69997566437" in ends[1]
-    fastest, energy = map(float, ends[2])
-    assert fastest == pytest.approx(np.sqrt(2 - 2 * np.cos(1))) and energy == pytest.approx(-np.cos(1))
-    assert ends[3].startswith("theta first passes zero") and ends[4] == "stable"
-    assert len(ends[5].axes) == 2 and "is not shown to change it" in ends[6]
+    assert ends[2].startswith("theta first passes zero") and ends[3] == "stable"
+    assert all(float(x.rad()) < 0.2 for x in ends[4].states) and "is not shown to change it" in ends[5]
 
 
 def test_from_a_lagrangian() -> None:

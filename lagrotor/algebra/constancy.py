@@ -12,7 +12,7 @@ from lagrotor.algebra.enclosures import enclosed_at
 from lagrotor.algebra.signs import ANY, NONNEGATIVE, Region, is_nonnegative, is_positive, is_real, signs
 from lagrotor.errors import NotExactError
 
-_ENTIRE = (sp.sin, sp.cos, sp.sinh, sp.cosh, sp.exp, sp.erf, sp.erfc)
+_ENTIRE = (sp.sin, sp.cos, sp.sinh, sp.cosh, sp.exp, sp.erf)
 _REAL = (sp.atan, sp.tanh, sp.asinh, sp.sech, sp.Abs)  # continuous where their argument is real
 _PLACES = (sp.S.Zero, sp.S.Half, sp.S.One, sp.Integer(2), -sp.S.Half, sp.Integer(-2))
 _MOST_LETTERS = 3

@@ -37,8 +37,6 @@ def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr
         return body * (high - low)
     if body.has(sp.core.function.AppliedUndef):
         return None
-    if (line := _by_half_angle(body, t, low, high)) and (value := value_of_integral(line, where, vanishes)) is not None:
-        return value
     F = _antiderivative(body, t)
     inside, to_high, from_low = (
         where.with_(*_between(t, low, high, where, *kinds))
@@ -73,20 +71,6 @@ def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
     return F.replace(lambda n: isinstance(n, sp.Piecewise), lambda n: n.args[-1][0])
 
 
-def _by_half_angle(body: sp.Expr, t: sp.Symbol, low: sp.Expr, high: sp.Expr) -> sp.Integral | None:
-    """A quotient of polynomials in sin t and cos t over a turn, half of it, or a quarter, with u = tan(t/2) (Weierstrass)."""
-    u = sp.Dummy("u", real=True)
-    put = {sp.sin(t): 2 * u / (1 + u**2), sp.cos(t): (1 - u**2) / (1 + u**2)}
-    ends = {(0, sp.pi): (0, sp.oo), (-sp.pi, 0): (-sp.oo, 0), (0, sp.pi / 2): (0, 1)}
-    limits = (-sp.oo, sp.oo) if sp.expand(high - low - 2 * sp.pi) == 0 else ends.get((low, high))
-    if limits is None or not sp.fraction(sp.together(body))[1].has(*put):
-        return None
-    rational = sp.cancel(sp.expand_trig(body).xreplace(put) * 2 / (1 + u**2))
-    if rational.has(t) or not rational.is_rational_function(u):
-        return None
-    return sp.Integral(rational, (u, *limits))
-
-
 def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, least: Any, most: Any) -> list[sp.Basic]:
     """What is known of t between the limits: least(t, low), most(t, high)."""
     if low.is_infinite or high.is_infinite or is_nonnegative(high - low, where):
@@ -113,10 +97,8 @@ def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None
     constant, rest = F.as_independent(t, as_Add=False)
     if rest == 1:
         return constant
-    if end.is_finite is not False:  # tᵃ logⁿ t → 0 at 0, a > 0
-        powers = rest.as_powers_dict()
-        known = powers.keys() == {t, sp.log(t)} and all(n.is_number and n.is_positive for n in powers.values())
-        return sp.S.Zero if end == 0 and known and powers[sp.log(t)].is_Integer else None
+    if end.is_finite is not False:
+        return None
     if rest.is_rational_function(t) and not rest.is_polynomial(t):
         over, under = (sp.Poly(part, t) for part in sp.fraction(sp.together(rest)))
         if under.LC().is_number and over.degree() < under.degree():

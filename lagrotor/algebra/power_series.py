@@ -10,8 +10,8 @@ with e, leaves finitely many terms.  Of u = e**s * w, w not zero at e = 0,
     u**a = e**(s*a) * w**a,    log u = s*log(e) + log w,
 
 where log(e) is a letter of its own in the coefficients: no series in powers of e equals it.  tan, cot, sec, csc and their
-hyperbolic kin are quotients where they have a pole, and Gamma(v - n) = Gamma(1 + v) / (v*(v - 1)*...*(v - n)).  A function whose
-argument is unbounded at e = 0 has no such series, but for roots and logarithms.
+hyperbolic kin are quotients where they have a pole.  A function whose argument is unbounded at e = 0 has no such series, but for
+roots and logarithms.
 
 For a logarithm, a root or an inverse function with a branch cut, u0 (of roots and logarithms w) must lie off the cut or the
 argument stay on the real line; e and the symbols of which nothing is declared are taken to be real.  Where e may be negative,
@@ -45,7 +45,7 @@ _CUT, _CUT_BEYOND_ONE = (sp.atan, sp.asinh), (sp.asin, sp.acos, sp.atanh)
 _MARGIN, _MOST_LOST, _MOST_ROOTS = 8, 24, 24
 _ARGUMENT = sp.Dummy("z")  # of the functions that are expanded: one, so that sympy remembers their derivatives
 _LOG = sp.Dummy("log", real=True)  # the logarithm of the small quantity
-_KNOWN = (sp.Add, sp.Mul, sp.Pow, *_ANALYTIC, *_CUT, *_CUT_BEYOND_ONE, sp.log, sp.acosh, sp.gamma)
+_KNOWN = (sp.Add, sp.Mul, sp.Pow, *_ANALYTIC, *_CUT, *_CUT_BEYOND_ONE, sp.log, sp.acosh)
 # Numerator and denominator of the functions with poles.
 QUOTIENTS = {
     sp.tan: (sp.sin, sp.cos), sp.cot: (sp.cos, sp.sin), sp.sec: (None, sp.cos), sp.csc: (None, sp.sin),
@@ -216,8 +216,6 @@ def _of_function(node: sp.Expr, argument: _Series, small: sp.Symbol, length: int
     if isinstance(node, sp.log):
         return _logarithm(node, _stripped(argument), small)
     z, inner = _ARGUMENT, _regular(node, argument, small)
-    if isinstance(node, sp.gamma):
-        return _gamma(node, inner)
     if isinstance(node, sp.acosh) or (isinstance(node, sp.asin | sp.acos) and _vanishes(1 - inner.terms[0] ** 2)):
         return _expanded(_from_branch_point(node, inner.terms[0]), small, length)
     if not isinstance(node, _ANALYTIC):
@@ -269,19 +267,6 @@ def _logarithm(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
     series = _composed(sp.log(_ARGUMENT), _ARGUMENT, base._replace(start=0))
     series = series._replace(real=series.real and _is_positive(base, small))
     return series.led_by(series.terms[0] + sp.Rational(base.start, base.q) * _LOG)
-
-
-def _gamma(node: sp.Expr, inner: _Series) -> _Series:
-    """Gamma(u0 + v), at the poles u0 = 0, -1, ... by the recurrence."""
-    u0 = inner.terms[0]
-    if not u0.is_Integer and _vanishes(sp.sin(sp.pi * u0)):
-        raise NotExactError(f"{node} may have a pole: its argument starts at {u0}")
-    if not u0.is_Integer or u0 > 0:
-        return _composed(sp.gamma(_ARGUMENT), _ARGUMENT, inner)
-    if u0 < -_MOST_LOST:
-        raise NotExactError(f"{node} is not expanded at so distant a pole")
-    above = _composed(sp.gamma(_ARGUMENT), _ARGUMENT, inner.led_by(sp.S.One))
-    return _times(above, _inverse(reduce(_times, [inner.led_by(sp.Integer(-k)) for k in range(1 - int(u0))])))
 
 
 def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:

@@ -13,7 +13,7 @@ from lagrotor.algebra.constancy import is_constant_zero
 from lagrotor.algebra.enclosures import enclosure, jet_of
 from lagrotor.algebra.integrals import value_of_integral
 from lagrotor.algebra.signs import Region, is_positive
-from lagrotor.algebra.sums import holds_by_induction, value_of_series, value_of_sum, written_out
+from lagrotor.algebra.sums import holds_by_induction, value_of_sum, written_out
 from lagrotor.algebra.translation import proved_zero
 from lagrotor.errors import NotExactError
 
@@ -55,7 +55,6 @@ def _differentiated(e: sp.Derivative) -> sp.Expr:
 
 def _summed(e: sp.Sum, where: Region) -> sp.Expr:
     value = written_out(e)
-    value = value_of_series(e, where, _vanishes) if value is None else value
     value = value_of_sum(e, where, _vanishes) if value is None else value
     return e if value is None else value
 

@@ -22,7 +22,7 @@ Bound: TypeAlias = tuple[sp.Expr, bool]
 
 POSITIVE, NONNEGATIVE, ANY = frozenset({1}), frozenset({0, 1}), frozenset({-1, 0, 1})
 _ODD = (sp.sinh, sp.tanh, sp.atan, sp.asinh, sp.erf, sp.asin, sp.atanh)  # of the sign of their argument, where real
-_REAL = (sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc, sp.coth, sp.csch, sp.erfc, sp.acot, sp.gamma, sp.loggamma)
+_REAL = (sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc, sp.coth, sp.csch, sp.acot, sp.gamma)
 # Increasing functions: their inverse, and between which numbers they are that.
 _INCREASING: dict[Any, tuple[Any, Any, Any]] = {
     sp.exp: (sp.log, None, None),
@@ -84,6 +84,11 @@ def is_nonnegative(e: sp.Expr, where: Region = Region()) -> bool:
 def signs(e: sp.Expr, where: Region = Region()) -> Signs | None:
     """The signs that a real expression may have; None where it is not known to be real."""
     return _signs_in(where).of(e)
+
+
+def bounds(e: sp.Expr, where: Region) -> tuple[Bound | None, Bound | None]:
+    """The least and the largest value that are known of a real expression, each with whether it is only approached."""
+    return _signs_in(where).range_of(e)
 
 
 @kept(64)
@@ -211,11 +216,8 @@ class _Signs:
             return self.of(u - 1) if found <= NONNEGATIVE else None
         if isinstance(e, sp.gamma | sp.factorial) and found <= NONNEGATIVE:
             return POSITIVE
-        if isinstance(e, sp.elliptic_k | sp.elliptic_e) and len(e.args) == 1:
-            return POSITIVE if (self.of(1 - u) or ANY) <= NONNEGATIVE else None
-        if isinstance(e, sp.besselj | sp.besseli | sp.besselk | sp.bessely):
-            positive = self.of(e.args[1]) == POSITIVE
-            return (POSITIVE if isinstance(e, sp.besselk) else ANY) if positive else None
+        if isinstance(e, sp.besselj):
+            return ANY if self.of(e.args[1]) == POSITIVE else None
         if isinstance(e, sp.sin | sp.cos | sp.tan):
             return self._circular(e, u)
         return found if isinstance(e, _ODD) else ANY if isinstance(e, _REAL) else None
@@ -254,7 +256,7 @@ class _Signs:
 
     def _linear(self, e: sp.Expr) -> Signs | None:
         """Of a sum from the ranges of its terms, each a number times something of known range."""
-        ranges = [self._range(term) for term in e.args]
+        ranges = [self.range_of(term) for term in e.args]
         least, most = zip(*ranges, strict=True)
         for ends, side in ((least, 1), (most, -1)):
             if None in ends:
@@ -266,7 +268,7 @@ class _Signs:
                 return frozenset({0, side})
         return None
 
-    def _range(self, term: sp.Expr) -> tuple[Bound | None, Bound | None]:
+    def range_of(self, term: sp.Expr) -> tuple[Bound | None, Bound | None]:
         """The least and the largest value, each with whether it is only approached."""
         c, rest = term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, sp.S.One)
         base, power = rest.as_base_exp()

@@ -1,14 +1,13 @@
-"""Sums with symbolic limits: by induction on the upper one; series by the ratio of their terms or by partial sums."""
+"""Sums with symbolic limits, by induction on the upper one; a series without end is not decided."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import sympy as sp
 from sympy.concrete.gosper import gosper_sum
 
-from lagrotor.algebra.signs import Region, is_positive
+from lagrotor.algebra.signs import Region
 
 _MOST_TERMS = 40  # that are written out
 
@@ -63,105 +62,6 @@ def value_of_sum(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region],
     if value is None or value.has(sp.nan, sp.zoo, sp.oo, sp.Sum):
         return None
     return value if holds_by_induction(e - value, where, vanishes) else None
-
-
-def value_of_series(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
-    """A sum by the ratio of its neighbours, or by the limit of its partial sums; Σ 1/i²ᵏ by Euler's formula."""
-    body, (i, low, high), *others = e.args
-    if others or not low.is_Integer or (high is not sp.oo and not high.is_nonnegative):
-        return None
-    k = sp.Dummy("k", integer=True, nonnegative=True)
-    first = body.subs(i, low)
-    if first.has(sp.nan, sp.zoo, sp.oo) or first == 0:
-        return None
-    ratio = sp.cancel(sp.combsimp(body.subs(i, low + k + 1) / body.subs(i, low + k)))
-    if high is sp.oo:
-        power = sp.cancel(1 / body)
-        if (
-            low == 1
-            and power.is_Pow
-            and power.base == i
-            and power.exp.is_Integer
-            and power.exp.is_even
-            and power.exp > 0
-        ):
-            return sp.zeta(power.exp)
-        value = _of_a_function(ratio, k, first, where)
-        return _by_partial_sums(body, i, low, where, vanishes) if value is None else value
-    c = sp.cancel(ratio * (k + 1) / (high - k))  # the binomial theorem
-    return first * (1 + c) ** high if low == 0 and high.is_Symbol and not c.has(k) else None
-
-
-def _of_a_function(ratio: sp.Expr, k: sp.Symbol, first: sp.Expr, where: Region) -> sp.Expr | None:
-    """Those of 1/(1 − c), exp, cosh and cos, sinh and sin, log, artanh and arctan, by the ratio of the terms k + 1 and k."""
-    r = ratio
-    if not r.has(k):
-        return first / (1 - r) if _converges(r, where) else None
-    for under, over in ((k + 2, k + 1), (2 * k + 3, 2 * k + 1)):  # Abel: also at c = −1
-        c = sp.cancel(r * under / over)
-        if not c.has(k) and (sp.cancel(1 + c) == 0 or _converges(c, where)):
-            if under == k + 2:
-                return -first * sp.log(1 - c) / c
-            for sign, function in ((1, sp.atanh), (-1, sp.atan)):
-                if (size := _root_of(sign * c)) is not None and sp.expand(size**2 - sign * c) == 0:
-                    return first * function(size) / size
-    if not (c := sp.cancel(r * (k + 1))).has(k):
-        return first * sp.exp(c)
-    kinds: tuple[tuple[sp.Expr, tuple[Any, Any], bool], ...] = (
-        ((2 * k + 1) * (2 * k + 2), (sp.cosh, sp.cos), False),
-        ((2 * k + 2) * (2 * k + 3), (sp.sinh, sp.sin), True),
-    )
-    for under, functions, odd in kinds:
-        c = sp.cancel(r * under)
-        for sign, function in zip((1, -1), functions, strict=True):
-            size = None if c.has(k) else _root_of(sign * c)
-            if size is not None and sp.expand(size**2 - sign * c) == 0:
-                return first * function(size) / (size if odd else 1)
-    return None
-
-
-def _converges(c: sp.Expr, where: Region) -> bool:
-    return bool(is_positive(sp.cancel(1 - c), where) and is_positive(sp.cancel(1 + c), where))
-
-
-def _root_of(c: sp.Expr) -> sp.Expr | None:
-    """x where c = x², x rational in the letters."""
-    root = sp.sqrt(sp.factor(c)).replace(sp.Abs, lambda x: x)
-    return (
-        None if root.has(sp.I) or any(p.exp.is_Rational and not p.exp.is_Integer for p in root.atoms(sp.Pow)) else root
-    )
-
-
-def _by_partial_sums(
-    body: sp.Expr, i: sp.Symbol, low: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]
-) -> sp.Expr | None:
-    """The limit of Gosper's closed form: polynomials times rⁿ, 0 < r < 1, and rational functions of falling degree vanish."""
-    n = sp.Symbol("n_of_partial_sums", integer=True, positive=True)
-    if low > 1 or (value := value_of_sum(sp.Sum(body, (i, low, n)), where, vanishes)) is None:
-        return None
-    limit = sp.S.Zero
-    for term in sp.Add.make_args(sp.expand(value)):
-        over, under = sp.fraction(sp.powsimp(term))
-        powers = [p for p in term.atoms(sp.Pow) if p.exp.has(n)]
-        rate = sp.Mul(*(p.base ** p.exp.coeff(n) for p in powers)) if powers else sp.S.One
-        if not term.has(n):
-            limit += term
-        elif powers and rate.is_number and rate.is_positive and rate < 1:
-            rest = sp.cancel(term / sp.Mul(*powers))
-            if not rest.is_rational_function(n) or any(
-                not p.exp.is_polynomial(n) or sp.degree(p.exp, n) != 1 for p in powers
-            ):
-                return None
-        elif not powers and term.is_rational_function(n):
-            whole = sp.cancel(term)
-            over, under = whole.as_numer_denom()
-            gap = sp.degree(over, n) - sp.degree(under, n)
-            if gap > 0:
-                return None
-            limit += sp.LC(over, n) / sp.LC(under, n) if gap == 0 else 0
-        else:
-            return None
-    return limit
 
 
 def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:

@@ -5,7 +5,7 @@ Each step is an identity that holds in the region where it is applied, for princ
     log(Π pᵢ**kᵢ) = Σ kᵢ log|pᵢ| of positive products,      a**b = exp(b log a),      exp(r log p) = p**r,
     cos θ = (1 − τ²)/(1 + τ²), sin θ = 2τ/(1 + τ²) with τ = tan(θ/2),      exp(u + iv) = exp(u) (cos v + i sin v),
 
-and the relations of inverse functions, of Γ, of Bessel functions and of elliptic integrals with their neighbours.  Equal
+and the relations of inverse functions, of Γ and of Bessel functions with their neighbours.  Equal
 letters have equal arguments.  Where a rule needs a sign that is not known, that sign is noted in `wanted`, and the rule is not
 applied.
 """
@@ -192,8 +192,6 @@ class Translation:
             return self.of(rule)
         if isinstance(e, sp.Integral | sp.Sum):
             return self._accumulated(e)
-        if isinstance(e, sp.elliptic_e) and len(e.args) == 1 and (legendre := self._legendre(e)) is not None:
-            return legendre
         if (jet := jet_of(e)) is not None:
             return self.letter(jet[0], tuple(map(self.of, jet[1])), e)
         if isinstance(e, sp.Function | sp.NumberSymbol) and not isinstance(e, AppliedUndef):
@@ -214,15 +212,6 @@ class Translation:
             self.letter("antiderivative", (inside, self.of(end)), sp.Integral(body, (x, end))) for end in (ends or [x])
         ]
         return values[1] - values[0] if len(values) == 2 else values[0]
-
-    def _legendre(self, e: sp.Expr) -> sp.Expr | None:
-        """E(1 − m) from E K' + E' K − K K' = π/2 where E(m) has a letter, 0 < m < 1."""
-        m = self.of(1 - e.args[0])
-        for (other,), second in self.letters.get(sp.elliptic_e, []):
-            if self._same(m, other) and is_positive(e.args[0], self.where) and is_positive(1 - e.args[0], self.where):
-                first, K = (self.of(sp.elliptic_k(side)) for side in (sp.together(1 - e.args[0]), e.args[0]))
-                return (sp.pi / 2 + first * K - second * K) / first
-        return None
 
     # Powers and exponentials -----------------------------------------------------------------------------------------
 

@@ -113,22 +113,3 @@ def chart_figure(names: tuple[str, str], numbers: tuple[Array, Array], growth: A
         panel.set_xlabel(names[0])
         panel.set_ylabel(names[1])
     return figure
-
-
-def boxes_figure(names: Sequence[str], t: Array, low: Array, high: Array) -> RunFigure:
-    """Boxes low to high, (n, m) at the times t (n,) in s: those of the first two of m states in their plane, widths over time."""
-    from matplotlib.patches import Rectangle
-
-    with paper_style():
-        figure = RunFigure(figsize=(9.0, 4.2))
-        plane, widths = figure.subplots(1, 2)
-        for a, b in zip(low[:, :2], (high - low)[:, :2], strict=True):
-            plane.add_patch(Rectangle(tuple(a), *b, facecolor=ROTORS[0], edgecolor=ROTORS[0], alpha=0.35))
-        plane.plot(*((low + high) / 2)[:, :2].T, color=ROTORS[1], linewidth=1)
-        plane.set(xlabel=names[0], ylabel=names[1])
-        plane.autoscale_view()
-        for name, width in zip(names, (high - low).T, strict=True):
-            widths.semilogy(t, width, label=name)
-        widths.set(xlabel="time [s]", ylabel="width of the box")
-        figure.legend(*widths.get_legend_handles_labels(), loc="outside lower center", ncols=len(names))
-    return figure

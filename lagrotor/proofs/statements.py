@@ -287,8 +287,7 @@ def _precession(certificate: Certificate) -> str:
     """Of one amplitude or of a family."""
     claim = certificate["claim"]
     low, high = map(_decimal, claim["r0"])
-    opening = "[" if Fraction(claim["r0"][0]) else "("
-    every = f"at r0 = {low}" if low == high else f"for every r0 in {opening}{low}, {high}]"
+    every = f"at r0 = {low}" if low == high else f"for every r0 in [{low}, {high}]"
     stable = f", {claim['kind']}" if claim.get("kind", "undecided") != "undecided" else ""
     frequency = printed(2 * arb.pi() / _claimed(claim["period"]), 22)
     turning = "it turns at" if low == high else "they are one smooth curve and turn at frequencies in"

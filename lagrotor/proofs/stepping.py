@@ -55,10 +55,6 @@ class Motion:
         """States that move, and parameters that vary."""
         return len(self.tape.arguments) - len(self.parameters)
 
-    def evaluation(self, arguments: Sequence[Any]) -> Any:
-        """The rates over series or Taylor models of the states and parameters, with their derivatives."""
-        return Evaluation(self.tape, arguments)
-
     def data(self) -> dict[str, Any]:
         """Return the tape and its parameters as plain data."""
         return self.tape.data() | {"parameters": balls_data(self.parameters)}

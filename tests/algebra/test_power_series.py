@@ -8,7 +8,6 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import (
-    EulerGamma,
     Rational,
     acos,
     acosh,
@@ -23,7 +22,6 @@ from sympy import (
     csc,
     csch,
     exp,
-    gamma,
     log,
     pi,
     sec,
@@ -82,7 +80,7 @@ def test_series(expression: sp.Expr, order: int, series: sp.Expr) -> None:
         (e**x, "no rational number"),
         (e ** Rational(1, 25), "common denominator 25"),
         (cos(e) / e**30, "too few terms"),
-        (gamma(e + sp.Symbol("k", integer=True)), "may have a pole"),
+        (sp.gamma(e), "not known to be analytic"),
         (1 / (e + sqrt(x**2) - x), "cannot tell"),
         (e / (e * sqrt(x**2) - e * x + e**2), "cannot tell"),
         (sp.Abs(x + e), "not known to be analytic"),
@@ -227,9 +225,6 @@ q, half = sp.Symbol("q", positive=True), Rational(1, 2)
         (tan(pi / 2 + e) + sec(e - pi / 2), 1, e / 2),
         (tan(e + atan(q) + atan(1 / q)), 0, -1 / e),
         (tanh(i * pi / 2 + e) - coth(e), 3, 0),
-        (gamma(e), 1, 1 / e - EulerGamma + (pi**2 / 12 + EulerGamma**2 / 2) * e),
-        (gamma(e - 2), 0, 1 / (2 * e) + Rational(3, 4) - EulerGamma / 2),
-        (1 / gamma(e - 1), 1, -e),
         (sqrt(sin(e)), 4, e**half - e ** (5 * half) / 12),
         (sqrt(e * q + e**2), 2, sqrt(q) * e**half + e ** (3 * half) / (2 * sqrt(q))),
         (e ** Rational(1, 3) * sqrt(1 + sqrt(e)), 1, e ** Rational(1, 3) + e ** Rational(5, 6) / 2),
@@ -281,7 +276,6 @@ _FUNCTIONS = (
     asin,
     acos,
     acosh,
-    gamma,
 )
 _CONSTANTS = (sp.S.One, -sp.S.One, half, pi / 2, pi, i, sqrt(2), sp.S.Zero, sp.Integer(-2), 1 + i)
 _POWERS = (half, -half, Rational(3, 2), Rational(-2, 3), *map(sp.Integer, (-2, -1, 2, 3)))

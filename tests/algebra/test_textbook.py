@@ -9,14 +9,8 @@ from lagrotor.errors import InputError
 from tests.algebra import textbook
 
 ROWS = [(subject, *row) for subject, rows in textbook.SUBJECTS.items() for row in rows]
-QUICK = ROWS[::9]
+QUICK = ROWS[::5]
 _MOST_UNDECIDED = 3  # per cent
-
-
-def test_there_are_three_hundred_that_sympy_does_not_already_write_alike() -> None:
-    rows = [*ROWS, *(("branches", left, right, miss) for left, right, _, miss in textbook.BRANCHES)]
-    assert sum(sp.sympify(left) != sp.sympify(right) for _, left, right, _ in rows) >= 300
-    assert all(sp.sympify(left) != sp.sympify(miss) for _, left, _, miss in ROWS)
 
 
 @pytest.mark.parametrize("row", QUICK, ids=lambda row: f"{row[0]}-{str(row[1])[:40]}")
@@ -80,8 +74,7 @@ def test_two_letters_of_one_name_are_refused_at_the_door() -> None:
 
 def test_the_oracle_of_this_table_is_independent() -> None:
     """A near miss differs by sympy's own evaluation, too, which is not that of the decision."""
-    for subject in ("trigonometry", "hyperbolic", "powers", "radicals"):
+    for subject in ("trigonometry", "hyperbolic", "powers", "mechanics"):
         left, right, miss = textbook.SUBJECTS[subject][1]
-        letters = sorted((left - miss).free_symbols, key=str)
-        point = {letter: sp.Rational(3, 7 + k) for k, letter in enumerate(letters)}
+        point = {letter: sp.Rational(3, 7 + k) for k, letter in enumerate(sorted((left - miss).free_symbols, key=str))}
         assert abs(sp.N((left - right).subs(point), 40)) < 1e-35 < abs(sp.N((left - miss).subs(point), 40))

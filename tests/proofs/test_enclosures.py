@@ -279,14 +279,3 @@ def test_a_step_that_fails_leaves_the_length_of_series_as_it_was() -> None:
         assert ctx.cap == 12
         with pytest.raises(NotProved, match="series of 20 terms"):
             Tailed(arb_poly([1, 1]), ZERO, 20).inverse()
-
-
-def test_the_plot_has_a_box_for_each_node_and_knows_its_states() -> None:
-    c = coordinates("x")
-    found = enclose(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), {}, [(0.9, 1.1)], [0], 3)
-    plane, widths = found.plot("x_dot", "x").axes
-    assert len(plane.patches) == len(found.steps) + 1 and plane.get_xlabel() == r"$\dot{x}$"
-    first = plane.patches[0]
-    assert first.get_y() <= 0.9 and first.get_y() + first.get_height() >= 1.1 and len(widths.lines) == 2
-    with pytest.raises(InputError, match="'y' is no state; the motion has x, x_dot"):
-        found.plot("y")

@@ -2,8 +2,7 @@
 
 A function of 0 ≤ s ≤ 1 and |ε| ≤ 1 is a list of polynomials of ε, one for each power of s, and a bound of the rest in the maximum
 norm. Functions come from recurrences in s; what they leave out is bounded by the equation that each satisfies: 1 − a q, a − q²,
-q' − a' q, a q' − a'. Derivatives are found by dual numbers, forward. Near a rest x = u ξ, and each intermediate result is its
-value at rest plus u times a sheet.
+q' − a' q, a q' − a'. Derivatives are found by dual numbers, forward.
 """
 
 from collections.abc import Sequence
@@ -14,12 +13,10 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
 from lagrotor.errors import NotProved
-from lagrotor.proofs.checker.bounded_series import Dual, evaluated, sign_over
-from lagrotor.proofs.checker.tapes import ZERO, demand, motion_terms, rational_of, results_of, terms_of
+from lagrotor.proofs.checker.bounded_series import Dual, evaluated
+from lagrotor.proofs.checker.tapes import ZERO, demand, motion_terms, terms_of
 
 Ball = Any
-Split = tuple["Sheet", "Sheet"]  # v₀ and w of v₀ + u w
-_MOST = 60  # terms of a function's series
 
 
 def top(x: Ball) -> Ball:
@@ -61,10 +58,6 @@ class Sheet:
         none = arb_poly([])
         a, b = (x.terms + [none] * (width - len(x.terms)) for x in (self, other))
         return self.like([x + y if sign > 0 else x - y for x, y in zip(a, b, strict=True)], self.rest + other.rest)
-
-    def signed(self, sign: int) -> "Sheet":
-        """Itself, or its negative."""
-        return self if sign > 0 else self.like([], ZERO) - self
 
     def __mul__(self, other: "Sheet") -> "Sheet":
         if not self.terms or not other.terms:
@@ -278,62 +271,13 @@ class FamilyFlow:
         return _flat(v)(eps) + arb(0, v.rest.upper())
 
 
-def product_of_sheets(a: list[list[Sheet]], b: list[list[Sheet]]) -> list[list[Sheet]]:
-    """Of two matrices."""
-    columns = list(zip(*b, strict=True))
-    return [[_sum([x * y for x, y in zip(row, column, strict=True)]) for column in columns] for row in a]
-
-
-def trace_of_sheets(a: list[list[Sheet]]) -> Sheet:
-    """The sum of the diagonal."""
-    return _sum([row[i] for i, row in enumerate(a)])
-
-
 def _sum(sheets: Sequence[Sheet]) -> Sheet:
     return reduce(add, sheets)
-
-
-def may_be(a: Sheet, value: Ball, eps: Ball) -> bool:
-    """Whether what has no s may have a value at an ε."""
-    return bool((_flat(a)(eps) + arb(0, a.rest.upper())).contains(value))
-
-
-def inverse_of_sheets(D: list[list[Sheet]]) -> list[list[Sheet]]:
-    """X by elimination of series of ε; D⁻¹ = X (1 + R + R² …), R = 1 − D X."""
-    size, like = len(D), D[0][0]
-    before, ctx.cap = ctx.cap, like.p + 1
-    try:
-        rows = [
-            [*(arb_series(_flat(x).coeffs(), like.p + 1) for x in row), *(arb_series([i == j]) for j in range(size))]
-            for i, row in enumerate(D)
-        ]
-        for i in range(size):
-            k = max(range(i, size), key=lambda k: float(abs(rows[k][i][0]).lower()))
-            rows[i], rows[k] = rows[k], rows[i]
-            rows[i] = [x / rows[i][i] for x in rows[i]]
-            for k in {*range(size)} - {i}:
-                factor = rows[k][i]
-                rows[k] = [x - factor * y for x, y in zip(rows[k], rows[i], strict=True)]
-    finally:
-        ctx.cap = before
-    X = [[like.like([_poly(x)], ZERO) for x in row[size:]] for row in rows]
-    R = [[x.number(arb(int(i == j))) - x for j, x in enumerate(row)] for i, row in enumerate(product_of_sheets(D, X))]
-    rho = max((top(sum((x.size() for x in row), ZERO)) for row in R), key=lambda x: float(x.upper()))
-    rests = [top(sum((x.size() for x in row), ZERO) * rho**2 / _left(rho)) for row in X]
-    return [
-        [x + y + x.like([], rest) for x, y in zip(row, by_R, strict=True)]
-        for row, by_R, rest in zip(X, product_of_sheets(X, R), rests, strict=True)
-    ]
 
 
 def _flat(a: Sheet) -> Any:
     """The polynomial of ε of what has no s."""
     return sum(a.terms, arb_poly([]))
-
-
-def sign_of_sheet(a: Sheet) -> int:
-    """Return the sign of a sheet without s for every ε; 0 if none is shown."""
-    return sign_over(_flat(a), a.rest, arb(-1), arb(1), 14)
 
 
 def _centred(a: Sheet) -> Sheet:
@@ -351,108 +295,3 @@ def _integral(rate: Sheet, h: Ball) -> Sheet:
 def _grown(growth: Any, off: Sequence[Ball]) -> list[Ball]:
     """Gronwall's inequality."""
     return [top(x) for x in (growth * arb_mat(len(off), 1, list(off))).entries()]
-
-
-class FlowNearRest(FamilyFlow):
-    """The motions of ξ = x/u, u a polynomial of ε."""
-
-    def __init__(self, tape: Any, x: list[Any], W: list[Ball], n: int, p: int, u: Any) -> None:
-        super().__init__(tape, x, W, n, p)
-        self.u = Sheet([u], ZERO, n, p)
-
-    def series(self, h: Ball) -> list[list[Any]]:
-        """The terms of x over u."""
-        *states, pace = (arb_series(poly.coeffs(), self.p + 1) for poly in self.x)
-        u = arb_series(self.u.terms[0].coeffs(), self.p + 1)
-        rows = motion_terms(self.tape, [u * x for x in states], [pace], h, self.n)
-        return [[x / u for x in row] for row in rows]
-
-    def rates(self, x: list[Sheet]) -> list[Sheet]:
-        """Of ξ."""
-        return rates_near_rest(self.tape, x[:-1], x[-1], self.u)
-
-    def jacobian(self, x: list[Sheet]) -> list[list[Sheet]]:
-        """By ξ that of the motion at x; by the pace the rates at the pace 1."""
-        rows = super().jacobian([*(self.u * y for y in x[:-1]), x[-1]])
-        by_pace = rates_near_rest(self.tape, x[:-1], self.u.number(arb(1)), self.u)
-        return [[*row[:-1], slope] for row, slope in zip(rows, by_pace, strict=True)]
-
-
-def rates_near_rest(tape: Any, states: Sequence[Sheet], pace: Sheet, u: Sheet) -> list[Sheet]:
-    """The rates of ξ."""
-    none = u.like([], ZERO)
-    arguments: list[Split] = [*((none, x) for x in states), (pace, none)]
-
-    def operation(name: str, a: Split, b: Split | None = None) -> Split:
-        if b is None:
-            return _moved(name, a, u)
-        if name == "add":
-            return a[0] + b[0], a[1] + b[1]
-        if name == "subtract":
-            return a[0] - b[0], a[1] - b[1]
-        return _joined(name, a, b, u)
-
-    found = results_of(tape, arguments.__getitem__, lambda x: (u.number(rational_of(x)), none), operation)
-    for place in tape["outputs"]:
-        demand(found[place][0].size().is_zero(), "the rates do not vanish at rest")
-    return [found[place][1] for place in tape["outputs"]]
-
-
-def _whole(a: Split, u: Sheet) -> Sheet:
-    return a[0] + u * a[1]
-
-
-def _joined(name: str, a: Split, b: Split, u: Sheet) -> Split:
-    """a b, with a (b − b₀) + (a − a₀) b₀ off its value at rest; a/b = q, with (a − a₀ − q₀ (b − b₀))/b."""
-    if name == "multiply":
-        return a[0] * b[0], _whole(a, u) * b[1] + a[1] * b[0]
-    q = a[0] * b[0].inverse()
-    return q, (a[1] - q * b[1]) * _whole(b, u).inverse()
-
-
-def _moved(name: str, a: Split, u: Sheet) -> Split:
-    """A function, by its addition theorem."""
-    at, w = a
-    if name == "sqrt":
-        q = at.sqrt()
-        return q, w * (q + _whole(a, u).sqrt()).inverse()
-    if name == "log":
-        value, over = at.log()
-        part = w * over
-        return value, part * quotient(u * part, "log")
-    z = u * w
-    if name == "exp":
-        q = at.exp()
-        return q, q * w * quotient(z, "exp")
-    demand(name in ("sin", "cos"), f"{name} is no operation of a family")
-    sine, cosine = at.sin_cos()
-    along, across = w * quotient(z, "sin"), w * quotient(z, "cos")
-    if name == "sin":
-        return sine, cosine * along - sine * across
-    return cosine, w.like([], ZERO) - (sine * along + cosine * across)
-
-
-def quotient(z: Sheet, name: str) -> Sheet:
-    """(e^z − 1)/z, sin(z)/z, (1 − cos z)/z, log(1 + z)/z: Σ c_m z^m with |c_m| ≤ 1/(m + 1), of the first three ≤ 1/(m + 1)!.
-
-    All further terms together are at most the next one over 1 − |z|.
-    """
-    size = z.size()
-    demand(bool(size < 1), "the piece near the rest is too wide")
-    least, count, left = arb(2) ** -ctx.prec, 1, size
-    while count < _MOST and not left < least:
-        count += 1
-        left = size**count if name == "log" else size**count / arb(count + 1).fac()
-    total = z.like([], arb((left / (1 - size)).upper()))
-    power = z.number(arb(1))
-    for m in range(count):
-        total, power = total + power * z.number(_coefficient(name, m)), power * z
-    return total
-
-
-def _coefficient(name: str, m: int) -> Ball:
-    if name == "log":
-        return arb((-1) ** m) / (m + 1)
-    if name != "exp" and m % 2 == (name == "sin"):
-        return ZERO
-    return (1 if name == "exp" else (-1) ** (m // 2)) / arb(m + 1).fac()

@@ -15,8 +15,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
 
-import sympy as sp
-
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
@@ -36,9 +34,8 @@ from lagrotor.proofs.balls import (
     upper,
 )
 from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
-from lagrotor.proofs.fields import Field, Values, field_of, values_at
+from lagrotor.proofs.fields import Field, Values, field_of
 from lagrotor.proofs.matrices import diagonal, inside, inverse, krawczyk, middle_inverse, times
-from lagrotor.proofs.orbits.crossings import extremes
 from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened, time_ball
 from lagrotor.proofs.statements import Certificate, Proved
 from lagrotor.proofs.stepping import Motion
@@ -92,35 +89,22 @@ def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) ->
     return part if first == last else part * part
 
 
-@dataclass(frozen=True)
-class Multipliers:
-    """pair_sum: μ + 1/μ of the one pair that is not 1, None where there are more; values: complex balls (real, imaginary)."""
+def of_pairs(matrix: Matrix, ones: int) -> tuple[Kind, Ball | None]:
+    """Return the kind of a conservative orbit with a number of multipliers that are 1, and μ + 1/μ of the one other pair.
 
-    kind: Kind
-    pair_sum: Ball | None
-    values: tuple[tuple[Ball, Ball], ...]
-
-
-def of_pairs(matrix: Matrix, ones: int) -> Multipliers:
-    """The pair μ, 1/μ of a conservative orbit whose other multipliers are 1; parabolic where all are, undecided of more pairs."""
+    It is parabolic without another pair, undecided with more pairs.
+    """
     left = matrix.nrows() - ones
     total = trace(matrix) - ones
     if left not in (0, 2):
-        return Multipliers("undecided", None, ())
+        return "undecided", None
     if not fits(matrix, total, ones):
         raise InputError(
             f"periodic_orbit: the multipliers are not {ones} ones and a pair: the system has fewer integrals"
         )
     if not left:
-        return Multipliers("parabolic", None, ())
-    if abs(total) < 2:
-        half, high = total / 2, (1 - total * total / 4).sqrt()
-        return Multipliers("elliptic", total, ((half, high), (half, -high)))
-    if abs(total) > 2:
-        root = (total * total / 4 - 1).sqrt()
-        zero = arb(0)
-        return Multipliers("hyperbolic", total, ((total / 2 + root, zero), (total / 2 - root, zero)))
-    return Multipliers("undecided", total, ())
+        return "parabolic", None
+    return "elliptic" if abs(total) < 2 else "hyperbolic" if abs(total) > 2 else "undecided", total
 
 
 def fits(matrix: Matrix, total: Ball, ones: int) -> bool:
@@ -129,21 +113,16 @@ def fits(matrix: Matrix, total: Ball, ones: int) -> bool:
     return all(x.contains(0) for x in (matrix.charpoly() - arb_poly([-1, 1]) ** ones * pair).coeffs())
 
 
-def of_any(matrix: Matrix) -> Multipliers:
-    """All multipliers, where they are apart; "hyperbolic" where all but the one along the motion are off the unit circle."""
+def of_any(matrix: Matrix) -> Kind:
+    """Return attracting where all multipliers but the one along the motion are inside the unit circle, hyperbolic off it."""
     try:
         found: list[Any] = matrix.eig()
-    except ValueError:
-        return Multipliers("undecided", None, ())
-    sizes: Balls = [abs(z) for z in found]
-    along = [i for i, z in enumerate(found) if z.contains(1)]
-    others = [s for i, s in enumerate(sizes) if i not in along]
-    kind: Kind = "undecided"
-    if len(along) == 1 and all(s < 1 for s in others):
-        kind = "attracting"
-    elif len(along) == 1 and all(s < 1 or s > 1 for s in others):
-        kind = "hyperbolic"
-    return Multipliers(kind, None, tuple((z.real, z.imag) for z in found))
+    except ValueError:  # not apart
+        return "undecided"
+    others: Balls = [abs(z) for z in found if not z.contains(1)]
+    if len(others) != len(found) - 1 or not all(s < 1 or s > 1 for s in others):
+        return "undecided"
+    return "attracting" if all(s < 1 for s in others) else "hyperbolic"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -159,42 +138,14 @@ class PeriodicOrbit(Proved):
     frequency: Ball
     start: tuple[Ball, ...]
     alone: Ball
-    multipliers: Multipliers
+    kind: Kind
+    pair_sum: Ball | None
     proof: "OrbitProof"
 
     @property
     def names(self) -> tuple[str, ...]:
         """Of the states."""
         return tuple(map(str, self.field.states))
-
-    def value(self, expression: sp.Expr) -> Ball:
-        """An expression of the states at t = 0; where it is conserved, of the whole orbit."""
-        with precision(self.proof.bits):
-            fixed = [self.field.values[s] for s in self.field.arguments[len(self.start) :]]
-            tape = self.field.function([sp.sympify(expression, strict=True)])
-            return values_at(tape, [*self.start, *fixed])[0]
-
-    def extremes(self, expression: sp.Expr) -> tuple[Ball, Ball]:
-        """The least and the largest value of an expression along the orbit, which passes its images under the reversals, too."""
-        proof, one = self.proof, (1,) * len(self.start)
-        A, B = (signs or one for signs in (proof.problem.first, proof.problem.last))
-        images = {one, A, B, tuple(a * b for a, b in zip(A, B, strict=True))}
-        w = [arb(0)] * len(proof.start.middle)
-        for i, x in zip(proof.problem.free, proof.found, strict=True):
-            w[i] = x
-        with precision(proof.bits, max(step.n for step in proof.steps)):
-            put = sp.sympify(expression, strict=True)
-            return extremes(self.field, proof.problem.motion, proof.steps, w, images, put)
-
-    @property
-    def kind(self) -> Kind:
-        """elliptic, hyperbolic, attracting, parabolic or undecided."""
-        return self.multipliers.kind
-
-    @property
-    def pair_sum(self) -> Ball | None:
-        """μ + 1/μ."""
-        return self.multipliers.pair_sum
 
     @cached_property
     def certificate(self) -> Certificate:
@@ -235,17 +186,17 @@ class OrbitProof:
             w[i] = x
         return [a + b for a, b in zip(self.start.middle, w, strict=True)]
 
-    def multipliers(self) -> Multipliers:
-        """Of the whole period."""
+    def stability(self) -> tuple[Kind, Ball | None]:
+        """Return the kind of the orbit, and μ + 1/μ of the one pair of multipliers that is not 1."""
         d = self.problem.motion.moving
         D = self.derivative
         part = arb_mat([[D[i, j] for j in range(d)] for i in range(d)])
         if not self.problem.first:
-            return of_any(part)
+            return of_any(part), None
         try:
             return of_pairs(monodromy(part, self.problem.first, self.problem.last), self.ones)
         except NotProved:
-            return Multipliers("undecided", None, ())
+            return "undecided", None
 
     def certificate(self, orbit: PeriodicOrbit) -> Certificate:
         """Plain data."""
@@ -382,7 +333,7 @@ def orbit_of(proof: OrbitProof, made: Field) -> PeriodicOrbit:
     period = states[-1] * proof.problem.turns
     alone = min((upper(proof.start.spread[i]) for i in proof.problem.free), key=float)
     start = tuple(states[: len(made.states)])
-    return PeriodicOrbit(made, period, 2 * arb.pi() / period, start, alone, proof.multipliers(), proof)
+    return PeriodicOrbit(made, period, 2 * arb.pi() / period, start, alone, *proof.stability(), proof)
 
 
 def indices(made: Field, held: Sequence[Any]) -> tuple[int, ...]:

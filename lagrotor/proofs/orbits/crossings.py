@@ -1,11 +1,7 @@
-"""Expressions of the state along a motion: that one passes zero before a time, or does not up to a time; their means
-and extremes."""
+"""Expressions of the state along a motion: that one passes zero before a time, or does not up to a time; their means."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
-from itertools import count
-from math import inf, nextafter
 from typing import Any
 
 import sympy as sp
@@ -20,10 +16,7 @@ from lagrotor.proofs.stepping import Motion, scaled, taylor, with_rest
 from lagrotor.proofs.tails import Evaluation, Tailed
 from lagrotor.proofs.tape import Tape
 
-Signs = tuple[int, ...]
 _DEPTH = 12  # halvings of a step
-_NARROW = 2.0**-60  # of an extreme value, relative
-_MOST = 3_000  # pieces
 
 
 @dataclass(frozen=True)
@@ -63,21 +56,12 @@ class Watch:
 
 def watch(motion: Motion, tape: Tape, step: CarriedStep, w: Balls) -> list[Watch]:
     """The tape's outputs along a step, over all starts."""
-    still = [*step.node.box(w)[motion.moving :], *motion.parameters]
-    evaluation = Evaluation(tape, [*_moving(motion, step, w), *(_constant(c, step.n) for c in still)])
-    return [Watch(series) for series in evaluation.outputs]
-
-
-def _moving(motion: Motion, step: CarriedStep, w: Balls) -> list[Tailed]:
-    """The states that move, along a step."""
     box, n = step.node.box(w), step.n
     rows = scaled(taylor(motion, box, n), step.h, n)
     rests, _ = with_rest(motion, rows, box, step.h, n)
-    return [Tailed(arb_poly(row), rest, n) for row, rest in zip(rows, rests, strict=True)]
-
-
-def _constant(value: Ball, n: int) -> Tailed:
-    return Tailed(arb_poly([value]), arb(0), n)
+    moving = [Tailed(arb_poly(row), rest, n) for row, rest in zip(rows, rests, strict=True)]
+    still = [Tailed(arb_poly([c]), arb(0), n) for c in (*box[motion.moving :], *motion.parameters)]
+    return [Watch(series) for series in Evaluation(tape, [*moving, *still]).outputs]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -313,40 +297,3 @@ def means(
         certificate = _certificate(made, start, steps, accuracy.bits, "means", None, {"means": claim})
         whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
         return Means(tuple(whole), tuple(values_of), certificate)
-
-
-def extremes(
-    made: Field, motion: Motion, steps: Sequence[CarriedStep], w: Balls, images: Iterable[Signs], expression: sp.Expr
-) -> tuple[Ball, Ball]:
-    """The least and the largest value of an expression along steps from the starts w, and along their images under signs."""
-    tape, pieces = made.function([expression]), list[Watch]()
-    for step in steps:
-        states = _moving(motion, step, w)
-        fixed = [_constant(made.values[s], step.n) for s in made.arguments[len(states) :]]
-        for signs in images:
-            moved = [x if s > 0 else -x for x, s in zip(states, signs, strict=True)]
-            pieces.append(Watch(Evaluation(tape, [*moved, *fixed]).outputs[0]))
-    return -_largest([Watch(-piece.series) for piece in pieces]), _largest(pieces)
-
-
-def _largest(pieces: list[Watch]) -> Ball:
-    """The largest value, by branch and bound over 0 ≤ s ≤ 1 of each piece."""
-    order = count()
-
-    def entry(piece: Watch, low: Ball, high: Ball) -> tuple[float, int, Watch, Ball, Ball]:
-        return -nextafter(float(piece.over(low, high).upper()), inf), next(order), piece, low, high
-
-    heap = [entry(piece, arb(0), arb(1)) for piece in pieces]
-    heapify(heap)
-    seen = pieces[0].over(arb(0), arb(0))
-    for _ in range(_MOST):
-        bound, _, piece, low, high = heap[0]
-        middle = (low + high) / 2
-        for s in (low, middle, high):
-            seen = seen.max(piece.over(s, s))
-        if -bound - float(seen.lower()) <= _NARROW * abs(bound) + 4 * float(seen.rad()):
-            break
-        heappop(heap)
-        for part in ((low, middle), (middle, high)):
-            heappush(heap, entry(piece, *part))
-    return seen.union(arb(-heap[0][0]))

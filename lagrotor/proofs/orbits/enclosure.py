@@ -2,20 +2,16 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import sympy as sp
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics.glossary import letter_latex
-from lagrotor.proofs.balls import Ball, Balls, Matrix, arb, ball_data, balls_data, precision, printed, radius
+from lagrotor.proofs.balls import Ball, Matrix, arb, ball_data, balls_data, precision, printed, radius
 from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.fields import Field, Values, ball, field_of, values_at
 from lagrotor.proofs.statements import Certificate
 from lagrotor.shown import Shown, scientific
-
-if TYPE_CHECKING:
-    from lagrotor.drawing.run_figure import RunFigure
 
 TOL = 1e-17
 
@@ -56,48 +52,9 @@ class Enclosure(Shown):
     def value(self, expression: sp.Expr) -> Ball:
         """Any expression of the states, at t; of a Scene also of x_1 … z_2 and their rates."""
         with precision(self.bits):
-            box = [*self.states, *self.start_values]
-            return values_at(self.field.function([sp.sympify(expression, strict=True)]), box)[0]
-
-    @cached_property
-    def start_values(self) -> Balls:
-        """The parameters: those that vary, then the others."""
-        return [self.field.values[s] for s in self.field.arguments[len(self.field.states) :]]
-
-    @cached_property
-    def path(self) -> list[tuple[Ball, Balls]]:
-        """Times and boxes of the states at the ends of all steps, the start first."""
-        n = len(self.field.states)
-        with precision(self.bits):
-            nodes = [self.start.node, *(step.end for step in self.steps)]
-            return [(node.t, node.box(self.start.spread)[:n]) for node in nodes]
-
-    def plot(self, first: str = "", second: str = "") -> "RunFigure":
-        """Boxes of two states at the ends of the steps, in their plane, and their widths over time. Every motion from the start
-        passes through all boxes in turn.
-
-        Args:
-            first: name of a state; without it the first.
-            second: likewise.
-
-        Raises:
-            InputError: for a name that is none.
-        """
-        import numpy as np
-
-        from lagrotor.drawing.run_figure import boxes_figure
-
-        names = [str(s) for s in self.field.states]
-        wanted = [first or names[0], second or names[1]]
-        if unknown := [name for name in wanted if name not in names]:
-            raise InputError(f"plot: {unknown[0]!r} is no state; the motion has {', '.join(names)}")
-        places = [names.index(name) for name in wanted]
-        low, high = (
-            np.array([[float(getattr(box[i], end)()) for i in places] for _, box in self.path])
-            for end in ("lower", "upper")
-        )
-        labels = [f"${letter_latex(sp.Symbol(name))}$" for name in wanted]
-        return boxes_figure(labels, np.array([float(t.mid()) for t, _ in self.path]), low, high)
+            parameters = [self.field.values[s] for s in self.field.arguments[len(self.field.states) :]]
+            tape = self.field.function([sp.sympify(expression, strict=True)])
+            return values_at(tape, [*self.states, *parameters])[0]
 
     @cached_property
     def certificate(self) -> Certificate:

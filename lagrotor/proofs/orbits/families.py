@@ -20,17 +20,16 @@ from typing import Any
 from lagrotor.errors import NotProved
 from lagrotor.proofs.balls import ZERO, Ball, Balls, Matrix, arb, arb_mat, arb_poly, exact, max_of, radius, upper
 from lagrotor.proofs.matrices import inside, krawczyk, middle_inverse, times
-from lagrotor.proofs.orbits.closed_orbits import Kind, OrbitProblem
+from lagrotor.proofs.orbits.closed_orbits import OrbitProblem
 from lagrotor.proofs.orbits.taylor_models import Order, TaylorModel, sum_of_sizes
 from lagrotor.proofs.stepping import Motion
-from lagrotor.proofs.tails import TailError
+from lagrotor.proofs.tails import Evaluation, TailError
 
 Models = list[TaylorModel]
 _TRIES = 6  # of a tube
 _LONGEST, _MOST = 0.25, 40  # step, of the whole time; steps
 _SHORTEST_CUT = 2.0**-10  # of ε
 _SHARPER = 2  # Krawczyk's map once more, of the box that it has led to
-_HALVINGS = 12  # of ε, until a part is shown to be elliptic or hyperbolic
 _FIRST, _WIDEST, _BOXES = 1e-9, 1e-4, 3  # the box: its first half width, its largest, how many are tried
 
 
@@ -84,7 +83,7 @@ def family_step(
     shorter = _shortening(P, order, tol)
     h = left if shorter >= 1 and longest >= left else longest * shorter
     P = [_scaled(poly, h / longest, order.width) for poly in P]
-    rates = motion.evaluation([*(TaylorModel(x, ZERO, order) for x in P), *still]).outputs
+    rates = Evaluation(motion.tape, [*(TaylorModel(x, ZERO, order) for x in P), *still]).outputs
     missed = [
         (TaylorModel(x.poly, ZERO, order) + f.integral(h) - TaylorModel(poly, ZERO, order)).norm
         for x, f, poly in zip(node.x, rates, P, strict=False)
@@ -137,7 +136,7 @@ def _picard(motion: Motion, node: FamilyNode, h: Ball, order: Order) -> list[Any
     for n in range(2, order.n + 1):
         now = Order(n, p)
         models = [TaylorModel(x, None, now) for x in (*P, *(x.poly for x in node.x[moving:]))]
-        rates = motion.evaluation(models).outputs
+        rates = Evaluation(motion.tape, models).outputs
         P = [x.poly + f.integral(h).poly for x, f in zip(node.x, rates, strict=False)]
     return P
 
@@ -152,7 +151,7 @@ def _tube(
     tube = [upper(4 * max_of(off))] * moving
     for k in range(_TRIES):
         models = [*(TaylorModel(x, r, order) for x, r in zip(P, tube, strict=True)), *still]
-        evaluation = motion.evaluation(models)
+        evaluation = Evaluation(motion.tape, models)
         zero = models[0].constant(ZERO)
         J = [[g if g is not None else zero for g in evaluation.gradient(i)[: len(node.x)]] for i in range(moving)]
         size = len(node.x)
@@ -226,74 +225,9 @@ class FamilyProof:
     w: tuple[Ball, ...]
     node: FamilyNode
 
-    def kind(self, ones: int) -> Kind:
-        """Elliptic or hyperbolic where every orbit is shown to be so, by μ + 1/μ = tr M − ones as a model of ε.
-
-        ones: multipliers that are 1, of the energy and other integrals, all but one pair.
-        """
-        problem, moving = self.problem, self.problem.motion.moving
-        D = [row[:moving] for row in self.node.V[:moving]]
-        back = inverse_models(D)
-        if back is None:
-            return "undecided"
-        reflected = [[x if s > 0 else -x for x in row] for row, s in zip(D, problem.last, strict=True)]
-        part = [
-            [x if s > 0 else -x for x in row]
-            for row, s in zip(product_of_models(back, reflected), problem.first, strict=True)
-        ]
-        if problem.first != problem.last:
-            part = product_of_models(part, part)
-        pair = _sum([part[i][i] for i in range(moving)])
-        pair = pair - pair.constant(arb(ones))
-        two = pair.constant(arb(2))
-        signs = {_sign(x, arb(-1), arb(1)) for x in (pair - two, pair + two)}
-        return "elliptic" if signs == {1, -1} else "hyperbolic" if signs in ({1}, {-1}) else "undecided"
-
     def pace(self, eps: Ball) -> Ball:
         """The time of one unit of s, s, for every ε of a ball."""
         return self.x[-1](eps) + self.w[-1]
-
-
-def product_of_models(a: list[Models], b: list[Models]) -> list[Models]:
-    """Of two matrices."""
-    columns = list(zip(*b, strict=True))
-    return [[_sum([x * y for x, y in zip(row, column, strict=True)]) for column in columns] for row in a]
-
-
-def inverse_models(D: list[Models]) -> list[Models] | None:
-    """X (1 + R + R² …), R = 1 − D X, with X from Newton's method on polynomials; None where the sum is not shown to converge."""
-    size, order = range(len(D)), D[0][0].order
-    one = TaylorModel(arb_poly([1]), ZERO, order)
-    middle = middle_inverse(arb_mat([[x.poly[0] for x in row] for row in D]))
-    X = [[TaylorModel(arb_poly([middle[i, j]]), None, order) for j in size] for i in size]
-    flat = [[TaylorModel(x.poly, None, order) for x in row] for row in D]
-    for _ in range(order.p.bit_length() + 1):
-        missed = product_of_models(flat, X)
-        missed = [[one.constant(arb(2 * (i == j))) - missed[i][j] for j in size] for i in size]
-        X = product_of_models(X, missed)
-    X = [[TaylorModel(x.poly, ZERO, order) for x in row] for row in X]
-    image = product_of_models(D, X)
-    R = [[one.constant(arb(int(i == j))) - image[i][j] for j in size] for i in size]
-    rho = max_of([sum((x.norm for x in row), ZERO) for row in R])
-    if not rho < 1:
-        return None
-    first = product_of_models(X, R)
-    rests = [upper(sum((x.norm for x in row), ZERO) * rho**2 / (1 - rho)) for row in X]
-    return [
-        [x + y + TaylorModel(arb_poly([]), rest, order) for x, y in zip(row, by_R, strict=True)]
-        for row, by_R, rest in zip(X, first, rests, strict=True)
-    ]
-
-
-def _sign(model: TaylorModel, low: Ball, high: Ball, depth: int = _HALVINGS) -> int:
-    """Over an interval of ε, by its middle and slope, by halves; 0 where it is not shown to have one."""
-    eps, poly = low.union(high), model.poly
-    middle = (low + high) / 2
-    value = poly(middle) + poly.derivative()(eps) * (eps - middle) + arb(0, (model.rest or ZERO).abs_upper())
-    if value > 0 or value < 0 or not depth or abs(poly(middle)) < (model.rest or ZERO):
-        return 1 if value > 0 else -1 if value < 0 else 0
-    first = _sign(model, low, middle, depth - 1)
-    return first if first and first == _sign(model, middle, high, depth - 1) else 0
 
 
 def prove_family(problem: OrbitProblem, x: Sequence[Any], n: int, tol: float) -> FamilyProof:

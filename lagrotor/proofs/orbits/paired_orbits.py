@@ -16,8 +16,6 @@ import numpy as np
 
 from lagrotor.errors import DomainError, NotProved
 from lagrotor.models.orbits.shooting import FAILURES, QuarterPeriod
-from lagrotor.pair.lagrangians import axes_pair
-from lagrotor.pair.notation import AXES, G_1, G_2, a, b
 from lagrotor.pair.scene import Scene
 from lagrotor.proofs.balls import (
     Ball,
@@ -32,11 +30,10 @@ from lagrotor.proofs.balls import (
     rational,
 )
 from lagrotor.proofs.carried_sets import Accuracy
-from lagrotor.proofs.fields import Field, ball, exact_number, of_scene, scene_field, scene_numbers
+from lagrotor.proofs.fields import Field, ball, of_scene, scene_field
 from lagrotor.proofs.orbits.closed_orbits import Kind, OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
 from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened
 from lagrotor.proofs.orbits.families import FamilyProof, prove_family
-from lagrotor.proofs.orbits.taylor_models import MotionNearRest
 from lagrotor.proofs.statements import VERSION, Certificate, Proved
 from lagrotor.proofs.stepping import Motion
 from lagrotor.proofs.tape import paced
@@ -50,16 +47,11 @@ _ONES = 4  # of the energy and of the momentum about the joint line
 
 @dataclass(frozen=True, eq=False)
 class FamilyPiece:
-    """The orbits of every U = middle + half ε, |ε| ≤ 1, one smooth curve. kind: undecided unless it is shown of all.
-
-    near_rest: from U = 0 on, where the states are proved in units of U.
-    """
+    """The orbits of every U = middle + half ε, |ε| ≤ 1, one smooth curve."""
 
     middle: Ball
     half: Ball
     proof: FamilyProof
-    kind: Kind
-    near_rest: bool
 
     @property
     def ends(self) -> tuple[Ball, Ball]:
@@ -74,7 +66,7 @@ class FamilyPiece:
     def _about(self, U: Ball, off: Sequence[Ball]) -> Balls:
         eps = (U - self.middle) / self.half
         *states, pace = (poly(eps) + w for poly, w in zip(self.proof.x, off, strict=True))
-        return [*(U * x if self.near_rest else x for x in states), pace]
+        return [*states, pace]
 
     @property
     def period(self) -> Ball:
@@ -98,8 +90,8 @@ class FamilyPiece:
 class Precession(Proved):
     """The paired precession of amplitude r0, or of every amplitude in r0, one orbit each.
 
-    frequency: angular, rad/s, of rotor 1's sign; period, s: balls that hold those of every r0. kind: elliptic or hyperbolic
-    where that is shown. pieces: the orbit of a number, or the parts of a family, each beginning where the one before ends.
+    frequency: angular, rad/s, of rotor 1's sign; period, s: balls that hold those of every r0. pieces: the orbit of a number, or
+    the parts of a family, each beginning where the one before ends.
     """
 
     scene: Scene
@@ -115,7 +107,7 @@ class Precession(Proved):
             return self._signed(self.period)
 
     def frequency_at(self, r0: Any) -> Ball:
-        """rad/s, of one amplitude of the family; at r0 = 0, where nothing turns, the limit, which is the natural rate.
+        """rad/s, of one amplitude of the family.
 
         Raises:
             DomainError: where it is none of them.
@@ -148,45 +140,10 @@ class Precession(Proved):
         return first.pair_sum if isinstance(first, PeriodicOrbit) else None
 
     @property
-    def _orbit(self) -> PeriodicOrbit:
-        first = self.pieces[0]
-        if not isinstance(first, PeriodicOrbit):
-            raise DomainError("precession: shape and invariants are those of one orbit: take one amplitude")
-        return first
-
-    @property
-    def energy(self) -> Ball:
-        """J, as of a run: the spins' included."""
-        put = scene_numbers(self.scene)
-        spinning = (put[G_1] ** 2 + put[G_2] ** 2) / (2 * exact_number(self.scene.rotor.I3))
-        return self._orbit.value(axes_pair().L.xreplace(put) + spinning)
-
-    @property
-    def joint_line_momentum(self) -> Ball:
-        """Angular momentum about the line through the ground joints, kg m²/s, the other integral of the exact pair."""
-        q, v = AXES.q, AXES.v
-        r, w = (q[:3], q[3:]), (v[:3], v[3:])
-        own, shared = ([a * x + b * y for x, y in zip(*pair, strict=True)] for pair in (w, w[::-1]))
-        turning = sum(x[1] * p[2] - x[2] * p[1] for x, p in zip(r, (own, shared), strict=True))
-        return self._orbit.value((turning + G_1 * q[0] + G_2 * q[3]).xreplace(scene_numbers(self.scene)))
-
-    @cached_property
-    def shape(self) -> dict[str, Ball]:
-        """The least and the largest inclination of an axis (rad) and how far it goes along x and across it, over the orbit."""
-        x, y, z = (self._orbit.extremes(e) for e in AXES.q[:3])
-        with precision(self.bits):
-            return {
-                "least inclination": z[1].acos(),
-                "largest inclination": z[0].acos(),
-                "largest x": x[1],
-                "largest y": y[1],
-            }
-
-    @property
     def kind(self) -> Kind:
-        """elliptic, hyperbolic, or undecided where it is not shown of every orbit."""
-        first = self.pieces[0].kind
-        return first if all(piece.kind == first for piece in self.pieces) else "undecided"
+        """The stability of one orbit: elliptic, hyperbolic, or undecided where none is shown; undecided of a family."""
+        first = self.pieces[0]
+        return first.kind if isinstance(first, PeriodicOrbit) else "undecided"
 
     @cached_property
     def certificate(self) -> Certificate:
@@ -203,7 +160,7 @@ class Precession(Proved):
                 "about": of_scene(replace(self.scene, shock=None)),
                 "motion": first.proof.problem.motion.data(),
                 "reversals": [list(A), list(B)],
-                "claim": {"r0": ends, "period": ball_data(loosened(self.period)), "kind": self.kind},
+                "claim": {"r0": ends, "period": ball_data(loosened(self.period))},
                 "pieces": [piece_data(piece) for piece in self.pieces if isinstance(piece, FamilyPiece)],
             }
 
@@ -236,7 +193,7 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
     Args:
         scene: with opposite spins and a bar.
         r0: a number, exact as the decimal that it is written in, or a pair (lowest, highest): then for every amplitude between
-            them one orbit is proved, all of them one smooth curve.
+            them one orbit is proved, all of them one smooth curve; the stability is shown of one amplitude alone.
         tol: what a step may leave out.
 
     Raises:
@@ -248,8 +205,8 @@ def precession(scene: Scene, r0: Any, tol: float | None = None) -> Precession:
     accuracy = accuracy_of(tol or (TOL if one else TOL_OF_FAMILY), "precession")
     with precision(accuracy.bits, accuracy.terms):
         amplitude = ball(r0, "precession: r0")
-        if not (0 < amplitude < 1 if one else 0 <= ball(r0[0]) < ball(r0[1]) < 1):
-            raise DomainError(f"precession: r0 = {r0!r} must lie between 0 and 1, the lowest of a pair first")
+        if not (0 < amplitude < 1 and (one or ball(r0[0]) < ball(r0[1]))):
+            raise DomainError(f"precession: r0 = {r0!r} must lie above 0 and below 1, the lowest of a pair first")
         curve = QuarterPeriod(scene)
         made = scene_field(curve.scene)
         problem = problem_of_pair(made)
@@ -286,19 +243,14 @@ def guess(curve: QuarterPeriod, r0: float, u: Ball) -> Balls:
 def family(
     problem: OrbitProblem, curve: QuarterPeriod, low: Ball, high: Ball, accuracy: Accuracy
 ) -> Iterator[FamilyPiece]:
-    """Pieces of the family from r0 = low to high, each as wide as its proof allows; near 0 the first is from 0 on, unless it can
-    be proved from low on."""
-    u, last = max(np.nextafter(float(low.atanh().lower()), 0), 0), np.nextafter(float(high.atanh().upper()), 1e9)
-    near_rest = 0 < u < min(_FIRST_WIDTH, last) / 2
+    """Yield pieces of the family from r0 = low to high, each as wide as its proof allows."""
+    u, last = np.nextafter(float(low.atanh().lower()), 0), np.nextafter(float(high.atanh().upper()), 1e9)
     width, before = _FIRST_WIDTH, None
     while u < last:
         right = min(u + width, last)
         try:
             piece = prove_piece(problem, curve, u, right, accuracy)
         except (NotProved, *FAILURES):
-            if near_rest and before is None:
-                u, near_rest = 0, False
-                continue
             width *= 0.6
             if width < _NARROWEST:
                 raise NotProved(f"precession: the family is proved up to r0 = {np.tanh(u):.8g} only") from None
@@ -310,33 +262,25 @@ def family(
 
 
 def prove_piece(problem: OrbitProblem, curve: QuarterPeriod, u: float, right: float, accuracy: Accuracy) -> FamilyPiece:
-    """The orbits between two U, about polynomials of ε that go through those of floats at Chebyshev's points.
-
-    From U = 0 on it is the motion of the states over U, whose orbit at U = 0 is that of the linear motion.
-    """
+    """Prove the orbits between two U, about polynomials of ε that go through those of floats at Chebyshev's points."""
     degree = 3 * accuracy.terms // 4
-    middle, half = (u + right) / 2, np.nextafter((right - u) / 2 * (1 + 1e-15), 1) if u else right / 2
+    middle, half = (u + right) / 2, np.nextafter((right - u) / 2 * (1 + 1e-15), 1)
     points = -np.cos(np.pi * (np.arange(degree + 3) + 0.5) / (degree + 3))
     z, rows = None, []
     for x in points:
         z = curve.follow(z, np.tanh(middle + half * x))
-        scale = 1 if u else middle + half * x
-        rows.append([*curve.state(z)[4:] / scale, z[3] / abs(curve.natural)])
+        rows.append([*curve.state(z)[4:], z[3] / abs(curve.natural)])
     cheb = np.polynomial.chebyshev
     powers = [cheb.cheb2poly(cheb.chebfit(points, column, degree)) for column in np.array(rows).T]
     U, zero = arb_poly([arb(middle), arb(half)]), arb_poly([])
-    x = [U if u else arb_poly([1]), zero, zero, zero, *(arb_poly([arb(float(c)) for c in row]) for row in powers)]
-    if not u:
-        problem = replace(problem, motion=MotionNearRest(problem.motion.tape, problem.motion.parameters, U))
-    proof = prove_family(problem, x, accuracy.terms, accuracy.tol)
-    return FamilyPiece(arb(middle), arb(half), proof, proof.kind(_ONES), not u)
+    x = [U, zero, zero, zero, *(arb_poly([arb(float(c)) for c in row]) for row in powers)]
+    return FamilyPiece(arb(middle), arb(half), prove_family(problem, x, accuracy.terms, accuracy.tol))
 
 
 def piece_data(piece: FamilyPiece) -> dict[str, Any]:
     """Of a certificate."""
     proof = piece.proof
     return {
-        "near rest": piece.near_rest,
         "middle": exact_data([piece.middle])[0],
         "half": exact_data([piece.half])[0],
         "x": [exact_data(poly.coeffs()) for poly in proof.x],

@@ -4,21 +4,15 @@ The polynomial has n powers of s and p + 1 of ε. The bound is of the maximum no
 own norm is the sum of its coefficients' absolute values. Functions are found as polynomials and then held to what they
 satisfy: 1/a by 1 − a q, a root by a − q², exp, log, sin and cos by Taylor's series about the value at s = ε = 0.
 Makino & Berz, Int. J. Pure Appl. Math. 4 (2003) 379.
-
-Near a rest, x = u ξ: the field f(u ξ)/u is analytic in u, u = 0 with its linear motion included. Every intermediate result of the
-program is kept as v = v₀ + u w, v₀ its value at rest and w a Taylor model; the rules give w without a division by u. As f(0) = 0
-exactly, the rates of ξ are the w of f, and their derivatives by ξ those of f by x.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from math import ceil, log2
 from typing import Any
 
 from lagrotor.proofs.balls import ZERO, Ball, Balls, arb, arb_poly, ctx, exact, upper
-from lagrotor.proofs.stepping import Motion
-from lagrotor.proofs.tails import Evaluation, TailError
+from lagrotor.proofs.tails import TailError
 
 _LONGEST = 80  # terms of a function's series
 
@@ -173,17 +167,6 @@ class TaylorModel:
         sine = d._series([ring[m % 4] / arb(m).fac() for m in range(count)], left)
         return sine, d._series([ring[(m + 1) % 4] / arb(m).fac() for m in range(count)], left)
 
-    def ratio(self, name: str) -> "TaylorModel":
-        """(e^a − 1)/a, sin(a)/a, (1 − cos a)/a or log(1 + a)/a, by its series about 0."""
-        size, logarithm = self.norm, name == "log"
-        whole = 1 / _below_one(size) if logarithm else size.exp()
-
-        def left(m: int) -> Ball:
-            return upper(size**m / (m + 1 if logarithm else arb(m + 1).fac()) * whole)
-
-        count = self._terms(size, left)
-        return self._series([_RATIOS[name](m) for m in range(count)], left(count))
-
     def by_slope(self, name: str, slope: "TaylorModel") -> "TaylorModel":
         """log a = log c + Σ (−1)^(m+1) (d/c)^m/m with a = c + d."""
         if name != "log":
@@ -210,14 +193,6 @@ class TaylorModel:
         return TaylorModel(arb_poly(found), self.rest, Order(1, self.order.p))
 
 
-_RATIOS: dict[str, Callable[[int], Ball]] = {  # coefficients of a^m
-    "exp": lambda m: 1 / arb(m + 1).fac(),
-    "sin": lambda m: ZERO if m % 2 else (-1) ** (m // 2) / arb(m + 1).fac(),
-    "cos": lambda m: (-1) ** (m // 2) / arb(m + 1).fac() if m % 2 else ZERO,
-    "log": lambda m: arb((-1) ** m) / (m + 1),
-}
-
-
 def _nonzero(a: TaylorModel, what: str) -> Ball:
     """The value at s = ε = 0, which must not be zero."""
     value = a.poly[0]
@@ -231,104 +206,3 @@ def _below_one(x: Ball) -> Ball:
     if not x < 1:
         raise TailError("a bound does not close: the step is too long, or the piece too wide")
     return 1 - x
-
-
-@dataclass(frozen=True, eq=False)
-class NearRest:
-    """v₀ + u w: at = v₀, off = w."""
-
-    at: TaylorModel
-    off: TaylorModel
-    u: TaylorModel
-
-    @cached_property
-    def whole(self) -> TaylorModel:
-        """The value."""
-        return self.at + self.u * self.off
-
-    @property
-    def poly(self) -> Any:
-        """The value's polynomial."""
-        return self.whole.poly
-
-    def _with(self, at: TaylorModel, off: TaylorModel) -> "NearRest":
-        return NearRest(at, off, self.u)
-
-    def constant(self, value: Ball) -> "NearRest":
-        """A number."""
-        return self._with(self.at.constant(value), self.at.constant(ZERO))
-
-    def __add__(self, other: "NearRest") -> "NearRest":
-        return self._with(self.at + other.at, self.off + other.off)
-
-    def __sub__(self, other: "NearRest") -> "NearRest":
-        return self._with(self.at - other.at, self.off - other.off)
-
-    def __neg__(self) -> "NearRest":
-        return self._with(-self.at, -self.off)
-
-    def __mul__(self, other: "NearRest") -> "NearRest":
-        return self._with(self.at * other.at, self.whole * other.off + other.at * self.off)
-
-    def inverse(self) -> "NearRest":
-        """1/v − 1/v₀ = −u w/(v v₀)."""
-        at = self.at.inverse()
-        return self._with(at, -(self.off * at * self.whole.inverse()))
-
-    def sqrt(self) -> "NearRest":
-        """√v − √v₀ = u w/(√v + √v₀)."""
-        at = self.at.sqrt()
-        return self._with(at, self.off * (self.whole.sqrt() + at).inverse())
-
-    def exp(self) -> "NearRest":
-        """e^v − e^v₀ = e^v₀ (e^(u w) − 1)."""
-        at = self.at.exp()
-        return self._with(at, at * self.off * (self.u * self.off).ratio("exp"))
-
-    def sin_cos(self) -> tuple["NearRest", "NearRest"]:
-        """The addition theorems."""
-        z = self.u * self.off
-        sine, cosine = self.at.sin_cos()
-        along, across = self.off * z.ratio("sin"), self.off * z.ratio("cos")
-        return self._with(sine, cosine * along - sine * across), self._with(cosine, -(sine * along + cosine * across))
-
-    def by_slope(self, name: str, slope: "NearRest") -> "NearRest":
-        """log v − log v₀ = log(1 + u w/v₀)."""
-        if name != "log":
-            raise TailError(f"{name} in the equations has no Taylor model here")
-        part = self.off * self.at.inverse()
-        return self._with(self.at.by_slope(name, slope.at), part * (self.u * part).ratio("log"))
-
-
-@dataclass(frozen=True)
-class RestEvaluation:
-    """Rates of ξ and their derivatives by ξ and by the pace, the last argument."""
-
-    evaluation: Evaluation
-
-    @property
-    def outputs(self) -> list[TaylorModel]:
-        """The w of f. Raises TailError unless f vanishes at rest, exactly."""
-        found = self.evaluation.outputs
-        if not all(f.at.norm.is_zero() for f in found):
-            raise TailError("the rates do not vanish at rest")
-        return [f.off for f in found]
-
-    def gradient(self, output: int) -> list[TaylorModel | None]:
-        """Of one rate."""
-        *states, pace = self.evaluation.gradient(output)
-        return [*(g and g.whole for g in states), pace and pace.off]
-
-
-@dataclass(frozen=True)
-class MotionNearRest(Motion):
-    """The motion of ξ = x/u with its pace; u: a polynomial of ε."""
-
-    u: Any = None
-
-    def evaluation(self, arguments: Sequence[TaylorModel]) -> Any:
-        """Of the states ξ and the pace."""
-        *states, pace = arguments
-        zero = pace.constant(ZERO)
-        u = TaylorModel(self.u, zero.rest, pace.order)
-        return RestEvaluation(Evaluation(self.tape, [*(NearRest(zero, x, u) for x in states), NearRest(pace, zero, u)]))
