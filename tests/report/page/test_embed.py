@@ -11,7 +11,7 @@ from lagrotor.pictures import Picture
 from lagrotor.pictures.figures import draw_figure
 from lagrotor.report.page.pieces import data_address, size
 
-# With 39 figures of this size the page would still be under 5 MB; most are half of it.
+# With 55 figures of this size the page would still be under its ceiling; most are half of it.
 LARGEST = 100_000
 DRAWN = ("3", "14", "16", "18")
 
