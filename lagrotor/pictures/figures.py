@@ -113,7 +113,9 @@ def _with_classes(text: str) -> str:
     counts = Counter(re.findall(r' style="([^"]*)"', text))
     names = {style: f"_{i:x}" for i, (style, n) in enumerate(counts.most_common()) if n > 1}
     rules = "".join(f".{name}{{{style}}}" for style, name in names.items())
-    text = re.sub(r' style="([^"]*)"', lambda match: f' class="{names[match[1]]}"' if match[1] in names else match[0], text)
+    text = re.sub(
+        r' style="([^"]*)"', lambda match: f' class="{names[match[1]]}"' if match[1] in names else match[0], text
+    )
     return text.replace("</style>", f"{rules}</style>", 1)
 
 

@@ -1,4 +1,4 @@
-"""The interactive models of the report: the pair on sliders, with its formulas generated as JavaScript, and rotors on a grid.
+"""The interactive model of the report: the pair on sliders, with its formulas generated as JavaScript.
 
 What the browser computes comes from the expressions that Python compiles: the minimal model's rates and axes, the
 periodic series with the bar left free, the paper's formula. Written by hand are the stepper, the drawing and the
@@ -53,32 +53,13 @@ _BARS: tuple[Ratio, ...] = "short", "equal", "long"
 _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
 
 
-def interactive() -> str:
-    """The report's two models, the pair and the grid, as an HTML fragment."""
-    return pair_section() + "\n" + grid_section()
-
-
 @cache
-def pair_section() -> str:
-    """The pair as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
+def interactive() -> str:
+    """Return the pair as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
     written = [_part(f"interactive_{name}.js") for name in ("motion", "drawing", "controls")]
     lines = [javascript_formulas(), canvas_script(), *written, 'show(document.getElementById("model"));']
-    return _section("interactive.html", lines).replace("/* style */", _part("interactive.css"))
-
-
-@cache
-def grid_section() -> str:
-    """Up to nine rotors on a grid, and whether they stand, as an HTML fragment: `<section id="grid-model">`.
-
-    Its numbers come from grid_standing.js, written by hand for massless bars and equal loads, and held to `Structure` by a test.
-    """
-    written = [_part(f"grid_{name}.js") for name in ("standing", "controls")]
-    return _section("grid.html", [*written, 'showGrid(document.getElementById("grid-model"));'])
-
-
-def _section(markup: str, lines: list[str]) -> str:
     script = "\n".join(["(() => {", '"use strict";', *lines, "})();"])
-    return _part(markup).replace("/* script */", script)
+    return _part("interactive.html").replace("/* script */", script).replace("/* style */", _part("interactive.css"))
 
 
 def _part(file: str) -> str:
