@@ -41,10 +41,6 @@ def test_equal_inertias_hide_what_is_wrong_in_3_12_and_3_17():
     assert decide(replace(stated()["3.12"], premises=(equal,))).verdict == "holds-if"
 
 
-def test_the_number_in_3_19_is_seen_to_stand_for_a_vector():
-    assert "the left side is a vector, the printed right side a number" in decide(stated()["3.19"]).evidence
-
-
 def test_a_cross_product_turned_round_in_the_angular_momentum(changed_physics):
     edit = (PARTICLES, "summed(m * cross(d, U - U_cm)", "summed(m * cross(U - U_cm, d)")
     changed = changed_physics([edit], PARTICLES, BODY_SCRIPT)

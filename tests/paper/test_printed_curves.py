@@ -16,15 +16,6 @@ def bar(axes):
     return np.linalg.norm(axes[1] - axes[0] + [1, 0, 0], axis=-1)
 
 
-def test_the_ansatz_has_opposite_azimuths_and_its_inclinations():
-    axes = ansatz_axes([0.2, 0.3], PHASE)
-    assert np.linalg.norm(axes, axis=-1) == pytest.approx(1)
-    assert np.hypot(axes[0, :, 0], axes[0, :, 1]) == pytest.approx(0.2)
-    assert np.hypot(axes[1, :, 0], axes[1, :, 1]) == pytest.approx(0.3)
-    assert axes[0, :, 1] / 0.2 == pytest.approx(-axes[1, :, 1] / 0.3)
-    assert bar(ansatz_axes([R0, R0], PHASE)) == pytest.approx(np.sqrt(1 + 4 * R0**2 * np.sin(PHASE) ** 2))  # (5.19)
-
-
 def test_the_papers_correction_is_as_printed():
     """(5.20): the inclinations' sines are r_0 ∓ r_0² cos phi, which levels the bar's length but makes it too long."""
     axes = paper_axes(R0, PHASE)

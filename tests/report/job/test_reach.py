@@ -9,7 +9,7 @@ import lagrotor
 from lagrotor.paper import Paper
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.job import reach
-from lagrotor.report.job.reach import digest, files_reached, imports, source_digest
+from lagrotor.report.job.reach import files_reached, imports, source_digest
 
 PACKAGE = Path(lagrotor.__file__).parent
 
@@ -68,18 +68,6 @@ def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
     assert imports(script, PAPER.folder) == {PACKAGE / "theory" / "parallel_twist.py"}
 
 
-def test_the_table_of_the_theory_needs_every_script_it_takes_a_value_from() -> None:
-    path = derivation("p1_past_the_paper")
-    assert {stem[:2] for stem in reach.scripts_named(path, PAPER)} == {f"t{i}" for i in range(1, 10)} | {
-        "n6",
-        "n7",
-        "n8",
-        "n9",
-    }
-    assert {"measured", "edges"} <= reach.values_taken("t5_floquet", PAPER)
-    assert "values" not in reach.values_taken("t5_floquet", PAPER)  # twin: a name that nobody takes
-
-
 def test_a_script_that_names_a_derivation_is_made_from_it(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text('run("derivations", "s5_2a_single_rotor")', encoding="utf-8")
@@ -115,8 +103,3 @@ def test_a_product_is_made_from_what_is_reached_only(
         appended.write("\n# changed\n")
     clear()
     assert (source_digest(there, installed) != here) == matters
-
-
-def test_no_two_lists_have_one_digest() -> None:
-    assert digest("ab", "c") != digest("a", "bc") != digest("abc")
-    assert digest("é") == digest("é".encode())
