@@ -25,7 +25,6 @@ def derived_files() -> dict[Path, str]:
         "models.orbits.precession",
         "theory.averaged_motion",
         "theory.charged_particle",
-        "report.page.interactive",
     ):
         import_module(f"lagrotor.{name}")
     blocks: dict[Path, str] = {}

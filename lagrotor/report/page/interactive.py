@@ -17,7 +17,6 @@ from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.programs import minimal_program as elimination
 from lagrotor.models.programs.minimal_program import Ratio
 from lagrotor.numerics.codegen import Program, Stage
-from lagrotor.numerics.generated import generated
 from lagrotor.numerics.printers import javascript
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
 from lagrotor.pair.notation import (
@@ -66,19 +65,11 @@ def _part(file: str) -> str:
     return (Path(__file__).parent / file).read_text(encoding="utf-8")
 
 
+@cache
 def javascript_formulas() -> str:
-    """The generated part of the script: the series' order, and one function a program."""
-    return str(_formulas()())
-
-
-@generated(((),))
-def _formulas() -> str:
-    """() → what `formulas` returns."""
-    text = "\n".join(
-        [f"const ORDER = {PAGE_ORDER};", *(javascript(program, name) for name, program in page_programs().items())]
-    )
-    rows = "".join(f"        {line!r},\n" for line in text.splitlines())
-    return f"def formulas():\n    return '\\n'.join([\n{rows}    ])"
+    """Return the generated part of the script: the series' order, and one function a program."""
+    lines = [f"const ORDER = {PAGE_ORDER};", *(javascript(program, name) for name, program in page_programs().items())]
+    return "\n".join(lines)
 
 
 @cache
