@@ -1,4 +1,4 @@
-"""Section 3: particles, rigid bodies, the time step. Verdicts, their twins, and numbers from other sources."""
+"""Section 3, particles, rigid bodies and the time step, with premises and physics changed."""
 
 from dataclasses import replace
 from functools import cache

@@ -1,4 +1,4 @@
-"""Section 4: energies and the shock. Verdicts, their twins, and numbers from other sources."""
+"""Section 4, energies and the damper, with the physics changed."""
 
 from functools import cache
 
