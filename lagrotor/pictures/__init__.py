@@ -20,5 +20,6 @@ if TYPE_CHECKING:
     from lagrotor.pictures.panels import path_arrow as path_arrow
     from lagrotor.pictures.panels import rate_figure as rate_figure
     from lagrotor.pictures.panels import shock_figure as shock_figure
+    from lagrotor.pictures.panels import shock_script as shock_script
 
 __getattr__, __dir__, __all__ = face(__name__)

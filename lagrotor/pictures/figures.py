@@ -9,6 +9,7 @@ and blurred on a good screen.
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
@@ -104,7 +105,18 @@ def lean_svg(source: str) -> str:
     text = re.sub(r'style="[^"]+"', lambda match: match[0].replace(": ", ":").replace("; ", ";"), text)
     text = re.sub(r'(<use [^>]*)transform="translate\(([-\d.]+)(?: ([-\d.]+))?\)"', _position, text)
     text = re.sub(r' d="([^"]*)"', lambda match: f' d="{_relative(match[1])}"', text)
-    return re.sub(r' (x|y|transform)="([^"]*)"', _round_numbers, text)
+    return _with_classes(re.sub(r' (x|y|transform)="([^"]*)"', _round_numbers, text))
+
+
+def _with_classes(text: str) -> str:
+    """Name each style that stands more than once: hundreds of markers and grid lines have the same one."""
+    counts = Counter(re.findall(r' style="([^"]*)"', text))
+    names = {style: f"_{i:x}" for i, (style, n) in enumerate(counts.most_common()) if n > 1}
+    rules = "".join(f".{name}{{{style}}}" for style, name in names.items())
+    text = re.sub(
+        r' style="([^"]*)"', lambda match: f' class="{names[match[1]]}"' if match[1] in names else match[0], text
+    )
+    return text.replace("</style>", f"{rules}</style>", 1)
 
 
 def _position(match: re.Match[str]) -> str:

@@ -1,11 +1,7 @@
 """Speed against accuracy: the text, the tables and the figure agree with the points. No times."""
 
-import numpy as np
 import pytest
 
-from lagrotor.benchmark.runner import benchmark
-from lagrotor.benchmark.scenes_and_methods import METHODS
-from lagrotor.drawing import paper_style
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
 # Every method at every tolerance; what measures them is tested on few in tests/benchmark.
@@ -17,11 +13,6 @@ def made():
     return PAPER.scripts.run("derivations", "b1_chart")
 
 
-@pytest.fixture(scope="module")
-def drawn():
-    return PAPER.scripts.run("figures", "b1_chart")
-
-
 def best(made, method):
     return min(p.error for p in made["found"].points if p.method == method)
 
@@ -30,15 +21,6 @@ def test_nothing_failed_and_no_table_has_seconds(made):
     assert made["found"].failures == made["missed"].failures == ()
     for table in made["tables"]:
         assert "second" not in " ".join(table.head)
-
-
-def test_it_is_the_same_twice(made):
-    again = benchmark(
-        "displaced", made["displaced"], {name: METHODS[name] for name in ("minimal", "euler")}, (1e-7, 1e-13)
-    )
-    for p in again.points:
-        (before,) = (q for q in made["found"].points if (q.method, q.setting) == (p.method, p.setting))
-        assert (p.error, p.nfev) == (before.error, before.nfev)
 
 
 def test_the_conclusion_is_what_the_points_say(made):
@@ -62,29 +44,3 @@ def test_a_plain_call_misses_the_whole_shock(made):
     assert len(points) == 12
     seen = {key for key, error in points.items() if error < 0.3}
     assert seen == {("solve_ivp, DOP853, one call", 1e-6)}
-
-
-def test_an_error_never_reached_is_a_dash(made):
-    assert made["needed"]("closed form", 1e-12) == "—"
-
-
-def test_the_figure_draws_these_points(made, drawn):
-    data = drawn["data"]()
-    count = len([p for p in made["found"].points if p.method != drawn["CLOSED"]])
-    assert np.isfinite(data["errors"]).sum() == np.isfinite(data["evaluations"]).sum() == count
-    with paper_style():
-        picture = drawn["figure"]()
-    (panel,), (legend,) = picture.axes, picture.legends
-    assert panel.get_xlabel().endswith("[1]") and panel.get_ylabel().endswith("[m]") and panel.get_title()
-    lines = {line.get_label(): line for line in panel.get_lines()}
-    assert [text.get_text() for text in legend.get_texts()] == list(lines)
-    for i, name in enumerate(drawn["LOOKS"]):
-        np.testing.assert_array_equal(lines[name].get_ydata(), data["errors"][i])
-    np.testing.assert_array_equal(lines["front"].get_ydata(), [p.error for p in made["by_work"] if p.nfev])
-    assert len({(line.get_color(), line.get_marker()) for line in lines.values()}) >= len(drawn["LOOKS"])
-
-
-def test_its_words(drawn):
-    assert 100 < len(drawn["CAPTION"]) < 1200 and 150 < len(drawn["ALT"]) < 700
-    assert drawn["ALT"].endswith(".")
-    assert all(np.isfinite(value) for value in drawn["measure"]().values())

@@ -24,7 +24,6 @@ def derived_files() -> dict[Path, str]:
         "models.simulate",
         "models.orbits.precession",
         "theory.charged_particle",
-        "report.page.interactive",
     ):
         import_module(f"lagrotor.{name}")
     blocks: dict[Path, str] = {}

@@ -4,7 +4,6 @@ import os
 import subprocess
 import sys
 from itertools import product
-from pathlib import Path
 
 import pytest
 import sympy as sp
@@ -13,7 +12,7 @@ from sympy.core.evalf import evalf_table
 
 from lagrotor.algebra import enclosures
 from lagrotor.errors import LagrotorError
-from lagrotor.paper import Paper, grammar, judge, judge_text, ledger
+from lagrotor.paper import grammar, judge_text, ledger
 
 # A number e away from an edge, and its limit for e → 0.
 NEAR = {
@@ -70,16 +69,6 @@ def test_the_control_identities_hold(identity: str, k: int) -> None:
 )
 def test_latex_and_what_premises_put_in_are_not_evaluated(equation: str, given: list[str]) -> None:
     assert judge_text(equation, given).verdict.verdict == "refuted"
-
-
-def test_objects_and_a_paper_are_judged_alike(tmp_path: Path) -> None:
-    near = sp.acosh(1 + sp.Rational(1, 10**8))
-    assert judge(sp.sin(near, evaluate=False), 0).verdict == judge(sp.sin(near), 0).verdict == "refuted"
-    (tmp_path / "paper.toml").write_text('title = "T"\n[sections]\n1 = "S"\n')
-    row = 'id = "1.1"\nsection = "1"\ntitle = "t"\nlatex = "x"\nline = [{quantity = "x", members = ["sin(acosh(1+10**(-8)))"]}]\n'
-    (tmp_path / "equations.toml").write_text(f"[[equation]]\n{row}")
-    [line] = Paper(tmp_path).lines("1.1")
-    assert judge(*line.members, 0).verdict == "refuted"
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError, ProofError
 from lagrotor.paper import verdict
-from lagrotor.paper.grammar import Letters, cross, vector
+from lagrotor.paper.grammar import cross, vector
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 
@@ -40,10 +40,6 @@ def test_a_text_is_written_as_it_stands(text: str, tex: str) -> None:
     assert form(text, Q=sp.eye(3), hat_r_1_dot=vector("v")).tex(DECLARED) == tex
 
 
-def test_what_is_left_out_of_a_series_is_said() -> None:
-    assert form("1 + M", rest="M^2").tex(Letters()) == "1 + M + O(M^2)"
-
-
 def test_a_form_that_is_not_the_result_is_refused() -> None:
     derived = sum(sp.symbols("m_1:4", positive=True))
     assert PAPER.statement(verdict("3.01", derived, written=form("sum_i(m_i)"))).relations[0].written == r"\sum_i m_{i}"
@@ -57,13 +53,3 @@ def test_a_form_that_is_not_the_result_is_refused() -> None:
 def test_a_text_that_cannot_be_read_is_refused(text: str) -> None:
     with pytest.raises(InputError):
         form(text).value(DECLARED)
-
-
-def test_no_derived_line_is_a_list_of_components_or_a_wall() -> None:
-    """Every derived line and every correction is short, and has a left side."""
-    stems = sorted({stem for stem, _ in PAPER.scripts.stating.values() if stem.startswith("s")})
-    for statement in (s for stem in stems for s in PAPER.statements(stem)):
-        for relation in (*statement.relations, *statement.correction):
-            line = relation.written or sp.latex(relation.derived)
-            assert relation.quantity, statement.id
-            assert "matrix" not in line and len(line) < 420, (statement.id, line)

@@ -13,39 +13,32 @@ from lagrotor.paper.premises import relation_text
     ("equation", "given", "verdict"),
     [
         ("sin(x)**2 + cos(x)**2 = 1", (), "holds"),
-        ("sin(x)**2 + cos(x)**2 = 2", (), "refuted"),
         ("sqrt(x**2) = x", ["x ≥ 0"], "holds-if"),
         ("sqrt(x**2) = -x", ["x >= 1"], "refuted"),
         ("x**2 = x*y", ["y == x"], "holds-if"),
-        ("x/y*y = x", ["y != 0"], "holds"),
         (r"\sin 2x = 2 \sin x \cos x", (), "holds"),
-        (r"\sin 2x = 2 \sin x", (), "refuted"),
         (r"\omega^2 l = g", [r"\omega = \sqrt{\frac{g}{l}}"], "holds-if"),
         (r"\cos\theta = 1 - \frac{\theta^2}{2} + O(\theta^4)", (), "holds-to-order"),
         (r"\cos\theta = 1 - \frac{\theta^2}{3} + O(\theta^4)", (), "refuted"),
         ("a = b = c", ["a = 1", "b = 1", "c = 1"], "holds-if"),
-        ("x**2*(1 - e**2) = x**2 - e**2*x**2", (), "holds"),
         ("integrate(1/(1 + cos(x)), (x, 0, 2*pi)) = 0", (), "undecided"),
         ("integrate(1/(2 + cos(x)), (x, 0, 2*pi)) = 2*pi/sqrt(3)", (), "undecided"),
         # Half of an arc, by the sign of its cosine; numbers made of arcs, by their sine and an enclosure.
         ("cos(acos(x)/2) = sqrt((1+x)/2)", (), "holds"),
         ("cos(acos(x)/2) = -sqrt((1+x)/2)", (), "refuted"),
-        ("cos(acos(x)/2) = sqrt((1-x)/2)", (), "refuted"),
-        ("tan(atan(x)/2) = x/(1+sqrt(1+x**2))", (), "holds"),
         ("tan(atan(x)/2) = x/(1-sqrt(1+x**2))", (), "refuted"),
         ("cos(acos(x)/4)**2 = (1+sqrt((1+x)/2))/2", (), "holds"),
         ("acos(2*sqrt(5)/5) = atan(1/2)", (), "holds"),
         ("acos(2*sqrt(5)/5) = atan(1/2) + 10**(-60)", (), "refuted"),
-        ("acos(1/3)/2 = atan(1/sqrt(2))", (), "holds"),
-        ("2*acos(1/3) = acos(-7/9)", (), "holds"),
         ("2*acos(1/3) = -acos(-7/9)", (), "refuted"),
-        ("atan(1) + atan(2) + atan(3) = pi", (), "holds"),
         ("atan(1) + atan(2) + atan(3) = 0", (), "refuted"),
         # Definite integrals are refuted by enclosures, not proved by them.
         ("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 2/3", (), "refuted"),
         ("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 4", (), "undecided"),
-        ("integrate(Abs(x), (x, -1, 2)) = -1", (), "refuted"),
         ("integrate(1/x, (x, -1, 1)) = 7", (), "undecided"),
+        ("exp(1j*x) = cos(x) + 1j*sin(x)", (), "holds"),
+        ("pi = acos(x) + asin(x)", (), "refuted"),
+        ("sqrt(l**2) = l", (), "holds-if"),
     ],
 )
 def test_verdicts_of_text(equation: str, given: list[str], verdict: str) -> None:
@@ -72,21 +65,6 @@ def test_the_domain_has_what_cancels_while_the_text_is_read(equation: str, given
     assert [relation_text(relation) for relation in verdict.domain] == domain
 
 
-def test_the_imaginary_unit_is_written_as_in_python() -> None:
-    assert judge_text("exp(1j*x) = cos(x) + 1j*sin(x)").verdict.verdict == "holds"
-    assert judge_text("exp(1j*x) = cos(x) - 1j*sin(x)").verdict.verdict == "refuted"
-
-
-def test_what_is_positive_counts() -> None:
-    assert judge_text("sqrt(l**2) = l").verdict.verdict == "holds-if"
-    assert judge_text("sqrt(l**2) = l", positive=["l"]).verdict.verdict == "holds"
-
-
-def test_small_letters_may_be_named_beside_the_equation() -> None:
-    assert judge_text("sin(x) = x", small="x", order=2).verdict.verdict == "holds-to-order"
-    assert judge_text("sin(x) = x", small="x", order=3).verdict.verdict == "refuted"
-
-
 @pytest.mark.parametrize(
     ("equation", "given", "says"),
     [
@@ -101,6 +79,7 @@ def test_small_letters_may_be_named_beside_the_equation() -> None:
         ("exp(x) = e^x", [], r"write exp\(…\)"),
         ("cosh(x) = (e^x + e^(-x))/2", [], r"write exp\(…\)"),
         ("exp(i*x) = cos(x) + i*sin(x)", [], "write 1j"),
+        ("sqrt(x**2) = x", ["x >= 0", "x**2 >= 0"], "is always true"),
     ],
 )
 def test_what_cannot_be_read_is_refused_in_words(equation: str, given: list[str], says: str) -> None:
@@ -160,17 +139,6 @@ def test_a_premise_that_touches_no_letter_of_the_equation_is_refused() -> None:
     with pytest.raises(InputError, match="no letter of the premise y > 0 is in the equation"):
         judge_text("a*x = b*x", ["y > 0"])
     assert judge_text("a*x = b*x", ["a = y", "c = y", "b = c"]).verdict.verdict == "holds-if"
-
-
-def test_a_limit_is_undecided_for_its_own_reason() -> None:
-    x = sp.Symbol("x", real=True)
-    assert judge(sp.Limit((1 + 1 / x) ** x, x, sp.oo), sp.E).evidence == ("limits are not decided",)
-    assert judge(1 / x, sp.oo).evidence == ("a side is not finite",)
-
-
-def test_no_more_digits_are_shown_than_are_certain() -> None:
-    said = repr(judge_text("integrate(Abs(sin(x)), (x, 0, 2*pi)) = 2/3"))
-    assert said.endswith("left − right is 3: left 4, right 0.66667")
 
 
 # Equations in LaTeX with calculus, vectors and matrices, each with a twin that is false.
@@ -250,13 +218,6 @@ def test_an_order_in_any_member_is_the_order_of_the_chain() -> None:
     assert [judge_text(chain % n).verdict.verdict for n in (2, 4)] == ["holds-to-order", "refuted"]
 
 
-def test_constants_and_natural_numbers_are_said() -> None:
-    assert judge_text(r"\frac{d}{dx}(ax) = a").readings[1:] == (
-        "the other letters are constant in derivatives and integrals",
-    )
-    assert "n is a natural number" in judge_text(r"\sum_{k=1}^{n} k = \frac{n(n+1)}{2}").readings[1]
-
-
 @pytest.mark.parametrize("positive", [(), ("x",)])
 def test_a_function_of_a_function_is_not_evaluated_while_it_is_read(positive: tuple[str, ...]) -> None:
     equation = r"\cos(x\operatorname{arcosh}(1 + 10^{-8})) = %s"
@@ -313,30 +274,9 @@ def test_the_condition_is_right_at_its_edge(equation: str, branch: list[str], do
     assert judge_text(f"{left} + 7 = {right}").verdict.verdict == "refuted"
 
 
-@pytest.mark.parametrize("premise", ["1 > 0", "x = x", "x**2 >= 0"])
-def test_a_premise_that_is_always_true_is_named(premise: str) -> None:
-    with pytest.raises(InputError, match="is always true"):
-        judge_text("sqrt(x**2) = x", given=["x >= 0", premise])
-
-
-def test_a_number_with_a_name_is_no_letter_that_an_equation_defines() -> None:
-    assert judge_text("pi = 2*acos(x) + 2*asin(x)").verdict.verdict == "holds"
-    assert judge_text("pi = acos(x) + asin(x)").verdict.verdict == "refuted"
-
-
-def test_a_difference_that_is_not_real_is_shown_by_its_size() -> None:
-    assert "|left − right| is 1.255 at" in repr(judge_text("sqrt(x) = 1", given=["x < 0"]))
-    assert "left − right is" in repr(judge_text("sqrt(x) = 1"))
-
-
 def test_a_function_by_its_name_is_no_unknown_function() -> None:
     assert judge_text(r"\operatorname{atan2}(y, x) = \arctan\frac{y}{x}", given=["x > 0"]).verdict.verdict == "holds-if"
     assert judge_text(r"\operatorname{besselj}(0, 0) = 1").verdict.verdict == "holds"
     assert judge_text(r"\gamma(x) + \gamma(x) = 2\gamma(x)").verdict.verdict == "holds"
     with pytest.raises(InputError, match="no rules for the function erf"):
         judge_text(r"\operatorname{erf}(x) = 1")
-
-
-def test_a_logarithm_with_a_large_factor_in_an_exponent_ends() -> None:
-    assert judge_text("exp(sign(log(1 + 8/10**8) - 8/10**8)) = exp(1)").verdict.verdict == "refuted"
-    assert judge_text("exp(sign(log(1 + 8/10**8) - 8/10**8)) = exp(-1)").verdict.verdict != "refuted"

@@ -108,6 +108,10 @@ def test_everything_that_can_be_changed_is() -> None:
     assert set(statements()) == set(JUDGED)
 
 
+def test_verdicts_premises_orders_and_domains_are_as_recorded(audit: Audit) -> None:
+    assert PAPER.changes(audit, PAPER.equations) == []
+
+
 @pytest.mark.parametrize(
     ("identifier", "most"),
     [

@@ -169,16 +169,6 @@ def test_two_verdicts_on_one_equation_are_refused(folder: Path) -> None:
         Paper(folder).audit()
 
 
-def test_two_papers_may_have_modules_of_one_name(folder: Path) -> None:
-    other = Path(shutil.copytree(folder, folder.with_name("other")))
-    edit(other / "symbols.py", '"length of the pendulum"', '"another length"')
-    meanings = []
-    for paper in (Paper(folder), Paper(other)):
-        assert len(paper.audit()) == 1
-        meanings.append({entry.meaning for symbol, entry in paper.glossary.items() if symbol.name == "l"})
-    assert meanings == [{"length of the pendulum"}, {"another length"}]
-
-
 def test_a_record_is_renewed_for_what_was_found_and_keeps_the_rest(folder: Path) -> None:
     paper = Paper(folder)
     old = {"1.1": "refuted", "C01": "confirmed", "9.9": "holds"}
@@ -227,12 +217,3 @@ def test_every_other_misprint_of_the_heavy_top_would_be_found(top: Paper, tmp_pa
     wrong = Paper(copy)
     wrong.scripts.ran.update({copy / path.relative_to(TOP): script for path, script in top.scripts.ran.items()})
     assert {v.id for v in wrong.audit() if v.verdict == "refuted"} == set(MISPRINTS)
-
-
-def test_the_claims_about_the_heavy_top_are_as_recorded_and_come_out_otherwise(top: Paper) -> None:
-    results = {result.test.id: result for result in top.evaluate()}
-    assert {i: r.finding.outcome for i, r in results.items()} == {i: top.recorded[i].verdict for i in top.claims}
-    assert results["C04"].finding.condition == "the top is fast"
-    for result in results.values():
-        for part, case in result.test.foreign.items():
-            assert part in {p.says for p in result.test.evaluated(case).finding.parts if not p.holds}, part

@@ -4,8 +4,8 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import ProofError
-from lagrotor.pair.notation import PAIR, ell, theta_0
-from lagrotor.paper import Formula, prove
+from lagrotor.pair.notation import theta_0
+from lagrotor.paper import prove
 
 x, y = sp.symbols("x y", real=True)
 SQUARES = sp.sin(x) ** 2 + sp.cos(x) ** 2
@@ -52,17 +52,3 @@ def test_a_long_left_side_is_named_or_the_equation_written() -> None:
         prove(x, x, written=("a", "b"))
     with pytest.raises(ProofError, match="2 names for 1"):
         prove(x, x, names=("a", "b"))
-
-
-def test_velocities_have_dots() -> None:
-    v, acceleration = PAIR.v[0], PAIR.a[0]
-    tex = Formula(sp.Matrix([v * ell, acceleration]), "q")._repr_latex_()
-    assert all(part in tex for part in (r"\dot{\theta}", r"\ddot{\theta}", r"\ell", "q = "))
-    assert "dot}" in sp.latex(v), "sympy alone makes an index of it"
-
-
-def test_a_bracket_that_begins_a_line_is_no_option_of_the_environment() -> None:
-    """After \\begin{aligned} and \\\\ LaTeX takes [...] for an option: coefficients [x^1] are kept apart from them."""
-    mathml = pytest.importorskip("latex2mathml.converter")
-    tex = prove((SQUARES, x), (1, x), names=["[x^0]", "[x^1]"]).tex
-    assert tex.count("{}[x^") == 2 and "[" in mathml.convert(tex)

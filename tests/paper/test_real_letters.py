@@ -31,12 +31,6 @@ def test_the_branch_is_found_where_squares_are_factors(left: sp.Expr, right: sp.
     assert judge(2 * left + 1, right).verdict == "refuted"
 
 
-def test_a_condition_of_a_chain_is_found_beside_a_premise() -> None:
-    g = Symbol("gamma_0", real=True)
-    verdict = judge(g, 1 / sqrt(1 - v**2 / c**2), given={g: c / sqrt(c**2 - v**2)})
-    assert verdict.verdict == "holds-if" and {r for p in verdict.premises for r in p.conditions} == {c > 0}
-
-
 @pytest.mark.parametrize(
     ("left", "right"),
     [

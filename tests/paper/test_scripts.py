@@ -27,12 +27,6 @@ def test_a_value_that_did_not_come_is_computed_here(scripts: Scripts) -> None:
     assert len(scripts.ran) == 1
 
 
-def test_outside_the_block_the_script_runs(scripts: Scripts) -> None:
-    with scripts.ran_elsewhere({"t1_one": {"rate": 5}}):
-        pass
-    assert scripts.run("derivations", "t1_one")["rate"] == 2
-
-
 WARNS = """# %%
 import warnings
 from lagrotor.errors import LagrotorWarning

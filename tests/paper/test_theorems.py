@@ -30,7 +30,6 @@ from lagrotor.paper import (
 )
 from lagrotor.paper import claim_tests as tests_of_claims
 from lagrotor.paper.audit import in_words, verdict_data
-from lagrotor.paper.claim_tests import claim_data
 from lagrotor.paper.record import changes, record_text, recorded, row_of
 from lagrotor.paper.scripts import beside
 from lagrotor.proofs import NotProved, enclose
@@ -66,17 +65,6 @@ def test_a_claim_is_proved_where_each_part_follows_from_a_theorem() -> None:
     assert (both.outcome, [p.outcome for p in both.parts]) == ("proved", ["holds, proved", "holds, proved"])
     one = claim(Part(RATE, True, theorems=(swing(),))).result.finding
     assert (one.outcome, [p.outcome for p in one.parts]) == ("confirmed", ["holds, proved", "holds"])
-
-
-def test_a_claim_is_refuted_by_a_theorem() -> None:
-    finding = claim(Part(RATE, False, theorems=(swing(),)), off=2).result.finding
-    assert (finding.outcome, finding.parts[0].outcome) == ("refuted", "does not hold, proved")
-
-
-def test_what_is_not_proved_rests_on_its_run_and_says_how_far_the_proof_came() -> None:
-    finding = claim(Part(RATE, True, theorems=(swing(),)), refusal="it came to t = 3 s").result.finding
-    assert [p.outcome for p in finding.parts] == ["holds, proved", "holds"]
-    assert finding.explanation.endswith("Not proved: it came to t = 3 s.")
 
 
 def mutated(theorem: Theorem) -> Theorem:
@@ -128,13 +116,6 @@ def test_without_flint_what_is_on_record_stands_and_is_said_to(monkeypatch: pyte
     monkeypatch.setitem(vars(paper), "claim_tests", {"C01": claim(off=2)})
     assert changes({"C01": row_of(paper.measured("C01"), {})}, {"C01": row}, ["C01"])
     assert script.is_file()
-
-
-def test_the_data_of_a_claim_have_its_theorems() -> None:
-    result = claim(Part(RATE, True, theorems=(swing(),))).result
-    entry = next(iter(Paper(beside("papers") / "pendulum").claims.values()))
-    first, second = claim_data(result, entry)["parts"]
-    assert first["proved"] == [{"says": swing().says, "encloses": "x = 0.5403…"}] and second["proved"] == []
 
 
 @pytest.mark.parametrize(

@@ -37,9 +37,3 @@ def test_vectors_and_tensors_are_not_written_out(equation: str, right: str) -> N
     lines = in_words(audit(equation), PAPER).splitlines()
     assert f"  right      {right}" in lines
     assert all(len(line) < 300 and "Matrix" not in line and "\\" not in line for line in lines)
-
-
-def test_what_is_printed_is_the_catalogues_line() -> None:
-    lines = in_words(audit("5.22"), PAPER).splitlines()
-    assert "  printed    x₁ = cos(Φ)·(r₀ − r₀²·cos(Φ)) − 0.5" in lines
-    assert sum("  right  " in line and "  right if " not in line for line in lines) == 4

@@ -8,9 +8,7 @@ import pytest
 
 from lagrotor.paper import Audit, Verdict
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.content import Report
 from lagrotor.report.errata import errata, latex_document
-from lagrotor.report.text_forms import errata_sheet
 
 
 @pytest.fixture(scope="module")
@@ -36,20 +34,6 @@ def test_an_error_that_stops_short_is_told_from_one_that_does_not(verdicts: list
     assert not reach["5.20"], "the trajectories 5.22 fall with it"
 
 
-def test_the_document_is_ascii_and_whole(verdicts: list[Verdict]) -> None:
-    text = latex_document(verdicts, PAPER)
-    assert text.isascii()
-    assert text.rstrip().endswith(r"\end{document}")
-    assert text.count(r"\item ") == len(list(errata(verdicts, PAPER)))
-
-
-def test_the_sheet_names_the_paper_and_its_own_places(verdicts: list[Verdict]) -> None:
-    text = latex_document(verdicts, PAPER)
-    assert r"Errata to \emph{Dynamics of Axially Coupled Rotor Pairs}" in text
-    assert "(5), section 2" in text and "Section 3.2.1" in text
-    assert f"{len(list(errata(verdicts, PAPER)))} differ" in text
-
-
 def test_the_document_compiles(verdicts: list[Verdict], tmp_path: Path) -> None:
     compiler = shutil.which("pdflatex")
     if compiler is None:
@@ -60,10 +44,3 @@ def test_the_document_compiles(verdicts: list[Verdict], tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout[-1500:]
     assert (tmp_path / "errata.pdf").stat().st_size > 10_000
     assert "errata.pdf (3 pages" in done.stdout
-
-
-def test_markdown_has_the_same_rows(verdicts: list[Verdict]) -> None:
-    text = errata_sheet(Report(PAPER, tuple(verdicts), (), ()))
-    assert all(f"### Erratum {e.id}: " in text for e in errata(verdicts, PAPER))
-    right = tuple(v for v in verdicts if v.verdict == "holds")
-    assert "Erratum" not in errata_sheet(Report(PAPER, right, (), ()))

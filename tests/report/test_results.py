@@ -9,7 +9,7 @@ from lagrotor.pair.notation import M, R
 from lagrotor.paper import ClaimTest, Finding, Result, Statement, chain, decide
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.pictures import Picture
-from lagrotor.report.content import Report, citation
+from lagrotor.report.content import Report
 from lagrotor.report.facts import balance, headlines
 
 MEASURED = {
@@ -83,12 +83,6 @@ def test_another_number_is_another_sentence(report: Report) -> None:
             assert [headline.text for headline in headlines(changed)] != texts, name
 
 
-def test_what_was_not_found_is_not_told(report: Report) -> None:
-    assert len(headlines(replace(report, claims=()))) == 0
-    assert len(headlines(replace(report, pictures=()))) == 1
-    assert len(headlines(replace(report, verdicts=()))) == 1
-
-
 def test_balance_counts_what_was_judged(report: Report) -> None:
     text = balance(report)
     assert text.startswith("Of 2 equations 0 hold")
@@ -105,11 +99,3 @@ def test_balance_counts_what_was_judged(report: Report) -> None:
     assert balance(replace(report, verdicts=())) == "No equation is judged yet, of 68."
     open_one = replace(alone, verdict="undecided")
     assert "1 is undecided. The other 1 give a name" in balance(replace(report, verdicts=(*report.verdicts, open_one)))
-
-
-def test_citation_is_that_of_the_file() -> None:
-    sentences, entry = citation()
-    assert sentences[0].startswith("If you use lagrotor")
-    assert "V. I. Arnold: Mathematical Methods of Classical Mechanics, 1978." in sentences
-    assert entry.startswith("@software{lagrotor,")
-    assert entry.count("{") == entry.count("}") and '"' not in entry

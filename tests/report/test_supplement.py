@@ -12,7 +12,7 @@ import sympy as sp
 from lagrotor.pair.notation import M
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.content import Report, contents
-from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_prose, latex_table
+from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_prose
 from lagrotor.report.text_forms import supplement
 from tests.report.hostile import LONG, long_report, short_report
 
@@ -123,13 +123,3 @@ def test_brackets_of_a_broken_formula_keep_their_size() -> None:
     ).groups()
     assert short == r"\left(\frac{a}{b}\right)+\left(c\right)", "the sentence's full stop is gone"
     assert broken == r"\Bigl(\frac{a}{b}\Bigr)+(c)"
-
-
-def test_the_longest_expressions_are_named_not_printed() -> None:
-    assert "verdicts.json" in displayed_expression(sp.Add(*sp.symbols("x_1:900")))
-
-
-def test_columns_share_the_width() -> None:
-    shares = re.findall(r"\\dimexpr ([0-9.]+)\\linewidth", latex_table(("a", "b"), [("x", "y" * 60)]))
-    assert sum(map(float, shares)) == pytest.approx(1, abs=1e-3)
-    assert float(shares[0]) < float(shares[1])

@@ -1,4 +1,4 @@
-"""The files that a script depends on: its own, modules of the package, the data beside them, other scripts.
+"""The inputs of a script's product: the script and those it runs, the paper's folder, and the package as a whole.
 
 The digest of all this, with the versions of the tools, is what a product of the last run must agree with to be taken again.
 """
@@ -12,7 +12,6 @@ from importlib.metadata import version
 from pathlib import Path
 
 from lagrotor.about import __version__
-from lagrotor.faces import names_of_face
 from lagrotor.paper.papers import Paper
 
 _PACKAGE = Path(__file__).resolve().parents[2]
@@ -20,9 +19,6 @@ _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
 # What lies beside a module and is no source of it: the record is only compared with, drawings are made from the rest.
 _NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff", ".md"}
 _NO_DATA = {"recorded.toml"}
-# Read off the text, since parsing takes ten times as long; what looks like an import or a string and is none does no harm.
-_IMPORT = re.compile(r"^[ ]*(?:from ([\w.]+) import (\([^)]*\)|.*)|import (.*))$", re.MULTILINE)
-_NAME = re.compile(r"[\w.]+")
 _WORD = re.compile(r"""["'](\w+)["']""")
 
 
@@ -44,30 +40,6 @@ def versions() -> dict[str, str]:
 @cache
 def _text(path: Path) -> str:
     return path.read_text(encoding="utf-8")
-
-
-@cache
-def _face(package: str) -> dict[str, str]:
-    """Name → module, of what a part of the package, or the package, hands on; empty for a module and for a paper's folder."""
-    file = _PACKAGE.joinpath(*package.split(".")[1:], "__init__.py")
-    return names_of_face(file) if package.startswith("lagrotor") and file.is_file() else {}
-
-
-@cache
-def imports(path: Path, folder: Path) -> frozenset[Path]:
-    """The files of the package, and of a paper's folder, that one file imports, wherever in it."""
-    names: set[str] = set()
-    for module, inside, line in _IMPORT.findall(_text(path)):
-        handed = _face(module)
-        names |= {handed.get(name, f"{module}.{name}") for name in _NAME.findall(inside)} if inside else set()
-        names |= set() if handed else {module, *_NAME.findall(line)}
-    return frozenset(file for name in names if (file := _file_of(name, folder)))
-
-
-def _file_of(module: str, folder: Path) -> Path | None:
-    first, *rest = module.split(".")
-    base = _PACKAGE.joinpath(*rest) if first == "lagrotor" and rest else folder.joinpath(first, *rest)
-    return next((file for file in (base.with_suffix(".py"), base / "__init__.py") if file.is_file()), None)
 
 
 def _texts(path: Path) -> frozenset[str]:
@@ -93,44 +65,34 @@ def values_taken(stem: str, paper: Paper) -> frozenset[str]:
     return frozenset(text for path in others if stem in scripts_named(path, paper) for text in _texts(path))
 
 
-@cache
-def files_reached(path: Path, paper: Paper) -> tuple[Path, ...]:
-    """Every file that a script is made from: itself, what it imports and runs, in turn, and the data beside each of them and
-    in the paper's folder."""
+def source_digest(path: Path, paper: Paper) -> str:
+    """Return the digest of all that a script's product is made from: any change of the package makes it anew."""
     reached, left = {path}, [path]
     while left:
-        current = left.pop()
-        scripts = {paper.scripts.path("derivations", stem) for stem in scripts_named(current, paper)}
-        new = (imports(current, paper.folder) | scripts) - reached
+        new = {paper.scripts.path("derivations", stem) for stem in scripts_named(left.pop(), paper)} - reached
         reached |= new
         left += new
-    folders = {file.parent for file in reached if file.parent != _PACKAGE} | {paper.folder}
-    beside = {file for folder in folders for file in _data_in(folder)}
-    letters = {file for file in [paper.folder / "symbols.py"] if file.is_file()}
-    return tuple(sorted(reached | letters | {file for file in beside if file.name not in _NO_DATA}))
+    return digest(_shared(paper), _digest_of(reached, paper))
 
 
 @cache
-def _data_in(folder: Path) -> tuple[Path, ...]:
-    return tuple(file for file in folder.iterdir() if file.is_file() and file.suffix not in _NO_SOURCE)
-
-
-@cache
-def _file_digest(path: Path) -> str:
-    return digest(path.read_bytes())
-
-
-def source_digest(path: Path, paper: Paper) -> str:
-    """Digest of all that a script's product is made from."""
-    files = sorted((_place(file, paper), _file_digest(file)) for file in files_reached(path, paper))
-    return digest(
-        *(part for file in files for part in file), *map(str, versions().items()), platform.machine(), platform.system()
-    )
+def _shared(paper: Paper) -> str:
+    """Return the digest of what every product is made from: package, catalogue, data beside the scripts, versions, machine."""
+    data = [
+        f
+        for kind in ("derivations", "figures")
+        for f in (paper.scripts.base / kind).glob("*.*")
+        if f.suffix not in _NO_SOURCE
+    ]
+    shared = inputs(paper)
+    given = (shared["package"], shared["catalogue of equations, claims, figures"], _digest_of(data, paper))
+    return digest(*given, *map(str, versions().items()), platform.machine(), platform.system())
 
 
 def _digest_of(files: Iterable[Path], paper: Paper) -> str:
     """Digest of some files, by their places and their bytes."""
-    return digest(*(part for file in sorted((_place(f, paper), _file_digest(f)) for f in files) for part in file))
+    rows = sorted((_place(file, paper), digest(file.read_bytes())) for file in files)
+    return digest(*(part for row in rows for part in row))
 
 
 @cache

@@ -1,4 +1,4 @@
-"""The interactive models of the report: the pair on sliders, with its formulas generated as JavaScript, and rotors on a grid.
+"""The interactive model of the report: the pair on sliders, with its formulas generated as JavaScript.
 
 What the browser computes comes from the expressions that Python compiles: the minimal model's rates and axes, the
 periodic series with the bar left free, the paper's formula. Written by hand are the stepper, the drawing and the
@@ -17,7 +17,6 @@ from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.models.programs import minimal_program as elimination
 from lagrotor.models.programs.minimal_program import Ratio
 from lagrotor.numerics.codegen import Program, Stage
-from lagrotor.numerics.generated import generated
 from lagrotor.numerics.printers import javascript
 from lagrotor.pair.lagrangians import INERTIAS, J_OF, JOINT_LINE, bar_curve, mercator_axis, minimal_embedding
 from lagrotor.pair.notation import (
@@ -53,51 +52,24 @@ _BARS: tuple[Ratio, ...] = "short", "equal", "long"
 _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
 
 
-def interactive() -> str:
-    """The report's two models, the pair and the grid, as an HTML fragment."""
-    return pair_section() + "\n" + grid_section()
-
-
 @cache
-def pair_section() -> str:
-    """The pair as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
+def interactive() -> str:
+    """Return the pair as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
     written = [_part(f"interactive_{name}.js") for name in ("motion", "drawing", "controls")]
     lines = [javascript_formulas(), canvas_script(), *written, 'show(document.getElementById("model"));']
-    return _section("interactive.html", lines).replace("/* style */", _part("interactive.css"))
-
-
-@cache
-def grid_section() -> str:
-    """Up to nine rotors on a grid, and whether they stand, as an HTML fragment: `<section id="grid-model">`.
-
-    Its numbers come from grid_standing.js, written by hand for massless bars and equal loads, and held to `Structure` by a test.
-    """
-    written = [_part(f"grid_{name}.js") for name in ("standing", "controls")]
-    return _section("grid.html", [*written, 'showGrid(document.getElementById("grid-model"));'])
-
-
-def _section(markup: str, lines: list[str]) -> str:
     script = "\n".join(["(() => {", '"use strict";', *lines, "})();"])
-    return _part(markup).replace("/* script */", script)
+    return _part("interactive.html").replace("/* script */", script).replace("/* style */", _part("interactive.css"))
 
 
 def _part(file: str) -> str:
     return (Path(__file__).parent / file).read_text(encoding="utf-8")
 
 
+@cache
 def javascript_formulas() -> str:
-    """The generated part of the script: the series' order, and one function a program."""
-    return str(_formulas()())
-
-
-@generated(((),))
-def _formulas() -> str:
-    """() → what `formulas` returns."""
-    text = "\n".join(
-        [f"const ORDER = {PAGE_ORDER};", *(javascript(program, name) for name, program in page_programs().items())]
-    )
-    rows = "".join(f"        {line!r},\n" for line in text.splitlines())
-    return f"def formulas():\n    return '\\n'.join([\n{rows}    ])"
+    """Return the generated part of the script: the series' order, and one function a program."""
+    lines = [f"const ORDER = {PAGE_ORDER};", *(javascript(program, name) for name, program in page_programs().items())]
+    return "\n".join(lines)
 
 
 @cache

@@ -3,13 +3,11 @@
 function show(root) {
   const part = (name) => root.querySelector(`[data-model="${name}"]`);
   const choices = ["r0", "bar", "ell", "opposite", "first", "second", "order", "rate", "speed"];
-  const settings = [...choices, "push-x", "push-y"]; // what a link holds
-  const controls = Object.fromEntries([...settings, "time"].map((name) => [name, part(name)]));
+  const controls = Object.fromEntries([...choices, "push-x", "push-y", "time"].map((name) => [name, part(name)]));
   const canvases = { space: part("space"), top: part("top"), length: part("length") };
   const longest = Number(controls.time.max); // s
   const eye = { azimuth: -1.25, elevation: 0.3 };
   let now = 0, playing = false, frame = 0, last = null, setting = null, run = null;
-  let shocks = []; // that the run shown began after: [time of the run before it, along x, along y]
 
   const number = (name) => Number(controls[name].value);
   const shown = (layer) => part(`show-${layer}`).checked && (layer === "exact" || run.paired);
@@ -43,7 +41,7 @@ function show(root) {
 
   // The choice's run, without a shock.
   function begin() {
-    [run, shocks] = [motion(setting), []];
+    run = motion(setting);
   }
 
   // The run after an impulse on tip 1 at a time of the run shown, from there on; none where that has ended before.
@@ -51,7 +49,6 @@ function show(root) {
     const next = [time, x, y].every(Number.isFinite) && time >= 0 ? run.after(time, [x, y, 0]) : null;
     if (!next) return;
     [run, now] = [next, 0];
-    shocks.push([time, x, y]);
   }
 
   // Written only where it changes, so that a screen reader stays quiet while the pair moves.
@@ -145,62 +142,6 @@ function show(root) {
     note(found.exact);
   }
 
-  const chosen = (name) => (controls[name].type === "checkbox" ? Number(controls[name].checked) : controls[name].value);
-
-  function copied(text, words) {
-    const show = (how) => say("copied", `${how}\n${text}`);
-    show("To copy:");
-    navigator.clipboard?.writeText(text).then(() => show(words), () => {});
-  }
-
-  // The run shown, as code for lagrotor: from its start on and, as a scene has one shock, from the shock before the last on.
-  // A shock's pulse lies whole within the run.
-  function asPython() {
-    const { mass, inertia, ell, spins, r0 } = setting;
-    const [time, x, y] = shocks.at(-1) ?? [0, 0, 0], at = Math.max(Number(time.toPrecision(6)), 0.01), earlier = shocks.slice(0, -1);
-    const before = shocks.length ? run.before : run, paired = before.paired && before.periodic && r0 > 0;
-    const names = ["Link", ...(paired ? ["Scene"] : []), ...(shocks.length ? ["Shock"] : []), paired ? "paired_scene" : "consistent_scene"];
-    const lines = ["import numpy as np", `from lagrotor import ${[...names, "simulate"].join(", ")}`];
-    const bar = `link=Link(length=${ell}, mass=${mass}, inertia=${inertia})`;
-    const shock = shocks.length ? ", shock=shock" : "";
-    lines.push("");
-    if (shocks.length) {
-      const per = "(width * np.sqrt(np.pi))";
-      lines.push("width = 1e-3  # s: the page's shock lasts no time", `shock = Shock(force=(${x} / ${per}, ${y} / ${per}, 0), at=${at}, width=width)`);
-    }
-    if (paired) {
-      lines.push(`scene = paired_scene(Scene(spins=(${spins}), ${bar}${shock}), ${r0})`);
-    } else {
-      // Six digits, which consistent_scene brings onto the bar.
-      const pairs = (v) => `((${[0, 1].map((i) => v.slice(3 * i, 3 * i + 3).map((u) => Number(u.toPrecision(6))).join(", ")).join("), (")}))`;
-      if (earlier.length) lines.push(`# t = 0 is the time of shock ${earlier.length} of ${shocks.length}`);
-      lines.push("scene = consistent_scene(", `    spins=(${spins}), ${bar}${shock},`, `    axes=${pairs(before.exact.axes[0])},`,
-        `    rates=${pairs(before.ratesOf(before.exact.states[0]))},`, ")");
-    }
-    lines.push(`run = simulate(scene, t=np.linspace(0, ${at + longest}, 2001))`, "run.plot()");
-    return lines.join("\n");
-  }
-
-  // What a control does not know leaves it as it is.
-  function setTo(control, value) {
-    const known = control.value;
-    control.value = value;
-    if (control.value === "") control.value = known;
-  }
-
-  // Settings that the page's address holds: #model?r0=0.2&first=12…
-  function fromAddress() {
-    if (!location.hash.startsWith("#model?")) return;
-    const given = new URLSearchParams(location.hash.slice("#model?".length));
-    for (const name of settings.filter((each) => given.has(each))) {
-      if (controls[name].type === "checkbox") controls[name].checked = given.get(name) === "1";
-      else setTo(controls[name], given.get(name));
-    }
-    choose();
-    for (const shock of given.getAll("shock")) strike(...shock.split(",").map(Number));
-    root.scrollIntoView();
-  }
-
   function redraw() {
     if (!frame) frame = requestAnimationFrame(tick);
   }
@@ -236,12 +177,6 @@ function show(root) {
   part("strike").addEventListener("click", () => {
     strike(now, number("push-x"), number("push-y"));
     redraw();
-  });
-  part("python").addEventListener("click", () => copied(asPython(), "The Python code is on the clipboard:"));
-  part("link").addEventListener("click", () => {
-    const pairs = shocks.map((shock) => ["shock", shock.map((x) => Number(x.toPrecision(6))).join(",")]);
-    history.replaceState(null, "", `#model?${new URLSearchParams([...settings.map((name) => [name, chosen(name)]), ...pairs])}`);
-    copied(location.href, "The link is on the clipboard:");
   });
   part("again").addEventListener("click", () => {
     begin();
@@ -286,6 +221,5 @@ function show(root) {
       play(false);
     }
   }, { threshold: 0.2 }).observe(space);
-  fromAddress();
   choose();
 }

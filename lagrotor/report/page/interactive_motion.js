@@ -172,7 +172,7 @@ function motion({ r0, mass, inertia, ell, spins, order, printed }) {
     const state = before.exact.stateAt(time);
     if (!state) return null;
     const exact = run(shocked(slopes, state, a, b, k, impulse));
-    const next = { ...before, before, paired: false, periodic: false, impulse, exact };
+    const next = { ...before, paired: false, periodic: false, impulse, exact };
     return { ...next, after: after(next) };
   };
   found.after = after(found);

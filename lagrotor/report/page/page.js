@@ -24,16 +24,31 @@ function search(query, entries) {
   return found.map((entry, i) => [entry, i]).sort(([a, i], [b, j]) => exact(b) - exact(a) || i - j).map(([entry]) => entry);
 }
 
-// What can be found: [address, anchor, name, words] of each entry, in the page or in a file that is loaded at the first query.
+// What can be found: [address, anchor, name, words] of each entry, in a file that is loaded at the first query or in this page.
 function loadWords(script) {
-  if (typeof WORDS !== "undefined") return Promise.resolve();
+  if (typeof WORDS !== "undefined") return WORDS;
+  if (!script.dataset.words) return wordsOfPage();
   return new Promise((resolve, reject) => {
     const loaded = document.createElement("script");
     loaded.src = script.dataset.words;
-    loaded.onload = resolve;
+    loaded.onload = () => resolve(WORDS);
     loaded.onerror = reject;
     document.body.append(loaded);
   });
+}
+
+// The entries of a page that holds the whole report, then its sections without their entries.
+function wordsOfPage() {
+  const entries = "article[id], figure[id], details.derivation";
+  return [entries, "section[aria-labelledby], #model"].flatMap((kind) =>
+    [...document.querySelectorAll(kind)].map((part) => {
+      const copy = part.cloneNode(true);
+      for (const inside of copy.querySelectorAll(`img, script, style, ${entries}`)) inside.remove();
+      const id = part.getAttribute("aria-labelledby") ?? part.id;
+      const name = copy.querySelector("h2, h3, summary")?.textContent ?? id;
+      return [`#${id}`, id, name, copy.textContent.replace(/\s+/g, " ")];
+    }),
+  );
 }
 
 const MOST = 30; // hits that are listed
@@ -44,8 +59,7 @@ function setUpSearch(script) {
   let entries = null;
   let first = null;
   async function show() {
-    await loadWords(script);
-    entries ??= WORDS.map(([address, anchor, name, text]) => ({
+    entries ??= (await loadWords(script)).map(([address, anchor, name, text]) => ({
       id: anchor.replace(/^(eq|claim)-/, "").toLowerCase(),
       text: text.toLowerCase(),
       address: address.startsWith("#") ? address : up + address,

@@ -53,14 +53,13 @@ class Page:
 
 
 def whole_page(report: Report) -> str:
-    """The whole report as one page: style, script, font, formulas, figures and words to be found are inside it."""
+    """The whole report as one page: style, script, font, formulas and figures are inside it."""
     everything = sections(report)
     body = "\n".join(section.html for section in everything)
     for picture in report.pictures:
         body = body.replace(f'src="figures/{picture.svg.name}"', f'src="{data_address(picture)}"')
     contents = [(f"#{section.anchor}", section.heading) for section in everything]
-    words = _data(_words("", everything))
-    return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{words}{_script()}</script>")
+    return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{_script()}</script>")
 
 
 def pages(report: Report) -> dict[str, str]:

@@ -5,14 +5,13 @@ import unicodedata
 from base64 import b64decode
 from collections.abc import Iterator
 from html.parser import HTMLParser
-from importlib.resources import files
 
 import pytest
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.pair.notation import GLOSSARY
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.formulas.font import FILE, FONT_FAMILY, characters, font_face
+from lagrotor.report.formulas.font import FILE, FONT_FAMILY, font_face
 from lagrotor.report.formulas.mathml_latex import mathml
 
 ttlib = pytest.importorskip("fontTools.ttLib", reason="fonttools reads the font")
@@ -80,39 +79,9 @@ def test_a_character_that_is_missing_is_seen(covered: set[str]) -> None:
     assert drawn("<math><mi>θ</mi><mo>⨀</mo></math>") - covered == {"⨀"}
 
 
-def test_letters_are_read_as_they_are_drawn() -> None:
-    assert drawn("<mi>h</mi>") == {"ℎ"}
-    assert drawn('<mi mathvariant="normal">Ω</mi><mn>2</mn><mi>sin</mi>') == set("Ω2sin")
-    assert drawn("<mi>∂</mi><mi>ϕ</mi><mi>φ</mi>") == set("𝜕𝜙𝜑")
-
-
-def test_the_font_is_what_it_says(covered: set[str]) -> None:
-    assert characters() <= covered
-    font = ttlib.TTFont(FILE)
-    assert font["name"].getDebugName(1) == FONT_FAMILY
-    assert "SIL Open Font License" in font["name"].getDebugName(13)
-    assert "STIX" not in FONT_FAMILY, "the subset does not go by the trademark"
-
-
-def test_roots_brackets_and_sums_grow() -> None:
-    variants = ttlib.TTFont(FILE)["MATH"].table.MathVariants
-    upward = variants.VertGlyphCoverage.glyphs
-    font = ttlib.TTFont(FILE).getBestCmap()
-    for sign in "()[]{}|‖√∑∫":
-        assert font[ord(sign)] in upward, sign
-    assert font[ord("x")] not in upward
-    assert "ssty" in {r.FeatureTag for r in ttlib.TTFont(FILE)["GSUB"].table.FeatureList.FeatureRecord}
-
-
 def test_the_page_carries_the_whole_file() -> None:
     match = re.search(r"url\(data:font/woff2;base64,([A-Za-z0-9+/=]+)\)", font_face())
     assert match
     assert b64decode(match[1]) == FILE.read_bytes()
     assert len(match[1]) < 200_000
     assert f'math {{ font-family: "{FONT_FAMILY}"' in font_face()
-
-
-def test_the_licence_lies_beside_it() -> None:
-    text = files("lagrotor.report.formulas").joinpath("fonts/OFL.txt").read_text(encoding="utf-8")
-    assert "SIL OPEN FONT LICENSE Version 1.1" in text
-    assert "The STIX Fonts Project Authors" in text

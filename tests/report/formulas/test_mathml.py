@@ -8,10 +8,9 @@ import pytest
 import sympy as sp
 
 from lagrotor.mechanics.glossary import latex as tex
-from lagrotor.pair.notation import PAIR, ROTOR, M, Omega, ell, r0
+from lagrotor.pair.notation import PAIR, ROTOR, Omega, ell, r0
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.formulas import mathml_latex
-from lagrotor.report.page.pieces import typeset
 
 THIN = '<mspace width="0.167em" />'
 # Elements of MathML Core; browsers draw others as plain rows.
@@ -78,11 +77,6 @@ def test_every_printed_equation_is_whole_and_in_the_words_of_browsers(printed: d
             assert len(script) == 2, identifier
 
 
-def test_without_the_converter_there_is_no_formula(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "latex2mathml.converter", None)
-    assert mathml_latex.mathml("x") is None
-
-
 @pytest.mark.parametrize(
     ("source", "expression"),
     [
@@ -124,12 +118,6 @@ def test_accents_primes_styles_and_sums() -> None:
     assert 'lspace="0.278em"' in latex(r"B\sim 2")
 
 
-def test_rates_are_dotted_and_indices_low() -> None:
-    assert "¨" in latex(tex(ROTOR.a[0])) and "˙" in latex(tex(ROTOR.v[1]))
-    assert "<msub><mi>r</mi><mn>0</mn></msub>" in latex(tex(r0))
-    assert latex(tex(sp.Symbol("phi_0_dot"))).count("˙") == 1
-
-
 def test_what_a_wide_space_parts_stands_on_a_line_of_its_own() -> None:
     assert len(lines(r"a = b \quad = c")) == 2
     assert len(lines(r"a = \text{x \quad y}")) == 1, "not within braces"
@@ -137,18 +125,6 @@ def test_what_a_wide_space_parts_stands_on_a_line_of_its_own() -> None:
     assert len(lines(r"\left\{ a = 0 \quad \text{on } y = 0 \right.")) == 1, "nor between brackets that grow"
     assert len(lines("a = b")) == 1
     assert mathml_latex.mathml(r"a \quad b", display=False).count("<math>") == 1
-
-
-def test_what_the_converter_cannot_set_is_shown_as_it_is() -> None:
-    """A report ended with a traceback."""
-    assert mathml_latex.mathml(r"\left( a") is None and "cannot set is shown" in typeset(r"\left( a")
-    assert "<pre>" not in typeset(r"\left( a \right)")
-
-
-def test_brackets_that_grow_and_matrices_stay_the_converters() -> None:
-    assert latex(tex(sp.Matrix([[M, 1], [1, 2]]))).count("<mtr>") == 2
-    assert 'displaystyle="true"' in latex(tex(sp.Matrix([M / r0, 1])))
-    assert "mfrac" in latex(tex((M + 1 / r0) ** 2))
 
 
 @pytest.mark.parametrize(

@@ -61,11 +61,6 @@ def test_what_is_damaged_is_not_taken(harm: Callable[[Path], object], cache: Cac
     assert cache.take("claim C01", "inputs") is None
 
 
-def test_what_json_cannot_hold_is_not_kept(cache: Cache) -> None:
-    cache.keep("claim C02", "inputs", {1j})
-    assert cache.take("claim C02", "inputs") is None
-
-
 def no_home() -> Path:
     raise RuntimeError("Could not determine home directory.")
 

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from lagrotor.report.job.processes import cores, results
+from lagrotor.report.job.processes import results
 
 
 def square(n: int) -> tuple[int, int]:
@@ -43,14 +43,3 @@ def test_a_task_waits_for_what_it_is_given(jobs: int) -> None:
     for n, value in results([3, 2, 1], plus, jobs, lambda task: None, given):
         found[n] = value
     assert list(found.items()) == [(0, 0), (1, 1), (2, 3), (3, 6)]
-
-
-def test_tasks_that_wait_for_each_other_are_refused() -> None:
-    with pytest.raises(RuntimeError, match="waits for another"):
-        list(results([1, 2], plus, 1, lambda task: None, lambda task: None))
-
-
-def test_a_debugger_has_one_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert cores() >= 1
-    monkeypatch.setitem(__import__("sys").modules, "pydevd", None)
-    assert cores() == 1

@@ -1,4 +1,4 @@
-"""What a script is made from: all that it reaches and nothing else; and the same digest wherever the package lies."""
+"""What a script's product is made from; and the same digest wherever the package lies."""
 
 import shutil
 from pathlib import Path
@@ -9,7 +9,7 @@ import lagrotor
 from lagrotor.paper import Paper
 from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.report.job import reach
-from lagrotor.report.job.reach import digest, files_reached, imports, source_digest
+from lagrotor.report.job.reach import scripts_named, source_digest, values_taken
 
 PACKAGE = Path(lagrotor.__file__).parent
 
@@ -22,71 +22,20 @@ def fresh():
 
 
 def clear() -> None:
-    for cached in (
-        reach._text,
-        reach._face,
-        reach.imports,
-        reach.scripts_named,
-        reach.files_reached,
-        reach._file_digest,
-        reach._data_in,
-        reach._place,
-    ):
+    for cached in (reach._text, reach._place, reach._shared, reach._stems, scripts_named):
         cached.cache_clear()
 
 
-def derivation(stem: str) -> Path:
-    return PAPER.scripts.path("derivations", stem)
-
-
-def places(path: Path) -> set[str]:
-    return {reach._place(file, PAPER) for file in files_reached(path, PAPER)}
-
-
-def test_a_derivation_reaches_its_modules_and_their_data() -> None:
-    found = places(derivation("s5_2a_single_rotor"))
-    assert {
-        "derivations/s5_2a_single_rotor.py",
-        "pair/lagrangians.py",
-        "mechanics/lagrangian.py",
-        "algebra/identity.py",
-    } <= found
-    assert "paper/rotor_pair/equations.toml" in found
-    assert "paper/rotor_pair/recorded.toml" not in found, "the record is compared with, nothing is made from it"
-    # The check of a theorem makes a scene's program again: of the models it reaches the programs alone.
-    assert not any(place.startswith(("report/", "commands/")) for place in found)
-    assert {p.split("/")[1] for p in found if p.startswith("models/")} == {"programs"}
-
-
-def test_names_of_the_face_lead_to_their_modules(tmp_path: Path) -> None:
+def test_a_script_names_the_derivations_that_it_runs(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
-    script.write_text("def later():\n    from lagrotor import simulate\n", encoding="utf-8")
-    assert PACKAGE / "models" / "simulate.py" in files_reached(script, PAPER)
-    assert imports(script, PAPER.folder) == {PACKAGE / "models" / "simulate.py"}
-    script.write_text("from lagrotor.theory import twist_growth\n", encoding="utf-8")
-    clear()
-    assert imports(script, PAPER.folder) == {PACKAGE / "theory" / "parallel_twist.py"}
-
-
-def test_the_table_of_the_theory_needs_every_script_it_takes_a_value_from() -> None:
-    path = derivation("p1_past_the_paper")
-    assert {stem[:2] for stem in reach.scripts_named(path, PAPER)} == {f"t{i}" for i in range(1, 10)} | {
-        "n6",
-        "n7",
-        "n8",
-        "n9",
-    }
-    assert {"measured", "edges"} <= reach.values_taken("t5_floquet", PAPER)
-    assert "values" not in reach.values_taken("t5_floquet", PAPER)  # twin: a name that nobody takes
-
-
-def test_a_script_that_names_a_derivation_is_made_from_it(tmp_path: Path) -> None:
-    script = tmp_path / "script.py"
-    script.write_text('run("derivations", "s5_2a_single_rotor")', encoding="utf-8")
-    assert derivation("s5_2a_single_rotor") in files_reached(script, PAPER)
-    script.write_text('run("derivations", "no_such_script")', encoding="utf-8")
-    clear()
-    assert not any(file.parent.name == "derivations" for file in files_reached(script, PAPER))
+    script.write_text(
+        'run("derivations", "s5_2a_single_rotor"); run("derivations", "no_such_script")', encoding="utf-8"
+    )
+    assert scripts_named(script, PAPER) == ("s5_2a_single_rotor",)
+    path = PAPER.scripts.path("derivations", "p1_past_the_paper")
+    assert {stem[:2] for stem in scripts_named(path, PAPER)} >= {"t1", "t9", "n6"}
+    assert {"measured", "edges"} <= values_taken("t5_floquet", PAPER)
+    assert "values" not in values_taken("t5_floquet", PAPER)  # twin: a name that nobody takes
 
 
 @pytest.mark.parametrize(
@@ -94,29 +43,26 @@ def test_a_script_that_names_a_derivation_is_made_from_it(tmp_path: Path) -> Non
     [
         ("pair/lagrangians.py", True),
         ("paper/rotor_pair/equations.toml", True),
-        ("models/simulate.py", False),
-        ("report/page/page.css", False),
+        ("paper/rotor_pair/recorded.toml", False),  # it is compared with, and nothing is made from it
+        ("derivations/p1_past_the_paper.py", True),
+        ("derivations/t1_natural_rate.py", True),
+        ("derivations/s6_conclusion.py", False),
     ],
 )
-def test_a_product_is_made_from_what_is_reached_only(
+def test_a_product_is_made_from_its_script_those_it_runs_and_the_package(
     file: str, matters: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     copy = tmp_path / "lagrotor"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__", "derivations", "figures"))
     for kind in ("derivations", "figures"):
         shutil.copytree(PAPER.scripts.base / kind, copy / kind, ignore=shutil.ignore_patterns("__pycache__"))
-    here = source_digest(derivation("s5_2a_single_rotor"), PAPER)
+    here = source_digest(PAPER.scripts.path("derivations", "p1_past_the_paper"), PAPER)
     monkeypatch.setattr(reach, "_PACKAGE", copy)
     installed = Paper(copy / "paper" / "rotor_pair", scripts_in=copy)
     clear()
-    there = copy / "derivations" / "s5_2a_single_rotor.py"
+    there = copy / "derivations" / "p1_past_the_paper.py"
     assert source_digest(there, installed) == here, "an installed package has the digests of the checkout"
     with (copy / file).open("a", encoding="utf-8") as appended:
         appended.write("\n# changed\n")
     clear()
     assert (source_digest(there, installed) != here) == matters
-
-
-def test_no_two_lists_have_one_digest() -> None:
-    assert digest("ab", "c") != digest("a", "bc") != digest("abc")
-    assert digest("é") == digest("é".encode())

@@ -132,13 +132,6 @@ def test_what_hangs_on_the_hash_seed_is_seen(first: Path, run: Run, tmp_path: Pa
     assert {name for name in same if other[name] != same[name]} == {"index.html", "whole.html", "pages/words.js"}
 
 
-def test_durations_are_in_one_file(first: Path) -> None:
-    times = json.loads((first / TIMES).read_text())
-    assert set(times["seconds"]) >= {"derivation s3e_link", "claim C01", "figure 14", "report"}
-    for name in ("verdicts.json", "claims.json"):
-        assert all("seconds" not in entry for entry in json.loads((first / name).read_text()))
-
-
 def test_a_second_run_takes_everything_and_touches_nothing(first: Path, run: Run) -> None:
     before = {path: path.stat().st_mtime_ns for path in first.parent.rglob("*")}
     assert run(first) == "1 report\n"
@@ -151,14 +144,6 @@ def test_what_is_damaged_is_written_anew(first: Path, run: Run) -> None:
     said = run(first)
     assert "figure 14" in said and "derivation" not in said, "the cache holds figures, and no derivations"
     assert held(first) == good
-
-
-def test_other_versions_make_everything_anew(first: Path, run: Run) -> None:
-    good = held(first)
-    lines = 'reach.versions = lambda: {"Python": "another"}'
-    assert run(first, lines).startswith("0")
-    assert held(first) != good
-    assert b"another" in held(first)["pages/about.html"]
 
 
 @pytest.mark.slow

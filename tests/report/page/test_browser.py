@@ -48,11 +48,17 @@ function measure(view) {
   const sizes = letters.map(letter => parseFloat(view.getComputedStyle(letter).fontSize));
   return {formulas: page.querySelectorAll("math").length, smallest: Math.min(...sizes), tooWide, scrolled,
           width: page.documentElement.scrollWidth, room: view.innerWidth, failures: view.failures,
+          hits: [...page.querySelectorAll("#hits a")].map((hit) => hit.getAttribute("href")),
           font: page.fonts.check("16px 'FAMILY'")};
 }
 window.onload = async () => {
   const views = [...document.querySelectorAll("iframe")].map(frame => frame.contentWindow);
-  for (const view of views) await view.document.fonts.ready;
+  for (const view of views) {
+    await view.document.fonts.ready;
+    const query = view.document.getElementById("query");
+    if (query) query.value = "5.02";
+    query?.dispatchEvent(new Event("input", {bubbles: true}));
+  }
   const found = views.map(measure);
   document.body.innerHTML = "<pre id=found></pre>";
   document.getElementById("found").textContent = JSON.stringify(found);
@@ -117,6 +123,7 @@ def test_the_page_fits_a_desk_and_a_phone(found: Seen) -> None:
     for seen in found["page"]:
         assert seen["formulas"] > 20
         assert seen["font"]
+        assert seen["hits"][0] == "#eq-5.02" and len(seen["hits"]) < 9, "the search reads the page itself"
         assert seen["smallest"] >= 10, "px"
         assert seen["tooWide"] == []
         assert seen["width"] <= seen["room"]

@@ -6,7 +6,6 @@ from base64 import b64decode
 import pytest
 
 from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.paper.scripts import Script, ScriptCell
 from lagrotor.report.page.pieces import derivation_html, markdown_html, prose, title
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
@@ -23,10 +22,6 @@ def test_a_script_of_the_gallery_is_a_page_with_its_picture() -> None:
     assert labels.startswith("z, \\vartheta")
 
 
-def test_a_script_without_a_run_has_no_picture() -> None:
-    assert not re.findall(PICTURE, derivation_html(PAPER.scripts.executed("derivations", "s6_conclusion"), {}))
-
-
 @pytest.mark.parametrize(
     "text", ["obeys\n$$a = b,$$\nof $x$.", "so\n$$a = 1,\\qquad\nb = 2.$$\nand $x$", "in a line: $$a =\n3$$ (of $x$)"]
 )
@@ -34,11 +29,6 @@ def test_a_displayed_formula_is_one_wherever_it_stands(text: str) -> None:
     pytest.importorskip("mdit_py_plugins.dollarmath", reason="markdown-it reads the prose")
     html = markdown_html(text)
     assert "$" not in html and html.count('display="block"') >= 1 and "<math><" in html
-
-
-def test_what_a_run_warns_of_is_said_below_it() -> None:
-    script = Script((ScriptCell("code", "run", (), ("tol = 1e-13 is not kept",)), ScriptCell("code", "2", (2,))), {})
-    assert derivation_html(script, {}) == "<p><small>The run warns: tol = 10⁻¹³ is not kept.</small></p>"
 
 
 def test_prose_typesets_what_stands_between_dollars_alone() -> None:
