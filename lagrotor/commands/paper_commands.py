@@ -78,7 +78,7 @@ def _add_reading_commands(command: Command) -> None:
 
     added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
     added.description = (
-        "Check a source without any derivation: each step of a chain, equations against those they cite, dimensions, indices.\n"
+        "Check a source without any derivation: each step of a chain, claimed orders, indices.\n"
         "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
     )
     added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex, .md or .ipynb file")
@@ -253,7 +253,7 @@ def derive_command(given: argparse.Namespace) -> int:
 
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import toml
-    from lagrotor.paper.latex.check import FAULT, FOUND, HOLDS, NOT_JUDGED, REFUTED, WRONG, Check, check_source
+    from lagrotor.paper.latex.check import FAULT, HOLDS, NOT_JUDGED, REFUTED, WRONG, Check, check_source
     from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.markup import read_source
     from lagrotor.paper.latex.notation import Notation, declared_notation
@@ -273,17 +273,17 @@ def check_command(given: argparse.Namespace) -> int:
     whole = Check(tuple(each for _, each in rows))
     if given.json:
         several = len(given.sources) > 1
-        shown = [(file, each) for file, each in rows if given.all or each.verdict in FOUND]
+        shown = [(file, each) for file, each in rows if given.all or each.verdict in WRONG]
         found = [each.as_data() | ({"file": str(file)} if several or each.file else {}) for file, each in shown]
         data = {"findings": found, "steps": whole.counts, "reasons": whole.reasons}
         print(json.dumps(data, indent=1, ensure_ascii=False))
     else:
         for file, each in rows:
-            if given.all or each.verdict in FOUND:
+            if given.all or each.verdict in WRONG:
                 step = f", step {each.step}" if each.step else ""
                 of = "" if each.verdict == FAULT else f"({each.equation}){step}: {each.verdict}: "
                 print(wrap(f"{file}:{each.line}: {of}{readable(each.why) if of else each.why}", 4))
-                if each.verdict == REFUTED:
+                if each.members:
                     print(wrap("    {} = {}".format(*map(readable, each.members)), 6))
         counts = whole.counts
         verbs = (

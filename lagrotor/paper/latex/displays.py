@@ -37,8 +37,6 @@ _RELATIONS = re.compile(
 )
 _NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX does not go on in a formula behind these
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
-_PARAGRAPH = 4000  # characters of a paragraph before a display that belong to it
-_REFERENCES = (r"\eqref", r"\refeq", r"\ref", r"\cref", r"\Cref", r"\autoref")
 # Environments that number formulas in a way of their own, and those that hold = and _ in drawings and code.
 _REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases")
 _NO_DISPLAY = re.compile("tikz|pic|axis|scope|code|list|verb|prog|console|tab|array|graph|diagram|CD|algo|bib")
@@ -50,8 +48,7 @@ _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym text
 class Displayed:
     """One displayed equation: `number` as printed, empty if there is none; `latex` expanded, without labels and numbers.
 
-    lead: the left side of the row before, which this row continues. place: file and line; rows: the line of each row. cites:
-    labels that the text before it names.
+    lead: the left side of the row before, which this row continues. place: file and line; rows: the line of each row.
     """
 
     id: str
@@ -62,15 +59,14 @@ class Displayed:
     lead: str = ""
     place: tuple[str, int] = ("", 0)
     rows: tuple[int, ...] = ()
-    cites: tuple[str, ...] = ()
 
 
 @dataclass
 class Source:
     """The displayed equations of a source; section number → heading; inline formula → section; label → number.
 
-    notes: sentences about what could not be known; faults: file, line, and the error at which TeX would stop; words: id → the
-    text of the paragraph before and behind, formulas in $; preamble: packages that the formulas need; file: its name.
+    notes: sentences about what could not be known; faults: file, line, and the error at which TeX would stop; preamble: packages
+    that the formulas need; file: its name.
     """
 
     title: str
@@ -80,7 +76,6 @@ class Source:
     inline: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     faults: list[tuple[str, int, str]] = field(default_factory=list)
-    words: dict[str, str] = field(default_factory=dict)
     preamble: str = ""
     labels: dict[str, str] = field(default_factory=dict)
     file: str = ""
@@ -125,9 +120,7 @@ class _Walker:
         self.section, self.starred, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0  # the last number, and how many displays without one came since
         self.outer: list[tuple[int, Macro | None, str]] = []  # subequations: the counter's value and print, the number
-        self.cited: list[str] = []  # labels named since the last display
-        self.words = ""  # of the paragraph, since the last display
-        self.neighbours: list[str] = []  # displays to which the next words belong
+        self.ids: set[str] = set()
         self.ended = ""  # the end of a display that was missing: it ends nothing later
 
     def read(self) -> None:
@@ -153,9 +146,7 @@ class _Walker:
             source.notes.append(f"{expander.doubt}, and the numbers may be others: {helps}")
 
     def _take(self, token: Token) -> None:
-        if token.kind == "text":
-            self._text(token.text)
-        elif token.text == r"\[":
+        if token.text == r"\[":
             self._display("displaymath", token, r"\]")
         elif token.text == r"\(":
             self._inline(token, r"\)")
@@ -220,8 +211,6 @@ class _Walker:
             self.numbered_chapters = name == "mainmatter"
         elif name == "mathtoolsset" and "showonlyrefs" in expander.name():
             expander.doubt = "showonlyrefs of mathtools withdraws numbers"
-        elif token.text in _REFERENCES:
-            self.cited += (label.strip() for label in expander.name().split(","))
 
     def _argument(self) -> str:
         return latex_of(self.expander.expand(self.expander.argument()))
@@ -254,15 +243,6 @@ class _Walker:
         expander.define(r"\theparentequation", Macro.of(number))
         expander.define(r"\theequation", Macro.of(r"\theparentequation\alph{equation}"))
         counters.values["equation"] = 0
-
-    def _text(self, text: str) -> None:
-        """Give the words of a paragraph to the display before them and to the one behind."""
-        first, *others = EMPTY_LINE.split(text)
-        for display in self.neighbours:
-            if len(self.source.words[display]) < 2 * _PARAGRAPH:
-                self.source.words[display] += first
-        self.words = (others[-1] if others else self.words + first)[-_PARAGRAPH:]
-        self.neighbours = [] if others else self.neighbours
 
     def _section(self, level: str, heading: str, star: bool) -> None:
         title = plain_heading(heading)
@@ -300,7 +280,6 @@ class _Walker:
         self.expander.in_formula = False
         if latex := latex_of(inside).strip():
             self.source.inline.setdefault(latex, self.section)
-            self._text(f" ${latex}$ ")
 
     def _display(self, kind: str, token: Token, end: str, starred: bool = False) -> None:
         """Read a display row by row, each of which gets its number as it ends."""
@@ -416,11 +395,9 @@ class _Walker:
                 groups[-1].append(row)
             elif not _is_empty(row):
                 groups.append([row])
-        known, lead = len(self.source.equations), ""
+        lead = ""
         for group in groups:
             lead = self._add(group, kind, token, lead)
-        self.cited, self.words = [], ""
-        self.neighbours = [each.id for each in self.source.equations[known:]]
 
     def _add(self, group: list[_Row], kind: str, token: Token, lead: str) -> str:
         """Keep one equation of rows, of which the first may continue another with this left side; return its left side."""
@@ -436,14 +413,14 @@ class _Walker:
         self.since = 0 if number else self.since + 1
         self.last = number or self.last
         identifier, source = number or f"{self.last or 0}{_letters(self.since)}", self.source
-        while identifier in source.words or not identifier:
+        while identifier in self.ids or not identifier:
             identifier += "'"
-        source.words[identifier] = f"{self.words} □ "  # where the display stands in its sentence
+        self.ids.add(identifier)
         source.sections.setdefault(self.section, "Before the first section")
         firsts = [next((t for t in row.tokens if t.text.strip(" \n\t&")), token) for row in group]
         lines = [self.expander.line(t.at + len(t.text) - len(t.text.lstrip())) for t in firsts]
-        rows, cites = tuple(n for _, n in lines), tuple(self.cited)
-        source.equations.append(Displayed(identifier, self.section, number, label, latex, lead, lines[0], rows, cites))
+        rows = tuple(n for _, n in lines)
+        source.equations.append(Displayed(identifier, self.section, number, label, latex, lead, lines[0], rows))
         return lead or _left_side(group[0].latex)
 
 

@@ -149,13 +149,26 @@ def is_matrix(node: Node) -> bool:
 
 def divisors(node: Node) -> Iterator[Node]:
     """Yield what a node divides by, and what it takes a logarithm of, but within sums and integrals."""
-    if isinstance(node, Call) and node.name not in _BINDING:
+    if isinstance(node, Call) and node.name not in BINDING:
         if node.name == "quotient":
             yield node.args[1]
         elif node.name == "log" or (node.name == "power" and "-" in text_of(node.args[1])):
             yield node.args[0]
         for each in node.args:
             yield from divisors(each)
+
+
+def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
+    """Return a node with parts replaced; not the variable of a derivative or an integral, nor what that variable is in it."""
+    if node in values:
+        return values[node]
+    if not isinstance(node, Call) or not values:
+        return node
+    if node.name in BINDING and len(node.args) > 1:
+        inner, variable, *ends = node.args
+        free = {key: value for key, value in values.items() if key != variable}
+        return Call(node.name, (put_for(inner, free), variable, *(put_for(each, values) for each in ends)))
+    return Call(node.name, tuple(put_for(each, values) for each in node.args))
 
 
 def in_catalogue(node: Node) -> bool:
@@ -259,7 +272,7 @@ def sympy_expression(node: Node, opaque: Opaque) -> Any:
         if node.vector:
             return sp.Matrix(sp.symbols(f"{node.name}_1:4", real=True))
         return opaque.letters.get(node.name, sp.Symbol(node.name, real=True))
-    value = _bound(node, opaque) if node.name in _BINDING else _value(node, opaque)
+    value = _bound(node, opaque) if node.name in BINDING else _value(node, opaque)
     return opaque.symbol(node) if value is None else value
 
 
@@ -403,7 +416,7 @@ def _apart(derivative: Call, inner: sp.Expr) -> bool:
         f"[{text_of(each)}]"
         for each in walk(derivative.args[0])
         if isinstance(each, Call)
-        and each.name not in (*_BINDING, "limit")
+        and each.name not in (*BINDING, "limit")
         and not set(letters_of(derivative.args[1])) & set(letters_of(each))
     }
     return {symbol.name for symbol in inner.free_symbols if has_opaque(symbol)} <= functions
@@ -420,7 +433,8 @@ def _rate(inner: Any, opaque: Opaque) -> Any:
     return reduce(operator.add, [inner.diff(symbol) * rates[symbol] for symbol in moving])
 
 
-_BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
+# Operations whose second part is a letter that they use up; `rate` uses t.
+BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
 _OF_MATRICES = ("matmul", "det", "inverse", "transpose", "tr", "power")
 _VALUES: dict[str, Any] = {
     "sum": lambda *parts: reduce(operator.add, parts),
