@@ -2,14 +2,12 @@ r"""Commands of LaTeX that define others, choose between branches and take in fi
 
 import re
 
-from lagrotor.paper.latex import packages
-from lagrotor.paper.latex.macros import CHOICES, Expander, Macro, Parameter, Primitive, head_of
+from lagrotor.paper.latex.macros import Expander, Macro, Parameter, Primitive, head_of
 from lagrotor.paper.latex.tokens import Token, latex_of, plain, tokenize
 
 HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
 # Environments of displayed formulas: LaTeX's and amsmath's.
-DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath", "IEEEeqnarray")
-_COUNTING = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\numberwithin", r"\@addtoreset", r"\counterwithin")
+DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath")
 _COMMANDS = (*HEADINGS, r"\appendix")  # which may stand as environments, \begin{appendix}
 
 
@@ -111,12 +109,11 @@ def _new_environment(expander: Expander, token: Token) -> None:
 
 
 def _new_theorem(expander: Expander, token: Token) -> None:
-    r"""\newtheorem{name}[equation]{Title}: an environment that steps the counter of equations."""
+    r"""\newtheorem{name}[equation]{Title} numbers theorems and equations together: such numbers are not followed."""
     expander.star()
-    name, shared = expander.name(), expander.optional()
-    if latex_of(shared or ()).strip() == "equation":
-        expander.define(rf"\{name}", Macro.of(r"\stepcounter{equation}"))
-        expander.define(rf"\end{name}", Macro(()))
+    expander.name()
+    if latex_of(expander.optional() or ()).strip() == "equation":
+        expander.doubt = "theorems share the counter of equations"
 
 
 def _begin(expander: Expander, token: Token) -> None:
@@ -173,27 +170,6 @@ def _new_if(expander: Expander, token: Token) -> None:
             expander.define(rf"\{name[3:]}{value}", Macro.of(rf"\let{name}\if{value}"))
 
 
-def _choice(expander: Expander, token: Token) -> bool:
-    r"""\ifthenelse{…}{…}{…} and others that have their branches in braces: none is decided."""
-    if not expander.in_formula:
-        expander.star()
-        expander.leave_out(token, CHOICES[token.text])
-    return not expander.in_formula
-
-
-def _if_next(expander: Expander, token: Token) -> None:
-    r"""\@ifnextchar[{…}{…} and \@ifstar{…}{…}: the next sign says which of the two."""
-    sign = "*" if token.text == r"\@ifstar" else expander.name()
-    branches = expander.argument(), expander.argument()
-    spaces = expander.skip_spaces()
-    comes = expander.begins(sign)
-    if comes and token.text == r"\@ifstar":
-        expander.star()
-    elif not comes:
-        expander.push(plain(spaces, token.at))
-    expander.push(branches[not comes])
-
-
 def _if_value(expander: Expander, token: Token) -> None:
     r"""\IfValueTF, \IfNoValueT, \IfBooleanTF: of an argument of \NewDocumentCommand."""
     tested = expander.name()
@@ -215,39 +191,11 @@ def _text(expander: Expander, token: Token) -> bool:
     return True
 
 
-def _quantity(expander: Expander, token: Token) -> bool:
-    r"""\num[…]{3.2e5}, \unit[…]{…}, \ang[…]{30} of siunitx; minutes and seconds of an angle, \ang{;6;}, are not read."""
-    if "siunitx" not in expander.loaded:
-        return False
-    expander.optional()
-    text = expander.name()
-    if not expander.in_formula:
-        expander.push(plain(text, token.at))
-        return True
-    if token.text == r"\ang" and ";" in text:
-        expander.push(tokenize(f"{{{text}}}", token.at))
-        return False
-    unit = token.text in (r"\unit", r"\si")
-    shown = packages.unit_print(text) if unit else packages.number_print(text) + r"^\circ " * (token.text == r"\ang")
-    expander.push(tokenize(shown, token.at))
-    return True
-
-
 def _use(expander: Expander, token: Token) -> None:
-    r"""\usepackage: the commands known here; of a package beside the source, its definitions, and nothing in it is expanded."""
+    r"""\usepackage: the commands known here. A package beside the source is not read."""
     expander.optional()
     for name in map(str.strip, expander.name().split(",")):
-        known = name in packages.TABLE or name in packages.DISTRIBUTED or name in expander.loaded
         expander.load(name)
-        path = None if known else expander.file_beside(name, (".sty",))
-        for each in expander.tokens_apart(path) if path else ():
-            inside = expander.group(each.at) if each.kind == "open" else (each,)
-            if any(part.text in _COUNTING for part in inside):
-                expander.doubt = f"{name}.sty may number equations in a way of its own"
-            if each.text in DEFINITIONS:
-                DEFINITIONS[each.text](expander, each)
-            elif each.kind == "command" and expander.is_condition(each):
-                expander.leave_out(each)
 
 
 def _input(expander: Expander, token: Token) -> None:
@@ -289,7 +237,7 @@ DEFINITIONS: dict[str, Primitive] = {
     **_commands("usepackage RequirePackage", _use),
     **_commands("input include subfile @input", _input),
 }
-_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text) | _commands("num unit si ang", _quantity)
+_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text)
 PRIMITIVES: dict[str, Primitive] = {
     **DEFINITIONS,
     **_REPLACEABLE,
@@ -298,8 +246,6 @@ PRIMITIVES: dict[str, Primitive] = {
     **_commands("end", _end),
     **_commands("iftrue iffalse ifmmode", _condition),
     **_commands("else fi", _else),
-    **dict.fromkeys(CHOICES, _choice),
-    **_commands("@ifstar @ifnextchar", _if_next),
     **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
     **_commands("long protected outer relax protect expandafter makeatletter makeatother xspace", lambda *_: None),
     **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _with_argument),

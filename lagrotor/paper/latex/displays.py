@@ -15,9 +15,8 @@ from lagrotor.paper.latex.token_stream import EMPTY_LINE, ends_paragraph
 from lagrotor.paper.latex.tokens import BRACES, Token, latex_of, plain
 
 # Each row of these is an equation with a number; the others have one number.
-_ROWS = ("align", "gather", "eqnarray", "alignat", "flalign", "IEEEeqnarray")
+_ROWS = ("align", "gather", "eqnarray", "alignat", "flalign")
 _PAIRS = ("align", "alignat", "flalign")  # in which every second & begins another equation
-_WITH_ARGUMENT = ("alignat", "IEEEeqnarray")
 _BEGINS = {rf"\begin{{{name}{star}}}": name + star for name in DISPLAYS for star in ("", "*")}
 _NESTING = {"begin": 1, "end": -1}
 UNCLOSED = "unclosed@"  # Markdown writes it for $$ without a partner
@@ -29,7 +28,7 @@ _FAULTS = {
 }
 _BETWEEN = (r"\intertext", r"\shortintertext")
 _ROW_ENDS = (r"\\", r"\cr", *_BETWEEN)
-_NO_NUMBER = (r"\nonumber", r"\notag", r"\IEEEnonumber")
+_NO_NUMBER = (r"\nonumber", r"\notag")
 _OPERATORS = re.compile(r"[+\-*/]|\\(?:times|cdot|pm|mp|div|wedge|otimes|circ)(?![A-Za-z])")
 _RELATIONS = re.compile(
     r"[=<>]|\\(?:approx|sim|simeq|equiv|neq|ne|leq?|geq?|ll|gg|propto|to|cong|doteq|in|Rightarrow|implies|iff|Leftrightarrow"
@@ -38,7 +37,7 @@ _RELATIONS = re.compile(
 _NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX does not go on in a formula behind these
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
 # Environments that number formulas in a way of their own, and those that hold = and _ in drawings and code.
-_REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases")
+_REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases", "empheq", "IEEEeqnarray")
 _NO_DISPLAY = re.compile("tikz|pic|axis|scope|code|list|verb|prog|console|tab|array|graph|diagram|CD|algo|bib")
 # Packages that a formula may need, and whose commands other formulas do not disturb.
 _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
@@ -206,7 +205,7 @@ class _Walker:
             if self.outer:
                 self.source.labels[label] = self.aux.get(label, self.outer[-1][2])
         elif name == "appendix":
-            self.counters.begin_appendix(expander, expander.star())
+            self.counters.begin_appendix(expander)
         elif name in ("frontmatter", "mainmatter", "backmatter"):
             self.numbered_chapters = name == "mainmatter"
         elif name == "mathtoolsset" and "showonlyrefs" in expander.name():
@@ -222,13 +221,8 @@ class _Walker:
             self.body = True
         elif name == "subequations" and self.body:
             self._begin_subequations()
-        elif name == "empheq" and self.body:
-            self.expander.optional()
-            inner = self.expander.name().partition("=")[0]
-            self._display(inner.rstrip("*"), token, end, inner.endswith("*"))
         elif token.text in _BEGINS and self.body:
-            if kind in _WITH_ARGUMENT:
-                self.expander.optional()
+            if kind == "alignat":
                 self.expander.argument()
             self._display(kind, token, end, name != kind)
         elif kind in _REFUSED:
@@ -305,9 +299,6 @@ class _Walker:
                 row.tokens.append(part)
         self.expander.in_formula = False
         self._finish(rows[-1])
-        after = self.expander.peek()
-        if end == "$$" and not self.whole and after is not None and not rows[0].tag:  # Markdown: $$ … $$ (3)
-            rows[0].number = (re.match(r"(?:\s*\((\w[\w.]*)\))?", after.text) or [""])[1] or ""
         self._keep(rows, kind, token)
 
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
@@ -346,18 +337,14 @@ class _Walker:
     def _sets_number(self, part: Token, row: _Row) -> bool:
         """Take a command that says something of the number of a row only; return False for another one."""
         name, expander = part.text, self.expander
-        if name in (r"\tag", r"\eqno", r"\leqno", *_NO_NUMBER):
+        if name == r"\tag" or name in _NO_NUMBER:
             self.counters.values["equation"] -= row.stepped
             row.stepped = False
         if name == r"\tag":
             expander.star()
             row.tag = plain_number(re.sub(r"\\(?:eq)?ref\{([^{}]*)\}", self._number_of, self._argument()))
-        elif name in (r"\eqno", r"\leqno"):
-            row.tag = plain_number(latex_of(expander.delimited("(", ")") or expander.argument()))
         elif name in _NO_NUMBER:
             row.numbered = False
-        elif name in (r"\yesnumber", r"\IEEEyesnumber"):
-            row.numbered = True
         elif name == r"\label":
             row.labels.append(expander.name())
         else:

@@ -69,7 +69,7 @@ def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
     folder : Path
         A new or an empty folder, or a paper that is made again.
     source : Path, optional
-        LaTeX, Markdown or a notebook; without it the folder holds a worked example.
+        LaTeX or Markdown; without it the folder holds a worked example.
 
     Raises
     ------

@@ -18,11 +18,6 @@ from lagrotor.paper.latex.tokens import Token, plain, tokenize
 
 _MOST_EXPANSIONS = 20_000  # at one place of the source; a macro that needs more calls itself without end
 _MOST_TOKENS = 2_000_000  # of all expansions, besides ten for each character of the source
-# Commands that choose between arguments, and the number of these.
-CHOICES = {
-    r"\@ifundefined": 3, r"\@ifpackageloaded": 3, r"\@ifclassloaded": 3, r"\ifthenelse": 3,
-    r"\ifdef": 3, r"\ifundef": 3, r"\ifbool": 3, r"\iftoggle": 3, r"\ifblank": 3, r"\ifstrempty": 3, r"\ifstrequal": 4,
-}  # fmt: skip
 # Commands of which a branch without a decision may not have any unnoticed.
 _MATTER = (
     r"\begin",
@@ -96,7 +91,6 @@ class Expander(TokenStream):
         self._stream = self._expanded()
         self.load("")
         if r"\documentclass" not in text:  # Markdown: nothing says which packages are loaded
-            self.load("siunitx")
             self.load("physics")
             self.define(r"\div", None)
 
@@ -146,7 +140,7 @@ class Expander(TokenStream):
             self.begin_group("{")
         elif name in (r"\endgroup", r"\egroup"):
             self.end_group("{")
-        elif self.is_condition(token) and not self.in_formula:
+        elif name.startswith(r"\if") and name != r"\iff" and not self.in_formula:
             self.leave_out(token)
             return True
         return False
@@ -219,21 +213,22 @@ class Expander(TokenStream):
             names, _, rest = line.strip().partition(" ")
             spec, _, body = rest.partition(" ")
             for name in filter(None, names.split(",")):
-                if not (name in self.macros and package == "siunitx"):  # \qty of physics
-                    macro = Macro.of(body, spec)
-                    same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
-                    self.define(name, Macro(same, macro.head))
+                macro = Macro.of(body, spec)
+                same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
+                self.define(name, Macro(same, macro.head))
 
     # ---- conditions
 
-    def leave_out(self, condition: Token, arguments: int = 0) -> None:
+    def leave_out(self, condition: Token) -> None:
         r"""Leave out the branches of a condition that is not decided; the names that they define have no meaning.
 
         Branches with equations, headings, counters or files are noted.
         """
-        passed = [token for _ in range(arguments) for token in self.argument()]
-        if not arguments:
+        passed: list[Token] = []
+        if not self.begins("{"):
             self.skip((r"\fi",), condition, passed)
+        while self.begins("{"):  # \ifthenelse{…}{…}{…}
+            passed += self.argument()
         for name, after in pairwise(token.text for token in passed if token.kind == "command"):
             if name in (r"\let", r"\DeclareMathOperator") or "def" in name or "newcommand" in name:
                 self.define(after, None, everywhere=True)
@@ -258,5 +253,4 @@ class Expander(TokenStream):
 
     def is_condition(self, token: Token) -> bool:
         r"""Return True for a command that ends with \fi, as far as its name says; one with arguments in braces does not."""
-        named = token.text.startswith(r"\if") and token.text not in (r"\iff", *CHOICES)
-        return named and not self.begins("{")
+        return token.text.startswith(r"\if") and token.text != r"\iff" and not self.begins("{")

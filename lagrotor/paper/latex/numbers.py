@@ -22,26 +22,9 @@ _BOOK = _ARTICLE | {
     "section": r"\thechapter.\arabic{section}",
     "equation": r"\chapterdot\arabic{equation}",
 }
-_REVTEX = _ARTICLE | {
-    "section": r"\Roman{section}",
-    "subsection": r"\Alph{subsection}",
-    "subsubsection": r"\arabic{subsubsection}",
-    "equationprefix": "",
-    "equation": r"\theequationprefix\arabic{equation}",
-}
-_REVTEX_CLASSES = ("revtex4", "revtex4-1", "revtex4-2")
-_PLAIN = ("article", "amsart", "scrartcl", "extarticle", "elsarticle", "standalone", "subfiles", "beamer")
 _CLASSES = {
-    **dict.fromkeys(_PLAIN, _ARTICLE),
-    **dict.fromkeys(("book", "report", "memoir", "extbook", "extreport"), _BOOK),
-    **dict.fromkeys(("scrbook", "scrreprt"), _BOOK | {"equation": r"\thechapter.\arabic{equation}"}),
-    **dict.fromkeys(_REVTEX_CLASSES, _REVTEX),
-    "IEEEtran": _ARTICLE | {"section": r"\Roman{section}"},
-}
-# Classes that number the equations of an appendix by its sections: how.
-_APPENDICES = {
-    **dict.fromkeys(_REVTEX_CLASSES, ("equationprefix", r"\Alph{section}")),
-    "elsarticle": ("equation", r"\Alph{section}.\arabic{equation}"),
+    **dict.fromkeys(("article", "amsart", "scrartcl", "elsarticle", "standalone", "subfiles"), _ARTICLE),
+    **dict.fromkeys(("book", "report", "memoir"), _BOOK),
 }
 _WITHIN = {"section": "chapter", "subsection": "section", "subsubsection": "subsection"}
 _ROMAN = {"m": 1000, "cm": 900, "d": 500, "cd": 400, "c": 100, "xc": 90, "l": 50, "xl": 40, "x": 10,
@@ -84,14 +67,13 @@ class Counters:
         """Return a counter as it is printed."""
         return plain_number(latex_of(expander.expand((Token("command", rf"\the{name}", 0),))))
 
-    def begin_appendix(self, expander: Expander, star: bool = False) -> None:
+    def begin_appendix(self, expander: Expander) -> None:
         r"""\appendix: letters for chapters or sections."""
         top, below = ("chapter", "section") if r"\thechapter" in expander.macros else ("section", "subsection")
         self.values |= {top: 0, below: 0}
         expander.define(rf"\the{top}", Macro.of(rf"\Alph{{{top}}}"), everywhere=True)
-        if form := _APPENDICES.get(self.document_class):
-            self.parents["equation"] = "section"
-            expander.define(rf"\the{form[0]}", Macro.of(form[1] + "." * star), everywhere=True)
+        if self.document_class == "elsarticle":
+            expander.doubt = "the appendix of elsarticle numbers equations in a way of its own"
 
     def primitives(self) -> dict[str, Primitive]:
         """Return the commands that set and print counters."""

@@ -52,7 +52,7 @@ class TokenStream:
         self._reading.append((file, tokens))
         self.length += len(text) + 1
 
-    def file_beside(self, name: str, suffixes: tuple[str, ...]) -> Path | None:
+    def _file_beside(self, name: str) -> Path | None:
         """Return the file of this name in the folder of the source or of the file that names it; None if there is none.
 
         A file outside the folder of the source is not read: a note says so.
@@ -61,7 +61,7 @@ class TokenStream:
             return None
         root = self.file.resolve().parent
         folders = (self.file.parent, (self._open_files() or self._reading)[-1][0].parent)
-        for path in (folder / (name.strip('" ') + suffix) for folder in folders for suffix in suffixes):
+        for path in (folder / (name.strip('" ') + suffix) for folder in folders for suffix in (".tex", "")):
             if path.is_file() and path.resolve().is_relative_to(root):
                 return path
             if path.is_file():
@@ -70,21 +70,12 @@ class TokenStream:
 
     def read_file(self, name: str, at: int) -> None:
         r"""Take in a part of the source, the argument of \input; a note says that it is missing."""
-        if (path := self.file_beside(name, (".tex", ""))) is not None:
+        if (path := self._file_beside(name)) is not None:
             self.take_in(read_text(path, "latin-1"), path)
-        elif self.file is not None and ".sty:" not in self.place(at):
+        elif self.file is not None:
             self.notes.append(
                 f"{self.place(at)}: {name[:_LONGEST_NAME]} is missing: put it into the folder of the source"
             )
-
-    def tokens_apart(self, path: Path) -> Iterator[Token]:
-        """Yield the tokens of a file as they stand; the stream goes on behind them as it was."""
-        waiting, faults = self.waiting, dict(self.faults)
-        self.waiting = []
-        self.take_in(read_text(path, "latin-1"), path)
-        while (token := self.next()) is not None:
-            yield token
-        self.waiting, self.faults = waiting, faults
 
     def end_file(self, at: int) -> bool:
         r"""Leave the file of a place, where it is a part that could stand by itself; return False for the first file."""
