@@ -152,15 +152,13 @@ TEX = r"""\documentclass{article}\title{«T»}\author{«A»}\newcommand{\a}{«x�
 \begin{equation}\label{«e»} \a_{«1»} + \mathrm{«b»} = «c» \end{equation}
 \begin{equation} \mathbf{«r»} = \frac{d «q»}{d t} \tag{«7»} \end{equation}\input{«file»}\end{document}
 """
-MARKDOWN = "---\ntitle: «T»\n---\n# «S»\n<!-- «c» -->\n$$«x» = y$$ («e»)\n\n```{math}\n:label: «l»\nx = «y»\n```\n"
+MARKDOWN = "---\ntitle: «T»\n---\n# «S»\n<!-- «c» -->\n$$«x» = «e»$$\n\n```math\nx = «y»\n```\n"
 
 
 def source_file(suffix: str, template: str) -> Callable[[Path, str], None]:
     def door(folder: Path, text: str) -> None:
         for number, content in enumerate(variants(template, text, quoted=False)):
             source = folder / f"{number}{suffix}"
-            if suffix == ".ipynb":
-                content = json.dumps({"cells": [{"cell_type": "markdown", "source": [content], "metadata": {}}]})
             source.write_text(content, encoding="utf-8")
             source.with_suffix(".aux").write_text(rf"\newlabel{{e}}{{{{{text}}}{{1}}}}" + rf"\@input{{{text}}}")
             with suppress(LagrotorError):
@@ -294,7 +292,6 @@ TEXTS: dict[str, Callable[[Path, str], None]] = {
     "recorded.toml": paper_file("recorded.toml", RECORD),
     "LaTeX": source_file(".tex", TEX),
     "Markdown": source_file(".md", MARKDOWN),
-    "notebook": source_file(".ipynb", MARKDOWN),
     "judge": judged,
     "units": units,
     "system": system_text,
@@ -458,7 +455,7 @@ READERS = {
     "paper/catalogue.py": "program",
     "paper/record.py": "recorded.toml",
     "paper/scripts.py": "program",
-    "paper/latex/markup.py": "notebook",
+    "paper/latex/markup.py": "Markdown",
     "paper/latex/numbers.py": "LaTeX",
     "paper/latex/init.py": "LaTeX",
     "paper/latex/token_stream.py": "LaTeX",

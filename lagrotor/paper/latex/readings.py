@@ -175,14 +175,14 @@ def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
 
 
 def as_printed(text: str, printed: str) -> str:
-    """Return a reading with decimals as in the print, and units without their prefix: 981/100*unit_m is 9.81*m.
+    """Return a reading with decimals as in the print: 981/100*m is 9.81*m.
 
     A fraction is a whole quotient of two numbers: of x**2/2 and x/3/4 no part is.
     """
     plain = printed.replace("{,}", "").replace(",", ".")
     decimals = {Fraction(digits): digits for digits in re.findall(r"\d+\.\d+", plain)}
     fraction = r"(?<![\w./])(?<!\*\*)\d+/\d+(?![\w./]|\*\*)"
-    return re.sub(fraction, lambda match: decimals.get(Fraction(match[0]), match[0]), text).replace("unit_", "")
+    return re.sub(fraction, lambda match: decimals.get(Fraction(match[0]), match[0]), text)
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:

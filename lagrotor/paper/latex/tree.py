@@ -50,12 +50,10 @@ class Call:
 
 Node: TypeAlias = Number | Letter | Call
 
-# Relations as calls, in the condition of a sum.
-CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
 # Operations whose value is a vector or a matrix, and those that are one where their first argument is.
-_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "inverse", "transpose")
-_CARRYING_NAMES = "sum negative quotient Derivative rate prime Integral limit Sum differential laplacian at power"
+_VECTORS = ("cross", "column", "matrix", "inverse", "transpose")
+_CARRYING_NAMES = "sum negative quotient Derivative rate prime Integral Sum at power"
 _CARRYING = frozenset(_CARRYING_NAMES.split())
 # What a line of the catalogue may call, but in another sense than a print.
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
@@ -119,7 +117,7 @@ def is_vector(node: Node) -> bool:
         return isinstance(node, Letter) and node.vector
     if node.name in ("product", "matmul"):
         return any(map(is_vector, node.args))
-    if node.name in _CARRYING and not (node.name == "differential" and len(node.args) > 1):  # d^3 r
+    if node.name in _CARRYING:
         return is_vector(node.args[0])
     return node.name in _VECTORS or node.name.split("_")[0].removesuffix("prime").endswith(("bold", "vec"))
 
@@ -244,17 +242,15 @@ class Opaque:
 
 _GREEK = ("beta", "gamma", "zeta")  # as a rule a function of the author's
 # Calls without a value of sympy that is decided, and what would help.
-_OF_NABLA = "write its components"
 _UNDECIDED = {
-    "limit": "limits are not decided", "Integral": "write an integral of an explicit expression between two limits",
+    "Integral": "write an integral of an explicit expression between two limits",
     "Derivative": "write the expression that is differentiated, or give it by a premise, L = …",
     "rate": "write the expression that is differentiated, or give it by a premise", "prime": "write the argument, V'(r)",
     "Sum": "write the first and the last index as numbers, or without letters that bear the index",
-    "Product": "write the factors", "at": "write the value", "differential": "write a derivative or an integral",
-    "gradient": _OF_NABLA, "divergence": _OF_NABLA, "curl": _OF_NABLA, "laplacian": _OF_NABLA, "dots": "write what is left out",
+    "Product": "write the factors", "at": "write the value", "dots": "write what is left out",
     "matmul": "write the entries of the matrices", "det": "write the entries of the matrix", "order": "write O(x^n) at the end",
     "transpose": "write the entries of the matrix", "inverse": "write the entries of the matrix",
-    "tr": "write the entries of the matrix", "values": "write one statement each",
+    "tr": "write the entries of the matrix",
     "arg": "write it by real letters", "Re": "write it by real letters", "Im": "write it by real letters",
     "max": "write one of them", "min": "write one of them",
     **dict.fromkeys(("sum", "product", "quotient", "power", "cross", "dot", "norm", "column", "matrix", "row"),
@@ -416,7 +412,7 @@ def _apart(derivative: Call, inner: sp.Expr) -> bool:
         f"[{text_of(each)}]"
         for each in walk(derivative.args[0])
         if isinstance(each, Call)
-        and each.name not in (*BINDING, "limit")
+        and each.name not in BINDING
         and not set(letters_of(derivative.args[1])) & set(letters_of(each))
     }
     return {symbol.name for symbol in inner.free_symbols if has_opaque(symbol)} <= functions
