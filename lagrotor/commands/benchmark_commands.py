@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lagrotor.commands.terminal import Command, check_folder, progress, table
+from lagrotor.commands.terminal import Command, add_json, check_folder, progress, table
 
 if TYPE_CHECKING:
     from lagrotor.benchmark.runner import Benchmark
@@ -24,7 +24,7 @@ def add_benchmark_commands(command: Command) -> None:
     added.add_argument(
         "--quick", action="store_true", help="fewer methods, tolerances and repeats: seconds for minutes"
     )
-    added.add_argument("--json", action="store_true", help="print the points as a JSON object")
+    add_json(added, "the points as a JSON object")
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
 
     added = command(
@@ -34,7 +34,7 @@ def add_benchmark_commands(command: Command) -> None:
         "lagrotor stability --quick --out .",
     )
     added.add_argument("--quick", action="store_true", help="shorter runs and coarser thresholds: seconds, not minutes")
-    added.add_argument("--json", action="store_true", help="print a JSON object")
+    add_json(added)
     added.add_argument("--out", type=Path, metavar="DIR", help="existing folder for stability.svg, .png and .json")
 
 

@@ -1,6 +1,7 @@
 """The terminal: a parser that refuses in one line, tables as wide as the terminal is, and progress while people wait."""
 
 import argparse
+import json
 import os
 import re
 import shutil
@@ -39,6 +40,16 @@ def check_folder(folder: Path) -> None:
         raise InputError(f"--out: there is no folder {folder}: make it first")
     if not os.access(folder, os.W_OK):
         raise InputError(f"--out: the folder {folder} cannot be written to: choose another")
+
+
+def add_json(parser: argparse.ArgumentParser, what: str = "a JSON object") -> None:
+    """Add the option --json, which prints data instead of text."""
+    parser.add_argument("--json", action="store_true", help=f"print {what}")
+
+
+def print_json(data: Any) -> None:
+    """Print data as JSON."""
+    print(json.dumps(data, indent=1, ensure_ascii=False))
 
 
 _NARROWEST, _WIDTH = 20, 100  # columns: the least of a wrapped text; the width where there is no terminal

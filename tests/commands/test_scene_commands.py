@@ -50,7 +50,10 @@ def test_a_scene_in_a_file_is_whole_and_a_file_is_no_folder(capsys, tmp_path) ->
     file = tmp_path / "scene.toml"
     file.write_text("spins = [10, -10]\n")
     for words, reason in (
-        (["simulate", "--scene", str(file), "--I1", "2"], "--scene and --I1: the file has the whole scene"),
+        (
+            ["simulate", "--scene", str(file), "--link-mass", "2"],
+            "--scene and --link-mass: the file has the whole scene",
+        ),
         (["figure", "1", "--out", str(file)], "is a file: give a folder"),
     ):
         assert main(words) == 2

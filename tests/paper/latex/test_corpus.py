@@ -139,10 +139,6 @@ COUNTS = r"\begin{equation}\label{a} a = b \end{equation}\begin{equation}\label{
         (r"\documentclass{strange}\begin{document}", "the class strange is not known"),
         (ARTICLE + r"\setcounter{equation}{\x}", r"paper.tex:1: \setcounter{equation}{\x} is not known"),
         (ARTICLE + r"\newtheorem{law}[equation]{Law}", "theorems share the counter of equations"),
-        (
-            r"\documentclass{elsarticle}\begin{document}\appendix",
-            "the appendix of elsarticle numbers equations in a way of its own",
-        ),
         (ARTICLE + r"\mathtoolsset{showonlyrefs}", "showonlyrefs of mathtools withdraws numbers"),
         (ARTICLE + r"\ifnum1=1 \stepcounter{equation}\fi", "a part of the source is left out"),
         (ARTICLE, ""),
