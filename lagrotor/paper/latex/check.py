@@ -146,7 +146,7 @@ class _Checker:
         self.source, self.readings, self.notation = source, readings, notation
         sides = (s.node for _, reading in readings for statement in reading.statements for s in statement.sides)
         self.opaque = Opaque()
-        self.moving = Opaque(self.opaque.names, rates_of(sides), positive=notation.positive)  # derivatives taken
+        self.moving = Opaque(self.opaque.names, rates_of(sides))  # derivatives taken
         self.place = 0
 
     def findings(self, progress: Callable[[str], None] | None = None) -> Iterator[StepFinding]:
@@ -199,7 +199,6 @@ class _Checker:
 
     def _step(self, left: Node, right: Node) -> _VERDICT:
         """Return the verdict on a step, and the reason."""
-        self.opaque.assuming = False
         a, b = self._value(left), self._value(right)
         if a is None or b is None:
             return NOT_JUDGED, UNCOMPARABLE
@@ -215,18 +214,18 @@ class _Checker:
         if said := self._with_derivatives_taken(left, right, (a, b)):
             return HOLDS, said
         reason, why = self._refuted(left, right, a, b)
-        if reason or self.opaque.assuming or decided(a, b) != "nonzero":
+        if reason or decided(a, b) != "nonzero":
             return NOT_JUDGED, reason or OUTSIDE
         return REFUTED, why
 
     def _with_derivatives_taken(self, left: Node, right: Node, before: tuple[Any, Any]) -> str:
         """Return the assumptions under which two members agree once derivatives and integrals are taken; "" if they do not."""
-        self.moving.fixing = self.moving.assuming = False
+        self.moving.fixing = False
         a, b = (expression_of(node, self.moving) for node in (left, right))
         if a is None or b is None or (a, b) == before or is_large(a, b) or not agree(a, b):
             return ""
-        names = ["the other letters fixed in derivatives and integrals"] * self.moving.fixing
-        return "with " + (", ".join([*names, *["positive letters"] * self.moving.assuming]) or "derivatives taken")
+        fixed = "the other letters fixed in derivatives and integrals"
+        return f"with {fixed if self.moving.fixing else 'derivatives taken'}"
 
     def _refuted(self, left: Node, right: Node, a: Any, b: Any) -> tuple[str, str]:
         """Return the reason for which a difference that is not zero refutes nothing, or "" and how the members differ."""

@@ -5,15 +5,13 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache, reduce
+from functools import cached_property, reduce
 from itertools import pairwise
 from typing import Any, TypeAlias
 
 import sympy as sp
 
-from lagrotor.algebra.proving import evaluated
-from lagrotor.algebra.work import at_most
-from lagrotor.errors import InputError, WorkError
+from lagrotor.errors import InputError
 from lagrotor.paper.grammar import FUNCTIONS
 
 
@@ -59,8 +57,6 @@ _CARRYING = frozenset(_CARRYING_NAMES.split())
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
 _MOST_BITS = 20_000  # of a number that is evaluated
-# Operations of what is integrated in closed form, and the calls of functions that it may take.
-_MOST_INTEGRATED, _MOST_CALLS = 60, 3_000_000
 _MOST_ADDED = 40  # terms of a sum that is written out
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
@@ -212,17 +208,14 @@ class Opaque:
     """Parts that stand for themselves in a sympy expression: derivatives, integrals, functions that are not known.
 
     rates: letters and components to their rates. Where they are known, derivatives and integrals of explicit expressions are
-    taken, the other letters held fixed, and `fixing` says whether any were. positive: letters that are; `assuming` says whether
-    others were taken as positive, so that an integral has a value. refuses: whether a part that stands for itself is refused
-    in words; then a letter before its argument is a function of sympy, and sums and integrals are left to the decision.
-    letters: symbols with other assumptions than to be real.
+    taken, the other letters held fixed, and `fixing` says whether any were. refuses: whether a part that stands for itself is
+    refused in words; then a letter before its argument is a function of sympy, and sums are left to the decision. letters:
+    symbols with other assumptions than to be real.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
     rates: Mapping[sp.Symbol, sp.Symbol] | None = None
     fixing: bool = False
-    positive: frozenset[str] = frozenset()
-    assuming: bool = False
     refuses: bool = False
     letters: Mapping[str, sp.Symbol] = field(default_factory=dict)
 
@@ -324,33 +317,6 @@ def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
     return rates
 
 
-@lru_cache(maxsize=1000)
-def _in_closed_form(integral: sp.Integral) -> sp.Expr:
-    """Return the value of an integral, which a section may have in many steps; itself beyond its own bound."""
-    try:
-        return at_most(_MOST_CALLS, evaluated, integral)
-    except WorkError:
-        return integral
-
-
-def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
-    """Return the value of an integral, with positive letters where signs decide on it."""
-    variable, low, high = integral.limits[0]
-    outside, inner = integral.function.as_independent(variable, as_Add=False)
-    if sp.count_ops(inner) > _MOST_INTEGRATED:
-        return None
-    powers = (each.exp for each in inner.atoms(sp.Pow) if each.has(variable))
-    entire = not inner.has(sp.log, sp.tan) and all(exponent.is_Integer and exponent > 0 for exponent in powers)
-    finite = entire and not {low, high} & {sp.oo, -sp.oo}
-    if finite and (inner.free_symbols == {variable} or inner.is_polynomial(variable)):
-        return outside * _in_closed_form(sp.Integral(inner, (variable, low, high)))
-    signed = {s: sp.Symbol(s.name, positive=True) for s in sorted(integral.free_symbols, key=str)}
-    inner, low, high = (each.xreplace(signed) for each in (inner, low, high))
-    value = _in_closed_form(sp.Integral(inner, (variable, low, high)))
-    opaque.assuming |= not {s.name for s in signed} <= opaque.positive
-    return outside * sp.logcombine(value).xreplace({dummy: symbol for symbol, dummy in signed.items()})
-
-
 def _bound(node: Call, opaque: Opaque) -> Any:
     """Return the value of a sum of a few terms, of the derivative or integral of an explicit expression; else None."""
     inner = sympy_expression(node.args[0], opaque)
@@ -374,14 +340,10 @@ def _bound(node: Call, opaque: Opaque) -> Any:
         value = sp.diff(inner, variable, int(order)) if order.is_Integer and 0 < order < 20 else None
     elif len(ends) != 2 or inner.has(sp.I):  # what is complex is not decided
         return None
-    elif opaque.refuses:
-        return sp.Integral(inner, (variable, *ends))
     else:
-        value = _integrated(sp.Integral(inner, (variable, *ends)), opaque)
+        value = sp.Integral(inner, (variable, *ends))
     opaque.fixing |= bool(others)
-    if opaque.refuses and value is not None and not value.has(sp.nan, sp.zoo):
-        return value
-    return None if value is None or value.has(sp.Integral, sp.Derivative, sp.nan, sp.zoo) else value
+    return None if value is None or value.has(sp.nan, sp.zoo) else value
 
 
 def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
