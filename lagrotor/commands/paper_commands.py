@@ -207,7 +207,7 @@ def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
     from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.init import confirm
-    from lagrotor.paper.latex.readings import as_printed, readings
+    from lagrotor.paper.latex.readings import readings
     from lagrotor.paper.readable import from_latex, readable
 
     paper = Catalogue(given.folder)
@@ -224,8 +224,7 @@ def readings_command(given: argparse.Namespace) -> int:
         print(wrap(f"{each.id}{moved}  {each.title}: {each.status}", 4))
         print(wrap(f"    print    {each.print}", 13))
         for text in each.said:
-            sides = as_printed(text, each.print).split(" = ")
-            shown = " = ".join(from_latex(side) if "\\" in side else readable(side) for side in sides)
+            shown = " = ".join(from_latex(side) if "\\" in side else readable(side) for side in text.split(" = "))
             print(wrap(f"    read     {shown}", 13))
         if each.stopped:
             print(wrap(f"    stopped  {each.stopped}: {each.helps}", 13))
@@ -249,7 +248,7 @@ def derive_command(given: argparse.Namespace) -> int:
 
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import toml
-    from lagrotor.paper.latex.check import FAULT, HOLDS, NOT_JUDGED, REFUTED, WRONG, Check, check_source
+    from lagrotor.paper.latex.check import FAULT, WRONG, Check, check_source
     from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.markup import read_source
     from lagrotor.paper.latex.notation import Notation, declared_notation
@@ -281,15 +280,8 @@ def check_command(given: argparse.Namespace) -> int:
                 print(wrap(f"{file}:{each.line}: {of}{readable(each.why) if of else each.why}", 4))
                 if each.members:
                     print(wrap("    {} = {}".format(*map(readable, each.members)), 6))
-        counts = whole.counts
-        verbs = (
-            (HOLDS, "holds", "hold"),
-            (REFUTED, "is refuted", "are refuted"),
-            (NOT_JUDGED, "is not judged", "are not judged"),
-        )
-        said = [f"{counts[verdict]} {one if counts[verdict] == 1 else more}" for verdict, one, more in verbs]
-        said[0] = f"{_some(counts[HOLDS], 'step')}{said[0].removeprefix(str(counts[HOLDS]))}"
-        say(f"{_some(displayed, 'displayed equation')}: {', '.join(said)}", 0)
+        counts = "; ".join(f"{verdict}: {count}" for verdict, count in whole.counts.items())
+        say(f"{_some(displayed, 'displayed equation')}; steps: {counts}", 0)
         if whole.reasons:
             reasons = "; ".join(f"{reason} ({count})" for reason, count in whole.reasons.items())
             say(f"not judged because {reasons}{'' if given.all else '; all of them: --all'}", 0)

@@ -334,6 +334,8 @@ class _Reader:
         if name == "operatorname" or (len(word) > 1 and word in FUNCTIONS):
             return [self.made("function", word, item)]
         if worded and name in _TEXT and word != "d":
+            if "$" in word:
+                raise FormulaError("a formula stands within words", "write it between the words")
             return [self.made("text" if word else "thin", word, item)]
         if len(word) == 2 and word[0] == "d" and word.isalpha() and name == "mathrm":
             return [self.made("letter", letter, item, upright=letter == "d") for letter in word]
@@ -389,12 +391,6 @@ class _Reader:
         above, below = (self.made(kind, name, item, upright=True, sup=sup) for sup in (order, None))
         over = [above, *(parts[0] if parts[1:] else [])]
         return [self.made("fraction", "", item, over, [below, replace(under[0], sup=order)])]
-
-    def _enclosed(self, item: Token, style: str) -> list[Box]:
-        r"""Read \abs{x} and \norm{x}."""
-        sign = "|" if item.text == r"\abs" else r"\|"
-        content = self.argument(style)
-        return [self.made("bracket", sign, item, content, closing=sign)]
 
     def _sqrt(self, item: Token, style: str) -> list[Box]:
         degree, content = self.bracketed(), self.argument("" if style == "upright" else style)
@@ -495,11 +491,9 @@ _FRACTIONS = ("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac", "binom", "
 _FORMS: dict[str, Callable[[_Reader, Token, str], list[Box]]] = {
     **dict.fromkeys(_FRACTIONS, _Reader._frac),
     **dict.fromkeys(("dv", "pdv"), _Reader._derivative),
-    **dict.fromkeys(("abs", "norm"), _Reader._enclosed),
     **dict.fromkeys(("underbrace", "overbrace"), _Reader._underbrace),
     **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._passed_over),
     **{"left": _Reader._left, "sqrt": _Reader._sqrt, "begin": _Reader._begin, "\\": _Reader._line_end},
-    "dd": lambda reader, item, style: [reader.made("letter", "d", item, upright=True)],
 }
 
 

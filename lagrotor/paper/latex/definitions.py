@@ -1,7 +1,5 @@
 r"""Commands of LaTeX that define others, choose between branches and take in files."""
 
-import re
-
 from lagrotor.paper.latex.macros import Expander, Macro, Parameter, Primitive, head_of
 from lagrotor.paper.latex.tokens import Token, latex_of, plain, tokenize
 
@@ -45,19 +43,12 @@ def _def(expander: Expander, token: Token) -> None:
     marks: list[Token] = []
     while (part := expander.next()) is not None and part.kind != "open":
         marks.append(part)
-    body = expander.group(token.at)
-    head: list[Parameter] = []
-    for place, mark in enumerate(marks):
-        after = marks[place + 1] if place + 1 < len(marks) else mark
-        if mark.kind == "param":
-            head.append(Parameter("m") if after.kind == "param" else Parameter("u", after))
-        elif mark.text.strip() and not (place and marks[place - 1].kind == "param"):
-            head.append(Parameter("=", mark))
-    # \edef expands its body at once, and no macro of a formula reads powers as marks: such a name has no meaning
-    if token.text in (r"\edef", r"\xdef") or any(mark.kind == "script" for mark in marks):
+    body, head = expander.group(token.at), tuple(Parameter("m") for mark in marks if mark.kind == "param")
+    # \edef expands its body at once, and arguments with marks between them are not read: such a name has no meaning
+    if token.text in (r"\edef", r"\xdef") or len(head) < len([each for each in marks if each.text.strip()]):
         expander.define(target.text, None, everywhere=True)
     else:
-        _define(expander, target.text, Macro(tuple(body), tuple(head)), token, token.text == r"\gdef")
+        _define(expander, target.text, Macro(tuple(body), head), token, token.text == r"\gdef")
 
 
 def _let(expander: Expander, token: Token) -> None:
@@ -180,14 +171,12 @@ def _if_value(expander: Expander, token: Token) -> None:
 
 
 def _text(expander: Expander, token: Token) -> bool:
-    r"""\mbox{\boldmath $u$} is \boldsymbol{u}, \text{$u$} is {u}; other words stay."""
+    r"""\mbox{…} and \textrm{…} are \text{…}."""
     if not expander.begins("{"):
         return False
     inside = expander.argument()
-    formula = re.fullmatch(r"\{?\s*(\\boldmath)?\s*\{?\s*\$([^$]*)\$\s*\}*", latex_of(inside).strip())
     words = (Token("open", "{", token.at), *inside, Token("close", "}", token.at))
-    shown = ("\\boldsymbol{" if formula[1] else "{") + formula[2] + "}" if formula else ""
-    expander.push(tokenize(shown, token.at) if formula else (Token("word", r"\text", token.at), *words))
+    expander.push((Token("word", r"\text", token.at), *words))
     return True
 
 

@@ -36,9 +36,8 @@ _RELATIONS = re.compile(
 )
 _NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX does not go on in a formula behind these
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
-# Environments that number formulas in a way of their own, and those that hold = and _ in drawings and code.
+# Environments of displays that are not read.
 _REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases", "empheq", "IEEEeqnarray")
-_NO_DISPLAY = re.compile("tikz|pic|axis|scope|code|list|verb|prog|console|tab|array|graph|diagram|CD|algo|bib")
 # Packages that a formula may need, and whose commands other formulas do not disturb.
 _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
 
@@ -164,17 +163,15 @@ class _Walker:
             self.expander.define(r"\theequation", printed)
         elif token.text.replace(r"\end", r"\begin") in _BEGINS:
             self._stray(token, f"{token.text} ends nothing that has begun")
-        elif token.kind == "script" and self.body and (self.expander.scopes or token.text == "^"):
-            name = self.expander.scopes[-1][0] if self.expander.scopes else ""
-            if name != "{" and not _NO_DISPLAY.search(name):
-                self._pass_over(name, token.at)
+        elif token.text == "^" and self.body:
+            inside = next((name for name, _ in self.expander.scopes[::-1] if name != "{"), "")
+            where = rf"in \begin{{{inside}}}, which is not known: define it"
+            if not inside.startswith("tikz"):  # a drawing
+                alone = "alone: define the command that begins it"
+                self._pass_over(token.at, f"a formula stands {where if inside else alone}")
 
-    def _pass_over(self, name: str, at: int) -> None:
-        """Note an environment that is not known and holds a formula, once for each name."""
-        said = rf"\begin{{{name}}} is not known, and a formula that it displays is passed over: write equation, or define it by"
-        said += rf" \newenvironment{{{name}}}"
-        if not name:
-            said = r"^ stands outside a formula: define the command that begins this formula by \newcommand"
+    def _pass_over(self, at: int, said: str) -> None:
+        """Note a formula that is not read, once for each sentence."""
         if not any(said in note for note in self.expander.notes):
             self.expander.notes.append(f"{self.expander.place(at)}: {said}")
             self.expander.doubt = self.expander.doubt or "a part of the source is left out"
@@ -226,7 +223,7 @@ class _Walker:
                 self.expander.argument()
             self._display(kind, token, end, name != kind)
         elif kind in _REFUSED:
-            self._pass_over(name, token.at)
+            self._pass_over(token.at, rf"\begin{{{name}}} is not read: write equation or align")
 
     def _begin_subequations(self) -> None:
         """Number by letters within the next number."""

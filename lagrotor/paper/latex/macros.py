@@ -36,10 +36,10 @@ _LETTER = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")  # o
 
 
 class Parameter(NamedTuple):
-    r"""One argument of a macro: m, s, o or g as in \NewDocumentCommand, u (ends with `mark`), or = (the mark must follow)."""
+    r"""One argument of a macro: m, s, o or g as in \NewDocumentCommand; marks: the two signs around an optional one."""
 
     kind: str
-    mark: Token = Token("text", "[]", 0)
+    marks: str = "[]"
     default: tuple[Token, ...] = _NO_VALUE
 
 
@@ -60,9 +60,7 @@ def head_of(spec: str) -> tuple[Parameter, ...]:
     head = []
     for letter, optional, opening, closing, default in _LETTER.findall(spec):
         value = tuple(tokenize(default)) if optional[:1] in ("O", "D") else _NO_VALUE
-        head.append(
-            Parameter(letter) if letter else Parameter("o", Token("text", (opening + closing) or "[]", 0), value)
-        )
+        head.append(Parameter(letter) if letter else Parameter("o", (opening + closing) or "[]", value))
     return tuple(head)
 
 
@@ -148,19 +146,12 @@ class Expander(TokenStream):
     def _body(self, macro: Macro, token: Token) -> list[Token]:
         """Return the body of a macro with its arguments; tokens of the body have the place of the macro."""
         values: list[Iterable[Token]] = []
-        if macro.head and macro.head[0].kind in "u=":
-            self.skip_spaces()
-        for kind, mark, default in macro.head:
+        for kind, marks, default in macro.head:
             value: list[Token] | None = None
-            if kind == "=":
-                self.take(mark.text)
-                continue
             if kind == "s":
                 value = plain("*" if self.star() else "", token.at)
-            elif kind == "u":
-                value = self.until(mark, at=token.at)
             elif kind == "o":
-                value = self.delimited(*mark.text)
+                value = self.delimited(*marks)
             elif kind == "m" or self.begins("{"):
                 value = self.argument()
             values.append(default if value is None else value)

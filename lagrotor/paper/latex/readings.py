@@ -1,9 +1,7 @@
 """The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -172,17 +170,6 @@ def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
     claimed = (f" + O({row['small']}**{row.get('order', 0) + 1})" if row.get("small") else "" for row in lines)
     texts = (" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in lines)
     return tuple(map("".join, zip(texts, claimed, strict=True)))
-
-
-def as_printed(text: str, printed: str) -> str:
-    """Return a reading with decimals as in the print: 981/100*m is 9.81*m.
-
-    A fraction is a whole quotient of two numbers: of x**2/2 and x/3/4 no part is.
-    """
-    plain = printed.replace("{,}", "").replace(",", ".")
-    decimals = {Fraction(digits): digits for digits in re.findall(r"\d+\.\d+", plain)}
-    fraction = r"(?<![\w./])(?<!\*\*)\d+/\d+(?![\w./]|\*\*)"
-    return re.sub(fraction, lambda match: decimals.get(Fraction(match[0]), match[0]), text)
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:

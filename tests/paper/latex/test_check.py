@@ -186,7 +186,7 @@ def test_the_command_counts_steps_names_reasons_and_shows_both_members(
     assert main(["check", str(file)]) == 1
     said = " ".join("".join(capsys.readouterr()).split())
     assert "(1), step 2: refuted" in said and "·φ̇)² = m·(" in said
-    assert "3 displayed equations: 1 step holds, 1 is refuted, 1 is not judged" in said
+    assert "3 displayed equations; steps: holds: 1; refuted: 1; not judged: 1" in said
     assert "the right member has letters that the left one has not (1)" in said
     assert main(["check", str(file), "--all"]) == 1
     assert "k·x = m·" in capsys.readouterr().out, "the members of what is not judged"

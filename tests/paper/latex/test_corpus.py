@@ -171,10 +171,3 @@ def test_numbers_that_cannot_be_known_are_said_and_taken_from_the_aux(start: str
 )
 def test_a_label_has_the_number_of_its_equation(body: str, labels: dict[str, str]) -> None:
     assert read_latex(rf"\documentclass{{article}}\begin{{document}}{body}\end{{document}}").labels == labels
-
-
-@pytest.mark.parametrize("end", ["\n\n", r"\par "])
-def test_an_argument_that_is_not_closed_ends_with_its_paragraph(end: str, tmp_path: Path) -> None:
-    text = rf"\def\aside#1;{{}} \aside open{end}\begin{{equation}} a = b \end{{equation}} then; \[ c\aside x; = d \]"
-    assert equations_of(tmp_path, text) == [("1", "a = b"), ("", "c = d")]
-    assert equations_of(tmp_path, text.replace(end, " ")) == [("", "c = d")]
