@@ -168,8 +168,6 @@ def init_command(given: argparse.Namespace) -> int:
         print(f"changed since, to be confirmed again: {', '.join(made.changed)}")
     if made.gone:
         print(f"no longer in the source: {', '.join(made.gone)}")
-    if made.moved:
-        print(f"ids stay while numbers move: {', '.join(made.moved)}")
     if given.source:
         print(f"see the kinds of its letters: lagrotor notation {made.folder}")
         print(f"compare the readings with the print: lagrotor readings {made.folder}")

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, show_time, table
+from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, table
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES
 from lagrotor.pair.examples import SCENES
@@ -115,7 +115,6 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the runs, s (default: 10)")
     added.add_argument("--samples", type=int, default=3, metavar="N", help="times that each is read at (default: 3)")
     added.add_argument("--tol", type=float, default=1e-8, help=f"{_TOLERANCE} (default: 1e-8)")
-    added.add_argument("--out", type=Path, metavar="FILE", help="write every time of every run as .csv")
     add_json(added, "a JSON list, one object a run")
 
 
@@ -130,19 +129,14 @@ def _values(given: argparse.Namespace) -> list[float]:
 
 
 def sweep_command(given: argparse.Namespace) -> int:
-    """Run the family; a line a run, or all times of all runs as CSV."""
+    """Run the family; a line a run."""
     if not (math.isfinite(given.t_end) and given.t_end > 0 and given.samples >= 2):
         raise InputError(f"--t-end {given.t_end:g} must be above zero and --samples {given.samples} at least 2")
-    if given.out:
-        if given.out.suffix != ".csv":
-            raise InputError(f"--out {given.out}: the name must end in .csv")
-        check_folder(given.out.parent)
     values, scene, change = _values(given), scene_from_options(given), _VARIED[given.vary][1]
     family = [change(scene, value) for value in values]
 
     import numpy as np
 
-    from lagrotor.files import write_text
     from lagrotor.models.sweeps.ensemble import sweep
 
     with progress(1) as step:
@@ -154,15 +148,7 @@ def sweep_command(given: argparse.Namespace) -> int:
          "tip_1": run.tips[0, -1].tolist(), "tip_2": run.tips[1, -1].tolist()}
         for value, run in zip(values, runs, strict=True)
     ]  # fmt: skip
-    if given.out:
-        head = f"{given.vary},t [s],tip_1_x [m],tip_1_y [m],tip_1_z [m],tip_2_x [m],tip_2_y [m],tip_2_z [m]"
-        lines = (
-            ",".join(map(repr, (value, float(t), *map(float, run.tips[:, n].ravel()))))
-            for value, run in zip(values, runs, strict=True)
-            for n, t in enumerate(run.t)
-        )
-        print(write_text(given.out, "\n".join([head, *lines, ""])))
-    elif given.json:
+    if given.json:
         print_json(rows)
     else:
         cells = [
@@ -277,8 +263,7 @@ def simulate_command(given: argparse.Namespace) -> int:
     from lagrotor.models.simulate import simulate
 
     times = np.linspace(0.0, given.t_end, given.samples)
-    with show_time(given.t_end) as at:
-        run = simulate(scene, times, given.model, given.tol, progress=at)
+    run = simulate(scene, times, given.model, given.tol)
     if given.out:
         run.save(given.out)
     summary = {
@@ -368,7 +353,6 @@ def add_structure_commands(command: Command) -> None:
     added.add_argument(
         "--out", type=Path, metavar="FILE", help="write a picture, a film (.gif, .mp4) or the .toml itself"
     )
-    added.add_argument("--t-end", type=float, metavar="S", help="length of the film, s (default: the gallery's, or 5)")
     add_json(added)
 
 
@@ -387,8 +371,7 @@ def structure_command(given: argparse.Namespace) -> int:
     s = read_structure(given.structure) if given.structure.endswith(".toml") else example(given.structure)
     if given.out:
         ready = GALLERY.get(given.structure)
-        usual = ready.duration if ready else 5.0
-        _write(s, given.out, usual if given.t_end is None else given.t_end)
+        _write(s, given.out, ready.duration if ready else 5.0)
     summary = _summary(s)
     print_json(summary) if given.json else print(_table(summary))
     if given.out and not given.json:

@@ -80,33 +80,6 @@ def say(message: str, status: int) -> int:
     return status
 
 
-@contextmanager
-def show_time(t_end: float) -> Iterator[Callable[[float], None]]:
-    """A function to call with each time (s) that a run up to `t_end` reaches: shown after two seconds, then now and again.
-
-    A terminal shows it in one line that is written over; elsewhere there is a line every ten seconds, on stderr.
-    """
-    began, live = time.perf_counter(), sys.stderr.isatty()
-    calls, due, runs, last = 0, 2.0, 1, 0.0
-
-    def at(t: float) -> None:
-        nonlocal calls, due, runs, last
-        runs, last = runs + (t < last / 2), t
-        calls += 1
-        if calls % 256 or (now := time.perf_counter() - began) < due:
-            return
-        due = now + (0.25 if live else 10.0)
-        line = f"[{now:.0f} s] integration {runs}: t = {min(t, t_end):.4g} of {t_end:g} s"
-        print(f"\r{line:<{shutil.get_terminal_size().columns - 1}}" if live else line, end="" if live else "\n",
-              file=sys.stderr, flush=True)  # fmt: skip
-
-    try:
-        yield at
-    finally:
-        if live:
-            _clear_line()
-
-
 def _clear_line() -> None:
     print(f"\r{'':<{shutil.get_terminal_size().columns - 1}}\r", end="", file=sys.stderr, flush=True)
 

@@ -26,8 +26,7 @@ _FAULTS = {
     "]": r"\] ends nothing that has begun",
     ")": r"\) ends nothing that has begun",
 }
-_BETWEEN = (r"\intertext", r"\shortintertext")
-_ROW_ENDS = (r"\\", r"\cr", *_BETWEEN)
+_ROW_ENDS = (r"\\", r"\cr")
 _NO_NUMBER = (r"\nonumber", r"\notag")
 _OPERATORS = re.compile(r"[+\-*/]|\\(?:times|cdot|pm|mp|div|wedge|otimes|circ)(?![A-Za-z])")
 _RELATIONS = re.compile(
@@ -111,9 +110,7 @@ class _Walker:
         self.expander = Expander(text, file, PRIMITIVES | self.counters.primitives())
         self.counters.begin(self.expander, "article")
         self.aux, self.aux_name = ({}, "") if file is None else (aux_numbers(file), file.with_suffix(".aux").name)
-        self.others: list[str] = []  # labels whose number in the .aux is another one, in words
         self.whole = r"\documentclass" in text
-        self.short = "ShortVerb" in text  # a sign may begin and end text that shows $
         self.body = not self.whole
         self.section, self.starred, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0  # the last number, and how many displays without one came since
@@ -131,11 +128,6 @@ class _Walker:
         source.faults = [(*expander.line(at), said) for at, said in sorted(expander.faults)]
         source.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in expander.loaded)
         source.notes += dict.fromkeys(expander.notes)
-        if self.others:
-            more = f", as {len(self.others) - 1} more differ" if self.others[1:] else ""
-            source.notes.append(
-                f"{self.others[0]}{more}: the first is taken, and equations without a label are counted"
-            )
         name, missing = self.aux_name, [label for label in source.labels if self.aux and label not in self.aux]
         if missing:
             source.notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
@@ -237,12 +229,9 @@ class _Walker:
 
     def _section(self, level: str, heading: str, star: bool) -> None:
         title = plain_heading(heading)
-        numbered = re.match(r"(\d+(?:\.\d+)*)\.?\s+(.*)", title) if not self.whole else None
         if level == "part":
             return
-        if numbered:
-            self.section, title = numbered[1], numbered[2]
-        elif star or (level == "chapter" and not self.numbered_chapters):
+        if star or (level == "chapter" and not self.numbered_chapters):
             self.starred += 1
             self.section = re.sub(r"[a-z]+$", "", self.section).removeprefix("0") + _letters(self.starred)
         else:
@@ -261,7 +250,7 @@ class _Walker:
             if token.text == end and (end != "$" or braces <= 0):  # \text{if $x$} is within
                 break
             if token.text in _NO_FORMULA or token.text in _BEGINS or ends_paragraph(token):
-                if not (self.expander.doubt or self.short):
+                if not self.expander.doubt:
                     self.expander.fault(begin.at, f"{begin.text} is not closed in its paragraph")
                 self.expander.push((token,))
                 inside = []
@@ -284,13 +273,13 @@ class _Walker:
         for part in self._inside(token, end):
             depth += _NESTING.get(part.kind, 0)
             braces += BRACES.get(part.kind, 0)
-            row, between = rows[-1], part.text in _BETWEEN
-            if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or between):
+            row = rows[-1]
+            if depth == braces == 0 and part.text in _ROW_ENDS:
                 self._pass_end(part)
-                if by_rows and not (between and _is_empty(row)):
+                if by_rows:
                     self._finish(row)
                     rows.append(_Row(numbered, False))
-                elif not between:
+                else:
                     row.tokens.append(part)
             elif part.kind != "command" or not self._sets_number(part, row):
                 row.tokens.append(part)
@@ -323,9 +312,7 @@ class _Walker:
         return self.expander.fault(begin.at, f"{begin.text} is not {'ended' if begin.kind == 'begin' else 'closed'}")
 
     def _pass_end(self, part: Token) -> None:
-        r"""Take the star and the space behind \\, the text of \intertext."""
-        if part.text in _BETWEEN:
-            self.expander.argument()
+        r"""Take the star and the space behind \\."""
         self.expander.star()
         space = latex_of(self.expander.optional() or ()) if self.expander.begins("[") else ""
         if space and not re.search(r"\d|\\", space):  # no length: the row begins with it
@@ -370,10 +357,7 @@ class _Walker:
                 row.labels, after.labels = [], row.labels + after.labels
         for row in rows:
             for label in row.labels if row.number else ():
-                number = self.aux.get(label, row.number)
-                if number != row.number:
-                    self.others.append(f"{label} is ({number}) in {self.aux_name} and ({row.number}) by the source")
-                self.source.labels[label] = row.number = number
+                self.source.labels[label] = row.number = self.aux.get(label, row.number)
             row.latex = " ".join(latex_of(row.tokens).split())
             if groups and not _is_empty(row) and _continues(groups[-1], row):
                 groups[-1].append(row)

@@ -67,7 +67,7 @@ _NAMES = {
     "Vert": r"\|",
 }
 _ROUND = ("(", "[", r"\{")
-_SETTLED = ("functions", "vectors", "matrices", "indices", "complex", "positive", "real")
+_SETTLED = ("functions", "vectors", "matrices", "indices", "positive", "real")
 
 
 class Grammar:
@@ -305,7 +305,7 @@ class Grammar:
         content, name = bracket.parts[0], stem_of(box)
         if name in ("O", "Ocal") and not (box.sub or box.sup):
             return Call("order", (self.expression(content),))
-        if self._kind(box, "real", "positive", "complex"):
+        if self._kind(box, "real", "positive"):
             return None
         if self._kind(box, "functions") and (not self._kind(box, "proposed") or is_evident_argument(box, bracket)):
             return self._call(box, bracket)
@@ -386,7 +386,7 @@ class Grammar:
             return
         if [b.name for b in row] in (["0"], ["e"]):
             raise FormulaError(f"whether {text} is an upper index or a power is open", "write the index below")
-        unsettled = [b for b in letters if not self._kind(b, "positive", "complex", "real")]
+        unsettled = [b for b in letters if not self._kind(b, "positive", "real")]
         lowered = {"mu", "nu", *(self.indices - self.alone)}
         upper = any(b.name in lowered or self._kind(b, "indices") for b in unsettled)
         below = bool(unsettled) and any(b.kind == "letter" for b in box.sub or ())

@@ -57,7 +57,6 @@ def test_what_is_not_ended_is_said_and_what_follows_is_read(body: str, tmp_path:
         r"\def\be{\begin{equation}}\def\ee{\end{equation}} \be \left\{ a \right\} = b \ee \begingroup a \endgroup",
         r"\newenvironment{eq}{\begin{equation}\left(}{\right)\end{equation}} \begin{eq} a \end{eq}",
         r"\begin{align} a &= \begin{cases} b & c \\ d & e \end{cases} \\ f &= \{ g \} \end{align} \url{http://a.b/%20c}",
-        r"\begin{align} a &= b \\ \intertext{Words." "\n\n" r"More words.} c &= d \end{align}",
         r"\begin{gather} a = b \\ \begin{align} c &= d \\ &= e \end{align} \end{gather}",
         "{\\bf TeX warns of this brace, and ends",
         "\\tikzset{a={\\begin{center}}} \\lstinline[a=b]|{%| \\begin{itemize} \\item a \\end{enumerate} b}",

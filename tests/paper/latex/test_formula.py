@@ -367,7 +367,6 @@ def test_declared_letters_win_over_proposals() -> None:
         ({"function": "V"}, "'function' is no key"),
         ({"functions": ["V"]}, "functions is no text"),
         ({"vectors": "r", "matrices": "R r"}, "r stands in vectors and in matrices"),
-        ({"complex": "z", "positive": "z"}, "z stands in complex and in positive"),
         ({"decimal_comma": "yes"}, "write true or false"),
     ],
 )
