@@ -26,8 +26,8 @@ from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.run import read_run
 from lagrotor.paper import Glossary, Paper, Premise, judge
 from lagrotor.paper.latex.check import check_source
+from lagrotor.paper.latex.displays import read_source
 from lagrotor.paper.latex.init import begin_paper, confirm
-from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.stated_system import write_derivation
 from lagrotor.paper.papers import opened
 from lagrotor.proofs.coq.certificate import PREAMBLE
@@ -152,7 +152,6 @@ TEX = r"""\documentclass{article}\title{«T»}\author{«A»}\newcommand{\a}{«x�
 \begin{equation}\label{«e»} \a_{«1»} + \mathrm{«b»} = «c» \end{equation}
 \begin{equation} \mathbf{«r»} = \frac{d «q»}{d t} \tag{«7»} \end{equation}\input{«file»}\end{document}
 """
-MARKDOWN = "---\ntitle: «T»\n---\n# «S»\n<!-- «c» -->\n$$«x» = «e»$$\n\n```math\nx = «y»\n```\n"
 
 
 def source_file(suffix: str, template: str) -> Callable[[Path, str], None]:
@@ -285,7 +284,6 @@ TEXTS: dict[str, Callable[[Path, str], None]] = {
     "figures.toml": paper_file("figures.toml", FIGURES),
     "recorded.toml": paper_file("recorded.toml", RECORD),
     "LaTeX": source_file(".tex", TEX),
-    "Markdown": source_file(".md", MARKDOWN),
     "judge": judged,
     "units": units,
     "system": system_text,
@@ -449,7 +447,7 @@ READERS = {
     "paper/catalogue.py": "program",
     "paper/record.py": "recorded.toml",
     "paper/scripts.py": "program",
-    "paper/latex/markup.py": "Markdown",
+    "paper/latex/displays.py": "LaTeX",
     "paper/latex/numbers.py": "LaTeX",
     "paper/latex/init.py": "LaTeX",
     "paper/latex/token_stream.py": "LaTeX",

@@ -43,7 +43,7 @@ def _add_reading_commands(command: Command) -> None:
         "Again with --from: the source has changed; what is confirmed or derived stays."
     )
     added.add_argument("folder", type=Path, metavar="DIR", help="a new or an empty folder, or the one to make again")
-    source = "take the displayed equations of a .tex or .md file, and read them"
+    source = "take the displayed equations of a .tex file, and read them"
     added.add_argument("--from", type=Path, metavar="FILE", dest="source", help=source)
 
     added = command(
@@ -77,7 +77,7 @@ def _add_reading_commands(command: Command) -> None:
         "Check a source without any derivation: each step of a chain, claimed orders, indices.\n"
         "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
     )
-    added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex or .md file")
+    added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex file")
     add_json(added, "a JSON object: findings, steps, reasons")
     added.add_argument("--all", action="store_true", help="show the steps that hold and those that are not judged, too")
 
@@ -247,8 +247,8 @@ def derive_command(given: argparse.Namespace) -> int:
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import toml
     from lagrotor.paper.latex.check import FAULT, WRONG, Check, check_source
+    from lagrotor.paper.latex.displays import read_source
     from lagrotor.paper.latex.formula import EVERY
-    from lagrotor.paper.latex.markup import read_source
     from lagrotor.paper.latex.notation import Notation, declared_notation
     from lagrotor.paper.readable import readable
 

@@ -157,7 +157,7 @@ BAD: dict[str, tuple[list[str], str]] = {
     "sweep of no run": (["sweep", *SCENE[1:], *VARY, "0", "1", "0"], "a count from 1 to"),
     "no paper": (["audit", "--paper", "nowhere"], "it has no paper.toml; `lagrotor init nowhere` makes one"),
     "paper below a missing folder": (["init", "a/b"], "is missing: make it first"),
-    "paper from a PDF": (["init", "new", "--from", "paper.pdf"], "give a .tex or .md file"),
+    "paper from a PDF": (["init", "new", "--from", "paper.pdf"], "give a .tex file"),
     "paper from nothing": (["init", "new", "--from", "paper.tex"], "No such file"),
     "rate with a shock": (["rate", "--spins", "1", "1", "--shock", "1", "0", "0"], "--shock"),
 }

@@ -1,20 +1,19 @@
 r"""Commands of LaTeX that define others, choose between branches and take in files."""
 
 from lagrotor.paper.latex.macros import Expander, Macro, Parameter, Primitive, head_of
-from lagrotor.paper.latex.tokens import Token, latex_of, plain, tokenize
+from lagrotor.paper.latex.tokens import Token, latex_of, plain
 
 HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
 # Environments of displayed formulas: LaTeX's and amsmath's.
 DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath")
-_COMMANDS = (*HEADINGS, r"\appendix")  # which may stand as environments, \begin{appendix}
 
 
-def _define(expander: Expander, name: str, macro: Macro, token: Token, everywhere: bool = False) -> None:
+def _define(expander: Expander, name: str, macro: Macro, token: Token) -> None:
     """Define a name, unless its meaning is fixed here: headings, definitions, counters and files."""
     if name in expander.primitives and name not in _REPLACEABLE:
         expander.notes.append(f"{expander.place(token.at)}: {name} is defined anew: its standard meaning is taken")
     elif name.startswith("\\") and name not in HEADINGS:
-        expander.define(name, macro, everywhere)
+        expander.define(name, macro)
 
 
 def _newcommand(expander: Expander, token: Token) -> None:
@@ -48,7 +47,7 @@ def _def(expander: Expander, token: Token) -> None:
     if token.text in (r"\edef", r"\xdef") or len(head) < len([each for each in marks if each.text.strip()]):
         expander.define(target.text, None, everywhere=True)
     else:
-        _define(expander, target.text, Macro(tuple(body), head), token, token.text == r"\gdef")
+        _define(expander, target.text, Macro(tuple(body), head), token)
 
 
 def _let(expander: Expander, token: Token) -> None:
@@ -62,14 +61,7 @@ def _let(expander: Expander, token: Token) -> None:
     same = source._replace(kind="primitive" if source.kind == "command" else source.kind)
     if target.text != source.text:
         macro = expander.macros.get(source.text) or Macro((same,))
-        _define(expander, target.text, macro, token, token.text == r"\glet")
-
-
-def _global(expander: Expander, token: Token) -> None:
-    r"""\global\def is \gdef."""
-    after = _next_name(expander)
-    name = {r"\def": r"\gdef", r"\edef": r"\xdef", r"\let": r"\glet"}.get(after.text, after.text)
-    expander.push((Token(after.kind, name, after.at),))
+        _define(expander, target.text, macro, token)
 
 
 def _next_name(expander: Expander) -> Token:
@@ -127,14 +119,7 @@ def _end(expander: Expander, token: Token) -> None:
 def _is_command(expander: Expander, token: Token, name: str) -> bool:
     r"""Return True if \begin{x} is the command \x."""
     macros = expander.macros if token.kind == "command" else ()
-    return (rf"\{name}" in macros and rf"\end{name}" in macros) or rf"\{name}" in _COMMANDS
-
-
-def _display(expander: Expander, token: Token) -> None:
-    r"""\align and \endalign are \begin{align} and \end{align}, whatever the source has defined these to be."""
-    name = token.text[1:]
-    verb, name = (r"\end", name[3:]) if name.startswith("end") else (r"\begin", name)
-    expander.push((Token("primitive", verb, token.at), *tokenize(f"{{{name}}}", token.at)))
+    return (rf"\{name}" in macros and rf"\end{name}" in macros) or name == "appendix"
 
 
 def _condition(expander: Expander, token: Token) -> None:
@@ -216,8 +201,7 @@ DEFINITIONS: dict[str, Primitive] = {
     **_commands("newcommand renewcommand providecommand DeclareRobustCommand newrobustcmd", _newcommand),
     **_commands("NewDocumentCommand RenewDocumentCommand DeclareDocumentCommand", _document_command),
     **_commands("def gdef edef xdef", _def),
-    **_commands("let glet", _let),
-    **_commands("global", _global),
+    **_commands("let", _let),
     **_commands("newenvironment renewenvironment", _new_environment),
     **_commands("newtheorem", _new_theorem),
     **_commands("newif", _new_if),
@@ -230,7 +214,6 @@ _REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text)
 PRIMITIVES: dict[str, Primitive] = {
     **DEFINITIONS,
     **_REPLACEABLE,
-    **_commands(" ".join(f"{name} end{name}" for name in (*DISPLAYS, "subequations")), _display),
     **_commands("begin", _begin),
     **_commands("end", _end),
     **_commands("iftrue iffalse ifmmode", _condition),

@@ -7,6 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from lagrotor.errors import InputError
+from lagrotor.files import read_text
 from lagrotor.paper.latex.definitions import DISPLAYS, HEADINGS, PRIMITIVES
 from lagrotor.paper.latex.headings import names_of_authors, plain_heading
 from lagrotor.paper.latex.macros import Expander, Macro
@@ -19,9 +20,7 @@ _ROWS = ("align", "gather", "eqnarray", "alignat", "flalign")
 _PAIRS = ("align", "alignat", "flalign")  # in which every second & begins another equation
 _BEGINS = {rf"\begin{{{name}{star}}}": name + star for name in DISPLAYS for star in ("", "*")}
 _NESTING = {"begin": 1, "end": -1}
-UNCLOSED = "unclosed@"  # Markdown writes it for $$ without a partner
 _FAULTS = {
-    UNCLOSED: "$$ is not closed",
     "verb": r"\verb is not closed in its line",
     "]": r"\] ends nothing that has begun",
     ")": r"\) ends nothing that has begun",
@@ -37,6 +36,8 @@ _NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX does not go on in a formula behin
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
 # Environments of displays that are not read.
 _REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases", "empheq", "IEEEeqnarray")
+_SUFFIXES, _LARGEST = (".tex", ".ltx", ".latex"), 20  # MB
+_CONTROLS = [chr(code) for code in range(32) if chr(code) not in "\t\n\r\f"]
 # Packages that a formula may need, and whose commands other formulas do not disturb.
 _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
 
@@ -91,6 +92,18 @@ class _Row:
     latex: str = ""
 
 
+def read_source(file: Path) -> Source:
+    """Return the displayed equations of a .tex file. Raises InputError for another one."""
+    if file.suffix.lower() not in _SUFFIXES:
+        raise InputError(f"{file}: give a .tex file")
+    if file.is_file() and (size := file.stat().st_size / 1e6) > _LARGEST:
+        raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts")
+    text = read_text(file, "latin-1")
+    if text.startswith("%PDF") or 20 * sum(map(text.count, _CONTROLS)) > len(text):
+        raise InputError(f"{file} is no text: give the source that it was made from")
+    return read_latex(text, file, file.stem)
+
+
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
     """Return the displayed equations of a LaTeX source. Raises InputError for a macro without end."""
     walker = _Walker(text, file, title)
@@ -110,8 +123,7 @@ class _Walker:
         self.expander = Expander(text, file, PRIMITIVES | self.counters.primitives())
         self.counters.begin(self.expander, "article")
         self.aux, self.aux_name = ({}, "") if file is None else (aux_numbers(file), file.with_suffix(".aux").name)
-        self.whole = r"\documentclass" in text
-        self.body = not self.whole
+        self.body = r"\documentclass" not in text
         self.section, self.starred, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0  # the last number, and how many displays without one came since
         self.outer: list[tuple[int, Macro | None, str]] = []  # subequations: the counter's value and print, the number
@@ -193,6 +205,8 @@ class _Walker:
             label = expander.name()
             if self.outer:
                 self.source.labels[label] = self.aux.get(label, self.outer[-1][2])
+        elif name in DISPLAYS and self.body:
+            self._pass_over(token.at, rf"\{name} begins a display as a command: write \begin{{{name}}}")
         elif name == "appendix":
             self.counters.begin_appendix(expander)
         elif name in ("frontmatter", "mainmatter", "backmatter"):
@@ -290,7 +304,7 @@ class _Walker:
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
         """Yield the tokens of a display. A display that is not ended where TeX would stop is ended there, with a fault."""
         depth = braces = 0
-        may_nest = not self.whole or begin.text.startswith(r"\begin{gather")  # Markdown, and align within gather
+        may_nest = begin.text.startswith(r"\begin{gather")  # align within gather
         for part in self.expander:
             if depth == 0:
                 if part.text == end and part.kind != "text":

@@ -56,16 +56,8 @@ _LABELS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _TRANSPOSES = ("T", "top", "intercal")
 # Letters that may be functions before a sum in brackets.
 _NO_FACTORS = ("delta", "Delta", "Gamma", "zeta", "f", "F", "U", "V", "phi", "psi", "Phi", "Psi")
-_NAMES = {
-    "lbrace": r"\{",
-    "rbrace": r"\}",
-    "vert": "|",
-    "lvert": "|",
-    "rvert": "|",
-    "lVert": r"\|",
-    "rVert": r"\|",
-    "Vert": r"\|",
-}
+_NAMES = {"lbrace": r"\{", "rbrace": r"\}", **dict.fromkeys(("vert", "lvert", "rvert"), "|")}
+_NAMES |= dict.fromkeys(("Vert", "lVert", "rVert"), r"\|")
 _ROUND = ("(", "[", r"\{")
 _SETTLED = ("functions", "vectors", "matrices", "indices", "positive", "real")
 

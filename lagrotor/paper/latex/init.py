@@ -19,8 +19,7 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.files import read_text, write_text
 from lagrotor.paper.catalogue import reading_digest, toml
-from lagrotor.paper.latex.displays import Displayed, Source
-from lagrotor.paper.latex.markup import read_source
+from lagrotor.paper.latex.displays import Displayed, Source, read_source
 from lagrotor.paper.latex.notation import declared_notation
 from lagrotor.paper.latex.readings import Print, paper_notation, read_print
 from lagrotor.paper.scripts import beside
@@ -67,7 +66,7 @@ def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
     folder : Path
         A new or an empty folder, or a paper that is made again.
     source : Path, optional
-        LaTeX or Markdown; without it the folder holds a worked example.
+        LaTeX; without it the folder holds a worked example.
 
     Raises
     ------

@@ -19,10 +19,10 @@ from lagrotor.paper.latex.tokens import Token, plain, tokenize
 _MOST_EXPANSIONS = 20_000  # at one place of the source; a macro that needs more calls itself without end
 _MOST_TOKENS = 2_000_000  # of all expansions, besides ten for each character of the source
 # Commands of which a branch without a decision may not have any unnoticed.
-_MATTER = (
+_MATTER = [
     r"\begin",
     r"\[",
-    "$$",
+    r"$$",
     r"\input",
     r"\include",
     r"\chapter",
@@ -30,7 +30,7 @@ _MATTER = (
     r"\subsection",
     r"\appendix",
     r"\tag",
-)
+]
 _NO_VALUE = (Token("command", r"\NoValue", 0),)
 _LETTER = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")  # of an argument of \NewDocumentCommand
 
@@ -88,9 +88,6 @@ class Expander(TokenStream):
         self._made = 0
         self._stream = self._expanded()
         self.load("")
-        if r"\documentclass" not in text:  # Markdown: nothing says which packages are loaded
-            self.load("physics")
-            self.define(r"\div", None)
 
     def __iter__(self) -> Iterator[Token]:
         return self._stream

@@ -326,7 +326,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
         return None
     name, ends = node.args[1].name, [sympy_expression(each, opaque) for each in node.args[2:]]
     variable = opaque.letters.get(name, sp.Symbol(name, real=True))
-    if has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner)):
+    if has_opaque(inner):
         return None
     if node.name == "at":
         return None if len(ends) != 1 else inner.subs(variable, ends[0])
@@ -366,18 +366,6 @@ def _indexed(node: Node, name: str, k: int) -> Node:
         named = replace(node, name="_".join((stem, *(str(k) if part == name else part for part in index))))
         return number(k) if node.name == name else named
     return Call(node.name, tuple(_indexed(each, name, k) for each in node.args)) if isinstance(node, Call) else node
-
-
-def _apart(derivative: Call, inner: sp.Expr) -> bool:
-    """Whether parts that stand for themselves are functions of other letters than the derivative's: V(r) and a velocity."""
-    functions = {
-        f"[{text_of(each)}]"
-        for each in walk(derivative.args[0])
-        if isinstance(each, Call)
-        and each.name not in BINDING
-        and not set(letters_of(derivative.args[1])) & set(letters_of(each))
-    }
-    return {symbol.name for symbol in inner.free_symbols if has_opaque(symbol)} <= functions
 
 
 def _rate(inner: Any, opaque: Opaque) -> Any:

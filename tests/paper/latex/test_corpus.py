@@ -9,9 +9,8 @@ from typing import Any
 import pytest
 
 from lagrotor.errors import InputError
-from lagrotor.paper.latex.displays import read_latex
+from lagrotor.paper.latex.displays import read_latex, read_source
 from lagrotor.paper.latex.formula import read_formula
-from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.numbers import aux_numbers
 from lagrotor.paper.latex.readings import statement_text

@@ -7,10 +7,9 @@ import pytest
 from lagrotor.errors import InputError
 from lagrotor.paper.latex import macros
 from lagrotor.paper.latex.definitions import PRIMITIVES
-from lagrotor.paper.latex.displays import read_latex
+from lagrotor.paper.latex.displays import read_latex, read_source
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.macros import Expander
-from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.readings import statement_text
 from lagrotor.paper.latex.tokens import latex_of
 
@@ -34,7 +33,7 @@ def expanded(text: str) -> str:
         (r"\NewDocumentCommand\x{s m O{z} d()}{\IfBooleanTF{#1}{*}{-}#2#3\IfValueTF{#4}{#4}{.}}\x*a[b](c)\x a", "*abc-az."),
         (r"\DeclareMathOperator*{\argmin}{arg min}\argmin", r"\operatorname*{arg min}"),
         (r"\DeclarePairedDelimiter\abs{|}{|}\abs*{a}\abs[\big]{b}", r"\left|a\right|\left|b\right|"),
-        (r"{\def\x{a}\global\def\y{b}\x}\x\y", r"{a}\xb"),
+        (r"{\def\x{a}\x}\x", r"{a}\x"),
         (r"\newenvironment{w}[1]{\def\x{#1}}{\x}\def\x{a}\begin{w}{b}\x\end{w}\x", "bba"),
         (r"\newif\ifdraft\drafttrue\ifdraft a\else b\fi\draftfalse\ifdraft c\else d\fi", "ad"),
         (r"\let\ifdraft\iftrue\ifdraft a\ifdraft b\else c\fi d\else e\fi f", "abdf"),
@@ -136,13 +135,6 @@ def test_commands_of_physics_are_read_or_refused_in_words(formula: str, said: st
     assert (reading.stop[0] if reading.stop else statement_text(reading.statements[0]).removeprefix("g = ")) == said
 
 
-def test_div_is_a_divergence_where_physics_is_loaded(tmp_path: Path) -> None:
-    (tmp_path / "a.md").write_text("$$ a = b\\div r $$\n", encoding="utf-8")
-    (equation,) = read_source(tmp_path / "a.md").equations
-    loaded = r"\documentclass{article}\usepackage{physics}\begin{document}\[ a = \div{r} \]\end{document}"
-    assert r"\nabla" not in equation.latex and r"\nabla" in read_latex(loaded).equations[0].latex
-
-
 def test_files_are_sought_in_the_folder_of_the_source_and_nowhere_else(tmp_path: Path) -> None:
     (folder := tmp_path / "paper").mkdir()
     (folder / "part").mkdir()
@@ -195,31 +187,3 @@ def test_a_title_keeps_its_letters_and_formulas(given: str) -> None:
     )
     assert found.title == TITLES[given]
     assert found.sections["1"] == TITLES[given]
-
-
-BLANK = """$$
-
-a = b
-
-
-+ c
-
-$$
-
-$$d = 1$$
-\\begin{gather*}
-
-e = 2
-\\end{gather*}
-"""
-
-
-def test_markdown_may_have_empty_lines_in_a_display(tmp_path: Path) -> None:
-    (file := tmp_path / "notes.md").write_text(BLANK, encoding="utf-8")
-    source = read_source(file)
-    assert [(each.latex, each.place[1]) for each in source.equations] == [
-        ("a = b + c", 3),
-        ("d = 1", 10),
-        ("e = 2", 13),
-    ]
-    assert source.faults == []

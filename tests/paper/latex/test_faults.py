@@ -7,7 +7,7 @@ import pytest
 
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
-from lagrotor.paper.latex.markup import read_source
+from lagrotor.paper.latex.displays import read_source
 
 AFTER = "\nWords.\n\n\\[ x = y \\]\n"
 FAULTS = {
@@ -84,7 +84,7 @@ def test_a_fault_is_a_finding_and_a_note(tmp_path: Path, capsys: pytest.CaptureF
     [
         ("a.tex", bytes(range(256)) * 9, "is no text"),
         ("a.tex", b"%PDF-1.4 text", "is no text"),
-        ("a.pdf", b"%PDF-1.4 text", "give a .tex or .md file"),
+        ("a.pdf", b"%PDF-1.4 text", "give a .tex file"),
         (
             "a.tex",
             b"\\[ a = b \\] \\input{b}",
