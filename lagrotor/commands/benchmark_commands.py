@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lagrotor.commands.terminal import Command, add_json, check_folder, progress, table
+from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, table
 
 if TYPE_CHECKING:
     from lagrotor.benchmark.runner import Benchmark
@@ -31,11 +31,10 @@ def add_benchmark_commands(command: Command) -> None:
         "stability",
         stability_command,
         "where methods fail, predicted and found; how much runs in a second",
-        "lagrotor stability --quick --out .",
+        "lagrotor stability --quick",
     )
     added.add_argument("--quick", action="store_true", help="shorter runs and coarser thresholds: seconds, not minutes")
     add_json(added)
-    added.add_argument("--out", type=Path, metavar="DIR", help="existing folder for stability.svg, .png and .json")
 
 
 def chart_command(given: argparse.Namespace) -> int:
@@ -131,45 +130,22 @@ def chart_tables(charts: "list[Benchmark]") -> str:
 
 
 def stability_command(given: argparse.Namespace) -> int:
-    if given.out:
-        check_folder(given.out)
-
-    import numpy as np
-
     from lagrotor.benchmark.limits.step_size import LIMITS, limits
     from lagrotor.benchmark.throughput import throughput
-    from lagrotor.files import write_text
 
-    with progress(len(LIMITS) + 1 + bool(given.out)) as step:
+    with progress(len(LIMITS) + 1) as step:
         thresholds = limits(given.quick, step)
         step("throughput")
         rates = _throughput(throughput, given.quick)
-        content: dict[str, Any] = {
-            "quick": given.quick,
-            "limits": [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds],
-            "throughput": [asdict(rate) for rate in rates],
-        }
-        if given.out:
-            from lagrotor.benchmark.limits.error_map import usefulness
-            from lagrotor.pictures.benchmark_figures import draw_stability
-
-            step("figure")
-            n, m = (8, 9) if given.quick else (24, 40)
-            useful = usefulness(np.geomspace(0.01, 0.5, n), np.geomspace(1e-6, 1.0, m))
-            content["usefulness"] = {name: np.asarray(value).tolist() for name, value in vars(useful).items()}
-    text = json.dumps(content, indent=1, ensure_ascii=False)
     if given.json:
-        print(text)
+        shown = [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds]
+        print_json({"quick": given.quick, "limits": shown, "throughput": [asdict(rate) for rate in rates]})
     else:
         limit_rows = [
             (x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in thresholds
         ]
         throughput_rows = [(x.what, f"{x.rate:.3g} {x.unit}", f"{x.share:.2g}", x.against) for x in rates]
         print(table(LIMIT_HEAD, limit_rows), table(THROUGHPUT_HEAD, throughput_rows), sep="\n\n")
-    if given.out:
-        written = [*draw_stability(useful, given.out), write_text(given.out / "stability.json", text + "\n")]
-        if not given.json:
-            print(*written, sep="\n")
     return 0
 
 

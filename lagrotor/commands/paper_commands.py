@@ -203,7 +203,6 @@ def notation_command(given: argparse.Namespace) -> int:
 
 def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
-    from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.init import confirm
     from lagrotor.paper.latex.readings import readings
     from lagrotor.paper.readable import from_latex, readable
@@ -212,8 +211,7 @@ def readings_command(given: argparse.Namespace) -> int:
     if given.confirm:
         done = confirm(paper.folder, given.confirm)
         return say(f"confirmed: {', '.join(done)}", 0)
-    with progress(-(-len(paper.equations) // EVERY)) as step:
-        found = list(readings(paper, step))
+    found = list(readings(paper))
     if given.json:
         print_json([each.as_data() for each in found])
         return 0
@@ -248,7 +246,6 @@ def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import toml
     from lagrotor.paper.latex.check import FAULT, WRONG, Check, check_source
     from lagrotor.paper.latex.displays import read_source
-    from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.notation import Notation, declared_notation
     from lagrotor.paper.readable import readable
 
@@ -260,8 +257,7 @@ def check_command(given: argparse.Namespace) -> int:
             say(f"{file}: {note}", 0)
         about = Path(file).parent / "paper.toml"
         notation = declared_notation(toml(about).get("notation", {}), str(about)) if about.is_file() else Notation()
-        with progress(2 * -(-len(source.equations) // EVERY)) as begins:
-            check = check_source(source, notation, begins)
+        check = check_source(source, notation)
         rows += [(file.parent / each.file if each.file else file, each) for each in check.findings]
     whole = Check(tuple(each for _, each in rows))
     if given.json:

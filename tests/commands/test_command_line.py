@@ -153,7 +153,6 @@ BAD: dict[str, tuple[list[str], str]] = {
     "no scene and no spins": (["simulate"], "--spins W1 W2 is missing"),
     "sweep no number": (["sweep", *SCENE[1:], *VARY, "0", "x", "3"], "give two numbers and a count"),
     "sweep of no time": (["sweep", *SCENE[1:], *VARY, "0", "1", "3", "--t-end", "0"], "--t-end 0 must be above zero"),
-    "sweep of one time": (["sweep", *SCENE[1:], *VARY, "0", "1", "3", "--samples", "1"], "--samples 1 at least 2"),
     "sweep of no run": (["sweep", *SCENE[1:], *VARY, "0", "1", "0"], "a count from 1 to"),
     "no paper": (["audit", "--paper", "nowhere"], "it has no paper.toml; `lagrotor init nowhere` makes one"),
     "paper below a missing folder": (["init", "a/b"], "is missing: make it first"),

@@ -33,7 +33,7 @@ from lagrotor.paper.latex.comparison import (
     radicands,
 )
 from lagrotor.paper.latex.displays import Displayed, Source
-from lagrotor.paper.latex.formula import Reading, letters_printed, read_formula, with_progress
+from lagrotor.paper.latex.formula import Reading, letters_printed, read_formula
 from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.slips import change_to_agree, constant_value
 from lagrotor.paper.latex.statements import PrintedStatement, Side
@@ -113,7 +113,7 @@ class Check:
         return dict(reasons.most_common(3))
 
 
-def check_source(source: Source, declared: Notation = ALL_REAL, progress: Callable[[str], None] | None = None) -> Check:
+def check_source(source: Source, declared: Notation = ALL_REAL) -> Check:
     """Check the displayed equations of a source.
 
     Parameters
@@ -122,8 +122,6 @@ def check_source(source: Source, declared: Notation = ALL_REAL, progress: Callab
         The displays.
     declared : Notation
         The kinds of letters that the author declares; one sweep proposes the others.
-    progress : callable, optional
-        Called with a sentence before each `EVERY` displays.
 
     Returns
     -------
@@ -131,14 +129,11 @@ def check_source(source: Source, declared: Notation = ALL_REAL, progress: Callab
         The findings in the order of the source.
     """
     notation = with_proposals(declared, propose([*(each.latex for each in source.equations), *source.inline]))
-    readings = [
-        (each, read_formula(each.latex, notation, each.lead))
-        for each in with_progress("read", source.equations, progress)
-    ]
+    readings = [(each, read_formula(each.latex, notation, each.lead)) for each in source.equations]
     faults = [
         StepFinding("", 0, n, FAULT, said, file=file if file != source.file else "") for file, n, said in source.faults
     ]
-    return Check((*faults, *_Checker(source, readings, notation).findings(progress)))
+    return Check((*faults, *_Checker(source, readings, notation).findings()))
 
 
 class _Checker:
@@ -149,9 +144,9 @@ class _Checker:
         self.moving = Opaque(self.opaque.names, rates_of(sides))  # derivatives taken
         self.place = 0
 
-    def findings(self, progress: Callable[[str], None] | None = None) -> Iterator[StepFinding]:
+    def findings(self) -> Iterator[StepFinding]:
         """Yield every finding."""
-        for place, (each, reading) in enumerate(with_progress("check", self.readings, progress)):
+        for place, (each, reading) in enumerate(self.readings):
             self.place = place
             if not reading.whole:
                 what, helps = reading.stop or ("", "")

@@ -123,8 +123,7 @@ def _is_command(expander: Expander, token: Token, name: str) -> bool:
 
 
 def _condition(expander: Expander, token: Token) -> None:
-    holds = token.text == r"\iftrue" or (token.text == r"\ifmmode" and expander.in_formula)
-    if holds or expander.skip((r"\else", r"\fi"), token) == r"\else":
+    if token.text == r"\iftrue" or expander.skip((r"\else", r"\fi"), token) == r"\else":
         expander.branches += 1
 
 
@@ -135,15 +134,6 @@ def _else(expander: Expander, token: Token) -> bool:
     if token.text == r"\else":
         expander.skip((r"\fi",), token)
     return True
-
-
-def _new_if(expander: Expander, token: Token) -> None:
-    r"""\newif\ifx defines \ifx to be \iffalse, and \xtrue and \xfalse to change that."""
-    name = _next_name(expander).text
-    if name.startswith(r"\if"):
-        expander.define(name, Macro((Token("primitive", r"\iffalse", token.at),)))
-        for value in ("true", "false"):
-            expander.define(rf"\{name[3:]}{value}", Macro.of(rf"\let{name}\if{value}"))
 
 
 def _if_value(expander: Expander, token: Token) -> None:
@@ -187,6 +177,11 @@ def _end_input(expander: Expander, token: Token) -> None:
     expander.end_file(token.at)
 
 
+def _pass_name(expander: Expander, token: Token) -> None:
+    r"""Take the name of a condition, \newif\ifx, which is not decided."""
+    expander.argument()
+
+
 def _with_argument(expander: Expander, token: Token) -> None:
     r"""Leave out the argument of \titleformat, \tikzset …"""
     expander.star()
@@ -197,26 +192,23 @@ def _commands(names: str, primitive: Primitive) -> dict[str, Primitive]:
     return dict.fromkeys((rf"\{name}" for name in names.split()), primitive)
 
 
-DEFINITIONS: dict[str, Primitive] = {
+_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text)
+PRIMITIVES: dict[str, Primitive] = {
+    **_REPLACEABLE,
     **_commands("newcommand renewcommand providecommand DeclareRobustCommand newrobustcmd", _newcommand),
     **_commands("NewDocumentCommand RenewDocumentCommand DeclareDocumentCommand", _document_command),
     **_commands("def gdef edef xdef", _def),
     **_commands("let", _let),
     **_commands("newenvironment renewenvironment", _new_environment),
     **_commands("newtheorem", _new_theorem),
-    **_commands("newif", _new_if),
+    **_commands("newif", _pass_name),
     **_commands("DeclareMathOperator", _operator),
     **_commands("DeclarePairedDelimiter", _pair),
     **_commands("usepackage RequirePackage", _use),
     **_commands("input include subfile @input", _input),
-}
-_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text)
-PRIMITIVES: dict[str, Primitive] = {
-    **DEFINITIONS,
-    **_REPLACEABLE,
     **_commands("begin", _begin),
     **_commands("end", _end),
-    **_commands("iftrue iffalse ifmmode", _condition),
+    **_commands("iftrue iffalse", _condition),
     **_commands("else fi", _else),
     **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
     **_commands("long protected outer relax protect expandafter makeatletter makeatother xspace", lambda *_: None),

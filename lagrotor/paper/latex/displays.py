@@ -423,12 +423,7 @@ def _continues(group: list[_Row], row: _Row) -> bool:
         return not before.endswith((",", ";", ".")) or not body.startswith("-")
     if _RELATIONS.match(body) and not body.startswith((r"\Rightarrow", r"\implies", r"\iff", r"\Leftrightarrow")):
         return sum(bool(each.number) for each in (*group, row)) <= 1
-    # a bracket is open at the end of the rows before
-    whole = " ".join(each.latex for each in group)
-    lefts, rights = (len(re.findall(rf"\\{side}(?![a-z])", whole)) for side in ("left", "right"))
-    bare = re.sub(r"\\(?:left|right|[bB]igg?[lrm]?)(?![a-z])\s*|\\[{}]", "", whole)
-    square = bare.count("[") > bare.count("]") and ")" not in bare
-    return lefts != rights or bare.count("(") > bare.count(")") or square
+    return False
 
 
 def _left_side(source: str) -> str:

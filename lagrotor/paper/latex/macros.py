@@ -221,10 +221,8 @@ class Expander(TokenStream):
             if name in (r"\let", r"\DeclareMathOperator") or "def" in name or "newcommand" in name:
                 self.define(after, None, everywhere=True)
         if any(token.text in _MATTER or token.text.endswith("counter") for token in passed):
-            end = self.line(passed[-1].at)[1]
-            place = self.place(condition.at) + (f"-{end}" if end > self.line(condition.at)[1] else "")
             helps = r"both branches are left out; write \iftrue or \iffalse"
-            self.notes.append(f"{place}: {condition.text} is not decided: {helps}")
+            self.notes.append(f"{self.place(condition.at)}: {condition.text} is not decided: {helps}")
             self.doubt = self.doubt or "a part of the source is left out"
 
     def skip(self, ends: tuple[str, ...], condition: Token, passed: list[Token] | None = None) -> str:

@@ -29,13 +29,9 @@ TABLE = {
         """,
     "physics": r"""
         \dv,\derivative somg \@quotient{\mathrm{d}}{#2}{#3}{#4}
-        \fdv somg \@quotient{\delta}{#2}{#3}{#4}
         \pdv somgg \IfValueTF{#5}{\frac{\partial^{2} #3}{\partial #4 \partial #5}}{\@quotient{\partial}{#2}{#3}{#4}}
         \dd og \,\mathrm{d}\@power{#1} \IfValueT{#2}{#2}
         \qty sd()d[]d||g \@bracket({#2})\@bracket[{#3}]\@bracket|{#4}|\@bracket\{{#5}\}
-        \pmqty m \begin{pmatrix}#1\end{pmatrix}
-        \bmqty m \begin{bmatrix}#1\end{bmatrix}
-        \vmqty m \begin{vmatrix}#1\end{vmatrix}
         \pqty sm \left( #2 \right)
         \bqty sm \left[ #2 \right]
         \Bqty sm \left\{ #2 \right\}
@@ -48,11 +44,7 @@ TABLE = {
         \vu sm \hat{\mathbf{#2}}
         \vdot - \cdot
         \cross,\cp - \times
-        \grad g \nabla \IfValueT{#1}{#1}
         \div g \nabla\cdot \IfValueT{#1}{#1}
-        \curl g \nabla\times \IfValueT{#1}{#1}
-        \laplacian g \nabla^{2} \IfValueT{#1}{#1}
-        \pb mm \left\{ #1, #2 \right\}
         \var,\variation - \delta
         \qq sm \quad\text{#2}\quad
         \qc - ,\quad

@@ -1,13 +1,13 @@
 """The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
-from lagrotor.paper.latex.formula import read_formula, with_progress
+from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.notation import KINDS, Notation, declared_notation, propose, with_proposals
 from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.tokens import NESTING, Token, latex_of, tokenize
@@ -108,15 +108,13 @@ class EquationReading:
         return asdict(self)
 
 
-def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) -> Iterator[EquationReading]:
+def readings(paper: Catalogue) -> Iterator[EquationReading]:
     """Read every equation, in the paper's order.
 
     Parameters
     ----------
     paper : Catalogue
         The paper.
-    progress : callable, optional
-        Called with a sentence before each `EVERY` equations.
 
     Raises
     ------
@@ -125,7 +123,7 @@ def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) ->
     """
     equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
-    for entry in with_progress("read", equations, progress):
+    for entry in equations:
         moved = entry.number and entry.read != "gone" and str(entry.number) != entry.id
         yield replace(_reading(entry, notation), number=str(entry.number) if moved else "")
 
