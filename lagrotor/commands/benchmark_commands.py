@@ -64,39 +64,14 @@ def chart_command(given: argparse.Namespace) -> int:
 
 
 def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
-    """The benchmarks, the ratios of the displaced scene, and other tools as they are on record, for JSON."""
+    """Return the benchmarks and the ratios of the displaced scene, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
-    others = {"other_tools": other_tools(), "other_tools_measured": other_tools_age()}
-    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])} | others
-
-
-def other_tools_age() -> str:
-    """Return the sentence that says when other tools were measured, and whether the code has changed since then."""
-    from lagrotor.benchmark.records import record_age, recorded_speed
-
-    record = recorded_speed()
-    return record_age("speed", record["date"], record["digest"])
-
-
-def other_tools() -> dict[str, dict[str, dict[str, float | None]]]:
-    """Other tools on the displaced scene, on record: tool → error → best of ours → how many times longer the tool takes."""
-    from lagrotor.benchmark.records import recorded_multiple, recorded_speed
-    from lagrotor.benchmark.scenes_and_methods import METHODS
-
-    record = recorded_speed()
-    others = [name for name in record["set_up"] if name not in METHODS]
-    return {
-        name: {
-            error: {of: recorded_multiple(record, name, error, f"best of {of}") for of in ("core", "fast")}
-            for error in record["at_error"]
-        }
-        for name in others
-    }
+    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])}
 
 
 def chart_tables(charts: "list[Benchmark]") -> str:
-    """The front of each scene, set-up times, failures, ratios, and other tools on record, as tables."""
+    """Return the front of each scene, set-up times, failures and ratios as tables."""
     from lagrotor.benchmark.runner import failure_sentences, front
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
@@ -118,14 +93,7 @@ def chart_tables(charts: "list[Benchmark]") -> str:
         for name, value in row.items()
         if value is not None
     ]
-    parts += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared), ""]
-    recorded = [
-        (name, error, *("—" if times is None else f"{times:.3g}" for times in multiples.values()))
-        for name, at_error in other_tools().items()
-        for error, multiples in at_error.items()
-        if any(multiples.values())
-    ]
-    parts += [table(("other tools, on record", "error (m)", "over core", "over fast"), recorded), other_tools_age()]
+    parts += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared)]
     return "\n".join(parts)
 
 

@@ -213,7 +213,7 @@ def readings_command(given: argparse.Namespace) -> int:
         return say(f"confirmed: {', '.join(done)}", 0)
     found = list(readings(paper))
     if given.json:
-        print_json([each.as_data() for each in found])
+        print_json([asdict(each) for each in found])
         return 0
     for each in found:
         moved = f", printed ({each.number})" if each.number else ""

@@ -1,7 +1,7 @@
 """The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -102,10 +102,6 @@ class EquationReading:
     stopped: str = ""
     helps: str = ""
     number: str = ""
-
-    def as_data(self) -> dict[str, Any]:
-        """Return the reading as an object of JSON."""
-        return asdict(self)
 
 
 def readings(paper: Catalogue) -> Iterator[EquationReading]:
