@@ -1,6 +1,6 @@
 """The displaced pair by every method that is installed, other tools among them, and ensembles: `python -m benchmarks.speed`.
 
-A few minutes. Writes the record that the report and `lagrotor chart` show, and the chart of this run to `chart-displaced.svg`
+A few minutes. Writes the record that the report shows, and the chart of this run to `chart-displaced.svg`
 in the folder that is named: `python -m benchmarks.speed FOLDER`.
 """
 

@@ -26,8 +26,8 @@ from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.run import read_run
 from lagrotor.paper import Glossary, Paper, Premise, judge
 from lagrotor.paper.latex.check import check_source
+from lagrotor.paper.latex.displays import read_source
 from lagrotor.paper.latex.init import begin_paper, confirm
-from lagrotor.paper.latex.markup import read_source
 from lagrotor.paper.latex.stated_system import write_derivation
 from lagrotor.paper.papers import opened
 from lagrotor.proofs.coq.certificate import PREAMBLE
@@ -152,15 +152,12 @@ TEX = r"""\documentclass{article}\title{«T»}\author{«A»}\newcommand{\a}{«x�
 \begin{equation}\label{«e»} \a_{«1»} + \mathrm{«b»} = «c» \end{equation}
 \begin{equation} \mathbf{«r»} = \frac{d «q»}{d t} \tag{«7»} \end{equation}\input{«file»}\end{document}
 """
-MARKDOWN = "---\ntitle: «T»\n---\n# «S»\n<!-- «c» -->\n$$«x» = y$$ («e»)\n\n```{math}\n:label: «l»\nx = «y»\n```\n"
 
 
 def source_file(suffix: str, template: str) -> Callable[[Path, str], None]:
     def door(folder: Path, text: str) -> None:
         for number, content in enumerate(variants(template, text, quoted=False)):
             source = folder / f"{number}{suffix}"
-            if suffix == ".ipynb":
-                content = json.dumps({"cells": [{"cell_type": "markdown", "source": [content], "metadata": {}}]})
             source.write_text(content, encoding="utf-8")
             source.with_suffix(".aux").write_text(rf"\newlabel{{e}}{{{{{text}}}{{1}}}}" + rf"\@input{{{text}}}")
             with suppress(LagrotorError):
@@ -191,13 +188,7 @@ def judged(folder: Path, text: str) -> None:
             judge(**({"printed": x, "derived": x} | given))
     with suppress(LagrotorError):
         Premise("words", {x: text})
-    for options in (
-        [f"x = {text}"],
-        [text],
-        ["x = y", "--given", text],
-        ["x = y", "--positive", text],
-        ["x = y", "--small", text],
-    ):
+    for options in ([f"x = {text}"], [text], ["x = y", "--given", text]):
         assert main(["judge", *options]) in (0, 1, 2)
 
 
@@ -292,8 +283,6 @@ TEXTS: dict[str, Callable[[Path, str], None]] = {
     "figures.toml": paper_file("figures.toml", FIGURES),
     "recorded.toml": paper_file("recorded.toml", RECORD),
     "LaTeX": source_file(".tex", TEX),
-    "Markdown": source_file(".md", MARKDOWN),
-    "notebook": source_file(".ipynb", MARKDOWN),
     "judge": judged,
     "units": units,
     "system": system_text,
@@ -457,7 +446,7 @@ READERS = {
     "paper/catalogue.py": "program",
     "paper/record.py": "recorded.toml",
     "paper/scripts.py": "program",
-    "paper/latex/markup.py": "notebook",
+    "paper/latex/displays.py": "LaTeX",
     "paper/latex/numbers.py": "LaTeX",
     "paper/latex/init.py": "LaTeX",
     "paper/latex/token_stream.py": "LaTeX",

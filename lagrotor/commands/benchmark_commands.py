@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lagrotor.commands.terminal import Command, check_folder, progress, table
+from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, table
 
 if TYPE_CHECKING:
     from lagrotor.benchmark.runner import Benchmark
@@ -24,18 +24,17 @@ def add_benchmark_commands(command: Command) -> None:
     added.add_argument(
         "--quick", action="store_true", help="fewer methods, tolerances and repeats: seconds for minutes"
     )
-    added.add_argument("--json", action="store_true", help="print the points as a JSON object")
+    add_json(added, "the points as a JSON object")
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
 
     added = command(
         "stability",
         stability_command,
         "where methods fail, predicted and found; how much runs in a second",
-        "lagrotor stability --quick --out .",
+        "lagrotor stability --quick",
     )
     added.add_argument("--quick", action="store_true", help="shorter runs and coarser thresholds: seconds, not minutes")
-    added.add_argument("--json", action="store_true", help="print a JSON object")
-    added.add_argument("--out", type=Path, metavar="DIR", help="existing folder for stability.svg, .png and .json")
+    add_json(added)
 
 
 def chart_command(given: argparse.Namespace) -> int:
@@ -65,39 +64,14 @@ def chart_command(given: argparse.Namespace) -> int:
 
 
 def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
-    """The benchmarks, the ratios of the displaced scene, and other tools as they are on record, for JSON."""
+    """Return the benchmarks and the ratios of the displaced scene, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
-    others = {"other_tools": other_tools(), "other_tools_measured": other_tools_age()}
-    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])} | others
-
-
-def other_tools_age() -> str:
-    """Return the sentence that says when other tools were measured, and whether the code has changed since then."""
-    from lagrotor.benchmark.records import record_age, recorded_speed
-
-    record = recorded_speed()
-    return record_age("speed", record["date"], record["digest"])
-
-
-def other_tools() -> dict[str, dict[str, dict[str, float | None]]]:
-    """Other tools on the displaced scene, on record: tool → error → best of ours → how many times longer the tool takes."""
-    from lagrotor.benchmark.records import recorded_multiple, recorded_speed
-    from lagrotor.benchmark.scenes_and_methods import METHODS
-
-    record = recorded_speed()
-    others = [name for name in record["set_up"] if name not in METHODS]
-    return {
-        name: {
-            error: {of: recorded_multiple(record, name, error, f"best of {of}") for of in ("core", "fast")}
-            for error in record["at_error"]
-        }
-        for name in others
-    }
+    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])}
 
 
 def chart_tables(charts: "list[Benchmark]") -> str:
-    """The front of each scene, set-up times, failures, ratios, and other tools on record, as tables."""
+    """Return the front of each scene, set-up times, failures and ratios as tables."""
     from lagrotor.benchmark.runner import failure_sentences, front
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
@@ -119,57 +93,27 @@ def chart_tables(charts: "list[Benchmark]") -> str:
         for name, value in row.items()
         if value is not None
     ]
-    parts += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared), ""]
-    recorded = [
-        (name, error, *("—" if times is None else f"{times:.3g}" for times in multiples.values()))
-        for name, at_error in other_tools().items()
-        for error, multiples in at_error.items()
-        if any(multiples.values())
-    ]
-    parts += [table(("other tools, on record", "error (m)", "over core", "over fast"), recorded), other_tools_age()]
+    parts += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared)]
     return "\n".join(parts)
 
 
 def stability_command(given: argparse.Namespace) -> int:
-    if given.out:
-        check_folder(given.out)
-
-    import numpy as np
-
     from lagrotor.benchmark.limits.step_size import LIMITS, limits
     from lagrotor.benchmark.throughput import throughput
-    from lagrotor.files import write_text
 
-    with progress(len(LIMITS) + 1 + bool(given.out)) as step:
+    with progress(len(LIMITS) + 1) as step:
         thresholds = limits(given.quick, step)
         step("throughput")
         rates = _throughput(throughput, given.quick)
-        content: dict[str, Any] = {
-            "quick": given.quick,
-            "limits": [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds],
-            "throughput": [asdict(rate) for rate in rates],
-        }
-        if given.out:
-            from lagrotor.benchmark.limits.error_map import usefulness
-            from lagrotor.pictures.benchmark_figures import draw_stability
-
-            step("figure")
-            n, m = (8, 9) if given.quick else (24, 40)
-            useful = usefulness(np.geomspace(0.01, 0.5, n), np.geomspace(1e-6, 1.0, m))
-            content["usefulness"] = {name: np.asarray(value).tolist() for name, value in vars(useful).items()}
-    text = json.dumps(content, indent=1, ensure_ascii=False)
     if given.json:
-        print(text)
+        shown = [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds]
+        print_json({"quick": given.quick, "limits": shown, "throughput": [asdict(rate) for rate in rates]})
     else:
         limit_rows = [
             (x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in thresholds
         ]
         throughput_rows = [(x.what, f"{x.rate:.3g} {x.unit}", f"{x.share:.2g}", x.against) for x in rates]
         print(table(LIMIT_HEAD, limit_rows), table(THROUGHPUT_HEAD, throughput_rows), sep="\n\n")
-    if given.out:
-        written = [*draw_stability(useful, given.out), write_text(given.out / "stability.json", text + "\n")]
-        if not given.json:
-            print(*written, sep="\n")
     return 0
 
 

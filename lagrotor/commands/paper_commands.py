@@ -6,14 +6,13 @@ Without --paper they are about the paper that lagrotor was written for.
 """
 
 import argparse
-import json
 import time
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lagrotor.commands.terminal import Command, check_folder, progress, say, table, wrap
+from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, say, table, wrap
 from lagrotor.errors import InputError
 
 if TYPE_CHECKING:
@@ -36,10 +35,7 @@ def _add_reading_commands(command: Command) -> None:
     )
     added.add_argument("equation", metavar="EQUATION", help="left = right; letters are real")
     added.add_argument("--given", nargs="+", default=[], metavar="RELATION", help="premises: J = I_3, x >= 0, a != b")
-    added.add_argument("--positive", nargs="+", default=[], metavar="LETTER", help="these letters are positive")
-    added.add_argument("--small", default="", metavar="LETTER", help="claimed for small values of this letter")
-    added.add_argument("--order", type=int, default=0, metavar="N", help="… through this order in it")
-    added.add_argument("--json", action="store_true", help="print a JSON object")
+    add_json(added)
 
     added = command("init", init_command, "begin a paper of your own", "lagrotor init my-paper --from paper.tex")
     added.description = (
@@ -47,7 +43,7 @@ def _add_reading_commands(command: Command) -> None:
         "Again with --from: the source has changed; what is confirmed or derived stays."
     )
     added.add_argument("folder", type=Path, metavar="DIR", help="a new or an empty folder, or the one to make again")
-    source = "take the displayed equations of a .tex, .md or .ipynb file, and read them"
+    source = "take the displayed equations of a .tex file, and read them"
     added.add_argument("--from", type=Path, metavar="FILE", dest="source", help=source)
 
     added = command(
@@ -60,7 +56,7 @@ def _add_reading_commands(command: Command) -> None:
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
     added.add_argument("--confirm", nargs="+", default=[], metavar="LETTER", help="declare these as proposed")
     added.add_argument("--real", nargs="+", default=[], metavar="LETTER", help="declare these as real numbers")
-    added.add_argument("--json", action="store_true", help="print a JSON list, one object a letter")
+    add_json(added, "a JSON list, one object a letter")
 
     added = command(
         "readings", readings_command, "compare readings with the print", "lagrotor readings my-paper --confirm 3 5a"
@@ -68,7 +64,7 @@ def _add_reading_commands(command: Command) -> None:
     added.description = "How each equation was read, beside its print; what you confirm can be judged."
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
     added.add_argument("--confirm", nargs="+", metavar="ID", help="these readings are what is printed")
-    added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
+    add_json(added, "a JSON list, one object an equation")
 
     added = command("derive", derive_command, "derive what paper.toml states", "lagrotor derive my-paper")
     added.description = (
@@ -78,11 +74,11 @@ def _add_reading_commands(command: Command) -> None:
 
     added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
     added.description = (
-        "Check a source without any derivation: each step of a chain, equations against those they cite, dimensions, indices.\n"
+        "Check a source without any derivation: each step of a chain, claimed orders, indices.\n"
         "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
     )
-    added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex, .md or .ipynb file")
-    added.add_argument("--json", action="store_true", help="print a JSON object: findings, steps, reasons")
+    added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex file")
+    add_json(added, "a JSON object: findings, steps, reasons")
     added.add_argument("--all", action="store_true", help="show the steps that hold and those that are not judged, too")
 
 
@@ -99,13 +95,13 @@ def _add_testing_commands(command: Command) -> None:
     added.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core, one in a debugger)")
     proofs = "write the proof of each exact verdict into DIR/certificates, linked from the page; lagrotor certify checks them"
     added.add_argument("--certify", action="store_true", help=proofs)
-    added.add_argument("--json", action="store_true", help="print what was found as a JSON object")
+    add_json(added, "what was found as a JSON object")
 
     added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
     added.description = "Judge the paper's equations. For single ids only their own derivations run."
     added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
     _add_paper(added)
-    added.add_argument("--json", action="store_true", help="print a JSON list, one object an equation")
+    add_json(added, "a JSON list, one object an equation")
     added.add_argument("--record", action="store_true", help="put the verdicts on record, once they have been read")
     proofs = "write each exact verdict with its proof as a file of Coq into this folder; lagrotor certify checks them"
     added.add_argument("--certify", type=Path, metavar="DIR", help=proofs)
@@ -116,19 +112,19 @@ def _add_testing_commands(command: Command) -> None:
     )
     added.epilog = "exit status: 0 all accepted, 1 one is rejected, 2 nothing could be checked\n" + str(added.epilog)
     added.add_argument("folder", type=Path, metavar="DIR", help="the folder of certificates")
-    added.add_argument("--json", action="store_true", help="print a JSON list, one object a line")
+    add_json(added, "a JSON list, one object a line")
 
     added = command("claims", claims_command, "test the paper's claims", "lagrotor claims C08 C22 --json")
     added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
     _add_paper(added)
-    added.add_argument("--json", action="store_true", help="print a JSON list, one object a claim")
+    add_json(added, "a JSON list, one object a claim")
     added.add_argument("--record", action="store_true", help="put the outcomes on record, once they have been read")
 
     added = command("figure", figure_command, "draw figures as SVG and PNG", "lagrotor figure 17 t6 --out .")
     added.add_argument("keys", nargs="+", metavar="N", help="a figure's number, or letter and number, such as t6")
     _add_paper(added)
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
-    added.add_argument("--json", action="store_true", help="print a JSON list: files and measured numbers of each")
+    add_json(added, "a JSON list: files and measured numbers of each")
 
 
 def _add_paper(parser: argparse.ArgumentParser) -> None:
@@ -150,11 +146,11 @@ def judge_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.judgement import judge_text
     from lagrotor.paper.verdicts import AGREES
 
-    said = judge_text(given.equation, given.given, given.positive, given.small, given.order)
+    said = judge_text(given.equation, given.given)
     if given.json:
         lines = [line_data(line) for line in said.verdict.lines]
         data = {"read": said.readings, "verdict": said.verdict.verdict, "lines": lines}
-        print(json.dumps(data, indent=1, ensure_ascii=False))
+        print_json(data)
     else:
         print("\n".join(wrap(line, 4) for line in repr(said).splitlines()))
     return 0 if said.verdict.verdict in AGREES else 1
@@ -172,8 +168,6 @@ def init_command(given: argparse.Namespace) -> int:
         print(f"changed since, to be confirmed again: {', '.join(made.changed)}")
     if made.gone:
         print(f"no longer in the source: {', '.join(made.gone)}")
-    if made.moved:
-        print(f"ids stay while numbers move: {', '.join(made.moved)}")
     if given.source:
         print(f"see the kinds of its letters: lagrotor notation {made.folder}")
         print(f"compare the readings with the print: lagrotor readings {made.folder}")
@@ -198,7 +192,7 @@ def notation_command(given: argparse.Namespace) -> int:
         )
         rows = letter_kinds(Catalogue(given.folder))
     if given.json:
-        print(json.dumps([asdict(each) for each in rows], indent=1, ensure_ascii=False))
+        print_json([asdict(each) for each in rows])
         return 0
     shown = [(each.letter, each.kind, "declared" if each.declared else "proposed", each.evidence) for each in rows]
     print(table(("letter", "kind", "", "seen in"), shown) if rows else "every letter is a real number")
@@ -209,27 +203,24 @@ def notation_command(given: argparse.Namespace) -> int:
 
 def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
-    from lagrotor.paper.latex.formula import EVERY
     from lagrotor.paper.latex.init import confirm
-    from lagrotor.paper.latex.readings import as_printed, readings
+    from lagrotor.paper.latex.readings import readings
     from lagrotor.paper.readable import from_latex, readable
 
     paper = Catalogue(given.folder)
     if given.confirm:
         done = confirm(paper.folder, given.confirm)
         return say(f"confirmed: {', '.join(done)}", 0)
-    with progress(-(-len(paper.equations) // EVERY)) as step:
-        found = list(readings(paper, step))
+    found = list(readings(paper))
     if given.json:
-        print(json.dumps([each.as_data() for each in found], indent=1, ensure_ascii=False))
+        print_json([asdict(each) for each in found])
         return 0
     for each in found:
         moved = f", printed ({each.number})" if each.number else ""
         print(wrap(f"{each.id}{moved}  {each.title}: {each.status}", 4))
         print(wrap(f"    print    {each.print}", 13))
         for text in each.said:
-            sides = as_printed(text, each.print).split(" = ")
-            shown = " = ".join(from_latex(side) if "\\" in side else readable(side) for side in sides)
+            shown = " = ".join(from_latex(side) if "\\" in side else readable(side) for side in text.split(" = "))
             print(wrap(f"    read     {shown}", 13))
         if each.stopped:
             print(wrap(f"    stopped  {each.stopped}: {each.helps}", 13))
@@ -253,9 +244,8 @@ def derive_command(given: argparse.Namespace) -> int:
 
 def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import toml
-    from lagrotor.paper.latex.check import FAULT, FOUND, HOLDS, NOT_JUDGED, REFUTED, WRONG, Check, check_source
-    from lagrotor.paper.latex.formula import EVERY
-    from lagrotor.paper.latex.markup import read_source
+    from lagrotor.paper.latex.check import FAULT, WRONG, Check, check_source
+    from lagrotor.paper.latex.displays import read_source
     from lagrotor.paper.latex.notation import Notation, declared_notation
     from lagrotor.paper.readable import readable
 
@@ -267,33 +257,25 @@ def check_command(given: argparse.Namespace) -> int:
             say(f"{file}: {note}", 0)
         about = Path(file).parent / "paper.toml"
         notation = declared_notation(toml(about).get("notation", {}), str(about)) if about.is_file() else Notation()
-        with progress(2 * -(-len(source.equations) // EVERY)) as begins:
-            check = check_source(source, notation, begins)
+        check = check_source(source, notation)
         rows += [(file.parent / each.file if each.file else file, each) for each in check.findings]
     whole = Check(tuple(each for _, each in rows))
     if given.json:
         several = len(given.sources) > 1
-        shown = [(file, each) for file, each in rows if given.all or each.verdict in FOUND]
+        shown = [(file, each) for file, each in rows if given.all or each.verdict in WRONG]
         found = [each.as_data() | ({"file": str(file)} if several or each.file else {}) for file, each in shown]
         data = {"findings": found, "steps": whole.counts, "reasons": whole.reasons}
-        print(json.dumps(data, indent=1, ensure_ascii=False))
+        print_json(data)
     else:
         for file, each in rows:
-            if given.all or each.verdict in FOUND:
+            if given.all or each.verdict in WRONG:
                 step = f", step {each.step}" if each.step else ""
                 of = "" if each.verdict == FAULT else f"({each.equation}){step}: {each.verdict}: "
                 print(wrap(f"{file}:{each.line}: {of}{readable(each.why) if of else each.why}", 4))
-                if each.verdict == REFUTED:
+                if each.members:
                     print(wrap("    {} = {}".format(*map(readable, each.members)), 6))
-        counts = whole.counts
-        verbs = (
-            (HOLDS, "holds", "hold"),
-            (REFUTED, "is refuted", "are refuted"),
-            (NOT_JUDGED, "is not judged", "are not judged"),
-        )
-        said = [f"{counts[verdict]} {one if counts[verdict] == 1 else more}" for verdict, one, more in verbs]
-        said[0] = f"{_some(counts[HOLDS], 'step')}{said[0].removeprefix(str(counts[HOLDS]))}"
-        say(f"{_some(displayed, 'displayed equation')}: {', '.join(said)}", 0)
+        counts = "; ".join(f"{verdict}: {count}" for verdict, count in whole.counts.items())
+        say(f"{_some(displayed, 'displayed equation')}; steps: {counts}", 0)
         if whole.reasons:
             reasons = "; ".join(f"{reason} ({count})" for reason, count in whole.reasons.items())
             say(f"not judged because {reasons}{'' if given.all else '; all of them: --all'}", 0)
@@ -315,7 +297,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
     made = reproduce(paper, given.out, progress, given.jobs, given.certify)
     page = given.out / "index.html"
     if given.json:
-        print(json.dumps(asdict(made) | {"report": str(page)}, indent=1, ensure_ascii=False))
+        print_json(asdict(made) | {"report": str(page)})
         return _say_changes(made.changes, bool(paper.recorded))
     print(f"{_some(sum(made.equations.values()), 'equation')}: {count_list(made.equations) or 'none'}")
     if made.claims:
@@ -386,7 +368,7 @@ def certify_command(given: argparse.Namespace) -> int:
             {"id": c.id, "line": c.line.name, "verdict": c.line.verdict, "checked": c.status, "why": c.why}
             for c in found
         ]
-        print(json.dumps(rows, indent=1, ensure_ascii=False))
+        print_json(rows)
     else:
         shown = [
             (
@@ -452,7 +434,7 @@ def figure_command(given: argparse.Namespace) -> int:
             {"key": p.key, "title": p.title, "svg": str(p.svg), "png": str(p.png), "measured": p.measured}
             for p in drawn
         )
-        print(json.dumps(list(found), indent=1, ensure_ascii=False))
+        print_json(list(found))
     return 0
 
 

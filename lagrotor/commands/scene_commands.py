@@ -1,125 +1,65 @@
 """The commands for a scene (simulate, sweep, animate, rate) or a structure; bad input is refused before work starts."""
 
 import argparse
-import json
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-from lagrotor.commands.terminal import Command, check_folder, progress, show_time, table
+from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, table
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES
 from lagrotor.pair.examples import SCENES
-from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.pair.scene import Link, Scene, Shock
 
 
-def _numbers(group: Any, name: str, letters: tuple[str, ...], says: str, **more: Any) -> None:
-    group.add_argument(name, nargs=len(letters), type=float, metavar=letters, help=says, **more)
-
-
-def add_pair(parser: argparse.ArgumentParser) -> None:
-    """The options of spins, rotors and bar."""
-    group = parser.add_argument_group("rotors and bar")
-    _numbers(group, "--spins", ("W1", "W2"), "axial angular velocities, rad/s")
-    group.add_argument("--scene", type=Path, metavar="FILE", help="the whole scene from a TOML file instead")
-    for name, usual, says in (
-        ("--rotor-mass", Rotor.mass, "mass of a rotor, kg"),
-        ("--rotor-length", Rotor.length, "length of a rotor's axis, m"),
-        ("--I1", Rotor.I1, "transverse inertia about the centre, kg m²"),
-        ("--I3", Rotor.I3, "axial inertia, kg m²"),
-        ("--link-length", Link.length, "length of the bar, m"),
-        ("--link-mass", Link.mass, "mass of the bar, kg"),
-        ("--link-inertia", Link.inertia, "transverse inertia of the bar, kg m²"),
-    ):
-        group.add_argument(name, type=float, metavar="X", help=f"{says} (default: {usual:g})")
-    group.add_argument("--no-link", action="store_true", help="a pair without a bar")
-
-
-def add_start(parser: argparse.ArgumentParser) -> None:
-    """The options of where the pair starts."""
-    group = parser.add_argument_group("start")
-    _numbers(group, "--axes", ("X1", "Y1", "Z1", "X2", "Y2", "Z2"), "unit vectors at t = 0 (default: upright)")
-    _numbers(group, "--rates", ("X1", "Y1", "Z1", "X2", "Y2", "Z2"), "their rates at t = 0, 1/s (default: at rest)")
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """Add the options of spins and bar; a scene file has all else."""
+    group = parser.add_argument_group("scene")
+    group.add_argument("--spins", nargs=2, type=float, metavar=("W1", "W2"), help="axial angular velocities, rad/s")
+    group.add_argument("--link-mass", type=float, metavar="KG", help=f"mass of the bar (default: {Link.mass:g})")
+    says = f"transverse inertia of the bar, kg m² (default: {Link.inertia:g})"
+    group.add_argument("--link-inertia", type=float, metavar="X", help=says)
+    says = (
+        "the whole scene from a TOML file instead: rotors, bar, axes, rates, shock; simulate --write-scene writes one"
+    )
+    group.add_argument("--scene", type=Path, metavar="FILE", help=says)
 
 
 def add_shock(parser: argparse.ArgumentParser) -> None:
-    """The shock's options."""
-    group = parser.add_argument_group("shock: force exp(-((t - time)/width)^2) on the tip of one rotor")
-    _numbers(group, "--shock", ("FX", "FY", "FZ"), "force, N; needs --shock-time and --shock-width")
+    """Add the options of a shock."""
+    group = parser.add_argument_group("shock: force exp(-((t - time)/width)^2) on the tip of rotor 1")
+    group.add_argument("--shock", nargs=3, type=float, metavar=("FX", "FY", "FZ"), help="force, N")
     group.add_argument("--shock-time", type=float, metavar="S", help="centre of the pulse, s")
     group.add_argument("--shock-width", type=float, metavar="S", help="width of the pulse, s")
-    group.add_argument("--shock-body", type=int, metavar="N", help="rotor 1 (left) or 2 (default: 1)")
 
 
-def scene_from_options(given: argparse.Namespace, shock: Shock | None = None) -> Scene:
-    """The scene that the options describe, or that of the file. Raises InputError for one that makes no sense."""
+def scene_from_options(given: argparse.Namespace) -> Scene:
+    """Return the scene that the options describe, or that of the file. Raises InputError for one that makes no sense."""
+    shock = _shock(given) if "shock" in given else None  # rate takes none
+    link = {name: value for name in ("mass", "inertia") if (value := vars(given)[f"link_{name}"]) is not None}
     if given.scene:
-        return _scene_of_file(given, shock)
+        from lagrotor.pair.scene_document import read_scene
+
+        named = {"--spins": given.spins, "--shock": shock, **{f"--link-{name}": value for name, value in link.items()}}
+        if both := [name for name, value in named.items() if value is not None]:
+            raise InputError(f"--scene and {both[0]}: the file has the whole scene; change it there")
+        return read_scene(given.scene)
     if given.spins is None:
         raise InputError("--spins W1 W2 is missing: give the axial angular velocities in rad/s, or --scene FILE")
-    start = {
-        name: (tuple(values[:3]), tuple(values[3:]))
-        for name in ("axes", "rates")
-        if (values := vars(given).get(name)) is not None  # rate takes no start
-    }
-    return Scene(
-        spins=tuple(given.spins),
-        rotor=Rotor(**_fields(given, ROTOR_OPTIONS)),
-        link=_link(given),
-        shock=shock,
-        **start,
-    )
+    return Scene(spins=tuple(given.spins), link=Link(**link), shock=shock)
 
 
-# Field → the option's name in what was parsed.
-ROTOR_OPTIONS = {"mass": "rotor_mass", "length": "rotor_length", "I1": "I1", "I3": "I3"}
-LINK_OPTIONS = {"length": "link_length", "mass": "link_mass", "inertia": "link_inertia"}
-
-
-def _fields(given: argparse.Namespace, options: dict[str, str]) -> dict[str, float]:
-    """The fields whose options were given."""
-    return {name: value for name, option in options.items() if (value := getattr(given, option)) is not None}
-
-
-def _scene_of_file(given: argparse.Namespace, shock: Shock | None) -> Scene:
-    """The scene of --scene FILE. Raises InputError where other options describe one too."""
-    from lagrotor.pair.scene_document import read_scene
-
-    named = {"--spins": given.spins, "--shock": shock, "--no-link": given.no_link or None}
-    named |= {
-        f"--{option.replace('_', '-')}": getattr(given, option)
-        for option in (*ROTOR_OPTIONS.values(), *LINK_OPTIONS.values())
-    }
-    named |= {f"--{name}": vars(given).get(name) for name in ("axes", "rates")}
-    if both := [name for name, value in named.items() if value is not None]:
-        raise InputError(f"--scene and {both[0]}: the file has the whole scene; change it there")
-    return read_scene(given.scene)
-
-
-def _link(given: argparse.Namespace) -> Link | None:
-    """The bar, if any. Raises InputError for one that is described and left out."""
-    bar = _fields(given, LINK_OPTIONS)
-    if given.no_link and bar:
-        raise InputError(f"--no-link and --link-{next(iter(bar))}: a pair without a bar has none; leave one out")
-    return None if given.no_link else Link(**bar)
-
-
-def shock_from_options(given: argparse.Namespace) -> Shock | None:
-    """The shock that the options describe, if any. Raises InputError when a part of it is missing."""
-    parts = {"--shock-time": given.shock_time, "--shock-width": given.shock_width}
-    if given.shock is None:
-        if lonely := [
-            name for name, value in (parts | {"--shock-body": given.shock_body}).items() if value is not None
-        ]:
-            raise InputError(f"{lonely[0]} without --shock: give the force too")
+def _shock(given: argparse.Namespace) -> Shock | None:
+    """Return the shock that the options describe, if any. Raises InputError when a part of it is missing."""
+    parts = {"--shock": given.shock, "--shock-time": given.shock_time, "--shock-width": given.shock_width}
+    missing = [name for name, value in parts.items() if value is None]
+    if len(missing) == len(parts):
         return None
-    if missing := [name for name, value in parts.items() if value is None]:
-        raise InputError(f"--shock needs {' and '.join(missing)}")
-    body = 1 if given.shock_body is None else given.shock_body
-    return Shock(tuple(given.shock), given.shock_time, given.shock_width, body)
+    if missing:
+        raise InputError(f"a shock needs {' and '.join(missing)}")
+    return Shock(tuple(given.shock), given.shock_time, given.shock_width)
 
 
 def check_file(path: Path) -> None:
@@ -139,7 +79,7 @@ _Change = Callable[[Scene, float], Scene]
 def _bar_field(field: str) -> _Change:
     def change(scene: Scene, value: float) -> Scene:
         if scene.link is None:
-            raise InputError(f"--vary link-{field}: a pair without a bar has none; leave out --no-link")
+            raise InputError(f"--vary link-{field}: a pair without a bar has none")
         return replace(scene, link=replace(scene.link, **{field: value}))
 
     return change
@@ -165,8 +105,7 @@ _TOLERANCE = "target for the estimated largest error of an axis over the run"
 
 def add_sweep(added: argparse.ArgumentParser) -> None:
     """The options of a sweep."""
-    add_pair(added)
-    add_start(added)
+    add_scene(added)
     add_shock(added)
     says = "; ".join(f"{name}: {what}" for name, (what, _) in _VARIED.items())
     added.add_argument("--vary", required=True, choices=_VARIED, metavar="NAME", help=says)
@@ -174,10 +113,8 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
         "--between", nargs=3, required=True, metavar=("FROM", "TO", "N"), help="N values, evenly from FROM to TO"
     )
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the runs, s (default: 10)")
-    added.add_argument("--samples", type=int, default=3, metavar="N", help="times that each is read at (default: 3)")
     added.add_argument("--tol", type=float, default=1e-8, help=f"{_TOLERANCE} (default: 1e-8)")
-    added.add_argument("--out", type=Path, metavar="FILE", help="write every time of every run as .csv")
-    added.add_argument("--json", action="store_true", help="print a JSON list, one object a run")
+    add_json(added, "a JSON list, one object a run")
 
 
 def _values(given: argparse.Namespace) -> list[float]:
@@ -191,40 +128,27 @@ def _values(given: argparse.Namespace) -> list[float]:
 
 
 def sweep_command(given: argparse.Namespace) -> int:
-    """Run the family; a line a run, or all times of all runs as CSV."""
-    if not (math.isfinite(given.t_end) and given.t_end > 0 and given.samples >= 2):
-        raise InputError(f"--t-end {given.t_end:g} must be above zero and --samples {given.samples} at least 2")
-    if given.out:
-        if given.out.suffix != ".csv":
-            raise InputError(f"--out {given.out}: the name must end in .csv")
-        check_folder(given.out.parent)
-    values, scene, change = _values(given), scene_from_options(given, shock_from_options(given)), _VARIED[given.vary][1]
+    """Run the family; a line a run."""
+    if not (math.isfinite(given.t_end) and given.t_end > 0):
+        raise InputError(f"--t-end {given.t_end:g} must be above zero")
+    values, scene, change = _values(given), scene_from_options(given), _VARIED[given.vary][1]
     family = [change(scene, value) for value in values]
 
     import numpy as np
 
-    from lagrotor.files import write_text
     from lagrotor.models.sweeps.ensemble import sweep
 
     with progress(1) as step:
         step(f"{len(family)} runs")
-        ensemble = sweep(family, np.linspace(0.0, given.t_end, given.samples), tol=given.tol)
+        ensemble = sweep(family, np.linspace(0.0, given.t_end, 3), tol=given.tol)
     runs = [ensemble.trajectory(i) for i in range(len(family))]
     rows = [
         {given.vary: value, "model": run.model, "evaluations": run.evaluations,
          "tip_1": run.tips[0, -1].tolist(), "tip_2": run.tips[1, -1].tolist()}
         for value, run in zip(values, runs, strict=True)
     ]  # fmt: skip
-    if given.out:
-        head = f"{given.vary},t [s],tip_1_x [m],tip_1_y [m],tip_1_z [m],tip_2_x [m],tip_2_y [m],tip_2_z [m]"
-        lines = (
-            ",".join(map(repr, (value, float(t), *map(float, run.tips[:, n].ravel()))))
-            for value, run in zip(values, runs, strict=True)
-            for n, t in enumerate(run.t)
-        )
-        print(write_text(given.out, "\n".join([head, *lines, ""])))
-    elif given.json:
-        print(json.dumps(rows, indent=1))
+    if given.json:
+        print_json(rows)
     else:
         cells = [
             (f"{r[given.vary]:.6g}", r["model"], str(r["evaluations"]), "  ".join(f"{x:.6f}" for x in r["tip_1"]))
@@ -235,6 +159,7 @@ def sweep_command(given: argparse.Namespace) -> int:
 
 
 _MOST_SAMPLES = 10_000_000  # about 2 GB of memory
+_FPS = 25.0  # frames per second
 
 
 def add_scene_commands(command: Command) -> None:
@@ -266,21 +191,19 @@ def add_scene_commands(command: Command) -> None:
     added.add_argument("scene", choices=SCENES, metavar="SCENE", help="one of the scenes below")
     added.add_argument("--out", type=Path, metavar="FILE", help="a .gif (default: SCENE.gif here)")
     added.add_argument("--t-end", type=float, metavar="S", help="end of the run, s (default: the scene's own)")
-    added.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
-    added.add_argument("--json", action="store_true", help="print a JSON object with the file's name")
+    add_json(added, "a JSON object with the file's name")
 
     added = command(
         "rate", rate_command, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
     )
-    add_pair(added)
-    added.add_argument("--json", action="store_true", help="print a JSON object")
+    add_scene(added)
+    add_json(added)
 
 
 def _add_simulate(added: argparse.ArgumentParser) -> None:
-    add_pair(added)
-    add_start(added)
+    add_scene(added)
     add_shock(added)
-    says = "start on the paired precession of this amplitude (opposite spins; no --axes, --rates)"
+    says = "start on the paired precession of this amplitude (opposite spins)"
     added.add_argument("--paired", type=float, metavar="R0", help=says)
     added.add_argument("--write-scene", type=Path, metavar="FILE", help="write the scene as TOML too, for --scene")
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the run, s (default: 10)")
@@ -288,15 +211,13 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
     says = "auto, closed_form, linear, averaged, minimal, spheres or euler (default: auto)"
     added.add_argument("--model", default="auto", help=says)
     added.add_argument("--tol", type=float, default=1e-9, help=f"{_TOLERANCE} (default: 1e-9)")
-    says = "core, or fast where lagrotor[fast] is installed (default: core)"
-    added.add_argument("--engine", default="core", help=says)
     added.add_argument(
         "--out",
         type=Path,
         metavar="FILE",
         help="write the run (.npz, .csv), a picture of it (.png, .svg, .pdf) or a film (.gif); a line, no table",
     )
-    added.add_argument("--json", action="store_true", help="print the summary as a JSON object")
+    add_json(added, "the summary as a JSON object")
 
 
 def animate_command(given: argparse.Namespace) -> int:
@@ -304,7 +225,7 @@ def animate_command(given: argparse.Namespace) -> int:
 
     ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
     t_end = ready.duration if given.t_end is None else given.t_end
-    check_film(target, t_end, given.fps)
+    check_film(target, t_end, _FPS)
     check_folder(target.parent)
 
     import numpy as np
@@ -314,8 +235,8 @@ def animate_command(given: argparse.Namespace) -> int:
     with progress(1 + math.ceil(t_end)) as step:
         step("motion")
         run = simulate(ready.scene, np.linspace(0.0, t_end, math.ceil(100 * t_end) + 1))
-        run.animate(target, given.fps, step)
-    print(json.dumps({"file": str(target)}) if given.json else target)
+        run.animate(target, _FPS, step)
+    print_json({"file": str(target)}) if given.json else print(target)
     return 0
 
 
@@ -331,16 +252,15 @@ def simulate_command(given: argparse.Namespace) -> int:
     if given.out and given.out.suffix in FILMS:
         from lagrotor.drawing.film import check_film
 
-        check_film(given.out, given.t_end, 25.0)
-    scene = _scene_with_start(scene_from_options(given, shock_from_options(given)), given)
+        check_film(given.out, given.t_end, _FPS)
+    scene = _scene_with_start(scene_from_options(given), given)
 
     import numpy as np
 
     from lagrotor.models.simulate import simulate
 
     times = np.linspace(0.0, given.t_end, given.samples)
-    with show_time(given.t_end) as at:
-        run = simulate(scene, times, given.model, given.tol, given.engine, at)
+    run = simulate(scene, times, given.model, given.tol)
     if given.out:
         run.save(given.out)
     summary = {
@@ -356,7 +276,7 @@ def simulate_command(given: argparse.Namespace) -> int:
         "tip_2": run.tips[1, -1].tolist(),
     }
     if given.json:
-        print(json.dumps(summary, indent=1, ensure_ascii=False))
+        print_json(summary)
     elif given.out:
         print(f"{given.out}: {given.samples} times by the model {run.model} ({run.why})")
     else:
@@ -365,10 +285,8 @@ def simulate_command(given: argparse.Namespace) -> int:
 
 
 def _scene_with_start(scene: Scene, given: argparse.Namespace) -> Scene:
-    """The scene, on its paired precession with `--paired`, written with `--write-scene`. Raises InputError for two starts."""
+    """Return the scene, on its paired precession with `--paired`, written with `--write-scene`."""
     if given.paired is not None:
-        if given.axes is not None or given.rates is not None:
-            raise InputError("--paired and --axes or --rates: each is a start; give one")
         from lagrotor.models.orbits.precession import paired_scene
 
         scene = paired_scene(scene, given.paired)
@@ -404,7 +322,7 @@ def rate_command(given: argparse.Namespace) -> int:
     period = 2 * math.pi / abs(rate) if rate else None
     if given.json:
         rates = {name: limit.rate for name, limit in limits.items()}
-        print(json.dumps({"rate": rate, "period": period, "limits": rates}))
+        print_json({"rate": rate, "period": period, "limits": rates})
     else:
         print(f"natural rate  {rate:.12g} rad/s")
         print(f"period        {f'{period:.12g} s' if period else 'none: no oscillation'}")
@@ -417,7 +335,6 @@ def rate_command(given: argparse.Namespace) -> int:
 
 
 _ENDINGS = (*PICTURES, *FILMS, ".toml")
-_json = partial(json.dumps, indent=1, ensure_ascii=False)
 
 
 def add_structure_commands(command: Command) -> None:
@@ -431,8 +348,7 @@ def add_structure_commands(command: Command) -> None:
     says = "a TOML file with joints, bars, spins …, or a name of the gallery, such as corner; list names them"
     added.add_argument("structure", metavar="FILE", help=says)
     added.add_argument("--out", type=Path, metavar="FILE", help="write a picture, a film (.gif) or the .toml itself")
-    added.add_argument("--t-end", type=float, metavar="S", help="length of the film, s (default: the gallery's, or 5)")
-    added.add_argument("--json", action="store_true", help="print a JSON object")
+    add_json(added)
 
 
 def structure_command(given: argparse.Namespace) -> int:
@@ -441,7 +357,7 @@ def structure_command(given: argparse.Namespace) -> int:
 
     if given.structure == "list":
         listed = {name: each.says for name, each in GALLERY.items()}
-        print(_json(listed) if given.json else table(("name", "what it shows"), list(listed.items())))
+        print_json(listed) if given.json else print(table(("name", "what it shows"), list(listed.items())))
         return 0
     if given.out and given.out.suffix not in _ENDINGS:
         raise InputError(f"--out {given.out}: the name must end in {', '.join(_ENDINGS)}")
@@ -450,10 +366,9 @@ def structure_command(given: argparse.Namespace) -> int:
     s = read_structure(given.structure) if given.structure.endswith(".toml") else example(given.structure)
     if given.out:
         ready = GALLERY.get(given.structure)
-        usual = ready.duration if ready else 5.0
-        _write(s, given.out, usual if given.t_end is None else given.t_end)
+        _write(s, given.out, ready.duration if ready else 5.0)
     summary = _summary(s)
-    print(_json(summary) if given.json else _table(summary))
+    print_json(summary) if given.json else print(_table(summary))
     if given.out and not given.json:
         print(given.out)
     return 0
@@ -472,7 +387,7 @@ def _write(s: Any, out: Path, duration: float) -> None:
     else:
         from lagrotor.drawing.film import check_film
 
-        check_film(out, duration, 25.0)
+        check_film(out, duration, _FPS)
         tilt = 0.05 * np.random.default_rng(1).standard_normal((len(s.joints), 2))
         s.simulate(np.linspace(0, duration, math.ceil(100 * duration) + 1), tilt, tol=1e-6).animate(out)
 

@@ -1,6 +1,7 @@
 """The terminal: a parser that refuses in one line, tables as wide as the terminal is, and progress while people wait."""
 
 import argparse
+import json
 import os
 import re
 import shutil
@@ -41,6 +42,16 @@ def check_folder(folder: Path) -> None:
         raise InputError(f"--out: the folder {folder} cannot be written to: choose another")
 
 
+def add_json(parser: argparse.ArgumentParser, what: str = "a JSON object") -> None:
+    """Add the option --json, which prints data instead of text."""
+    parser.add_argument("--json", action="store_true", help=f"print {what}")
+
+
+def print_json(data: Any) -> None:
+    """Print data as JSON."""
+    print(json.dumps(data, indent=1, ensure_ascii=False))
+
+
 _NARROWEST, _WIDTH = 20, 100  # columns: the least of a wrapped text; the width where there is no terminal
 
 
@@ -67,33 +78,6 @@ def say(message: str, status: int) -> int:
     """One line on stderr; hands the exit status on."""
     print("lagrotor:", " ".join(message.split()), file=sys.stderr)
     return status
-
-
-@contextmanager
-def show_time(t_end: float) -> Iterator[Callable[[float], None]]:
-    """A function to call with each time (s) that a run up to `t_end` reaches: shown after two seconds, then now and again.
-
-    A terminal shows it in one line that is written over; elsewhere there is a line every ten seconds, on stderr.
-    """
-    began, live = time.perf_counter(), sys.stderr.isatty()
-    calls, due, runs, last = 0, 2.0, 1, 0.0
-
-    def at(t: float) -> None:
-        nonlocal calls, due, runs, last
-        runs, last = runs + (t < last / 2), t
-        calls += 1
-        if calls % 256 or (now := time.perf_counter() - began) < due:
-            return
-        due = now + (0.25 if live else 10.0)
-        line = f"[{now:.0f} s] integration {runs}: t = {min(t, t_end):.4g} of {t_end:g} s"
-        print(f"\r{line:<{shutil.get_terminal_size().columns - 1}}" if live else line, end="" if live else "\n",
-              file=sys.stderr, flush=True)  # fmt: skip
-
-    try:
-        yield at
-    finally:
-        if live:
-            _clear_line()
 
 
 def _clear_line() -> None:

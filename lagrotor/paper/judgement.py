@@ -17,8 +17,18 @@ from lagrotor.paper.grammar import FUNCTIONS, read, read_side
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.statements import PrintedStatement, without_order
-from lagrotor.paper.latex.substitution import put_for
-from lagrotor.paper.latex.tree import Call, Letter, Node, Opaque, divisors, rates_of, sympy_expression, text_of, walk
+from lagrotor.paper.latex.tree import (
+    Call,
+    Letter,
+    Node,
+    Opaque,
+    divisors,
+    put_for,
+    rates_of,
+    sympy_expression,
+    text_of,
+    walk,
+)
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.premises import Premise, premises_of
 from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain, check_premises

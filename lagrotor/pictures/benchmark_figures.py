@@ -1,7 +1,6 @@
-"""The figures of `lagrotor chart`, error against work, and of `lagrotor stability`, error over amplitude and spins."""
+"""The figures of `lagrotor chart`, error against work, and of the error over amplitude and spins."""
 
 import textwrap
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,10 +10,8 @@ from matplotlib.lines import Line2D
 
 from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness
 from lagrotor.benchmark.runner import Benchmark, ChartPoint, Work, failure_sentences, front
-from lagrotor.drawing.style import EXACT_COLOUR, OKABE_ITO, paper_style
-from lagrotor.files import write_beside
+from lagrotor.drawing.style import EXACT_COLOUR, OKABE_ITO
 
-STEM = "stability"
 _MARKS = "osD^vp*XP<>hd"
 # Family → what it is called, and its colour's name; in the order of the legend.
 _FAMILIES = {
@@ -124,16 +121,3 @@ def stability_figure(useful: Usefulness) -> Figure:
     line = Line2D([], [], color=EXACT_COLOUR, linewidth=2, label=f"error {USEFUL:g} $r_0$: useful left of and below it")
     figure.legend(handles=[line], loc="outside lower center")
     return figure
-
-
-def draw_stability(useful: Usefulness, folder: Path) -> tuple[Path, Path]:
-    """Write `stability.svg` and `stability.png` into the folder. Raises InputError when it cannot be written to."""
-    with paper_style():
-        figure = stability_figure(useful)
-        svg = write_beside(
-            folder / f"{STEM}.svg", lambda file: figure.savefig(file, format="svg", metadata={"Date": None})
-        )
-        png = write_beside(
-            folder / f"{STEM}.png", lambda file: figure.savefig(file, format="png", metadata={"Software": None})
-        )
-    return svg, png

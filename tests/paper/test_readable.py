@@ -3,7 +3,6 @@
 import pytest
 
 from lagrotor.paper import scientific
-from lagrotor.paper.latex.readings import as_printed
 from lagrotor.paper.readable import readable
 
 
@@ -62,21 +61,3 @@ def test_words_are_left_alone(text: str) -> None:
 )
 def test_a_number_in_powers_of_ten(value: float, digits: int, read: str) -> None:
     assert scientific(value, digits) == read
-
-
-@pytest.mark.parametrize(
-    ("text", "printed", "shown"),
-    [
-        ("1 - x**2/2 + O(x**4)", r"1 - \frac{x^2}{2} + O(x^4)", "1 - x**2/2 + O(x**4)"),
-        ("x**4/2", "x^4/2", "x**4/2"),
-        ("x/3/4", "0.75 x", "x/3/4"),
-        ("4/2*x", r"\frac{4}{2} x", "4/2*x"),
-        ("1/2*m", "10.52 m", "1/2*m"),
-        ("981/100*unit_m + 5/2", "9.81 m + 2.50", "9.81*m + 2.50"),
-        ("(1/4)**2 + 1/4", "0.25", "(0.25)**2 + 0.25"),
-    ],
-)
-def test_a_reading_shows_decimals_of_the_print_and_nothing_that_was_not_read(
-    text: str, printed: str, shown: str
-) -> None:
-    assert as_printed(text, printed) == shown

@@ -90,7 +90,7 @@ class Box:
     """One thing as it is printed, from `at` to `end` in the LaTeX.
 
     kind: letter number operator relation bracket fraction binomial root function big matrix cases rows accent text wide comma
-    dots arrow bar group partial nabla infinity unit percent. name: of the letter or the command; style, marks, upright: of a
+    dots arrow bar group partial nabla infinity. name: of the letter or the command; style, marks, upright: of a
     letter; parts: the rows in it; sub, sup: its scripts; closing: of a bracket; spaced: whether a thin space stands before it.
     """
 
@@ -247,7 +247,7 @@ class _Reader:
 
     def script(self, found: list[Box]) -> None:
         item, target = self.take(), found[-1] if found else None
-        if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow", "unit"):
+        if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
             raise FormulaError(f"{item.text} has nothing before it", "write the letter that the script belongs to")
         content = self.argument()
         if item.text == "^" and content and all(b.kind == "letter" and b.name == "prime" for b in content):
@@ -320,10 +320,9 @@ class _Reader:
     def accent(self, mark: str, item: Token, style: str) -> Box:
         content = self.argument(style)
         only = content[0] if len(content) == 1 else None
-        nabla = only is not None and only.kind == "nabla" and mark == "vec"
-        if only is None or not (nabla or (only.kind == "letter" and only.sup is None and not only.primes)):
+        if only is None or only.kind != "letter" or only.sup is not None or only.primes:
             return self.made("accent", mark, item, content)
-        only.marks += () if nabla else (mark,)
+        only.marks += (mark,)
         only.at, only.end = item.at, self.end
         return only
 
@@ -335,13 +334,15 @@ class _Reader:
         if name == "operatorname" or (len(word) > 1 and word in FUNCTIONS):
             return [self.made("function", word, item)]
         if worded and name in _TEXT and word != "d":
+            if "$" in word:
+                raise FormulaError("a formula stands within words", "write it between the words")
             return [self.made("text" if word else "thin", word, item)]
         if len(word) == 2 and word[0] == "d" and word.isalpha() and name == "mathrm":
             return [self.made("letter", letter, item, upright=letter == "d") for letter in word]
         if len(word) > 1 and word.isascii() and word.isalpha():
             return [self.made("letter", word, item, upright=True)]
-        if name == "mathrm" and _UNIT.fullmatch(word):
-            return [self.made("unit", word, item)]
+        if len(word) > 1 and re.search(r"[/%^~.·]", word):
+            raise FormulaError(f"{item.text}{{{word}}} is a unit", "write the numbers without units")
         self.place = start
         content = self.argument(style or "upright")
         for box in content:
@@ -390,12 +391,6 @@ class _Reader:
         above, below = (self.made(kind, name, item, upright=True, sup=sup) for sup in (order, None))
         over = [above, *(parts[0] if parts[1:] else [])]
         return [self.made("fraction", "", item, over, [below, replace(under[0], sup=order)])]
-
-    def _enclosed(self, item: Token, style: str) -> list[Box]:
-        r"""Read \abs{x} and \norm{x}."""
-        sign = "|" if item.text == r"\abs" else r"\|"
-        content = self.argument(style)
-        return [self.made("bracket", sign, item, content, closing=sign)]
 
     def _sqrt(self, item: Token, style: str) -> list[Box]:
         degree, content = self.bracketed(), self.argument("" if style == "upright" else style)
@@ -464,8 +459,6 @@ def _joins(before: Box, made: Box, style: str) -> bool:
     return style == "upright" and letters and before.sub is None and before.sup is None and not before.marks
 
 
-# A unit of several parts, m/s^2.
-_UNIT = re.compile(r"(?=.*[A-Za-z].*[A-Za-z/^]|%)[A-Za-z\d\s/^{}.\-~·%]+")
 # Characters and commands that are a letter, with its name; those that are another box whatever stands beside them: (kind, name).
 _LETTERS = {letter: letter for letter in ascii_letters} | _UNICODE
 _LETTERS |= {command: re.sub(r"var(?=[A-Z])", "", command[1:]) for command in GREEK}  # \varDelta is an italic \Delta
@@ -484,9 +477,8 @@ _COMMANDS: dict[str, tuple[str, str]] = {
         "partial": ("partial", ""),
         "nabla": ("nabla", ""),
         "infty": ("infinity", "infty"),
-        "degree": ("degree", "degree"),
     },
-    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "vert": ("bar", "|"), "%": ("percent", "%")},
+    **{"|": ("bar", "||"), "Vert": ("bar", "||"), "vert": ("bar", "|")},
 }
 _SIGNS: dict[str, tuple[str, str]] = {
     **{text: ("operator", name) for text, name in _OPERATORS.items() if len(text) == 1},
@@ -499,11 +491,9 @@ _FRACTIONS = ("frac", "dfrac", "tfrac", "cfrac", "sfrac", "nicefrac", "binom", "
 _FORMS: dict[str, Callable[[_Reader, Token, str], list[Box]]] = {
     **dict.fromkeys(_FRACTIONS, _Reader._frac),
     **dict.fromkeys(("dv", "pdv"), _Reader._derivative),
-    **dict.fromkeys(("abs", "norm"), _Reader._enclosed),
     **dict.fromkeys(("underbrace", "overbrace"), _Reader._underbrace),
     **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._passed_over),
     **{"left": _Reader._left, "sqrt": _Reader._sqrt, "begin": _Reader._begin, "\\": _Reader._line_end},
-    "dd": lambda reader, item, style: [reader.made("letter", "d", item, upright=True)],
 }
 
 

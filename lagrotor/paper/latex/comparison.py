@@ -1,7 +1,6 @@
 """Whether two printed sides agree: at points in floating point, then exactly; with a bound on the work."""
 
 from collections.abc import Callable
-from itertools import islice
 from random import Random
 from typing import Any
 
@@ -11,12 +10,8 @@ from lagrotor.algebra import decide_equal
 from lagrotor.algebra.scalar import degree
 from lagrotor.algebra.work import Calls, at_most
 from lagrotor.errors import LagrotorError, WorkError
-from lagrotor.paper.latex.tree import Call, Node, Number, Opaque, sympy_expression, walk
+from lagrotor.paper.latex.tree import Node, Opaque, sympy_expression
 
-# Parts whose expression is made without counting, where each is an operation that takes little.
-_FEW, _MOST_TIMES = 300, 3
-_LIGHT = {"sum", "product", "quotient", "power", "negative", "sqrt", "rate", "Derivative", "Integral", "at"}
-_LIGHT |= {"sin", "cos", "tan", "cot", "exp", "log", "sinh", "cosh", "tanh", "coth"}
 # The degree and the calls of functions, a few seconds, beyond which a step is not decided.
 _MOST_DEGREE, MOST_CALLS = 1000, 3_000_000
 TOO_LARGE = "the difference is too large"
@@ -46,12 +41,8 @@ def counted(work: Callable[..., Any], *arguments: Any) -> Any:
 
 def expression_of(node: Node, opaque: Opaque) -> Any:
     """Return the node as a sympy expression; None where it has none."""
-    parts = list(islice(walk(node), _FEW + 1))
-    calls = [each for each in parts if isinstance(each, Call)]
-    times = (n.value for each in calls if each.name == "Derivative" for n in each.args[2:] if isinstance(n, Number))
-    light = len(parts) <= _FEW and all(each.name in _LIGHT for each in calls) and all(n <= _MOST_TIMES for n in times)
     try:
-        return sympy_expression(node, opaque) if light else counted(sympy_expression, node, opaque)
+        return counted(sympy_expression, node, opaque)
     except (TypeError, ValueError, ArithmeticError, AttributeError):
         return None
 

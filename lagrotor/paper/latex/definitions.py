@@ -1,24 +1,19 @@
 r"""Commands of LaTeX that define others, choose between branches and take in files."""
 
-import re
-
-from lagrotor.paper.latex import packages
-from lagrotor.paper.latex.macros import CHOICES, Expander, Macro, Parameter, Primitive, head_of
-from lagrotor.paper.latex.tokens import Token, latex_of, plain, tokenize
+from lagrotor.paper.latex.macros import Expander, Macro, Parameter, Primitive, head_of
+from lagrotor.paper.latex.tokens import Token, latex_of, plain
 
 HEADINGS = (r"\part", r"\chapter", r"\section", r"\subsection", r"\subsubsection")
 # Environments of displayed formulas: LaTeX's and amsmath's.
-DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath", "IEEEeqnarray")
-_COUNTING = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\numberwithin", r"\@addtoreset", r"\counterwithin")
-_COMMANDS = (*HEADINGS, r"\appendix")  # which may stand as environments, \begin{appendix}
+DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath")
 
 
-def _define(expander: Expander, name: str, macro: Macro, token: Token, everywhere: bool = False) -> None:
+def _define(expander: Expander, name: str, macro: Macro, token: Token) -> None:
     """Define a name, unless its meaning is fixed here: headings, definitions, counters and files."""
     if name in expander.primitives and name not in _REPLACEABLE:
         expander.notes.append(f"{expander.place(token.at)}: {name} is defined anew: its standard meaning is taken")
     elif name.startswith("\\") and name not in HEADINGS:
-        expander.define(name, macro, everywhere)
+        expander.define(name, macro)
 
 
 def _newcommand(expander: Expander, token: Token) -> None:
@@ -47,19 +42,12 @@ def _def(expander: Expander, token: Token) -> None:
     marks: list[Token] = []
     while (part := expander.next()) is not None and part.kind != "open":
         marks.append(part)
-    body = expander.group(token.at)
-    head: list[Parameter] = []
-    for place, mark in enumerate(marks):
-        after = marks[place + 1] if place + 1 < len(marks) else mark
-        if mark.kind == "param":
-            head.append(Parameter("m") if after.kind == "param" else Parameter("u", after))
-        elif mark.text.strip() and not (place and marks[place - 1].kind == "param"):
-            head.append(Parameter("=", mark))
-    # \edef expands its body at once, and no macro of a formula reads powers as marks: such a name has no meaning
-    if token.text in (r"\edef", r"\xdef") or any(mark.kind == "script" for mark in marks):
+    body, head = expander.group(token.at), tuple(Parameter("m") for mark in marks if mark.kind == "param")
+    # \edef expands its body at once, and arguments with marks between them are not read: such a name has no meaning
+    if token.text in (r"\edef", r"\xdef") or len(head) < len([each for each in marks if each.text.strip()]):
         expander.define(target.text, None, everywhere=True)
     else:
-        _define(expander, target.text, Macro(tuple(body), tuple(head)), token, token.text == r"\gdef")
+        _define(expander, target.text, Macro(tuple(body), head), token)
 
 
 def _let(expander: Expander, token: Token) -> None:
@@ -73,14 +61,7 @@ def _let(expander: Expander, token: Token) -> None:
     same = source._replace(kind="primitive" if source.kind == "command" else source.kind)
     if target.text != source.text:
         macro = expander.macros.get(source.text) or Macro((same,))
-        _define(expander, target.text, macro, token, token.text == r"\glet")
-
-
-def _global(expander: Expander, token: Token) -> None:
-    r"""\global\def is \gdef."""
-    after = _next_name(expander)
-    name = {r"\def": r"\gdef", r"\edef": r"\xdef", r"\let": r"\glet"}.get(after.text, after.text)
-    expander.push((Token(after.kind, name, after.at),))
+        _define(expander, target.text, macro, token)
 
 
 def _next_name(expander: Expander) -> Token:
@@ -111,12 +92,11 @@ def _new_environment(expander: Expander, token: Token) -> None:
 
 
 def _new_theorem(expander: Expander, token: Token) -> None:
-    r"""\newtheorem{name}[equation]{Title}: an environment that steps the counter of equations."""
+    r"""\newtheorem{name}[equation]{Title} numbers theorems and equations together: such numbers are not followed."""
     expander.star()
-    name, shared = expander.name(), expander.optional()
-    if latex_of(shared or ()).strip() == "equation":
-        expander.define(rf"\{name}", Macro.of(r"\stepcounter{equation}"))
-        expander.define(rf"\end{name}", Macro(()))
+    expander.name()
+    if latex_of(expander.optional() or ()).strip() == "equation":
+        expander.doubt = "theorems share the counter of equations"
 
 
 def _begin(expander: Expander, token: Token) -> None:
@@ -139,19 +119,11 @@ def _end(expander: Expander, token: Token) -> None:
 def _is_command(expander: Expander, token: Token, name: str) -> bool:
     r"""Return True if \begin{x} is the command \x."""
     macros = expander.macros if token.kind == "command" else ()
-    return (rf"\{name}" in macros and rf"\end{name}" in macros) or rf"\{name}" in _COMMANDS
-
-
-def _display(expander: Expander, token: Token) -> None:
-    r"""\align and \endalign are \begin{align} and \end{align}, whatever the source has defined these to be."""
-    name = token.text[1:]
-    verb, name = (r"\end", name[3:]) if name.startswith("end") else (r"\begin", name)
-    expander.push((Token("primitive", verb, token.at), *tokenize(f"{{{name}}}", token.at)))
+    return (rf"\{name}" in macros and rf"\end{name}" in macros) or name == "appendix"
 
 
 def _condition(expander: Expander, token: Token) -> None:
-    holds = token.text == r"\iftrue" or (token.text == r"\ifmmode" and expander.in_formula)
-    if holds or expander.skip((r"\else", r"\fi"), token) == r"\else":
+    if token.text == r"\iftrue" or expander.skip((r"\else", r"\fi"), token) == r"\else":
         expander.branches += 1
 
 
@@ -164,36 +136,6 @@ def _else(expander: Expander, token: Token) -> bool:
     return True
 
 
-def _new_if(expander: Expander, token: Token) -> None:
-    r"""\newif\ifx defines \ifx to be \iffalse, and \xtrue and \xfalse to change that."""
-    name = _next_name(expander).text
-    if name.startswith(r"\if"):
-        expander.define(name, Macro((Token("primitive", r"\iffalse", token.at),)))
-        for value in ("true", "false"):
-            expander.define(rf"\{name[3:]}{value}", Macro.of(rf"\let{name}\if{value}"))
-
-
-def _choice(expander: Expander, token: Token) -> bool:
-    r"""\ifthenelse{…}{…}{…} and others that have their branches in braces: none is decided."""
-    if not expander.in_formula:
-        expander.star()
-        expander.leave_out(token, CHOICES[token.text])
-    return not expander.in_formula
-
-
-def _if_next(expander: Expander, token: Token) -> None:
-    r"""\@ifnextchar[{…}{…} and \@ifstar{…}{…}: the next sign says which of the two."""
-    sign = "*" if token.text == r"\@ifstar" else expander.name()
-    branches = expander.argument(), expander.argument()
-    spaces = expander.skip_spaces()
-    comes = expander.begins(sign)
-    if comes and token.text == r"\@ifstar":
-        expander.star()
-    elif not comes:
-        expander.push(plain(spaces, token.at))
-    expander.push(branches[not comes])
-
-
 def _if_value(expander: Expander, token: Token) -> None:
     r"""\IfValueTF, \IfNoValueT, \IfBooleanTF: of an argument of \NewDocumentCommand."""
     tested = expander.name()
@@ -204,50 +146,20 @@ def _if_value(expander: Expander, token: Token) -> None:
 
 
 def _text(expander: Expander, token: Token) -> bool:
-    r"""\mbox{\boldmath $u$} is \boldsymbol{u}, \text{$u$} is {u}; other words stay."""
+    r"""\mbox{…} and \textrm{…} are \text{…}."""
     if not expander.begins("{"):
         return False
     inside = expander.argument()
-    formula = re.fullmatch(r"\{?\s*(\\boldmath)?\s*\{?\s*\$([^$]*)\$\s*\}*", latex_of(inside).strip())
     words = (Token("open", "{", token.at), *inside, Token("close", "}", token.at))
-    shown = ("\\boldsymbol{" if formula[1] else "{") + formula[2] + "}" if formula else ""
-    expander.push(tokenize(shown, token.at) if formula else (Token("word", r"\text", token.at), *words))
-    return True
-
-
-def _quantity(expander: Expander, token: Token) -> bool:
-    r"""\num[…]{3.2e5}, \unit[…]{…}, \ang[…]{30} of siunitx; minutes and seconds of an angle, \ang{;6;}, are not read."""
-    if "siunitx" not in expander.loaded:
-        return False
-    expander.optional()
-    text = expander.name()
-    if not expander.in_formula:
-        expander.push(plain(text, token.at))
-        return True
-    if token.text == r"\ang" and ";" in text:
-        expander.push(tokenize(f"{{{text}}}", token.at))
-        return False
-    unit = token.text in (r"\unit", r"\si")
-    shown = packages.unit_print(text) if unit else packages.number_print(text) + r"^\circ " * (token.text == r"\ang")
-    expander.push(tokenize(shown, token.at))
+    expander.push((Token("word", r"\text", token.at), *words))
     return True
 
 
 def _use(expander: Expander, token: Token) -> None:
-    r"""\usepackage: the commands known here; of a package beside the source, its definitions, and nothing in it is expanded."""
+    r"""\usepackage: the commands known here. A package beside the source is not read."""
     expander.optional()
     for name in map(str.strip, expander.name().split(",")):
-        known = name in packages.TABLE or name in packages.DISTRIBUTED or name in expander.loaded
         expander.load(name)
-        path = None if known else expander.file_beside(name, (".sty",))
-        for each in expander.tokens_apart(path) if path else ():
-            inside = expander.group(each.at) if each.kind == "open" else (each,)
-            if any(part.text in _COUNTING for part in inside):
-                expander.doubt = f"{name}.sty may number equations in a way of its own"
-            if each.text in DEFINITIONS:
-                DEFINITIONS[each.text](expander, each)
-            elif each.kind == "command" and expander.is_condition(each):
-                expander.leave_out(each)
 
 
 def _input(expander: Expander, token: Token) -> None:
@@ -265,6 +177,11 @@ def _end_input(expander: Expander, token: Token) -> None:
     expander.end_file(token.at)
 
 
+def _pass_name(expander: Expander, token: Token) -> None:
+    r"""Take the name of a condition, \newif\ifx, which is not decided."""
+    expander.argument()
+
+
 def _with_argument(expander: Expander, token: Token) -> None:
     r"""Leave out the argument of \titleformat, \tikzset …"""
     expander.star()
@@ -275,31 +192,24 @@ def _commands(names: str, primitive: Primitive) -> dict[str, Primitive]:
     return dict.fromkeys((rf"\{name}" for name in names.split()), primitive)
 
 
-DEFINITIONS: dict[str, Primitive] = {
+_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text)
+PRIMITIVES: dict[str, Primitive] = {
+    **_REPLACEABLE,
     **_commands("newcommand renewcommand providecommand DeclareRobustCommand newrobustcmd", _newcommand),
     **_commands("NewDocumentCommand RenewDocumentCommand DeclareDocumentCommand", _document_command),
     **_commands("def gdef edef xdef", _def),
-    **_commands("let glet", _let),
-    **_commands("global", _global),
+    **_commands("let", _let),
     **_commands("newenvironment renewenvironment", _new_environment),
     **_commands("newtheorem", _new_theorem),
-    **_commands("newif", _new_if),
+    **_commands("newif", _pass_name),
     **_commands("DeclareMathOperator", _operator),
     **_commands("DeclarePairedDelimiter", _pair),
     **_commands("usepackage RequirePackage", _use),
     **_commands("input include subfile @input", _input),
-}
-_REPLACEABLE = _commands("mbox hbox textnormal textrm textit text", _text) | _commands("num unit si ang", _quantity)
-PRIMITIVES: dict[str, Primitive] = {
-    **DEFINITIONS,
-    **_REPLACEABLE,
-    **_commands(" ".join(f"{name} end{name}" for name in (*DISPLAYS, "subequations")), _display),
     **_commands("begin", _begin),
     **_commands("end", _end),
-    **_commands("iftrue iffalse ifmmode", _condition),
+    **_commands("iftrue iffalse", _condition),
     **_commands("else fi", _else),
-    **dict.fromkeys(CHOICES, _choice),
-    **_commands("@ifstar @ifnextchar", _if_next),
     **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
     **_commands("long protected outer relax protect expandafter makeatletter makeatother xspace", lambda *_: None),
     **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _with_argument),

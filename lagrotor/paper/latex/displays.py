@@ -7,6 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from lagrotor.errors import InputError
+from lagrotor.files import read_text
 from lagrotor.paper.latex.definitions import DISPLAYS, HEADINGS, PRIMITIVES
 from lagrotor.paper.latex.headings import names_of_authors, plain_heading
 from lagrotor.paper.latex.macros import Expander, Macro
@@ -15,21 +16,17 @@ from lagrotor.paper.latex.token_stream import EMPTY_LINE, ends_paragraph
 from lagrotor.paper.latex.tokens import BRACES, Token, latex_of, plain
 
 # Each row of these is an equation with a number; the others have one number.
-_ROWS = ("align", "gather", "eqnarray", "alignat", "flalign", "IEEEeqnarray")
+_ROWS = ("align", "gather", "eqnarray", "alignat", "flalign")
 _PAIRS = ("align", "alignat", "flalign")  # in which every second & begins another equation
-_WITH_ARGUMENT = ("alignat", "IEEEeqnarray")
 _BEGINS = {rf"\begin{{{name}{star}}}": name + star for name in DISPLAYS for star in ("", "*")}
 _NESTING = {"begin": 1, "end": -1}
-UNCLOSED = "unclosed@"  # Markdown writes it for $$ without a partner
 _FAULTS = {
-    UNCLOSED: "$$ is not closed",
     "verb": r"\verb is not closed in its line",
     "]": r"\] ends nothing that has begun",
     ")": r"\) ends nothing that has begun",
 }
-_BETWEEN = (r"\intertext", r"\shortintertext")
-_ROW_ENDS = (r"\\", r"\cr", *_BETWEEN)
-_NO_NUMBER = (r"\nonumber", r"\notag", r"\IEEEnonumber")
+_ROW_ENDS = (r"\\", r"\cr")
+_NO_NUMBER = (r"\nonumber", r"\notag")
 _OPERATORS = re.compile(r"[+\-*/]|\\(?:times|cdot|pm|mp|div|wedge|otimes|circ)(?![A-Za-z])")
 _RELATIONS = re.compile(
     r"[=<>]|\\(?:approx|sim|simeq|equiv|neq|ne|leq?|geq?|ll|gg|propto|to|cong|doteq|in|Rightarrow|implies|iff|Leftrightarrow"
@@ -37,11 +34,10 @@ _RELATIONS = re.compile(
 )
 _NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX does not go on in a formula behind these
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
-_PARAGRAPH = 4000  # characters of a paragraph before a display that belong to it
-_REFERENCES = (r"\eqref", r"\refeq", r"\ref", r"\cref", r"\Cref", r"\autoref")
-# Environments that number formulas in a way of their own, and those that hold = and _ in drawings and code.
-_REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases")
-_NO_DISPLAY = re.compile("tikz|pic|axis|scope|code|list|verb|prog|console|tab|array|graph|diagram|CD|algo|bib")
+# Environments of displays that are not read.
+_REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases", "empheq", "IEEEeqnarray")
+_SUFFIXES, _LARGEST = (".tex", ".ltx", ".latex"), 20  # MB
+_CONTROLS = [chr(code) for code in range(32) if chr(code) not in "\t\n\r\f"]
 # Packages that a formula may need, and whose commands other formulas do not disturb.
 _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
 
@@ -50,8 +46,7 @@ _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym text
 class Displayed:
     """One displayed equation: `number` as printed, empty if there is none; `latex` expanded, without labels and numbers.
 
-    lead: the left side of the row before, which this row continues. place: file and line; rows: the line of each row. cites:
-    labels that the text before it names.
+    lead: the left side of the row before, which this row continues. place: file and line; rows: the line of each row.
     """
 
     id: str
@@ -62,15 +57,14 @@ class Displayed:
     lead: str = ""
     place: tuple[str, int] = ("", 0)
     rows: tuple[int, ...] = ()
-    cites: tuple[str, ...] = ()
 
 
 @dataclass
 class Source:
     """The displayed equations of a source; section number → heading; inline formula → section; label → number.
 
-    notes: sentences about what could not be known; faults: file, line, and the error at which TeX would stop; words: id → the
-    text of the paragraph before and behind, formulas in $; preamble: packages that the formulas need; file: its name.
+    notes: sentences about what could not be known; faults: file, line, and the error at which TeX would stop; preamble: packages
+    that the formulas need; file: its name.
     """
 
     title: str
@@ -80,7 +74,6 @@ class Source:
     inline: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     faults: list[tuple[str, int, str]] = field(default_factory=list)
-    words: dict[str, str] = field(default_factory=dict)
     preamble: str = ""
     labels: dict[str, str] = field(default_factory=dict)
     file: str = ""
@@ -97,6 +90,18 @@ class _Row:
     tag: str = ""
     number: str = ""
     latex: str = ""
+
+
+def read_source(file: Path) -> Source:
+    """Return the displayed equations of a .tex file. Raises InputError for another one."""
+    if file.suffix.lower() not in _SUFFIXES:
+        raise InputError(f"{file}: give a .tex file")
+    if file.is_file() and (size := file.stat().st_size / 1e6) > _LARGEST:
+        raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts")
+    text = read_text(file, "latin-1")
+    if text.startswith("%PDF") or 20 * sum(map(text.count, _CONTROLS)) > len(text):
+        raise InputError(f"{file} is no text: give the source that it was made from")
+    return read_latex(text, file, file.stem)
 
 
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
@@ -118,16 +123,11 @@ class _Walker:
         self.expander = Expander(text, file, PRIMITIVES | self.counters.primitives())
         self.counters.begin(self.expander, "article")
         self.aux, self.aux_name = ({}, "") if file is None else (aux_numbers(file), file.with_suffix(".aux").name)
-        self.others: list[str] = []  # labels whose number in the .aux is another one, in words
-        self.whole = r"\documentclass" in text
-        self.short = "ShortVerb" in text  # a sign may begin and end text that shows $
-        self.body = not self.whole
+        self.body = r"\documentclass" not in text
         self.section, self.starred, self.numbered_chapters = "0", 0, True
         self.last, self.since = "0", 0  # the last number, and how many displays without one came since
         self.outer: list[tuple[int, Macro | None, str]] = []  # subequations: the counter's value and print, the number
-        self.cited: list[str] = []  # labels named since the last display
-        self.words = ""  # of the paragraph, since the last display
-        self.neighbours: list[str] = []  # displays to which the next words belong
+        self.ids: set[str] = set()
         self.ended = ""  # the end of a display that was missing: it ends nothing later
 
     def read(self) -> None:
@@ -140,11 +140,6 @@ class _Walker:
         source.faults = [(*expander.line(at), said) for at, said in sorted(expander.faults)]
         source.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in expander.loaded)
         source.notes += dict.fromkeys(expander.notes)
-        if self.others:
-            more = f", as {len(self.others) - 1} more differ" if self.others[1:] else ""
-            source.notes.append(
-                f"{self.others[0]}{more}: the first is taken, and equations without a label are counted"
-            )
         name, missing = self.aux_name, [label for label in source.labels if self.aux and label not in self.aux]
         if missing:
             source.notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
@@ -153,9 +148,7 @@ class _Walker:
             source.notes.append(f"{expander.doubt}, and the numbers may be others: {helps}")
 
     def _take(self, token: Token) -> None:
-        if token.kind == "text":
-            self._text(token.text)
-        elif token.text == r"\[":
+        if token.text == r"\[":
             self._display("displaymath", token, r"\]")
         elif token.text == r"\(":
             self._inline(token, r"\)")
@@ -174,17 +167,15 @@ class _Walker:
             self.expander.define(r"\theequation", printed)
         elif token.text.replace(r"\end", r"\begin") in _BEGINS:
             self._stray(token, f"{token.text} ends nothing that has begun")
-        elif token.kind == "script" and self.body and (self.expander.scopes or token.text == "^"):
-            name = self.expander.scopes[-1][0] if self.expander.scopes else ""
-            if name != "{" and not _NO_DISPLAY.search(name):
-                self._pass_over(name, token.at)
+        elif token.text == "^" and self.body:
+            inside = next((name for name, _ in self.expander.scopes[::-1] if name != "{"), "")
+            where = rf"in \begin{{{inside}}}, which is not known: define it"
+            if not inside.startswith("tikz"):  # a drawing
+                alone = "alone: define the command that begins it"
+                self._pass_over(token.at, f"a formula stands {where if inside else alone}")
 
-    def _pass_over(self, name: str, at: int) -> None:
-        """Note an environment that is not known and holds a formula, once for each name."""
-        said = rf"\begin{{{name}}} is not known, and a formula that it displays is passed over: write equation, or define it by"
-        said += rf" \newenvironment{{{name}}}"
-        if not name:
-            said = r"^ stands outside a formula: define the command that begins this formula by \newcommand"
+    def _pass_over(self, at: int, said: str) -> None:
+        """Note a formula that is not read, once for each sentence."""
         if not any(said in note for note in self.expander.notes):
             self.expander.notes.append(f"{self.expander.place(at)}: {said}")
             self.expander.doubt = self.expander.doubt or "a part of the source is left out"
@@ -214,14 +205,14 @@ class _Walker:
             label = expander.name()
             if self.outer:
                 self.source.labels[label] = self.aux.get(label, self.outer[-1][2])
+        elif name in DISPLAYS and self.body:
+            self._pass_over(token.at, rf"\{name} begins a display as a command: write \begin{{{name}}}")
         elif name == "appendix":
-            self.counters.begin_appendix(expander, expander.star())
+            self.counters.begin_appendix(expander)
         elif name in ("frontmatter", "mainmatter", "backmatter"):
             self.numbered_chapters = name == "mainmatter"
         elif name == "mathtoolsset" and "showonlyrefs" in expander.name():
             expander.doubt = "showonlyrefs of mathtools withdraws numbers"
-        elif token.text in _REFERENCES:
-            self.cited += (label.strip() for label in expander.name().split(","))
 
     def _argument(self) -> str:
         return latex_of(self.expander.expand(self.expander.argument()))
@@ -233,17 +224,12 @@ class _Walker:
             self.body = True
         elif name == "subequations" and self.body:
             self._begin_subequations()
-        elif name == "empheq" and self.body:
-            self.expander.optional()
-            inner = self.expander.name().partition("=")[0]
-            self._display(inner.rstrip("*"), token, end, inner.endswith("*"))
         elif token.text in _BEGINS and self.body:
-            if kind in _WITH_ARGUMENT:
-                self.expander.optional()
+            if kind == "alignat":
                 self.expander.argument()
             self._display(kind, token, end, name != kind)
         elif kind in _REFUSED:
-            self._pass_over(name, token.at)
+            self._pass_over(token.at, rf"\begin{{{name}}} is not read: write equation or align")
 
     def _begin_subequations(self) -> None:
         """Number by letters within the next number."""
@@ -255,23 +241,11 @@ class _Walker:
         expander.define(r"\theequation", Macro.of(r"\theparentequation\alph{equation}"))
         counters.values["equation"] = 0
 
-    def _text(self, text: str) -> None:
-        """Give the words of a paragraph to the display before them and to the one behind."""
-        first, *others = EMPTY_LINE.split(text)
-        for display in self.neighbours:
-            if len(self.source.words[display]) < 2 * _PARAGRAPH:
-                self.source.words[display] += first
-        self.words = (others[-1] if others else self.words + first)[-_PARAGRAPH:]
-        self.neighbours = [] if others else self.neighbours
-
     def _section(self, level: str, heading: str, star: bool) -> None:
         title = plain_heading(heading)
-        numbered = re.match(r"(\d+(?:\.\d+)*)\.?\s+(.*)", title) if not self.whole else None
         if level == "part":
             return
-        if numbered:
-            self.section, title = numbered[1], numbered[2]
-        elif star or (level == "chapter" and not self.numbered_chapters):
+        if star or (level == "chapter" and not self.numbered_chapters):
             self.starred += 1
             self.section = re.sub(r"[a-z]+$", "", self.section).removeprefix("0") + _letters(self.starred)
         else:
@@ -290,7 +264,7 @@ class _Walker:
             if token.text == end and (end != "$" or braces <= 0):  # \text{if $x$} is within
                 break
             if token.text in _NO_FORMULA or token.text in _BEGINS or ends_paragraph(token):
-                if not (self.expander.doubt or self.short):
+                if not self.expander.doubt:
                     self.expander.fault(begin.at, f"{begin.text} is not closed in its paragraph")
                 self.expander.push((token,))
                 inside = []
@@ -300,7 +274,6 @@ class _Walker:
         self.expander.in_formula = False
         if latex := latex_of(inside).strip():
             self.source.inline.setdefault(latex, self.section)
-            self._text(f" ${latex}$ ")
 
     def _display(self, kind: str, token: Token, end: str, starred: bool = False) -> None:
         """Read a display row by row, each of which gets its number as it ends."""
@@ -314,27 +287,24 @@ class _Walker:
         for part in self._inside(token, end):
             depth += _NESTING.get(part.kind, 0)
             braces += BRACES.get(part.kind, 0)
-            row, between = rows[-1], part.text in _BETWEEN
-            if depth == 0 and part.text in _ROW_ENDS and (braces == 0 or between):
+            row = rows[-1]
+            if depth == braces == 0 and part.text in _ROW_ENDS:
                 self._pass_end(part)
-                if by_rows and not (between and _is_empty(row)):
+                if by_rows:
                     self._finish(row)
                     rows.append(_Row(numbered, False))
-                elif not between:
+                else:
                     row.tokens.append(part)
             elif part.kind != "command" or not self._sets_number(part, row):
                 row.tokens.append(part)
         self.expander.in_formula = False
         self._finish(rows[-1])
-        after = self.expander.peek()
-        if end == "$$" and not self.whole and after is not None and not rows[0].tag:  # Markdown: $$ … $$ (3)
-            rows[0].number = (re.match(r"(?:\s*\((\w[\w.]*)\))?", after.text) or [""])[1] or ""
         self._keep(rows, kind, token)
 
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
         """Yield the tokens of a display. A display that is not ended where TeX would stop is ended there, with a fault."""
         depth = braces = 0
-        may_nest = not self.whole or begin.text.startswith(r"\begin{gather")  # Markdown, and align within gather
+        may_nest = begin.text.startswith(r"\begin{gather")  # align within gather
         for part in self.expander:
             if depth == 0:
                 if part.text == end and part.kind != "text":
@@ -356,9 +326,7 @@ class _Walker:
         return self.expander.fault(begin.at, f"{begin.text} is not {'ended' if begin.kind == 'begin' else 'closed'}")
 
     def _pass_end(self, part: Token) -> None:
-        r"""Take the star and the space behind \\, the text of \intertext."""
-        if part.text in _BETWEEN:
-            self.expander.argument()
+        r"""Take the star and the space behind \\."""
         self.expander.star()
         space = latex_of(self.expander.optional() or ()) if self.expander.begins("[") else ""
         if space and not re.search(r"\d|\\", space):  # no length: the row begins with it
@@ -367,18 +335,14 @@ class _Walker:
     def _sets_number(self, part: Token, row: _Row) -> bool:
         """Take a command that says something of the number of a row only; return False for another one."""
         name, expander = part.text, self.expander
-        if name in (r"\tag", r"\eqno", r"\leqno", *_NO_NUMBER):
+        if name == r"\tag" or name in _NO_NUMBER:
             self.counters.values["equation"] -= row.stepped
             row.stepped = False
         if name == r"\tag":
             expander.star()
             row.tag = plain_number(re.sub(r"\\(?:eq)?ref\{([^{}]*)\}", self._number_of, self._argument()))
-        elif name in (r"\eqno", r"\leqno"):
-            row.tag = plain_number(latex_of(expander.delimited("(", ")") or expander.argument()))
         elif name in _NO_NUMBER:
             row.numbered = False
-        elif name in (r"\yesnumber", r"\IEEEyesnumber"):
-            row.numbered = True
         elif name == r"\label":
             row.labels.append(expander.name())
         else:
@@ -407,20 +371,15 @@ class _Walker:
                 row.labels, after.labels = [], row.labels + after.labels
         for row in rows:
             for label in row.labels if row.number else ():
-                number = self.aux.get(label, row.number)
-                if number != row.number:
-                    self.others.append(f"{label} is ({number}) in {self.aux_name} and ({row.number}) by the source")
-                self.source.labels[label] = row.number = number
+                self.source.labels[label] = row.number = self.aux.get(label, row.number)
             row.latex = " ".join(latex_of(row.tokens).split())
             if groups and not _is_empty(row) and _continues(groups[-1], row):
                 groups[-1].append(row)
             elif not _is_empty(row):
                 groups.append([row])
-        known, lead = len(self.source.equations), ""
+        lead = ""
         for group in groups:
             lead = self._add(group, kind, token, lead)
-        self.cited, self.words = [], ""
-        self.neighbours = [each.id for each in self.source.equations[known:]]
 
     def _add(self, group: list[_Row], kind: str, token: Token, lead: str) -> str:
         """Keep one equation of rows, of which the first may continue another with this left side; return its left side."""
@@ -436,14 +395,14 @@ class _Walker:
         self.since = 0 if number else self.since + 1
         self.last = number or self.last
         identifier, source = number or f"{self.last or 0}{_letters(self.since)}", self.source
-        while identifier in source.words or not identifier:
+        while identifier in self.ids or not identifier:
             identifier += "'"
-        source.words[identifier] = f"{self.words} □ "  # where the display stands in its sentence
+        self.ids.add(identifier)
         source.sections.setdefault(self.section, "Before the first section")
         firsts = [next((t for t in row.tokens if t.text.strip(" \n\t&")), token) for row in group]
         lines = [self.expander.line(t.at + len(t.text) - len(t.text.lstrip())) for t in firsts]
-        rows, cites = tuple(n for _, n in lines), tuple(self.cited)
-        source.equations.append(Displayed(identifier, self.section, number, label, latex, lead, lines[0], rows, cites))
+        rows = tuple(n for _, n in lines)
+        source.equations.append(Displayed(identifier, self.section, number, label, latex, lead, lines[0], rows))
         return lead or _left_side(group[0].latex)
 
 
@@ -464,12 +423,7 @@ def _continues(group: list[_Row], row: _Row) -> bool:
         return not before.endswith((",", ";", ".")) or not body.startswith("-")
     if _RELATIONS.match(body) and not body.startswith((r"\Rightarrow", r"\implies", r"\iff", r"\Leftrightarrow")):
         return sum(bool(each.number) for each in (*group, row)) <= 1
-    # a bracket is open at the end of the rows before
-    whole = " ".join(each.latex for each in group)
-    lefts, rights = (len(re.findall(rf"\\{side}(?![a-z])", whole)) for side in ("left", "right"))
-    bare = re.sub(r"\\(?:left|right|[bB]igg?[lrm]?)(?![a-z])\s*|\\[{}]", "", whole)
-    square = bare.count("[") > bare.count("]") and ")" not in bare
-    return lefts != rights or bare.count("(") > bare.count(")") or square
+    return False
 
 
 def _left_side(source: str) -> str:

@@ -1,18 +1,15 @@
 """The reading of a formula: every token is accounted for, or the reading names the token where it stopped and what would help."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import TypeVar
 
 from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, stem_of
 from lagrotor.paper.latex.grammar import Grammar
 from lagrotor.paper.latex.notation import Notation
 from lagrotor.paper.latex.statements import PrintedStatement, read_statements
 
-EVERY = 500  # equations between two messages of progress
-_T = TypeVar("_T")
 _NOTHING = Notation()
 
 
@@ -76,11 +73,3 @@ def letters_printed(latex: str) -> frozenset[str]:
         return frozenset(stem_of(box) for box in all_boxes(boxes(latex)) if box.kind == "letter")
     except (FormulaError, RecursionError):
         return frozenset()
-
-
-def with_progress(what: str, rows: Sequence[_T], progress: Callable[[str], None] | None) -> Iterator[_T]:
-    """Yield the rows; before each `EVERY` of them `progress` is called with what is done. Fewer go by without a word."""
-    for place, row in enumerate(rows):
-        if progress and place % EVERY == 0 and len(rows) > EVERY:
-            progress(f"{what} equations {place + 1:,} to {min(place + EVERY, len(rows)):,}")
-        yield row

@@ -9,7 +9,6 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
 
 from lagrotor.paper.latex.boxes import (
     BIG,
@@ -29,7 +28,6 @@ from lagrotor.paper.latex.boxes import (
 )
 from lagrotor.paper.latex.notation import Notation, has_kind, is_evident_argument
 from lagrotor.paper.latex.tree import (
-    CONDITIONS,
     Call,
     Letter,
     Node,
@@ -40,14 +38,9 @@ from lagrotor.paper.latex.tree import (
     letters_of,
     number,
     product_of,
+    walk,
 )
 
-_UNIT_NAMES = (
-    "m s g kg K N J W V A C F H T Pa Hz rad sr mol cd eV keV MeV GeV cm mm nm km min h ms ns yr kHz MHz GHz kPa MPa GPa kN kJ "
-    "kW MW mV kV mA nF pF mH mT deg Ohm Nm µm"
-)
-UNITS = frozenset(_UNIT_NAMES.split())
-_UNIT_PARTS = re.compile(r"[A-Za-zµ%]+|\^\{?-?\d+\}?|[/.~\s·]")
 _NO_NAMES = "sin cos tan exp log ln det max min lim cot sinh cosh tanh const var"
 _WORDS = frozenset(_NO_NAMES.split())
 _MOST_DIGITS = 1000
@@ -55,22 +48,18 @@ _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh"
 _BRACKETED = ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")  # functions of what stands in brackets
 _ANGLES = ("theta", "phi", "varphi", "psi", "vartheta", "chi", "alpha", "beta", "gamma")
 _LAST = ("t", "tau", "x", "y", "z", "s")  # in which the argument of a sine without brackets ends
+_HELPS = {
+    "cases": "write one statement for each case", "nabla": "write its components",
+    "partial": r"write \frac{\partial f}{\partial x}", "text": "write words between statements, and numbers without units",
+}  # fmt: skip
 _LABELS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _TRANSPOSES = ("T", "top", "intercal")
 # Letters that may be functions before a sum in brackets.
 _NO_FACTORS = ("delta", "Delta", "Gamma", "zeta", "f", "F", "U", "V", "phi", "psi", "Phi", "Psi")
-_NAMES = {
-    "lbrace": r"\{",
-    "rbrace": r"\}",
-    "vert": "|",
-    "lvert": "|",
-    "rvert": "|",
-    "lVert": r"\|",
-    "rVert": r"\|",
-    "Vert": r"\|",
-}
+_NAMES = {"lbrace": r"\{", "rbrace": r"\}", **dict.fromkeys(("vert", "lvert", "rvert"), "|")}
+_NAMES |= dict.fromkeys(("Vert", "lVert", "rVert"), r"\|")
 _ROUND = ("(", "[", r"\{")
-_SETTLED = ("functions", "vectors", "matrices", "indices", "complex", "positive", "real")
+_SETTLED = ("functions", "vectors", "matrices", "indices", "positive", "real")
 
 
 class Grammar:
@@ -128,7 +117,7 @@ class Grammar:
 
     def term(self, row: list[Box]) -> Node:
         """Return the product that a row of boxes is, its groups joined by signs."""
-        row = _folded(strip(row))
+        row = strip(row)
         groups: list[tuple[str, list[Node], list[Box]]] = [("", [], [])]
         place = 0
         while place < len(row):
@@ -161,7 +150,7 @@ class Grammar:
         """Return two factors joined by a sign; first: the box behind the sign."""
         before = self.source[: first.at].rstrip()
         if sign == "/":
-            return self._divided(made, right, first, before)
+            return self._divided(made, right, before)
         vectors = is_vector(made), is_vector(right)
         if all(vectors) and not (is_matrix(made) or is_matrix(right)):
             if sign == "*":
@@ -182,9 +171,7 @@ class Grammar:
             raise FormulaError("whether × is of vectors or of numbers is open", way)
         return product_of([made, right])
 
-    def _divided(self, made: Node, right: Node, first: Box, before: str) -> Node:
-        if first.upright and first.name in UNITS:
-            raise FormulaError(f"whether upright {first.name} is a unit is open", r"write \mathrm{m/s}")
+    def _divided(self, made: Node, right: Node, before: str) -> Node:
         if is_vector(right):
             raise FormulaError("a vector is divided by", "write its length")
         last = made.args[-1] if isinstance(made, Call) and made.name == "product" else made
@@ -205,8 +192,7 @@ class Grammar:
         elif read is not None:
             node, behind = read(self, row, place)
         else:
-            way = "write one statement for each case" if box.kind == "cases" else "write what it stands for"
-            raise FormulaError(f"{self._text(box)} is not read here", way)
+            raise FormulaError(f"{self._text(box)} is not read here", _HELPS.get(box.kind, "write what it stands for"))
         if behind < len(row) and row[behind].name == "!":
             if box.kind == "function" or [b.name for b in row[behind + 1 : behind + 2]] == ["!"]:
                 raise FormulaError("what ! belongs to is open", "write brackets, or the product")
@@ -251,9 +237,8 @@ class Grammar:
             made = self._sign(row, place, after)
             if made is not None:
                 return made
-        varies = box.name == "delta" and bool(box.sub) and "".join(b.name for b in box.sub or ()) in "xyzt"
         word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
-        if word or (varies and kind == "letter") or (box.name == "d" and box.upright and box.primes):
+        if word or (box.name == "d" and box.upright and box.primes):
             way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
             raise self._open(box, f"{box.name} acts on what follows", way=way)
         if after is not None and kind == "bracket" and _plain(after.name) in _ROUND:
@@ -300,24 +285,19 @@ class Grammar:
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
         r"""Read \Delta x as one letter."""
         box, after = row[place : place + 2]
-        damping = box.name == "delta" and ((place and row[place - 1].kind == "number") or name_of(after) == "t")
-        if after.kind != "letter" or stem_of(box) in self.alone or damping:
+        if after.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
             raise self._open(box, f"\\{box.name} is a factor or acts on what follows", "functions", "real")
         letter = self.letter(after)
-        letter = replace(letter, name=f"{box.name}_{letter.name}")
-        behind = row[place + 2] if place + 2 < len(row) else None
-        if behind is None or behind.kind != "bracket":
-            return self.power(letter, after), place + 2
-        if [(b.name, b.sub) for b in behind.parts[0]] != [("t", None)] or behind.sup:
+        if place + 2 < len(row) and row[place + 2].kind == "bracket":
             raise self._open(after, f"\\{box.name} {after.name} is a function or a factor", "functions")
-        return self.power(letter, after), place + 3
+        return self.power(replace(letter, name=f"{box.name}_{letter.name}"), after), place + 2
 
     def _applied(self, box: Box, bracket: Box) -> Node | None:
         """Return a letter as a function of the bracket behind it, x for x(t); None where it is a factor."""
         content, name = bracket.parts[0], stem_of(box)
         if name in ("O", "Ocal") and not (box.sub or box.sup):
             return Call("order", (self.expression(content),))
-        if self._kind(box, "real", "positive", "complex"):
+        if self._kind(box, "real", "positive"):
             return None
         if self._kind(box, "functions") and (not self._kind(box, "proposed") or is_evident_argument(box, bracket)):
             return self._call(box, bracket)
@@ -398,7 +378,7 @@ class Grammar:
             return
         if [b.name for b in row] in (["0"], ["e"]):
             raise FormulaError(f"whether {text} is an upper index or a power is open", "write the index below")
-        unsettled = [b for b in letters if not self._kind(b, "positive", "complex", "real")]
+        unsettled = [b for b in letters if not self._kind(b, "positive", "real")]
         lowered = {"mu", "nu", *(self.indices - self.alone)}
         upper = any(b.name in lowered or self._kind(b, "indices") for b in unsettled)
         below = bool(unsettled) and any(b.kind == "letter" for b in box.sub or ())
@@ -411,22 +391,12 @@ class Grammar:
         box, behind = row[place], place + 1
         node: Node = Number(self._value(box.name))
         after = row[behind] if behind < len(row) else box
-        if after.upright and after.name not in (*UNITS, *FUNCTIONS, "d", "e", "i"):
-            raise FormulaError(f"upright {after.name} behind a number is no known unit", "write it in italics")
-        if box.sup and [b.name for b in box.sup] in (["circ"], ["degree"], ["o"]):
-            if after.name in ("C", "F"):
-                raise FormulaError(f"a temperature in degrees {after.name} is not read", "write it in K")
+        degrees = box.sup is not None and [b.name for b in box.sup] in (["circ"], ["o"])
+        if (after.upright and after.name not in (*FUNCTIONS, "d", "e", "i")) or (degrees and after.name in ("C", "F")):
+            raise FormulaError(f"upright {after.name} behind a number is a unit", "write the number without it")
+        if degrees:
             return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
-        node = self.power(node, box)
-        if after.kind == "percent":
-            return Call("quotient", (node, number(100))), behind + 1
-        if after.kind == "unit" or (after.kind == "text" and is_unit(after.name)):
-            return product_of([node, _unit(after.name)]), behind + 1
-        factors = [node]
-        while behind < len(row) and row[behind].upright and row[behind].name in UNITS and row[behind].sub is None:
-            factors.append(self.power(Letter(f"unit_{row[behind].name}"), row[behind]))
-            behind += 1
-        return product_of(factors), behind
+        return self.power(node, box), behind
 
     def _value(self, text: str) -> Fraction:
         if len(text) > _MOST_DIGITS:
@@ -555,15 +525,6 @@ class Grammar:
         made = Call("matrix", tuple(Call("row", line) for line in lines))
         return Call("det", (made,)) if box.name == "vmatrix" else made
 
-    def condition(self, row: list[Box]) -> Node:
-        """Return a relation, or a chain of relations, as a node."""
-        signs = [b.name for b in row if b.kind == "relation"]
-        if not signs or not {*signs} <= CONDITIONS.keys():
-            raise FormulaError("a condition is no relation", "write one relation")
-        sides = map(self.expression, parted(row, "relation"))
-        each = [Call(CONDITIONS[sign], two) for sign, two in zip(signs, pairwise(sides), strict=True)]
-        return each[0] if len(each) == 1 else Call("And", tuple(each))
-
     # ---- fractions and derivatives
 
     def _fraction(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -612,60 +573,25 @@ class Grammar:
             raise FormulaError("how far the derivative reaches is open", "write brackets around what is differentiated")
         return node, behind
 
-    def _partial(self, row: list[Box], place: int) -> tuple[Node, int]:
-        r"""Read \partial_x f and \partial_t^2 f."""
-        below = row[place].sub or []
-        index = ("i", "j", "k", "l", "m", "n", "mu", "nu")
-        if [b.kind for b in below] != ["letter"] or below[0].name in index or self._kind(below[0], "indices"):
-            raise FormulaError("what ∂ differentiates by is not clear", r"write \frac{\partial f}{\partial x}")
-        node, behind = self._operand(row, place + 1)
-        return _derived(node, self.letter(below[0]), _order(row[place])), behind
-
-    def _nabla(self, row: list[Box], place: int) -> tuple[Node, int]:
-        r"""Read \nabla f, \nabla^2 f, \nabla\cdot\vec f and \nabla\times\vec f."""
-        box = row[place]
-        sign = row[place + 1].name if place + 1 < len(row) and row[place + 1].kind == "operator" else ""
-        of_vector = sign in ("cdot", "times") and not box.sup
-        node, behind = self._operand(row, place + 1 + of_vector)
-        if of_vector != is_vector(node) or (box.sup and _order(box) != 2):
-            raise FormulaError("∇ is of no vector, of a vector, or has a power", 'declare the vectors, vectors = "…"')
-        name = "laplacian" if box.sup else {"cdot": "divergence", "times": "curl"}.get(sign, "gradient")
-        return Call(name, (node,)), behind
-
     # ---- sums, integrals, limits
 
     def _big(self, row: list[Box], place: int) -> tuple[Node, int]:
         box, rest, below = row[place], row[place + 1 :], row[place].sub or []
         if BIG[box.name] == "Integral":
             return self._integral(row, place)
+        if BIG[box.name] == "limit":
+            raise FormulaError("\\lim is not read", "limits are not decided")
         if not rest:
             raise FormulaError(f"\\{box.name} has no terms", "write them")
-        if BIG[box.name] == "limit":
-            sides = parted(below, "relation")
-            if len(sides) != 2 or not all(sides) or not any(b.name == "->" for b in below):
-                raise FormulaError("where the limit is taken is missing", r"write \lim_{x\to 0}")
-            return Call("limit", (self.term(rest), *map(self.expression, sides))), len(row)
-        names = [each.name for each in below if each.kind == "letter"]
-        self.bound += names
+        ends = [*map(self.expression, (below[2:], box.sup))] if below[2:] and box.sup else []
+        signs = [b.name for b in below[1:2]]
+        if not below or below[0].kind != "letter" or signs != ["="] * len(ends[:1]) or bool(box.sup) != bool(ends):
+            raise FormulaError("what the sum runs over is not clear", r"write \sum_{i=1}^{n}")
+        self.bound.append(below[0].name)
         try:
-            return Call(BIG[box.name], (self.term(rest), *self._limits(box, below))), len(row)
+            return Call(BIG[box.name], (self.term(rest), self.letter(below[0]), *ends)), len(row)
         finally:
-            del self.bound[len(self.bound) - len(names) :]
-
-    def _limits(self, box: Box, below: list[Box]) -> list[Node]:
-        """Return the index of a sum and its ends; the index alone where it runs over all its values."""
-        relations, letters = [b.name for b in below if b.kind == "relation"], [b for b in below if b.kind == "letter"]
-        if relations == ["="] and below[0].kind == "letter" and below[1].kind == "relation":
-            ends = [self.expression(box.sup)] if box.sup else []
-            return [self.letter(below[0]), self.expression(below[2:]), *ends]
-        if not box.sup and letters and all(b.kind in ("letter", "comma") for b in below):
-            if len({b.name for b in letters}) < len(letters):
-                raise FormulaError("whether indices stand below the sum is open", "write commas between them")
-            first, *others = map(self.letter, letters)
-            return [first, Letter("all"), Letter("all"), *others] if others else [first]
-        if not box.sup and relations and not any(b.kind == "comma" for b in below):
-            return [self.condition(below)]
-        raise FormulaError("what the sum runs over is not clear", r"write \sum_{i=1}^{n}")
+            self.bound.pop()
 
     def _integral(self, row: list[Box], place: int) -> tuple[Node, int]:
         """Read an integral from its sign to its differential."""
@@ -675,7 +601,7 @@ class Grammar:
             if at >= len(row):
                 raise FormulaError("the differential of the integral is missing", "write d and its letter")
             depth += _opens_integral(row[at]) - _closes_integral(row, at)
-        variables, end, inner = list[Node](), at, row[place + 1 : at]
+        variables, end, inner = list[Letter](), at, row[place + 1 : at]
         if row[at].kind == "fraction":  # \int \frac{dx}{x} f
             end = next((k for k in range(at, len(row)) if row[k].kind == "operator"), len(row))
             over = row[at].parts[0]
@@ -686,43 +612,23 @@ class Grammar:
                 raise FormulaError("a differential stands in one term only", "write it at the end")
             inner = [*inner, replace(row[at], parts=[rest, row[at].parts[1]]), *row[at + 1 : end]]
         else:
-            while end < len(row) and row[end].kind == "letter" and _closes_integral(row, end):
-                variables.append(self._variable(row[end : end + 2]))
-                end += 2
-            if end < len(row) and row[end].kind == "bracket" and inner:
-                raise self._open(box, "the bracket belongs to the differential", way="write the differential last")
-            if not inner and end < len(row) and row[end].kind != "operator":  # \int dx f(x)
-                inner, end = row[end:], len(row)
-        variable = variables[0] if len(variables) == 1 else Call("volume", tuple(variables))
-        return Call("Integral", (self._integrand(inner, variable), variable, *self._region(box, len(variables)))), end
+            variables.append(self._variable(row[end : end + 2]))
+            end += 2
+            if end < len(row) and (row[end].kind != "operator" or not inner):
+                raise self._open(box, "what follows the differential is integrated", way="write the differential last")
+        limits = [self.expression(each) for each in (box.sub, box.sup) if each]
+        if len(limits) == 1 or box.name != "int" or (inner and inner[-1].kind == "operator"):
+            raise FormulaError("the integral is over a line or a region", "write one variable and two limits")
+        return Call("Integral", (self.expression(inner) if inner else number(1), variables[0], *limits)), end
 
-    def _region(self, box: Box, dimensions: int) -> list[Node]:
-        """Return the limits of an integral, or the name of what it is over."""
-        if box.sub and box.sup:
-            if dimensions > 1:
-                raise FormulaError("two differentials follow one integral", "write as many integrals as differentials")
-            return [self.expression(box.sub), self.expression(box.sup)]
-        over = box.sub or box.sup
-        if over or box.name == "oint":
-            words = re.findall(r"\w+", self.source[over[0].at : box.end]) if over else ["loop"]
-            return [Letter("_".join(("over", *words)))]
-        return []
-
-    def _integrand(self, row: list[Box], variable: Node) -> Node:
-        """Return what is integrated; with the differential of a vector where a dot or a cross joins them."""
-        if not row or row[-1].kind != "operator":
-            return self.expression(row) if row else number(1)
-        left = self.expression(row[:-1])
-        if not (is_vector(left) and is_vector(variable) and row[-1].name in ("cdot", "times")):
-            raise FormulaError("the differential is multiplied by no vector", "declare the vectors in [notation]")
-        return Call("dot" if row[-1].name == "cdot" else "cross", (left, Call("differential", (variable,))))
-
-    def _variable(self, marks: list[Box]) -> Node:
+    def _variable(self, marks: list[Box]) -> Letter:
         """Return what an integral is over, from its d and the letter behind."""
-        if len(marks) != 2 or marks[1].kind != "letter" or marks[1].sup:
+        if len(marks) != 2 or marks[1].kind != "letter" or marks[1].sup or marks[0].sup:
             raise FormulaError("the differential of the integral is not clear", "write d and its letter")
         letter = self.letter(marks[1])
-        return Call("differential", (letter, self.expression(marks[0].sup))) if marks[0].sup else letter
+        if letter.vector:
+            raise FormulaError("the integral is over a vector", "write one variable and two limits")
+        return letter
 
 
 # Readers of the boxes that are a factor by themselves, and of those that take in what follows them.
@@ -732,8 +638,8 @@ _SIMPLE: dict[str, Callable[[Grammar, Box], Node]] = {
     "binomial": lambda reader, box: Call("binomial", tuple(map(reader.expression, box.parts))),
 }  # fmt: skip
 _FACTORS: dict[str, Callable[[Grammar, list[Box], int], tuple[Node, int]]] = {
-    "number": Grammar._number, "letter": Grammar._letter, "fraction": Grammar._fraction, "partial": Grammar._partial,
-    "nabla": Grammar._nabla, "function": Grammar._function, "big": Grammar._big,
+    "number": Grammar._number, "letter": Grammar._letter, "fraction": Grammar._fraction, "function": Grammar._function,
+    "big": Grammar._big,
 }  # fmt: skip
 # Calls of which a vector can be a multiple; functions whose argument may go on behind a slash.
 _SCALARS = ("sum", "product", "quotient", "negative", "power", "sqrt", "Abs", "norm", "dot", "Derivative", "rate")
@@ -784,36 +690,9 @@ def _check_neighbours(row: list[Box], place: int, before: Box | None) -> None:
         raise FormulaError(f"{run} is a word", r"write \text{…} for words, and \sin for functions")
 
 
-def is_unit(text: str) -> bool:
-    """Return whether a text is a unit: km, m/s^2."""
-    words = re.sub(r"[\^{}\d\-~.·]", " ", text.replace("/", " ")).split()
-    return bool(words) and all(word in UNITS for word in words)
-
-
-def _unit(name: str) -> Node:
-    """Return a unit such as m/s^2 as letters unit_m, unit_s."""
-    parts = _UNIT_PARTS.findall(name)
-    if "".join(parts).split() != name.split() or parts.count("/") > 1 or not parts[0][0].isalpha():
-        raise FormulaError(f"{name} is no unit", r"write it as \mathrm{m/s^2}")
-    factors: list[Node] = []
-    sign = 1
-    for part in parts:
-        sign = -1 if part == "/" else sign
-        if part[0] == "^":
-            base = factors.pop()
-            base = base.args[0] if isinstance(base, Call) else base
-            factors.append(Call("power", (base, number(sign * int(part.strip("^{}"))))))
-        elif part[0].isalpha() or part[0] == "%":
-            letter = Letter(f"unit_{part}")
-            factors.append(letter if sign > 0 else Call("power", (letter, number(-1))))
-    return product_of(factors)
-
-
 def _is_numeric(node: Node) -> bool:
-    """Return whether a node has no letters but those of units."""
-    if isinstance(node, Letter):
-        return node.name.startswith("unit_")
-    return isinstance(node, Number) or (bool(node.args) and all(map(_is_numeric, node.args)))
+    """Return whether a node has no letters."""
+    return not any(isinstance(each, Letter) for each in walk(node))
 
 
 def _is_any_kind(node: Node) -> bool:
@@ -859,14 +738,8 @@ def _closes_integral(row: list[Box], place: int) -> bool:
 
 
 def _paired(row: list[Box]) -> list[Box]:
-    """Return a row with its bars in pairs as brackets, and a bar with an equation below as the bracket that it closes."""
+    """Return a row with its bars in pairs as brackets."""
     places = [k for k, box in enumerate(row) if box.kind == "bar"]
-    if len(places) == 1 and row[places[0]].sub and places[0]:
-        last, bar = places[0], row[places[0]]
-        called = last > 1 and (row[last - 2].kind, row[last - 1].kind) == ("letter", "bracket")
-        start = last - 1 - called
-        made = Box("bracket", ".", row[start].at, bar.end, [row[start:last]], sub=bar.sub, sup=bar.sup, closing="|")
-        return [*row[:start], made, *row[last + 1 :]]
     if len(places) % 2:
         raise FormulaError("a bar has no partner", r"write \left| and \right|")
     paired: list[Box] = []
@@ -882,15 +755,3 @@ def _paired(row: list[Box]) -> list[Box]:
         paired += [*between, bars]
         last = b + 1
     return [*paired, *row[last:]]
-
-
-def _folded(row: list[Box]) -> list[Box]:
-    """Return a row with d^2x/dt^2 and ∂f/∂x as fractions."""
-    made: list[Box] = []
-    for box in row:
-        made.append(box)
-        over, slash, under = made[-5:-3], made[-3:-2], made[-2:]
-        letters = len(over) == 2 and slash[0].name == "/" and over[1].kind == under[1].kind == "letter"
-        if letters and any(is_mark(over[0], mark) and is_mark(under[0], mark) for mark in ("d", "partial")):
-            made[-5:] = [Box("fraction", "", over[0].at, box.end, [over, under])]
-    return made

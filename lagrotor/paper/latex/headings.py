@@ -7,9 +7,8 @@ from lagrotor.paper.readable import from_latex
 
 _GROUP = r"\{(?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\})*\}"
 _NOTES = re.compile(
-    r"\\(?:thanks|thanksref|footnote|footnotemark|label|inst|orcid\w*|email|affil|cor(?:ref)?|fnref|tnoteref|cite\w*|(?:eq)?ref"
-    rf"|IEEEmembership|(?:IEEE)?authorblockA|(?:IEEE)?authorrefmark|altaffilmark|aff|corresp|IEEEcompsoc\w+|[hv]space|textsuperscript|color)\*?\s*(?:\[[^][]*\]|{_GROUP})+"
-    r"|\$\s*\^[^$]*\$|\b\d+(?=\\textsuperscript)"  # marks of notes and addresses
+    rf"\\(?:thanks|footnote|label|inst|cite\w*|(?:eq)?ref|[hv]space|textsuperscript|color)\*?\s*(?:\[[^][]*\]|{_GROUP})+"
+    r"|\$\s*\^[^$]*\$"  # marks of notes
 )
 _LATTER = re.compile(rf"\\(?:(?:texorpdfstring|href)\s*{_GROUP}|textcolor\s*(?:\[\w+\])?\{{[^{{}}]*\}})")
 _FORMULA = re.compile(rf"\$((?:[^$\\]|\\.)*)\$|\\\((.*?)\\\)|\\ensuremath\s*({_GROUP})", re.DOTALL)
@@ -25,8 +24,6 @@ _LETTERS = {
     "ss": "ß", "o": "ø", "O": "Ø", "l": "ł", "L": "Ł", "ae": "æ", "AE": "Æ", "oe": "œ", "OE": "Œ", "aa": "å", "AA": "Å",
     "i": "i", "j": "j", "LaTeX": "LaTeX", "TeX": "TeX", "textquotesingle": "'",
 }  # fmt: skip
-# A line of an author's block that is an address.
-_ADDRESS = re.compile(r"@|\d|\b(?:Univ|Inst|Dep|Facult|Lab|School|Coll|Cent|E-?mail|http)", re.IGNORECASE)
 
 
 def plain_heading(text: str) -> str:
@@ -46,10 +43,8 @@ def _accented(found: re.Match[str]) -> str:
 
 
 def names_of_authors(text: str) -> tuple[str, ...]:
-    r"""The names in the argument of \author, between \and, commas and lines; lines that are addresses are left out."""
-    names: list[str] = []
-    for block in re.split(r"\\(?:and|And|AND)\b", _NOTES.sub("", re.sub(r"(?<!\\)\\[,;:!/ ]", " ", text))):
-        first, *others = re.split(r"\\\\(?:\[[^][]*\])?", block)
-        lines = [first, *(line for line in others if not _ADDRESS.search(plain_heading(line)))]
-        names += (plain_heading(each) for line in lines for each in re.split(r",|(?<=[\s~])and(?=[\s~])", line))
+    r"""The names in the argument of \author, between \and and commas; what follows the first line of a name is left out."""
+    blocks = re.split(r"\\and\b", _NOTES.sub("", re.sub(r"(?<!\\)\\[,;:!/ ]", " ", text)))
+    firsts = (re.split(r"\\\\", block)[0] for block in blocks)
+    names = (plain_heading(each) for first in firsts for each in re.split(r",|(?<=[\s~])and(?=[\s~])", first))
     return tuple(filter(None, names))

@@ -19,8 +19,7 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.files import read_text, write_text
 from lagrotor.paper.catalogue import reading_digest, toml
-from lagrotor.paper.latex.displays import Displayed, Source
-from lagrotor.paper.latex.markup import read_source
+from lagrotor.paper.latex.displays import Displayed, Source, read_source
 from lagrotor.paper.latex.notation import declared_notation
 from lagrotor.paper.latex.readings import Print, paper_notation, read_print
 from lagrotor.paper.scripts import beside
@@ -48,8 +47,7 @@ _HEAD = (
 class NewPaper:
     """The folder that was made, the number of its equations, and how many of them were read.
 
-    notes: sentences on the source. changed, gone: ids of equations whose print has changed, and that the source no longer
-    has. moved: sentences on equations that have another number now.
+    notes: sentences on the source. changed, gone: ids of equations whose print has changed, and that the source no longer has.
     """
 
     folder: Path
@@ -58,7 +56,6 @@ class NewPaper:
     notes: tuple[str, ...] = ()
     changed: tuple[str, ...] = ()
     gone: tuple[str, ...] = ()
-    moved: tuple[str, ...] = ()
 
 
 def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
@@ -69,7 +66,7 @@ def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
     folder : Path
         A new or an empty folder, or a paper that is made again.
     source : Path, optional
-        LaTeX, Markdown or a notebook; without it the folder holds a worked example.
+        LaTeX; without it the folder holds a worked example.
 
     Raises
     ------
@@ -126,15 +123,9 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     if not again:
         about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=path.name))
         write_text(folder / "README.md", about)
-    numbers = {row["id"]: row.get("number") for row in old.get("equation", [])}
-    moved = tuple(
-        f"{row['id']} is ({row['number']})"
-        for row in rows
-        if row.get("number") not in (None, row["id"], numbers.get(row["id"], row.get("number")))
-    )
     notes = (*faults, *source.notes)
     read = sum(each.stop is None for each in prints)
-    return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone), moved)
+    return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone))
 
 
 # ---- equations.toml
@@ -192,7 +183,7 @@ def _row(each: Displayed, print_: Print, known: Mapping[str, Any] | None, change
     row["line"] = [dict(line) for line in print_.lines]
     if known is not None:
         stay = ("id",) if known.get("title") == known.get("label") else ("id", "title")
-        skip = (*row, "changed", "print", "guesses", "subject")
+        skip = (*row, "changed", "print")
         row |= {key: value for key, value in known.items() if key not in skip or key in stay}
         old = known.get("line", ())  # the author's additions to a line, such as an order, stay if it is read alike
         row["line"] = [next((dict(line) for line in old if line | new == line), new) for new in row["line"]]
@@ -268,26 +259,16 @@ def _value(key: str, value: Any) -> str:
 
 
 def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
-    """Write `read = "confirmed"` and a hash of the print for these equations, named by id, label or (number); their ids.
+    """Write `read = "confirmed"` and a hash of the print for these equations; return their ids.
 
     Raises InputError for one without a reading.
     """
     file = folder / "equations.toml"
     given = toml(file)
     rows = {row["id"]: row for row in given.get("equation", [])}
-    names: dict[str, list[str]] = {}
-    for identifier, row in rows.items():
-        for name in (row.get("label"), f"({row.get('number')})"):
-            if row.get("read") != "gone":
-                names.setdefault(str(name), []).append(identifier)
-    wanted = list[str]()
-    for each in ids:
-        identifier, *others = [each] if each in rows else names.get(each, [each])
+    wanted = list(ids)
+    for identifier in wanted:
         row = rows.get(identifier)
-        if others:
-            raise InputError(
-                f"{each} is more than one equation: name one by its id, {identifier}, {', '.join(others[:7])}"
-            )
         if row is None:
             raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
         if row.get("read") == "gone":
@@ -295,7 +276,6 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
         if not row.get("line"):
             why = f"`lagrotor readings {folder}` says where its reading stopped, or what was kept aside"
             raise InputError(f"equation {identifier} has no line to confirm: {why}")
-        wanted.append(identifier)
     for row in (rows[identifier] for identifier in wanted):
         row.pop("changed", None)
         row |= {"read": "confirmed", "print": reading_digest(row["latex"], row["line"])}

@@ -18,16 +18,11 @@ from lagrotor.paper.latex.tokens import Token, plain, tokenize
 
 _MOST_EXPANSIONS = 20_000  # at one place of the source; a macro that needs more calls itself without end
 _MOST_TOKENS = 2_000_000  # of all expansions, besides ten for each character of the source
-# Commands that choose between arguments, and the number of these.
-CHOICES = {
-    r"\@ifundefined": 3, r"\@ifpackageloaded": 3, r"\@ifclassloaded": 3, r"\ifthenelse": 3,
-    r"\ifdef": 3, r"\ifundef": 3, r"\ifbool": 3, r"\iftoggle": 3, r"\ifblank": 3, r"\ifstrempty": 3, r"\ifstrequal": 4,
-}  # fmt: skip
 # Commands of which a branch without a decision may not have any unnoticed.
-_MATTER = (
+_MATTER = [
     r"\begin",
     r"\[",
-    "$$",
+    r"$$",
     r"\input",
     r"\include",
     r"\chapter",
@@ -35,16 +30,16 @@ _MATTER = (
     r"\subsection",
     r"\appendix",
     r"\tag",
-)
+]
 _NO_VALUE = (Token("command", r"\NoValue", 0),)
 _LETTER = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")  # of an argument of \NewDocumentCommand
 
 
 class Parameter(NamedTuple):
-    r"""One argument of a macro: m, s, o or g as in \NewDocumentCommand, u (ends with `mark`), or = (the mark must follow)."""
+    r"""One argument of a macro: m, s, o or g as in \NewDocumentCommand; marks: the two signs around an optional one."""
 
     kind: str
-    mark: Token = Token("text", "[]", 0)
+    marks: str = "[]"
     default: tuple[Token, ...] = _NO_VALUE
 
 
@@ -65,9 +60,7 @@ def head_of(spec: str) -> tuple[Parameter, ...]:
     head = []
     for letter, optional, opening, closing, default in _LETTER.findall(spec):
         value = tuple(tokenize(default)) if optional[:1] in ("O", "D") else _NO_VALUE
-        head.append(
-            Parameter(letter) if letter else Parameter("o", Token("text", (opening + closing) or "[]", 0), value)
-        )
+        head.append(Parameter(letter) if letter else Parameter("o", (opening + closing) or "[]", value))
     return tuple(head)
 
 
@@ -95,10 +88,6 @@ class Expander(TokenStream):
         self._made = 0
         self._stream = self._expanded()
         self.load("")
-        if r"\documentclass" not in text:  # Markdown: nothing says which packages are loaded
-            self.load("siunitx")
-            self.load("physics")
-            self.define(r"\div", None)
 
     def __iter__(self) -> Iterator[Token]:
         return self._stream
@@ -146,7 +135,7 @@ class Expander(TokenStream):
             self.begin_group("{")
         elif name in (r"\endgroup", r"\egroup"):
             self.end_group("{")
-        elif self.is_condition(token) and not self.in_formula:
+        elif name.startswith(r"\if") and name != r"\iff" and not self.in_formula:
             self.leave_out(token)
             return True
         return False
@@ -154,19 +143,12 @@ class Expander(TokenStream):
     def _body(self, macro: Macro, token: Token) -> list[Token]:
         """Return the body of a macro with its arguments; tokens of the body have the place of the macro."""
         values: list[Iterable[Token]] = []
-        if macro.head and macro.head[0].kind in "u=":
-            self.skip_spaces()
-        for kind, mark, default in macro.head:
+        for kind, marks, default in macro.head:
             value: list[Token] | None = None
-            if kind == "=":
-                self.take(mark.text)
-                continue
             if kind == "s":
                 value = plain("*" if self.star() else "", token.at)
-            elif kind == "u":
-                value = self.until(mark, at=token.at)
             elif kind == "o":
-                value = self.delimited(*mark.text)
+                value = self.delimited(*marks)
             elif kind == "m" or self.begins("{"):
                 value = self.argument()
             values.append(default if value is None else value)
@@ -219,29 +201,28 @@ class Expander(TokenStream):
             names, _, rest = line.strip().partition(" ")
             spec, _, body = rest.partition(" ")
             for name in filter(None, names.split(",")):
-                if not (name in self.macros and package == "siunitx"):  # \qty of physics
-                    macro = Macro.of(body, spec)
-                    same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
-                    self.define(name, Macro(same, macro.head))
+                macro = Macro.of(body, spec)
+                same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
+                self.define(name, Macro(same, macro.head))
 
     # ---- conditions
 
-    def leave_out(self, condition: Token, arguments: int = 0) -> None:
+    def leave_out(self, condition: Token) -> None:
         r"""Leave out the branches of a condition that is not decided; the names that they define have no meaning.
 
         Branches with equations, headings, counters or files are noted.
         """
-        passed = [token for _ in range(arguments) for token in self.argument()]
-        if not arguments:
+        passed: list[Token] = []
+        if not self.begins("{"):
             self.skip((r"\fi",), condition, passed)
+        while self.begins("{"):  # \ifthenelse{…}{…}{…}
+            passed += self.argument()
         for name, after in pairwise(token.text for token in passed if token.kind == "command"):
             if name in (r"\let", r"\DeclareMathOperator") or "def" in name or "newcommand" in name:
                 self.define(after, None, everywhere=True)
         if any(token.text in _MATTER or token.text.endswith("counter") for token in passed):
-            end = self.line(passed[-1].at)[1]
-            place = self.place(condition.at) + (f"-{end}" if end > self.line(condition.at)[1] else "")
             helps = r"both branches are left out; write \iftrue or \iffalse"
-            self.notes.append(f"{place}: {condition.text} is not decided: {helps}")
+            self.notes.append(f"{self.place(condition.at)}: {condition.text} is not decided: {helps}")
             self.doubt = self.doubt or "a part of the source is left out"
 
     def skip(self, ends: tuple[str, ...], condition: Token, passed: list[Token] | None = None) -> str:
@@ -258,5 +239,4 @@ class Expander(TokenStream):
 
     def is_condition(self, token: Token) -> bool:
         r"""Return True for a command that ends with \fi, as far as its name says; one with arguments in braces does not."""
-        named = token.text.startswith(r"\if") and token.text not in (r"\iff", *CHOICES)
-        return named and not self.begins("{")
+        return token.text.startswith(r"\if") and token.text != r"\iff" and not self.begins("{")

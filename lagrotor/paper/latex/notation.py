@@ -27,7 +27,6 @@ class Notation:
     matrices: frozenset[str] = frozenset()
     operators: frozenset[str] = frozenset()
     indices: frozenset[str] = frozenset()
-    complex: frozenset[str] = frozenset()
     positive: frozenset[str] = frozenset()
     numbers: frozenset[str] = frozenset()
     real: frozenset[str] = frozenset()
@@ -38,9 +37,8 @@ class Notation:
 # Keys of the table that hold letters; kinds of which a letter can have one only.
 KINDS = tuple(each.name for each in fields(Notation) if each.name not in ("decimal_comma", "proposed"))
 _EXCLUSIVE = (
-    ("real", "functions", "vectors", "matrices", "operators", "indices", "complex", "numbers"),
+    ("real", "functions", "vectors", "matrices", "operators", "indices", "numbers"),
     ("vectors", "matrices", "operators", "indices", "positive", "numbers"),
-    ("complex", "positive"),
 )
 
 

@@ -22,26 +22,9 @@ _BOOK = _ARTICLE | {
     "section": r"\thechapter.\arabic{section}",
     "equation": r"\chapterdot\arabic{equation}",
 }
-_REVTEX = _ARTICLE | {
-    "section": r"\Roman{section}",
-    "subsection": r"\Alph{subsection}",
-    "subsubsection": r"\arabic{subsubsection}",
-    "equationprefix": "",
-    "equation": r"\theequationprefix\arabic{equation}",
-}
-_REVTEX_CLASSES = ("revtex4", "revtex4-1", "revtex4-2")
-_PLAIN = ("article", "amsart", "scrartcl", "extarticle", "elsarticle", "standalone", "subfiles", "beamer")
 _CLASSES = {
-    **dict.fromkeys(_PLAIN, _ARTICLE),
-    **dict.fromkeys(("book", "report", "memoir", "extbook", "extreport"), _BOOK),
-    **dict.fromkeys(("scrbook", "scrreprt"), _BOOK | {"equation": r"\thechapter.\arabic{equation}"}),
-    **dict.fromkeys(_REVTEX_CLASSES, _REVTEX),
-    "IEEEtran": _ARTICLE | {"section": r"\Roman{section}"},
-}
-# Classes that number the equations of an appendix by its sections: how.
-_APPENDICES = {
-    **dict.fromkeys(_REVTEX_CLASSES, ("equationprefix", r"\Alph{section}")),
-    "elsarticle": ("equation", r"\Alph{section}.\arabic{equation}"),
+    **dict.fromkeys(("article", "amsart", "scrartcl", "standalone"), _ARTICLE),
+    **dict.fromkeys(("book", "report", "memoir"), _BOOK),
 }
 _WITHIN = {"section": "chapter", "subsection": "section", "subsubsection": "subsection"}
 _ROMAN = {"m": 1000, "cm": 900, "d": 500, "cd": 400, "c": 100, "xc": 90, "l": 50, "xl": 40, "x": 10,
@@ -84,18 +67,15 @@ class Counters:
         """Return a counter as it is printed."""
         return plain_number(latex_of(expander.expand((Token("command", rf"\the{name}", 0),))))
 
-    def begin_appendix(self, expander: Expander, star: bool = False) -> None:
+    def begin_appendix(self, expander: Expander) -> None:
         r"""\appendix: letters for chapters or sections."""
         top, below = ("chapter", "section") if r"\thechapter" in expander.macros else ("section", "subsection")
         self.values |= {top: 0, below: 0}
         expander.define(rf"\the{top}", Macro.of(rf"\Alph{{{top}}}"), everywhere=True)
-        if form := _APPENDICES.get(self.document_class):
-            self.parents["equation"] = "section"
-            expander.define(rf"\the{form[0]}", Macro.of(form[1] + "." * star), everywhere=True)
 
     def primitives(self) -> dict[str, Primitive]:
         """Return the commands that set and print counters."""
-        setting = (r"\newcounter", r"\setcounter", r"\addtocounter", r"\stepcounter", r"\refstepcounter")
+        setting = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\refstepcounter")
         within = (r"\@addtoreset", r"\numberwithin", r"\counterwithin", r"\counterwithout")
         shown = [rf"\{style}" for style in STYLES]
         return {
@@ -103,27 +83,19 @@ class Counters:
             r"\chapterdot": self._chapter,
             **dict.fromkeys(setting, self._set),
             **dict.fromkeys(within, self._number_within),
-            **dict.fromkeys((r"\value", *shown), self._show),
+            **dict.fromkeys(shown, self._show),
         }
 
     def _class(self, expander: Expander, token: Token) -> None:
-        options, name = latex_of(expander.optional() or ()).strip(), expander.name()
+        expander.optional()
+        name = expander.name()
         if not self.document_class:  # a part that could stand by itself has another
             self.document_class = name
             self.begin(expander, name)
-            if name == "subfiles":
-                expander.notes.append(
-                    f"the source is a part of {options}: give this file, whose commands and numbers it uses"
-                )
 
     def _set(self, expander: Expander, token: Token) -> None:
         name, values = expander.name(), self.values
-        if token.text == r"\newcounter":
-            values[name] = 0
-            expander.define(rf"\the{name}", Macro.of(rf"\arabic{{{name}}}"), everywhere=True)
-            if parent := latex_of(expander.optional() or ()).strip():
-                self.parents[name] = parent
-        elif "step" in token.text:
+        if "step" in token.text:
             self.step(name)
         elif re.fullmatch(r"[+-]?\d+", shown := latex_of(expander.expand(expander.argument())).strip()):
             values[name] = int(shown) + (values.get(name, 0) if token.text == r"\addtocounter" else 0)
@@ -132,16 +104,15 @@ class Counters:
 
     def _number_within(self, expander: Expander, token: Token) -> None:
         star = expander.star()
-        style = latex_of(expander.optional() or ()).strip().lstrip("\\") or "arabic"
         name, parent = expander.name(), expander.name()
         self.parents[name] = parent if token.text != r"\counterwithout" else ""
         if not star and token.text != r"\@addtoreset":
-            text = (rf"\the{parent}." if self.parents[name] else "") + rf"\{style}{{{name}}}"
+            text = (rf"\the{parent}." if self.parents[name] else "") + rf"\arabic{{{name}}}"
             expander.define(rf"\the{name}", Macro.of(text), everywhere=True)
 
     def _show(self, expander: Expander, token: Token) -> None:
         value = self.values.get(expander.name(), 0)
-        expander.push(plain(STYLES.get(token.text[1:], str)(value), token.at))
+        expander.push(plain(STYLES[token.text[1:]](value), token.at))
 
     def _chapter(self, expander: Expander, token: Token) -> None:
         """Print the number of the chapter before an equation's, where there is one."""

@@ -1,15 +1,13 @@
 """The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
 
-import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
-from fractions import Fraction
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Catalogue, Equation
-from lagrotor.paper.latex.formula import read_formula, with_progress
+from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.notation import KINDS, Notation, declared_notation, propose, with_proposals
 from lagrotor.paper.latex.statements import PrintedStatement, Side
 from lagrotor.paper.latex.tokens import NESTING, Token, latex_of, tokenize
@@ -105,20 +103,14 @@ class EquationReading:
     helps: str = ""
     number: str = ""
 
-    def as_data(self) -> dict[str, Any]:
-        """Return the reading as an object of JSON."""
-        return asdict(self)
 
-
-def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) -> Iterator[EquationReading]:
+def readings(paper: Catalogue) -> Iterator[EquationReading]:
     """Read every equation, in the paper's order.
 
     Parameters
     ----------
     paper : Catalogue
         The paper.
-    progress : callable, optional
-        Called with a sentence before each `EVERY` equations.
 
     Raises
     ------
@@ -127,7 +119,7 @@ def readings(paper: Catalogue, progress: Callable[[str], None] | None = None) ->
     """
     equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
-    for entry in with_progress("read", equations, progress):
+    for entry in equations:
         moved = entry.number and entry.read != "gone" and str(entry.number) != entry.id
         yield replace(_reading(entry, notation), number=str(entry.number) if moved else "")
 
@@ -172,17 +164,6 @@ def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
     claimed = (f" + O({row['small']}**{row.get('order', 0) + 1})" if row.get("small") else "" for row in lines)
     texts = (" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in lines)
     return tuple(map("".join, zip(texts, claimed, strict=True)))
-
-
-def as_printed(text: str, printed: str) -> str:
-    """Return a reading with decimals as in the print, and units without their prefix: 981/100*unit_m is 9.81*m.
-
-    A fraction is a whole quotient of two numbers: of x**2/2 and x/3/4 no part is.
-    """
-    plain = printed.replace("{,}", "").replace(",", ".")
-    decimals = {Fraction(digits): digits for digits in re.findall(r"\d+\.\d+", plain)}
-    fraction = r"(?<![\w./])(?<!\*\*)\d+/\d+(?![\w./]|\*\*)"
-    return re.sub(fraction, lambda match: decimals.get(Fraction(match[0]), match[0]), text).replace("unit_", "")
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
-"""Slips of an author: one sign, factor, power, index or function of a side changed, so that it agrees with another."""
+"""Slips of an author: one sign, factor, power or function of a side changed, so that it agrees with another."""
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import partial
 from itertools import islice
@@ -13,16 +13,17 @@ from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, has_opa
 
 # Functions that are taken for each other.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
-_TWICE = ((Fraction(2), "{} doubled"), (Fraction(1, 2), "{} halved"))
-_FACTORS = ((Fraction(-1), "the sign of {} changed"), *_TWICE)
-_MOST_SLIPS = 120  # changes that are tried
+_FACTORS = (
+    (Fraction(-1), "the sign of {} changed"),
+    (Fraction(2), "{} doubled"),
+    (Fraction(1, 2), "{} halved"),
+)
+_MOST_SLIPS = 100  # changes that are tried
 _MOST_PARTS = 100  # denominator of a factor
 
 
-def change_to_agree(
-    fixed: Any, changing: Node, names: Collection[str], value: Callable[[Node], Any], by_identity: bool = False
-) -> str | None:
-    """Return the one change of a side with which it agrees with another, in words; None where there is none.
+def change_to_agree(fixed: Any, changing: Node, value: Callable[[Node], Any]) -> str:
+    """Return the one change of a side with which it agrees with another, in words; "" where there is none.
 
     Parameters
     ----------
@@ -30,63 +31,40 @@ def change_to_agree(
         The other side.
     changing : Node
         The side that is changed.
-    names : collection of str
-        Letters that may stand for each other if they differ in their index.
     value : callable
         Called with a changed side; returns its expression, or None.
-    by_identity : bool
-        Whether the sides are said to be equal for all values. A change that makes them the same print, as in cos x = sin x,
-        or that puts another index, is none then: both may be conditions.
     """
     expression = value(changing)
     point = point_of(fixed, expression)
     number = value_at(fixed, point)
-    bare = by_identity or has_opaque(fixed)  # {f, f} = −{f, f} = 0 and tan x = cot x may be conditions
     ratio = _ratio(number, value_at(expression, point))
-    scaled = sp.Rational(str(ratio or 0)) * expression
-    if ratio is not None and decided(fixed, scaled) == "zero":
-        if ratio == -1 and not bare:
-            return "with the sign of the whole changed they agree"
-        if ratio > 0 and not (bare and fixed == scaled):
-            return f"with the factor {ratio} of the whole they agree"
-    for changed, said in islice(slips(changing, () if by_identity else names), _MOST_SLIPS):
-        other = value(changed)
-        if other is None or (by_identity and fixed == other):
-            continue
-        if nearly_equal(number, value_at(other, point)) and decided(fixed, other) == "zero":
+    if ratio and not has_opaque(fixed) and decided(fixed, sp.Rational(str(ratio)) * expression) == "zero":
+        return f"with the factor {ratio} of the whole they agree"
+    for other, said in islice(_slips(changing), _MOST_SLIPS):
+        slip = value(other)
+        if slip is not None and nearly_equal(number, value_at(slip, point)) and decided(fixed, slip) == "zero":
             return f"with {said} they agree"
-    return None
+    return ""
 
 
-def slips(node: Node, names: Collection[str] = ()) -> Iterator[tuple[Node, str]]:
-    """Yield the node with one part changed as authors do, and the change in words; names: letters about."""
-    for part, put in _parts(node):
-        yield from ((put(changed), said) for changed, said in _changes(part, names))
-
-
-def _parts(node: Node, put: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, Callable[[Node], Node]]]:
-    """Yield each part of a node with the function that puts another in its place."""
-    yield node, put
+def _slips(node: Node, put: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, str]]:
+    """Yield a side with one part of `node` changed as authors do, and the change in words; put: puts a new node into the side."""
+    yield from ((put(changed), said) for changed, said in _changes(node))
     if isinstance(node, Call):
         for place, part in enumerate(node.args):
-            yield from _parts(part, partial(_put_within, put, node, place))
+            yield from _slips(part, partial(_put_within, put, node, place))
 
 
-def _put_within(put: Callable[[Node], Node], node: Node, place: int, new: Node) -> Node:
+def _put_within(put: Callable[[Node], Node], node: Call, place: int, new: Node) -> Node:
     return put(_with(node, place, new))
 
 
-def _with(node: Node, place: int, part: Node) -> Node:
-    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :])) if isinstance(node, Call) else part
+def _with(node: Call, place: int, part: Node) -> Call:
+    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :]))
 
 
-def _changes(node: Node, names: Collection[str]) -> Iterator[tuple[Node, str]]:
-    """Yield a node with another index, power, function or argument, or with another factor of a term."""
-    if isinstance(node, Letter) and not node.vector:
-        stem = node.name.split("_")[0]
-        for name in sorted(names):
-            if name != node.name and name.split("_")[0] == stem:
-                yield Letter(name), f"{name} for {node.name}"
+def _changes(node: Node) -> Iterator[tuple[Node, str]]:
+    """Yield a node with another power, function or argument, or with another factor of a term."""
     base, power, more = _powers(node)
     for each in (power + difference for difference in more):
         if each:  # cos² nπ is 1 for whole n
@@ -94,11 +72,9 @@ def _changes(node: Node, names: Collection[str]) -> Iterator[tuple[Node, str]]:
     if isinstance(node, Call) and node.name in KNOWN:
         if other := _TAKEN_FOR.get(node.name):
             yield Call(other, node.args), f"{other} for {node.name}"
-        for factor, said in _TWICE:
-            yield (
-                Call(node.name, (_times(factor, node.args[0]), *node.args[1:])),
-                f"the argument of {said.format(text_of(node))}",
-            )
+        for factor, said in _FACTORS:
+            changed = _with(node, 0, _times(factor, node.args[0]))
+            yield changed, said.format(f"the argument of {text_of(node)}")
     if isinstance(node, Call) and node.name == "sum":
         for place, term in enumerate(node.args):
             for factor, said in _FACTORS:

@@ -5,7 +5,7 @@ r"""A derivation stated as text: coordinates, a Lagrangian and constraints in `p
     L = "m*R**2*theta_dot**2/2 + m*g*R*cos(theta)"
     constraints = []                        # each expression is zero
     forces = []                             # on each coordinate, besides those of L: friction, "-c*theta_dot"
-    where = ["omega_0 = sqrt(g/R)"]         # definitions of letters that L does not have
+    where = ["omega_0 = sqrt(g/R)"]         # definitions of letters that L does not have, by constants
 
     [system.derives]                        # equation id → the quantity that the equation prints
     "1" = "L"
@@ -15,7 +15,6 @@ r"""A derivation stated as text: coordinates, a Lagrangian and constraints in `p
     "5" = "frequency at theta = 0"          # ω of small oscillations; of several: frequency 2 at …; frequency^2: ω²; period: 2π/ω
     "6" = "motion theta"                    # any equation that follows from the equations of motion
     "7" = "integral"                        # F with dF/dt = 0 along every motion
-    "8" = "small motion theta at theta = 0" # motion, acceleration or momentum through first order about an equilibrium
 
 The constraints, their rates and the definitions are premises of every verdict. A verdict names those that it needs. A
 print with a letter that neither the system nor a definition has is refused: its value decides whether the print is right.
@@ -27,7 +26,7 @@ The text is parsed by the reader of expressions; nothing in it runs. Goldstein, 
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, reduce
 from pathlib import Path
 from typing import Any
@@ -59,13 +58,10 @@ from lagrotor.paper.premises import Premise
 
 _KEYS = ("coordinates", "L", "constraints", "forces", "where", "derives")
 _ROLE = re.compile(
-    r"(?P<whole>L|energy|integral)|(?P<small>small +)?(?P<kind>momentum|acceleration|motion)(?: +(?P<name>(?!at\b)[A-Za-z_]\w*))?"
-    r"(?(small)(?: +at +(?P<about>.*))?)|(?P<form>frequency|frequency\^2|period)(?: +(?P<which>\d+))?(?: +at +(?P<at>.*))?"
+    r"(?P<whole>L|energy|integral)|(?P<kind>momentum|acceleration|motion)(?: +(?P<name>[A-Za-z_]\w*))?"
+    r"|(?P<form>frequency|frequency\^2|period)(?: +(?P<which>\d+))?(?: +at +(?P<at>.*))?"
 )
-_ROLES = (
-    "L, energy, integral, momentum q, acceleration q, motion q, small motion q at q = 0, frequency at q = 0, "
-    "frequency^2 or period"
-)
+_ROLES = "L, energy, integral, momentum q, acceleration q, motion q, frequency at q = 0, frequency^2 or period"
 _LAGRANGIANS = ("L", "Lcal", "Lscr")  # names of L in a print, where they are no letters of the system
 
 
@@ -99,7 +95,7 @@ class StatedSystem:
         self._check_letters(identifier)
         said = role.groupdict(default="")
         if said["form"]:
-            return self._frequency(identifier, said["form"], int(said["which"] or 1), said["at"])
+            return self._frequency(said["form"], int(said["which"] or 1), said["at"])
         if said["whole"] == "integral":
             return self._conserved(identifier)
         if said["whole"]:
@@ -107,17 +103,16 @@ class StatedSystem:
         names = [q.name for q in self.c.q]
         if said["name"] not in names:
             raise self._error(f"{said['kind']} {said['name'] or '?'}: the coordinates are {', '.join(names)}")
-        system = self._small(said["about"]) if said["small"] else self
         if said["kind"] == "motion":
-            return shortest(system._as_printed(identifier))
-        rows = momenta(system.L, self.c) if said["kind"] == "momentum" else system.accelerations
+            return shortest(self._as_printed(identifier))
+        rows = momenta(self.L, self.c) if said["kind"] == "momentum" else self.accelerations
         return shortest(rows[names.index(said["name"])])
 
     @cached_property
     def premises(self) -> tuple[Premise, ...]:
         """The premises of every print: the constraints with their rates, and the definitions of letters."""
         rates = [sp.Eq(e, 0) for g in self.constraints for e in (g, total_derivative(g, self.c))]
-        definitions = (sp.Eq(letter, self._along(value), evaluate=False) for letter, value in self.where.items())
+        definitions = (sp.Eq(letter, value, evaluate=False) for letter, value in self.where.items())
         return (
             *([Premise("the constraints hold", where=tuple(rates))] if rates else []),
             *(Premise("as the text says", where=(each,), defines=True) for each in definitions),
@@ -158,27 +153,6 @@ class StatedSystem:
                 )
                 raise self._error(f"equation {identifier} {says}, or leave the equation out here")
 
-    def _small(self, about: str) -> "StatedSystem":
-        """Return the system with L through second order and the forces through first about an equilibrium."""
-        if self.constraints:
-            raise self._error("small motion needs coordinates without constraints")
-        small = sp.Dummy()
-        equilibrium = self._point(about) | dict.fromkeys(self.c.v, sp.S.Zero)
-        near = {x: x0 + small * (x - x0) for x, x0 in equilibrium.items()}
-
-        def through(order: int, e: sp.Expr) -> sp.Expr:
-            e = e.xreplace(near)
-            return sum((e.diff(small, n).subs(small, 0) / sp.factorial(n) for n in range(order + 1)), sp.S.Zero)
-
-        system = replace(self, L=through(2, self.L), forces=tuple(through(1, each) for each in self.forces))
-        if any(each.has(sp.Derivative, sp.Subs, sp.nan, sp.zoo, sp.oo) for each in (system.L, *system.forces)):
-            raise self._error(f"L or a force has no series at {about or 'zero'}")
-        vars(system)["_known"] = self._known  # a print may have letters of the terms that are left out
-        undriven = (each for each in system.accelerations.xreplace(equilibrium) if not each.has(t))
-        if any(not _is_zero(each) for each in undriven):
-            raise self._error(f"{about or 'zero'} is no equilibrium: an acceleration is not zero there")
-        return system
-
     def _point(self, text: str) -> dict[sp.Symbol, sp.Expr]:
         """Return the coordinates of `theta = 0, x = a`; those without a value are zero."""
         values = dict.fromkeys(self.c.q, sp.S.Zero)
@@ -192,30 +166,17 @@ class StatedSystem:
         return shortest(e.xreplace(dict(zip(self.c.a, self.accelerations, strict=True))) if e.has(*self.c.a) else e)
 
     def _rate(self, e: sp.Expr) -> sp.Expr:
-        """Return de/dt along the motion; letters that are defined by coordinates change with these."""
-        return self._along(total_derivative(self._along(e.xreplace(self._moving)), self.c))
-
-    @cached_property
-    def _moving(self) -> dict[sp.Symbol, sp.Expr]:
-        """The definitions of letters by coordinates, with earlier definitions put in."""
-        values: dict[sp.Symbol, sp.Expr] = {}
-        for letter, value in self.where.items():
-            if (value := value.xreplace(values)).has(*self.c.q, *self.c.v, *self.c.a):
-                values[letter] = value
-        return values
+        """Return de/dt along the motion."""
+        return self._along(total_derivative(self._along(e), self.c))
 
     def _conserved(self, identifier: str) -> sp.Expr:
         """Return a printed F less its change after a short time: F itself where dF/dt = 0 along every motion."""
         F = self.paper.lines(identifier)[0].members[0]
-        letters = {s: value for s, value in self._moving.items() if F.has(s)}
-        if not letters and not F.has(*self.c.q, *self.c.v):
+        if not F.has(*self.c.q, *self.c.v):
             says = f"prints {F}, which depends on no coordinate or velocity: leave it out here"
             raise self._error(f"equation {identifier} {says}")
-        rate = self._rate(F)
-        if letters and _is_zero(rate):  # then the definitions are the premises of the verdict
-            rate = sum((letter - value for letter, value in letters.items()), sp.S.Zero)
         time = next(name for name in ("tau", "short_time", "time_since") if name not in self.names)
-        return F - sp.Symbol(time, positive=True) * rate
+        return F - sp.Symbol(time, positive=True) * self._rate(F)
 
     def _as_printed(self, identifier: str) -> sp.Expr:
         """Return the right side of a printed equation of motion, plus left − right along the motion."""
@@ -251,7 +212,7 @@ class StatedSystem:
         same = all(_is_zero(self._along(left - each)) for each in others)
         return left if same and left.free_symbols <= self._known else None
 
-    def _frequency(self, identifier: str, form: str, which: int, point: str) -> sp.Expr:
+    def _frequency(self, form: str, which: int, point: str) -> sp.Expr:
         """Return ω of a small oscillation about an equilibrium, ω², or its period; the mode's rate is i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
             raise self._error("with friction small motion has no frequency: leave it out here")
@@ -260,22 +221,10 @@ class StatedSystem:
         squares = sorted({sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0}, key=sp.default_sort_key)
         if not 0 < which <= len(squares):
             raise self._error(f"there is no {form} {which}: the system has {len(squares)}")
-        values = {
-            f"{kind} {n}": value
-            for n, square in enumerate(squares, 1)
-            for kind, value in {
-                "frequency": sp.sqrt(square),
-                "frequency^2": square,
-                "period": 2 * sp.pi * sp.sqrt(1 / square),
-                "frequency in turns": sp.sqrt(square) / (2 * sp.pi),
-            }.items()
-        }
-        derived = values.pop(f"{form} {which}")
-        for member in (e.xreplace(self.where) for line in self.paper.lines(identifier) for e in line.members):
-            others = (name for name, value in values.items() if _is_zero(member**2 - value**2))
-            if not _is_zero(member**2 - derived**2) and (other := next(others, "")):
-                raise self._error(f"equation {identifier} prints {member}, which is {other} and not {form} {which}")
-        return derived
+        square = squares[which - 1]
+        if form == "frequency^2":
+            return square
+        return sp.sqrt(square) if form == "frequency" else 2 * sp.pi * sp.sqrt(1 / square)
 
 
 def _is_zero(e: sp.Expr) -> bool:
@@ -312,14 +261,14 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     L = read(given["L"], names, f"{where}: L")
     constraints = tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ()))
     fixed = set[sp.Basic]().union(*(e.free_symbols for e in (L, *constraints, *forces, *c.q, *c.v, *c.a)))
-    definitions = _definitions(given.get("where", ()), names, fixed, f"{where}: where")
+    definitions = _definitions(given.get("where", ()), names, fixed, c, f"{where}: where")
     return StatedSystem(c, L, constraints, forces, definitions, given.get("derives", {}), names, where, paper)
 
 
 def _definitions(
-    rows: tuple[str, ...], names: Mapping[str, Any], fixed: set[sp.Basic], where: str
+    rows: tuple[str, ...], names: Mapping[str, Any], fixed: set[sp.Basic], c: Coordinates, where: str
 ) -> dict[sp.Symbol, sp.Expr]:
-    """Return letter → expression; refuse another relation, a letter of L, and one that is defined twice."""
+    """Return letter → expression in constants; refuse another relation, a letter of L, and one that is defined twice."""
     definitions: dict[sp.Symbol, sp.Expr] = {}
     for row in rows:
         left, equals, right = str(row).partition("=")
@@ -328,10 +277,12 @@ def _definitions(
             raise InputError(
                 f'{where}: {row!r} defines no letter of symbols.py: write one, as in "omega_0 = sqrt(g/l)"'
             )
-        if letter in fixed or letter in definitions:
-            says = "is defined twice" if letter in definitions else "is a letter of the system: write it out in L"
-            raise InputError(f"{where}: {row!r}: {letter} {says}")
-        definitions[letter] = read(right.strip(), names, where)
+        value = read(right.strip(), names, where)
+        twice, own = letter in definitions, letter in fixed
+        if twice or own or value.free_symbols & {*c.q, *c.v, *c.a, t}:
+            says = "is defined twice" if twice else "is a letter of the system" if own else "is defined by coordinates"
+            raise InputError(f"{where}: {row!r}: {letter} {says}: write it out in L or in the print")
+        definitions[letter] = value
     return definitions
 
 

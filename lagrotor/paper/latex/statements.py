@@ -4,14 +4,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import sympy as sp
-
-from lagrotor.errors import InputError
 from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
-from lagrotor.paper.latex.grammar import Grammar, is_unit
+from lagrotor.paper.latex.grammar import Grammar
 from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, letters_of, number
-from lagrotor.paper.units import dimension_of
 
+_JOINING = re.compile(r"(?:and|where|with|for|if|when|at)\b")
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather|or)\b")
 _SETS = ("in", "->")  # relations of what need not be alike
@@ -19,7 +16,6 @@ _SETS = ("in", "->")  # relations of what need not be alike
 _EQUAL, _BOUNDS = {"=", ":="}, {"<", ">", "<=", ">=", "<<", ">>", "!=", "<~", ">~"}
 _KINDS = {"expression": set[str](), "equation": _EQUAL, "approximation": {*_EQUAL, "~"}, "inequality": _EQUAL | _BOUNDS}
 _PARTING = ("wide", "arrow", "text")
-_SIMPLE = ("number", "dots", "letter", "operator", "infinity", "fraction", "root")
 
 
 @dataclass(frozen=True)
@@ -124,9 +120,14 @@ def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
     parts: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
         following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
-        if box.kind == "arrow" or (box.kind == "text" and not _is_side(row, place)):
+        if box.kind in ("arrow", "text"):
             if box.kind == "text" and _DENYING.search(box.name):
                 raise FormulaError(f"{box.name}: the words deny what they join", "write each statement by itself")
+            behind = row[place - 1].kind if place else "wide"
+            if box.kind == "text" and behind in ("number", "relation", "operator") and not _JOINING.match(box.name):
+                raise FormulaError(
+                    f"the words {box.name} are a unit or a side", "write a letter, or numbers without units"
+                )
             condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
             parts.append(("condition" if condition else box.kind, []))
         elif box.kind == "bracket" and box.name == "(" and _is_related(box.parts[0]) and not (box.sup or box.sub):
@@ -149,7 +150,6 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
     """Return the statements of one piece."""
     found: list[PrintedStatement] = []
     parts = _parts(reader, row)
-    several = [sign for sign, _ in parts].count("comma") > 1
     for sign, part in parts:
         part = strip(part)
         if not part:
@@ -157,41 +157,13 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
         if _is_related(part) and found and sign == "comma" and found[-1].kind == "expression":
             raise FormulaError("what stands before the comma has no relation", "write it for each letter")
         if not _is_related(part) and found and sign in ("comma", "wide"):
-            found[-1] = _listed(reader, found[-1], part, several)
+            raise FormulaError("what follows the comma has no relation", "write it as a statement of its own")
         elif sign == "condition":
             stated = _statements(reader, part)
-            found += [replace(each, kind="range" if each.kind == "range" else sign) for each in stated]
+            found += [replace(each, kind=sign) for each in stated]
         else:
             found.append(read_statement(reader, part))
     return found
-
-
-def _is_side(row: list[Box], place: int) -> bool:
-    """Return whether words are a whole side of a relation, or a unit behind a number."""
-    before = row[place - 1] if place else None
-    after = row[place + 1] if place + 1 < len(row) else None
-    if before is not None and before.kind == "number" and is_unit(row[place].name):
-        return True
-    if before is None:
-        return after is not None and after.kind == "relation"
-    return before.kind == "relation" and (after is None or after.kind in ("relation", "wide", "comma"))
-
-
-def _listed(reader: Grammar, last: PrintedStatement, part: list[Box], several: bool) -> PrintedStatement:
-    """Return n = 1 with a further value as n = 1, 2. Raises FormulaError where what follows a comma is no value."""
-    close = reader.source[max(part[0].at - 2, 0) : part[0].at]
-    if part[0].kind == "number" and not several and re.fullmatch(r"\d,", close):
-        way = "write {,} in the number, or a space behind the comma"
-        raise FormulaError("whether the comma is in a number is open", way)
-    simple = all(b.kind in _SIMPLE for b in part) and len(last.sides) == 2
-    if simple and last.kind in ("equation", "range", "condition"):
-        first, end = last.sides
-        if last.kind == "range" or (isinstance(first.node, Letter) and isinstance(end.node, Number | Letter)):
-            values = end.node.args if isinstance(end.node, Call) and last.kind == "range" else (end.node,)
-            ends = [part[:-1], part[-1:]] if len(part) > 1 and part[-1].kind == "dots" else [part]  # 1, 2...
-            end = replace(end, node=Call("values", (*values, *(_side(reader, each) for each in ends))))
-            return replace(last, sides=(first, end), kind="range")
-    raise FormulaError("what follows the comma has no relation", "write it as a statement of its own")
 
 
 def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
@@ -211,7 +183,6 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     kinds = {is_vector(side.node) for side in read if not is_printed_zero(side.node) and side.node != Call("dots", ())}
     if len(kinds) > 1 and not {*relations} & {*_SETS}:
         raise FormulaError("a vector is equal to a number", "declare the vectors in [notation], or mark them alike")
-    _check_units([side.node for side in read])
     if summed := set[str]().union(*(_repeated(side.node) for side in read)):
         missing = summed - set[str].intersection(*(_indices(side.node) for side in read))
         if missing and len(read) > 1:
@@ -221,21 +192,6 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     order, kept = without_order(read[-1].node)
     read[-1] = replace(read[-1], node=kept)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
-
-
-def _check_units(sides: list[Node]) -> None:
-    """Raise FormulaError for units that are made of each other, m and cm, N and kg: nothing converts them."""
-    names = {name for side in sides for name in letters_of(side) if name.startswith("unit_")}
-    if len(names) < 2:
-        return
-    try:
-        powers = [dimension_of(name.removeprefix("unit_")).as_powers_dict() for name in sorted(names)]
-    except InputError:
-        powers = []
-    bases = [*{base for each in powers for base in each if base != 1}]
-    numbers = sum(not {*each} - {1} for each in powers)  # of rad and deg
-    if numbers > 1 or sp.Matrix([[each[base] for base in bases] for each in powers]).rank() < len(names) - numbers:
-        raise FormulaError("units of one kind stand beside each other", "write all in the same units")
 
 
 def _indices(node: Node) -> set[str]:
@@ -270,11 +226,6 @@ def _check_side(side: list[Box]) -> None:
 
 
 def _side(reader: Grammar, row: list[Box]) -> Node:
-    if len(row) == 1 and row[0].kind == "text":
-        name = "".join(c if c.isalnum() else "_" for c in row[0].name).strip("_")
-        if not re.match(r"[A-Za-z]\w*$", name) or _DENYING.search(row[0].name):
-            raise FormulaError("words stand for a side", "give it a letter")
-        return Letter(name)
     return reader.expression(row)
 
 

@@ -52,7 +52,7 @@ class TokenStream:
         self._reading.append((file, tokens))
         self.length += len(text) + 1
 
-    def file_beside(self, name: str, suffixes: tuple[str, ...]) -> Path | None:
+    def _file_beside(self, name: str) -> Path | None:
         """Return the file of this name in the folder of the source or of the file that names it; None if there is none.
 
         A file outside the folder of the source is not read: a note says so.
@@ -61,7 +61,7 @@ class TokenStream:
             return None
         root = self.file.resolve().parent
         folders = (self.file.parent, (self._open_files() or self._reading)[-1][0].parent)
-        for path in (folder / (name.strip('" ') + suffix) for folder in folders for suffix in suffixes):
+        for path in (folder / (name.strip('" ') + suffix) for folder in folders for suffix in (".tex", "")):
             if path.is_file() and path.resolve().is_relative_to(root):
                 return path
             if path.is_file():
@@ -70,21 +70,12 @@ class TokenStream:
 
     def read_file(self, name: str, at: int) -> None:
         r"""Take in a part of the source, the argument of \input; a note says that it is missing."""
-        if (path := self.file_beside(name, (".tex", ""))) is not None:
+        if (path := self._file_beside(name)) is not None:
             self.take_in(read_text(path, "latin-1"), path)
-        elif self.file is not None and ".sty:" not in self.place(at):
+        elif self.file is not None:
             self.notes.append(
                 f"{self.place(at)}: {name[:_LONGEST_NAME]} is missing: put it into the folder of the source"
             )
-
-    def tokens_apart(self, path: Path) -> Iterator[Token]:
-        """Yield the tokens of a file as they stand; the stream goes on behind them as it was."""
-        waiting, faults = self.waiting, dict(self.faults)
-        self.waiting = []
-        self.take_in(read_text(path, "latin-1"), path)
-        while (token := self.next()) is not None:
-            yield token
-        self.waiting, self.faults = waiting, faults
 
     def end_file(self, at: int) -> bool:
         r"""Leave the file of a place, where it is a part that could stand by itself; return False for the first file."""
@@ -189,22 +180,17 @@ class TokenStream:
         self.fault(at, "{ is not closed: the text up to the end is taken as an argument")
         return inside
 
-    def until(self, end: Token, opening: str = "", at: int = 0) -> list[Token]:
-        """Take the tokens before a mark, and the mark; opening: a sign that needs a mark for itself, as [ needs ]."""
+    def _until(self, opening: str, closing: str, at: int) -> list[Token]:
+        """Take the tokens before a closing sign, and the sign; an opening one needs a closing one for itself."""
         inside: list[Token] = []
         braces, depth = 0, 1
         while (token := self.next()) is not None:
             line = EMPTY_LINE.search(token.text) if token.kind == "text" else None
             text = token.text[: line.start()] if line else token.text
-            if token.kind == end.kind and not braces and (text == end.text or token.kind == "text"):
-                signs = enumerate(text if opening else "")
-                place = next(
-                    (n for n, c in signs if not (depth := depth + (c == opening != end.text) - (c == end.text))), -1
-                )
-                place = place if opening else text.find(end.text)
-                if place >= 0:
-                    behind = place + len(end.text)
-                    self.push(plain(token.text[behind:], token.at + behind))
+            for place, sign in enumerate(text if token.kind == "text" and not braces else ""):
+                depth += (sign == opening) - (sign == closing)
+                if depth == 0:
+                    self.push(plain(token.text[place + 1 :], token.at + place + 1))
                     return inside + plain(text[:place], token.at)
             braces += BRACES.get(token.kind, 0)
             if line:
@@ -213,7 +199,7 @@ class TokenStream:
                 self.push((Token(token.kind, token.text[len(text) if line else 0 :], token.at + len(text)),))
                 break
             inside.append(token)
-        self.fault(at, f"the argument has no end, {end.text.strip() or 'a space'}, in its paragraph")
+        self.fault(at, f"the argument has no end, {closing}, in its paragraph")
         return inside
 
     def delimited(self, opening: str, closing: str) -> list[Token] | None:
@@ -223,7 +209,7 @@ class TokenStream:
             self.push(plain(spaces, first.at - len(spaces) if first else 0))
             return None
         self.take(opening)
-        return self.until(Token("text", closing, 0), opening, first.at)
+        return self._until(opening, closing, first.at)
 
     def optional(self) -> list[Token] | None:
         """Take an optional argument, [..]; None if there is none."""

@@ -5,15 +5,13 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache, reduce
+from functools import cached_property, reduce
 from itertools import pairwise
 from typing import Any, TypeAlias
 
 import sympy as sp
 
-from lagrotor.algebra.proving import evaluated
-from lagrotor.algebra.work import at_most
-from lagrotor.errors import InputError, WorkError
+from lagrotor.errors import InputError
 from lagrotor.paper.grammar import FUNCTIONS
 
 
@@ -50,19 +48,15 @@ class Call:
 
 Node: TypeAlias = Number | Letter | Call
 
-# Relations as calls, in the condition of a sum.
-CONDITIONS = {"=": "Eq", "<": "Lt", ">": "Gt", "<=": "Le", ">=": "Ge", "!=": "Ne", "in": "In"}
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
 # Operations whose value is a vector or a matrix, and those that are one where their first argument is.
-_VECTORS = ("cross", "column", "matrix", "gradient", "curl", "inverse", "transpose")
-_CARRYING_NAMES = "sum negative quotient Derivative rate prime Integral limit Sum differential laplacian at power"
+_VECTORS = ("cross", "column", "matrix", "inverse", "transpose")
+_CARRYING_NAMES = "sum negative quotient Derivative rate prime Integral Sum at power"
 _CARRYING = frozenset(_CARRYING_NAMES.split())
 # What a line of the catalogue may call, but in another sense than a print.
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
 _MOST_BITS = 20_000  # of a number that is evaluated
-# Operations of what is integrated in closed form, and the calls of functions that it may take.
-_MOST_INTEGRATED, _MOST_CALLS = 60, 3_000_000
 _MOST_ADDED = 40  # terms of a sum that is written out
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
@@ -119,7 +113,7 @@ def is_vector(node: Node) -> bool:
         return isinstance(node, Letter) and node.vector
     if node.name in ("product", "matmul"):
         return any(map(is_vector, node.args))
-    if node.name in _CARRYING and not (node.name == "differential" and len(node.args) > 1):  # d^3 r
+    if node.name in _CARRYING:
         return is_vector(node.args[0])
     return node.name in _VECTORS or node.name.split("_")[0].removesuffix("prime").endswith(("bold", "vec"))
 
@@ -149,13 +143,26 @@ def is_matrix(node: Node) -> bool:
 
 def divisors(node: Node) -> Iterator[Node]:
     """Yield what a node divides by, and what it takes a logarithm of, but within sums and integrals."""
-    if isinstance(node, Call) and node.name not in _BINDING:
+    if isinstance(node, Call) and node.name not in BINDING:
         if node.name == "quotient":
             yield node.args[1]
         elif node.name == "log" or (node.name == "power" and "-" in text_of(node.args[1])):
             yield node.args[0]
         for each in node.args:
             yield from divisors(each)
+
+
+def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
+    """Return a node with parts replaced; not the variable of a derivative or an integral, nor what that variable is in it."""
+    if node in values:
+        return values[node]
+    if not isinstance(node, Call) or not values:
+        return node
+    if node.name in BINDING and len(node.args) > 1:
+        inner, variable, *ends = node.args
+        free = {key: value for key, value in values.items() if key != variable}
+        return Call(node.name, (put_for(inner, free), variable, *(put_for(each, values) for each in ends)))
+    return Call(node.name, tuple(put_for(each, values) for each in node.args))
 
 
 def in_catalogue(node: Node) -> bool:
@@ -201,17 +208,14 @@ class Opaque:
     """Parts that stand for themselves in a sympy expression: derivatives, integrals, functions that are not known.
 
     rates: letters and components to their rates. Where they are known, derivatives and integrals of explicit expressions are
-    taken, the other letters held fixed, and `fixing` says whether any were. positive: letters that are; `assuming` says whether
-    others were taken as positive, so that an integral has a value. refuses: whether a part that stands for itself is refused
-    in words; then a letter before its argument is a function of sympy, and sums and integrals are left to the decision.
-    letters: symbols with other assumptions than to be real.
+    taken, the other letters held fixed, and `fixing` says whether any were. refuses: whether a part that stands for itself is
+    refused in words; then a letter before its argument is a function of sympy, and sums are left to the decision. letters:
+    symbols with other assumptions than to be real.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
     rates: Mapping[sp.Symbol, sp.Symbol] | None = None
     fixing: bool = False
-    positive: frozenset[str] = frozenset()
-    assuming: bool = False
     refuses: bool = False
     letters: Mapping[str, sp.Symbol] = field(default_factory=dict)
 
@@ -231,17 +235,15 @@ class Opaque:
 
 _GREEK = ("beta", "gamma", "zeta")  # as a rule a function of the author's
 # Calls without a value of sympy that is decided, and what would help.
-_OF_NABLA = "write its components"
 _UNDECIDED = {
-    "limit": "limits are not decided", "Integral": "write an integral of an explicit expression between two limits",
+    "Integral": "write an integral of an explicit expression between two limits",
     "Derivative": "write the expression that is differentiated, or give it by a premise, L = …",
     "rate": "write the expression that is differentiated, or give it by a premise", "prime": "write the argument, V'(r)",
     "Sum": "write the first and the last index as numbers, or without letters that bear the index",
-    "Product": "write the factors", "at": "write the value", "differential": "write a derivative or an integral",
-    "gradient": _OF_NABLA, "divergence": _OF_NABLA, "curl": _OF_NABLA, "laplacian": _OF_NABLA, "dots": "write what is left out",
+    "Product": "write the factors", "at": "write the value", "dots": "write what is left out",
     "matmul": "write the entries of the matrices", "det": "write the entries of the matrix", "order": "write O(x^n) at the end",
     "transpose": "write the entries of the matrix", "inverse": "write the entries of the matrix",
-    "tr": "write the entries of the matrix", "values": "write one statement each",
+    "tr": "write the entries of the matrix",
     "arg": "write it by real letters", "Re": "write it by real letters", "Im": "write it by real letters",
     "max": "write one of them", "min": "write one of them",
     **dict.fromkeys(("sum", "product", "quotient", "power", "cross", "dot", "norm", "column", "matrix", "row"),
@@ -259,7 +261,7 @@ def sympy_expression(node: Node, opaque: Opaque) -> Any:
         if node.vector:
             return sp.Matrix(sp.symbols(f"{node.name}_1:4", real=True))
         return opaque.letters.get(node.name, sp.Symbol(node.name, real=True))
-    value = _bound(node, opaque) if node.name in _BINDING else _value(node, opaque)
+    value = _bound(node, opaque) if node.name in BINDING else _value(node, opaque)
     return opaque.symbol(node) if value is None else value
 
 
@@ -315,33 +317,6 @@ def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
     return rates
 
 
-@lru_cache(maxsize=1000)
-def _in_closed_form(integral: sp.Integral) -> sp.Expr:
-    """Return the value of an integral, which a section may have in many steps; itself beyond its own bound."""
-    try:
-        return at_most(_MOST_CALLS, evaluated, integral)
-    except WorkError:
-        return integral
-
-
-def _integrated(integral: sp.Integral, opaque: Opaque) -> sp.Expr | None:
-    """Return the value of an integral, with positive letters where signs decide on it."""
-    variable, low, high = integral.limits[0]
-    outside, inner = integral.function.as_independent(variable, as_Add=False)
-    if sp.count_ops(inner) > _MOST_INTEGRATED:
-        return None
-    powers = (each.exp for each in inner.atoms(sp.Pow) if each.has(variable))
-    entire = not inner.has(sp.log, sp.tan) and all(exponent.is_Integer and exponent > 0 for exponent in powers)
-    finite = entire and not {low, high} & {sp.oo, -sp.oo}
-    if finite and (inner.free_symbols == {variable} or inner.is_polynomial(variable)):
-        return outside * _in_closed_form(sp.Integral(inner, (variable, low, high)))
-    signed = {s: sp.Symbol(s.name, positive=True) for s in sorted(integral.free_symbols, key=str)}
-    inner, low, high = (each.xreplace(signed) for each in (inner, low, high))
-    value = _in_closed_form(sp.Integral(inner, (variable, low, high)))
-    opaque.assuming |= not {s.name for s in signed} <= opaque.positive
-    return outside * sp.logcombine(value).xreplace({dummy: symbol for symbol, dummy in signed.items()})
-
-
 def _bound(node: Call, opaque: Opaque) -> Any:
     """Return the value of a sum of a few terms, of the derivative or integral of an explicit expression; else None."""
     inner = sympy_expression(node.args[0], opaque)
@@ -351,7 +326,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
         return None
     name, ends = node.args[1].name, [sympy_expression(each, opaque) for each in node.args[2:]]
     variable = opaque.letters.get(name, sp.Symbol(name, real=True))
-    if has_opaque(inner) and not (node.name == "Derivative" and _apart(node, inner)):
+    if has_opaque(inner):
         return None
     if node.name == "at":
         return None if len(ends) != 1 else inner.subs(variable, ends[0])
@@ -365,14 +340,10 @@ def _bound(node: Call, opaque: Opaque) -> Any:
         value = sp.diff(inner, variable, int(order)) if order.is_Integer and 0 < order < 20 else None
     elif len(ends) != 2 or inner.has(sp.I):  # what is complex is not decided
         return None
-    elif opaque.refuses:
-        return sp.Integral(inner, (variable, *ends))
     else:
-        value = _integrated(sp.Integral(inner, (variable, *ends)), opaque)
+        value = sp.Integral(inner, (variable, *ends))
     opaque.fixing |= bool(others)
-    if opaque.refuses and value is not None and not value.has(sp.nan, sp.zoo):
-        return value
-    return None if value is None or value.has(sp.Integral, sp.Derivative, sp.nan, sp.zoo) else value
+    return None if value is None or value.has(sp.nan, sp.zoo) else value
 
 
 def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
@@ -397,18 +368,6 @@ def _indexed(node: Node, name: str, k: int) -> Node:
     return Call(node.name, tuple(_indexed(each, name, k) for each in node.args)) if isinstance(node, Call) else node
 
 
-def _apart(derivative: Call, inner: sp.Expr) -> bool:
-    """Whether parts that stand for themselves are functions of other letters than the derivative's: V(r) and a velocity."""
-    functions = {
-        f"[{text_of(each)}]"
-        for each in walk(derivative.args[0])
-        if isinstance(each, Call)
-        and each.name not in (*_BINDING, "limit")
-        and not set(letters_of(derivative.args[1])) & set(letters_of(each))
-    }
-    return {symbol.name for symbol in inner.free_symbols if has_opaque(symbol)} <= functions
-
-
 def _rate(inner: Any, opaque: Opaque) -> Any:
     """Return the derivative by t along the rates of the letters, those without one held fixed; None where none has a rate."""
     time = sp.Symbol("t", real=True)
@@ -420,7 +379,8 @@ def _rate(inner: Any, opaque: Opaque) -> Any:
     return reduce(operator.add, [inner.diff(symbol) * rates[symbol] for symbol in moving])
 
 
-_BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
+# Operations whose second part is a letter that they use up; `rate` uses t.
+BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
 _OF_MATRICES = ("matmul", "det", "inverse", "transpose", "tr", "power")
 _VALUES: dict[str, Any] = {
     "sum": lambda *parts: reduce(operator.add, parts),

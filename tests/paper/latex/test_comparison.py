@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from lagrotor.paper.latex import comparison, tree
+from lagrotor.paper.latex import comparison
 from lagrotor.paper.latex.check import check_source
 from lagrotor.paper.latex.displays import read_latex
 
@@ -34,17 +34,6 @@ def test_what_is_not_real_at_positive_letters_takes_no_exact_decision(monkeypatc
     monkeypatch.setattr(comparison, "decide_equal", lambda a, b: asked.append((a, b)))
     check_source(read_latex(r"\begin{align*} A &= \sqrt{-p - q} + p \\ &= \sqrt{-p - q} + q \end{align*}"))
     assert not asked
-
-
-def test_an_integral_of_both_sides_is_evaluated_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    whole, evaluated = tree.evaluated, []
-    tree._in_closed_form.cache_clear()
-    monkeypatch.setattr(tree, "evaluated", lambda e: evaluated.append(e) or whole(e))
-    found = check_source(
-        read_latex(r"\begin{align*} A &= 2 \int_0^1 x^2\,dx \\ &= \int_0^1 x^2\,dx + \int_0^1 x^2\,dx \end{align*}")
-    )
-    assert [each.verdict for each in found.findings if each.step == 2] == ["holds"]
-    assert len(evaluated) == 1
 
 
 def test_what_a_step_may_cost_does_not_hang_on_the_length_of_the_source(monkeypatch: pytest.MonkeyPatch) -> None:
