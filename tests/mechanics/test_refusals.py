@@ -34,7 +34,6 @@ from lagrotor.mechanics import (
     coordinates,
     degrees_of_freedom,
     legendre,
-    libration,
     project_position,
     project_velocity,
     reaction,
@@ -308,7 +307,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "are not the same coordinates: .*in_coordinates": lambda: pendulum.same_as(point),
         "y neither given nor among": lambda: point.in_coordinates(A, {x: q}),
         r"give new coordinates\(…\)": lambda: pendulum.in_coordinates(3, {q: q}),
-        "libration: h = System": lambda: libration(pendulum, 1.0, 0.0),
         # Equilibria
         "unknowns must be names of letters: values": lambda: pendulum.equilibria(VALUES),
         "phi not in the system": lambda: pendulum.equilibria("phi"),

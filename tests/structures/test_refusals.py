@@ -226,7 +226,7 @@ NAMES = ("modes", "stands", "critical_spin", "characteristic", "resonances", "la
 FUNCTIONS = (bounded_motion, local_hamiltonian, measured_growth, normal_form_of, resonant_factors, sign_patterns)
 
 
-@pytest.mark.parametrize("name", [*NAMES, *FUNCTIONS], ids=str)
+@pytest.mark.parametrize("name", [*NAMES, *FUNCTIONS], ids=lambda name: getattr(name, "__name__", name))
 def test_a_lean_is_refused_in_the_name_of_what_was_asked(name) -> None:
     leaning = Structure(**PAIR | {"bars": [(0, 1, 1.2)]}, gravity=9.81)
     ask = getattr(leaning, name) if isinstance(name, str) else lambda: name(leaning)
