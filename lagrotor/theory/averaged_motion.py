@@ -26,7 +26,7 @@ FARTHEST_TWIST = 0.5
 LARGEST_SHARE = 0.5  # of the leading order, that the next one may be
 _ROUNDED = 1e-13  # part of a vector that is rounding
 _IN_LINE = pi / 2 - 1e-3  # rad, the lean at which bar and axes count as in line
-_LONGEST = 1e4  # units of time of a motion, in which |beta| grows many times over; beside a saddle it never turns
+_LONGEST = 1e4  # units of time of a motion, which takes some to grow or to turn, but beside a saddle
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,8 @@ class SlowMotion:
     def until(self, lean: float) -> tuple[float, float, float]:
         """Return the time (s), |beta| and eta when |beta| has grown to `lean` (rad), or where it turns back before.
 
-        The time is infinite where |beta| turns back. Beyond beta = 0 the motion goes on as its mirror image.
+        The time is infinite where |beta| turns back, and beside a saddle, which is followed for 10⁴ units of time. Beyond
+        beta = 0 the motion goes on as its mirror image.
         """
         from scipy.integrate import solve_ivp
         from scipy.optimize import brentq
