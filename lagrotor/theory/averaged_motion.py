@@ -199,8 +199,8 @@ def turns_back(scene: Scene) -> bool:
     size = motion.swing**2 + motion.half**2
     share = 2 * _next_share(size, motion.momentum - size, scene.sigma, motion.ratio**2) if size else 0.0
     more = share * max(1.0, abs(motion.weight))
-    varied = [replace(motion, weight=motion.weight + change).until(_IN_LINE) for change in (0.0, more, -more)]
-    time, lean, half = varied[0]
+    endings = [replace(motion, weight=motion.weight + change).until(_IN_LINE) for change in (0.0, more, -more)]
+    time, lean, half = endings[0]
     if motion.twist(motion.lean, motion.half) > FARTHEST_TWIST or (
         time == inf and motion.twist(lean, half) > FARTHEST_TWIST
     ):
@@ -208,7 +208,7 @@ def turns_back(scene: Scene) -> bool:
             "turns_back: the pair twists by more than 30° from the start or before x turns back: take a smaller shock, or run it "
             "with lagrotor.simulate"
         )
-    if len({one[0] == inf for one in varied}) > 1:
+    if len({one[0] == inf for one in endings}) > 1:
         raise DomainError(
             "turns_back: so near the threshold the next order of the averaged motion decides: take a smaller shock, or run it "
             "with lagrotor.simulate"
