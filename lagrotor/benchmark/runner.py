@@ -192,11 +192,11 @@ def benchmark(
             failures.append(Failure(method, (), str(refusal)))
             continue
         setup[method] = time.perf_counter() - began
-        made, failed = _points(method, one, runner, settings, case.repeats, truth, longest)
-        setup[method] += max([0.0, *(p.first - p.seconds for p in made)])
-        points += made
-        for reason in sorted(set(failed.values())):
-            at = tuple(setting for setting, why in failed.items() if why == reason)
+        rows, reasons = _points(method, one, runner, settings, case.repeats, truth, longest)
+        setup[method] += max([0.0, *(p.first - p.seconds for p in rows)])
+        points += rows
+        for reason in sorted(set(reasons.values())):
+            at = tuple(setting for setting, why in reasons.items() if why == reason)
             failures.append(Failure(method, () if len(at) == len(settings) else at, reason))
     failures.sort(key=lambda one: (one.method, one.reason))
     return Benchmark(name, case.says, tuple(points), tuple(failures), setup, truth.floor)
@@ -212,32 +212,32 @@ def _points(
     longest: float,
 ) -> tuple[list[ChartPoint], dict[float, str]]:
     """Return the points of a method, and the reasons of the settings at which it failed or was left out."""
-    points, failed, slow = list[ChartPoint](), dict[float, str](), ""
+    points, reasons, slow = list[ChartPoint](), dict[float, str](), ""
     for setting in settings:
         if slow:
-            failed[setting] = slow
+            reasons[setting] = slow
             continue
         try:
             began = _CLOCK()
             tips, nfev = runner(setting)
             first = _CLOCK() - began
         except _REFUSALS as refusal:
-            failed[setting] = str(refusal).split("\n")[0]
+            reasons[setting] = str(refusal).split("\n")[0]
             continue
         if first > longest and method.family not in _COMPILING:
             slow = f"left out: at {setting:g} a run took {first:.1f} s"
         if tips.shape != truth.tips.shape:
-            failed[setting] = f"the run ended early, at {tips.shape[1]} of {truth.tips.shape[1]} times"
+            reasons[setting] = f"the run ended early, at {tips.shape[1]} of {truth.tips.shape[1]} times"
             continue
         error = float(np.linalg.norm(tips - truth.tips, axis=-1).max())
         if not np.isfinite(error):
-            failed[setting] = "a value is not finite"
+            reasons[setting] = "a value is not finite"
             continue
         check_work(f"{name} at {setting:g}", nfev, truth.tips, least=0 if method.family == "closed" else 1)
-        again = repeats if method.family in _COMPILING or first < longest / 10 else 0
-        seconds = median([_sample(runner, setting) for _ in range(again)] or [first])
+        samples = repeats if method.family in _COMPILING or first < longest / 10 else 0
+        seconds = median([_sample(runner, setting) for _ in range(samples)] or [first])
         points.append(ChartPoint(name, method.family, setting, max(error, truth.floor), nfev, seconds, first))
-    return points, failed
+    return points, reasons
 
 
 def _sample(runner: Runner, setting: float) -> float:

@@ -110,7 +110,6 @@ _LEFT_OUT = {
         "springs, 100 times as stiff": "takes two seconds a run",
     }
     | {name: "slower than minimal" for name, given in ENGINES.items() if given.family == "scipy"},
-    "heavy": dict.fromkeys(("solve_ivp, Radau", "solve_ivp, BDF"), _ELSEWHERE),
     "long": dict.fromkeys(
         (
             "minimal, DOP853",

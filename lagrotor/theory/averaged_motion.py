@@ -26,7 +26,7 @@ FARTHEST_TWIST = 0.5
 LARGEST_SHARE = 0.5  # of the leading order, that the next one may be
 _ROUNDED = 1e-13  # part of a vector that is rounding
 _IN_LINE = pi / 2 - 1e-3  # rad, the lean at which bar and axes count as in line
-_LONGEST = 1e4  # units of time of a motion, in which |beta| grows many times over; beside a saddle it never turns
+_LONGEST = 1e4  # units of time of a motion, which takes some to grow or to turn, but beside a saddle
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,8 @@ class SlowMotion:
     def until(self, lean: float) -> tuple[float, float, float]:
         """Return the time (s), |beta| and eta when |beta| has grown to `lean` (rad), or where it turns back before.
 
-        The time is infinite where |beta| turns back. Beyond beta = 0 the motion goes on as its mirror image.
+        The time is infinite where |beta| turns back, and beside a saddle, which is followed for 10⁴ units of time. Beyond
+        beta = 0 the motion goes on as its mirror image.
         """
         from scipy.integrate import solve_ivp
         from scipy.optimize import brentq
@@ -198,8 +199,8 @@ def turns_back(scene: Scene) -> bool:
     size = motion.swing**2 + motion.half**2
     share = 2 * _next_share(size, motion.momentum - size, scene.sigma, motion.ratio**2) if size else 0.0
     more = share * max(1.0, abs(motion.weight))
-    varied = [replace(motion, weight=motion.weight + change).until(_IN_LINE) for change in (0.0, more, -more)]
-    time, lean, half = varied[0]
+    endings = [replace(motion, weight=motion.weight + change).until(_IN_LINE) for change in (0.0, more, -more)]
+    time, lean, half = endings[0]
     if motion.twist(motion.lean, motion.half) > FARTHEST_TWIST or (
         time == inf and motion.twist(lean, half) > FARTHEST_TWIST
     ):
@@ -207,7 +208,7 @@ def turns_back(scene: Scene) -> bool:
             "turns_back: the pair twists by more than 30° from the start or before x turns back: take a smaller shock, or run it "
             "with lagrotor.simulate"
         )
-    if len({one[0] == inf for one in varied}) > 1:
+    if len({one[0] == inf for one in endings}) > 1:
         raise DomainError(
             "turns_back: so near the threshold the next order of the averaged motion decides: take a smaller shock, or run it "
             "with lagrotor.simulate"

@@ -51,7 +51,7 @@ class ClosedForm:
 
     @property
     def _program(self) -> Program:
-        return Program(self.arguments, (), tuple(e.replace(_is_multiple, _by_one_angle) for e in self.expressions))
+        return Program(self.arguments, (), self.expressions)
 
     def code(self, module: str = "math") -> str:
         """Source of the function arguments → list of outputs, without the conditions of the domain."""
@@ -124,16 +124,3 @@ class ClosedForm:
                 )
                 raise DomainError(f"{self.name}: outside its domain {relation}: {at}")
         return flat, shape
-
-
-def _is_multiple(e: sp.Expr) -> bool:
-    """cos(n x) or sin(n x) with n = 2, 3, …"""
-    return isinstance(e, sp.cos | sp.sin) and e.args[0].as_coeff_Mul()[0] in range(2, 100)
-
-
-def _by_one_angle(e: sp.Expr) -> sp.Expr:
-    """T_n(cos x) or sin x U_(n−1)(cos x): products of two functions cost less than another function."""
-    n, x = e.args[0].as_coeff_Mul()
-    if isinstance(e, sp.cos):
-        return sp.chebyshevt(n, sp.cos(x))
-    return sp.sin(x) * sp.chebyshevu(n - 1, sp.cos(x))

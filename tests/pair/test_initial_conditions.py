@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, consistent_scene
-from lagrotor.errors import ConstraintError, InputError
+from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics import constraints
 
 AXES, RATES = [[0.3, 0.2, 0.9], [0.1, -0.3, 0.9]], [[0.1, 0.5, 0.0], [0.0, 0.1, 0.2]]
@@ -49,6 +49,8 @@ def test_the_rates_are_the_nearest_in_the_mass_metric() -> None:
 def test_other_shapes_and_numbers_are_refused(rates: object) -> None:
     with pytest.raises(InputError, match="consistent_scene: axes"):
         consistent_scene((3, 4), AXES, rates)  # type: ignore[arg-type]
+    with pytest.raises(SingularError, match="dependent"):
+        consistent_scene((3, 4), ((0, 0, 0), (0, 0, 0)))
 
 
 def beside_the_dead_point(rng: np.random.Generator) -> list[list[float]]:

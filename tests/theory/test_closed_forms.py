@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from lagrotor import Link, consistent_scene, corrected_trajectories, natural_rate, simulate
-from lagrotor.errors import DomainError, InputError, SingularError
+from lagrotor import corrected_trajectories, natural_rate
+from lagrotor.errors import DomainError, InputError
 from lagrotor.theory import free_precession_rate, pair_precession_rate
 from lagrotor.theory.natural_frequency import natural_frequency
 
@@ -61,17 +61,3 @@ def test_wrong_numbers_of_arguments_are_refused() -> None:
         corrected_trajectories(3)("a", 1.0, 1.0, 1.0)
     with pytest.raises(InputError, match="must be a Scene"):
         natural_rate("scene")  # type: ignore[arg-type]
-
-
-def test_consistent_scene_brings_a_state_onto_the_bar() -> None:
-    scene = consistent_scene(
-        (10, -10), ((0.2, 0.1, 1), (0.15, -0.1, 1)), ((1, 0, 0), (0, 1, 0)), link=Link(1.3, 1, 0.2)
-    )
-    run = simulate(scene, [0.0, 0.5], tol=1e-10)
-    assert run.link_length == pytest.approx(1.3, abs=1e-12)
-    with pytest.raises(SingularError, match="dependent"):
-        consistent_scene((10, -10), ((0, 0, 0), (0, 0, 0)))
-    with pytest.raises(InputError, match="finite"):
-        consistent_scene((10, -10), ((np.nan, 0, 0), (0, 0, 1)))
-    with pytest.raises(InputError, match="two vectors"):
-        consistent_scene((10, -10), (1, 2))
