@@ -108,8 +108,6 @@ class SmallMotion:
     @cached_property
     def roots(self) -> Complex:
         """All 2n roots s of det(M s² + C s + K), n without inertia, nearly zero ones set to zero."""
-        if self.mass.ndim > 2 and self._definite and self.mass.any():
-            return self._in_seconds(-1j * np.linalg.eigvalsh(self._hermitian[0]))
         return self.waves[0]
 
     @cached_property
@@ -120,16 +118,12 @@ class SmallMotion:
         """
         if not self.mass.any():
             return self._of_first_order
-        if self._definite:
-            H, over_L = self._hermitian
-            rates, x = np.linalg.eigh(H)
-            return self._in_seconds(-1j * rates), _dagger(over_L) @ x[..., self.dof :, :]
         s, x = np.linalg.eig(self.first_order)
         return self._in_seconds(s), x[..., : self.dof, :] + 0j
 
     @property
     def _of_first_order(self) -> tuple[Complex, Complex]:
-        """Roots and vectors of s C + K: of least energy at rest by K = R R† and i R⁻¹ C R⁻†, whose eigenvalues are i/s."""
+        """Roots and vectors of s C + K."""
         C, K = (self.gyroscopic + self.damping) * self.rate, self.stiffness + 0j
         sizes = np.linalg.svd(C, compute_uv=False)
         if self.dof and not (sizes[..., -1] > _DEPENDENT * sizes[..., 0]).all():
@@ -137,12 +131,8 @@ class SmallMotion:
                 "fast spins: a motion on which no spin acts has no rate without inertia: give each rotor a spin and leave "
                 f"an even number of degrees of freedom (here {self.dof}), or keep the inertia"
             )
-        if not self._definite:
-            s, vectors = np.linalg.eig(-np.linalg.solve(C, K))
-            return self._in_seconds(s), vectors
-        over_R = np.linalg.inv(np.linalg.cholesky(K))
-        inverse, vectors = np.linalg.eigh(1j * over_R @ C @ _dagger(over_R))
-        return self._in_seconds(-1j / inverse), _dagger(over_R) @ vectors
+        s, vectors = np.linalg.eig(-np.linalg.solve(C, K))
+        return self._in_seconds(s), vectors
 
     def energy_signs(self, roots: Complex, vectors: Complex) -> NDArray[np.int64]:
         """The signs of ω² ū·M u + ū·K u of roots and their vectors, (m,)."""
@@ -156,17 +146,6 @@ class SmallMotion:
             return False
         sizes = np.linalg.eigvalsh(self.stiffness)
         return bool((sizes[..., 0] > _DEPENDENT * np.abs(sizes).max(-1)).all())
-
-    @property
-    def _hermitian(self) -> tuple[Complex, Matrix]:
-        """The lower half of H, i x' = H x in units of the rate for x = (R† q, L† q') with K = R R† and M = L L†, so that
-        |x|² is twice the energy; 1/L."""
-        n = self.dof
-        L, R = np.linalg.cholesky(self.mass), np.linalg.cholesky(self.stiffness / self.rate**2)
-        over_L = np.linalg.inv(L)
-        H = np.zeros((*L.shape[:-2], 2 * n, 2 * n), dtype=complex)
-        H[..., n:, :n], H[..., n:, n:] = over_L @ R, over_L @ self.gyroscopic / self.rate @ _dagger(over_L)
-        return -1j * H, over_L
 
     @property
     def first_order(self) -> Matrix:
