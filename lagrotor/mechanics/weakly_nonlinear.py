@@ -123,10 +123,10 @@ def lindstedt_poincare(
                 solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)
             values, shift = solvers[h](now, h, -at_zero)
             for j, coefficient in enumerate(values):
-                unknowns[j].put(n, -h if sines[j] else h, coefficient)
+                unknowns[j].assign(n, -h if sines[j] else h, coefficient)
             at_zero += 0 if sines[0] else values[0]
             if shift:
-                frequency.put(n - begins_at, 0, shift)
+                frequency.assign(n - begins_at, 0, shift)
                 forget(equations, n - begins_at)
         forget(equations, n)
     return PeriodicSeries(tuple(u.through(order) for u in unknowns), frequency.through(order))
@@ -334,8 +334,8 @@ def characteristic_exponents(
                     solvers[part, h] = harmonic_solver(operators[part, h], extra, mean, field, value)
                 values, shift = solvers[part, h](now[part], h, value(field.zero))
                 for j, coefficient in enumerate(values):
-                    unknowns[part][j].put(n, -h if parity[part][j] else h, coefficient)
-                slow[part].put(n, 0, shift)
+                    unknowns[part][j].assign(n, -h if parity[part][j] else h, coefficient)
+                slow[part].assign(n, 0, shift)
         forget([part for equation in equations for part in (equation.p, equation.q)], n)
     return ExponentSeries(slow["q"], slow["p"], tuple(unknowns["p"]), tuple(unknowns["q"]))
 
@@ -373,10 +373,10 @@ def _responses(
     """
     nothing, operators, drift = FourierSeries({}, order), dict[tuple[str, int], list[Column]](), dict[str, Column]()
     for j in range(len(rest.unknowns)):
-        moved = {part: [nothing] * len(rest.unknowns) for part in "pq"}
+        units = {part: [nothing] * len(rest.unknowns) for part in "pq"}
         for part in "pq":
-            moved[part][j] = waves(parity[part][j], order, 0, one)
-        answer = _varied(residual, rest, moved, dict.fromkeys("pq", nothing), exchange)
+            units[part][j] = waves(parity[part][j], order, 0, one)
+        answer = _varied(residual, rest, units, dict.fromkeys("pq", nothing), exchange)
         for part in "pq":
             for h, column in by_harmonic([getattr(r, part) for r in answer], order, 0).items():
                 operators.setdefault((part, h), []).append(column)

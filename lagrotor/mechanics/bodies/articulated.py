@@ -209,8 +209,8 @@ def tree_accelerations(
             I = keep.symmetric(I)
         if parent >= 0:
             outer = joint.both(joint.outward, joint.both(joint.outward, I, keep).T, keep)
-            moved = keep.each(joint.lever * keep.symmetric(outer)) * joint.lever.T
-            inertias[parent] = keep.symmetric(inertias[parent] + keep.symmetric(moved))
+            inner = keep.each(joint.lever * keep.symmetric(outer)) * joint.lever.T
+            inertias[parent] = keep.symmetric(inertias[parent] + keep.symmetric(inner))
             for j, f in enumerate(forces[i]):
                 forces[parent][j] = keep.each(forces[parent][j] + joint.lever * joint.both(joint.outward, f, keep))
     factors.reverse()
