@@ -36,20 +36,20 @@ class FourierSeries:
         self.order = order
         self._compute: Callable[[int], Waves] = powers.__getitem__
         self._parts: tuple[FourierSeries, ...] = ()
-        self._known: dict[int, Waves] = {}
+        self._cache: dict[int, Waves] = {}
 
-    def _made(self, compute: Callable[[int], Waves], *others: FourierSeries) -> FourierSeries:
+    def _from(self, compute: Callable[[int], Waves], *others: FourierSeries) -> FourierSeries:
         series = FourierSeries({}, self.order)
         series._compute, series._parts = compute, (self, *others)
         return series
 
     def at(self, n: int) -> Waves:
         """Return the coefficients {h: value} of eps**n."""
-        if n not in self._known:
-            self._known[n] = self._compute(n)
-        return self._known[n]
+        if n not in self._cache:
+            self._cache[n] = self._compute(n)
+        return self._cache[n]
 
-    def put(self, n: int, h: int, value: Coefficient) -> None:
+    def assign(self, n: int, h: int, value: Coefficient) -> None:
         """Set a coefficient of a series that is made of terms; `forget` what was computed without it.
 
         Args:
@@ -76,7 +76,7 @@ class FourierSeries:
                 waves[h] = waves[h] + value if h in waves else value
             return {h: v for h, v in waves.items() if v}
 
-        return self._made(total, other)
+        return self._from(total, other)
 
     def __neg__(self) -> FourierSeries:
         return self.times(-1)
@@ -86,15 +86,15 @@ class FourierSeries:
 
     def __mul__(self, other: FourierSeries) -> FourierSeries:
         """Product; terms beyond the order are dropped."""
-        return self._made(lambda n: _product([(self.at(m), other.at(n - m)) for m in range(n + 1)]), other)
+        return self._from(lambda n: _product([(self.at(m), other.at(n - m)) for m in range(n + 1)]), other)
 
     def times(self, factor: Coefficient) -> FourierSeries:
         """factor × f."""
-        return self._made(lambda n: {h: v * factor for h, v in self.at(n).items()})
+        return self._from(lambda n: {h: v * factor for h, v in self.at(n).items()})
 
     def raised(self, n: int) -> FourierSeries:
         """eps**n × f."""
-        return self._made(lambda k: self.at(k - n) if k >= n else {})
+        return self._from(lambda k: self.at(k - n) if k >= n else {})
 
     def convert(self, value: Callable[[Any], Coefficient]) -> FourierSeries:
         """The same series with its coefficients converted, as by `float`."""
@@ -102,11 +102,11 @@ class FourierSeries:
 
     def derivative(self) -> FourierSeries:
         """df/dPhi."""
-        return self._made(lambda n: {-h: -h * v for h, v in self.at(n).items() if h})
+        return self._from(lambda n: {-h: -h * v for h, v in self.at(n).items() if h})
 
     def half_period_later(self) -> FourierSeries:
         """f(Phi + pi)."""
-        return self._made(lambda n: {h: -v if h % 2 else v for h, v in self.at(n).items()})
+        return self._from(lambda n: {h: -v if h % 2 else v for h, v in self.at(n).items()})
 
     def constant(self, value: Coefficient) -> FourierSeries:
         """The constant `value`, through the same order."""
@@ -124,12 +124,12 @@ def constant_series(value: Coefficient, order: int, power: int = 0) -> FourierSe
 
 def forget(series: Sequence[FourierSeries], n: int) -> None:
     """Compute the coefficients of eps**n anew when they are next read, those of all parts too."""
-    queue, done = [*series], set[FourierSeries]()
+    queue, visited = [*series], set[FourierSeries]()
     while queue:
         one = queue.pop()
-        if one not in done:
-            done.add(one)
-            one._known.pop(n, None)
+        if one not in visited:
+            visited.add(one)
+            one._cache.pop(n, None)
             queue += one._parts
 
 

@@ -1,7 +1,8 @@
 """Systems of sympy.physics.mechanics: functions of time become plain letters, forces on points generalised forces.
 
 A Lagrangian of dynamicsymbols with its coordinates; a LagrangesMethod with its constraints and loads; a KanesMethod, or a System
-with its joints and actuators. Functions of time that are no coordinates stay functions of t, whose values a run takes.
+with its joints and actuators after form_eoms(). Functions of time that are no coordinates stay functions of t, of which a run
+takes values.
 
 The generalised force of a load F at a point of velocity v is F·∂v/∂q', of a torque on a frame of angular velocity ω it is
 T·∂ω/∂q'. Speeds u of Kane's that are not q' are put in as u = W(q, t) q' + w, and the equations M u' = f as Wᵀ(M u' − f) = 0.

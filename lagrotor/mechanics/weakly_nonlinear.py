@@ -123,10 +123,10 @@ def lindstedt_poincare(
                 solvers[h] = harmonic_solver(operators[h], extra, fixed, field, value)
             values, shift = solvers[h](now, h, -at_zero)
             for j, coefficient in enumerate(values):
-                unknowns[j].put(n, -h if sines[j] else h, coefficient)
+                unknowns[j].assign(n, -h if sines[j] else h, coefficient)
             at_zero += 0 if sines[0] else values[0]
             if shift:
-                frequency.put(n - begins_at, 0, shift)
+                frequency.assign(n - begins_at, 0, shift)
                 forget(equations, n - begins_at)
         forget(equations, n)
     return PeriodicSeries(tuple(u.through(order) for u in unknowns), frequency.through(order))
@@ -225,10 +225,6 @@ def _eliminate(
     return [j for j in pivots if j < m], [list(map(value, row[m:])) for row in reduced.to_list()]
 
 
-Parts = dict[str, list[FourierSeries]]  # of "p" and "q", one series an unknown
-_OTHER = {"p": "q", "q": "p"}
-
-
 @dataclass(frozen=True)
 class Perturbed:
     """orbit + xi p + eta q to first order in xi and eta, with xi' = A eta, eta' = B xi.
@@ -316,19 +312,18 @@ def characteristic_exponents(
     Raises:
         SingularError: where an order cannot be solved: another exponent comes close to zero.
     """
-    variation = _Variation(residual, field, order, exchange)
     parity = {"p": list(sines), "q": [not sine for sine in sines]}
-    parts: Parts = {part: [FourierSeries({}, order) for _ in sines] for part in "pq"}
-    fixed = dict(zip("pq", neutral, strict=True))
-    for part, i in fixed.items():
-        parts[part][i] = constant_series(field.one, order)
-    rest = orbit.at_rest(field)
-    drift = {part: variation.of_drift(part, parts, rest) for part in "pq"}
+    fixed, nothing, one = (
+        dict(zip("pq", neutral, strict=True)),
+        FourierSeries({}, order),
+        constant_series(field.one, order),
+    )
+    parts = {part: [one if i == fixed[part] else nothing for i in range(len(sines))] for part in "pq"}
+    operators, drift = _responses(residual, orbit.at_rest(field), parity, parts, order, field.one, exchange)
     value = field.convert if numeric is None else float
     unknowns = {part: [series.convert(value) for series in parts[part]] for part in "pq"}
     slow = {part: FourierSeries({}, order) for part in "pq"}  # B from the equations' p part, A from their q part
-    equations = variation.put_in(numeric or residual, unknowns, slow, orbit)
-    operators = variation.operators(parity, rest)
+    equations = _varied(numeric or residual, orbit, unknowns, slow, exchange)
     solvers: dict[tuple[str, int], Solver] = {}
     for n in range(1, order + 1):
         now = {part: [getattr(equation, part).at(n) for equation in equations] for part in "pq"}
@@ -339,66 +334,57 @@ def characteristic_exponents(
                     solvers[part, h] = harmonic_solver(operators[part, h], extra, mean, field, value)
                 values, shift = solvers[part, h](now[part], h, value(field.zero))
                 for j, coefficient in enumerate(values):
-                    unknowns[part][j].put(n, -h if parity[part][j] else h, coefficient)
-                slow[part].put(n, 0, shift)
+                    unknowns[part][j].assign(n, -h if parity[part][j] else h, coefficient)
+                slow[part].assign(n, 0, shift)
         forget([part for equation in equations for part in (equation.p, equation.q)], n)
     return ExponentSeries(slow["q"], slow["p"], tuple(unknowns["p"]), tuple(unknowns["q"]))
 
 
-@dataclass(frozen=True)
-class _Variation:
-    """The variational equations of `residual` along an orbit."""
+def _varied(
+    residual: Residual,
+    orbit: PeriodicSeries,
+    parts: Mapping[str, Sequence[Series]],
+    slow: Mapping[str, Series],
+    exchange: int,
+) -> list[Perturbed]:
+    """The equations of an orbit with a perturbation of these parts, and of the rates A = slow["q"] and B = slow["p"]."""
 
-    residual: Residual
-    field: Domain
-    order: int
-    exchange: int
+    def at(f: FourierSeries, p: Series, q: Series) -> Perturbed:
+        return Perturbed(f, p, q, slow["q"], slow["p"], exchange)
 
-    def put_in(
-        self,
-        residual: Residual,
-        parts: Mapping[str, Sequence[Series]],
-        slow: Mapping[str, Series],
-        orbit: PeriodicSeries,
-    ) -> list[Perturbed]:
-        """The equations with a perturbation put in whose parts and rates A, B are still unknown."""
+    unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
+    nothing = FourierSeries({}, orbit.frequency.order)
+    return residual(unknowns, at(orbit.frequency, nothing, nothing))
 
-        def at(f: FourierSeries, p: Series, q: Series) -> Perturbed:
-            return Perturbed(f, p, q, slow["q"], slow["p"], self.exchange)
 
-        nothing = FourierSeries({}, self.order)
-        unknowns = [at(*each) for each in zip(orbit.unknowns, parts["p"], parts["q"], strict=True)]
-        return residual(unknowns, at(orbit.frequency, nothing, nothing))
+def _responses(
+    residual: Residual,
+    rest: PeriodicSeries,
+    parity: Mapping[str, Sequence[bool]],
+    parts: Mapping[str, Sequence[FourierSeries]],
+    order: int,
+    one: Coefficient,
+    exchange: int,
+) -> tuple[dict[tuple[str, int], list[Column]], dict[str, Column]]:
+    """The linear equations at rest: (part, harmonic) → for each unknown the response of the part to a unit of its harmonic;
+    and part → its response to a unit of the slow rate by which the other part drives it.
 
-    @staticmethod
-    def column(equations: Sequence[Perturbed], part: str, n: int) -> Column:
-        """The coefficients of eps**n in one part of the equations."""
-        return {(i, h): v for i, r in enumerate(equations) for h, v in getattr(r, part).harmonics(n).items()}
-
-    def of_drift(self, part: str, parts: Parts, orbit: PeriodicSeries) -> Column:
-        """The response at rest of the equations' `part` to a unit of the slow rate: by it the other part drives this one."""
-        nothing = FourierSeries({}, self.order)
-        other = {part: [nothing] * len(parts[part]), _OTHER[part]: parts[_OTHER[part]]}
-        slow = {part: constant_series(self.field.one, self.order), _OTHER[part]: nothing}
-        return self.column(self.put_in(self.residual, other, slow, orbit), part, 0)
-
-    def operators(
-        self, parity: Mapping[str, Sequence[bool]], rest: PeriodicSeries
-    ) -> dict[tuple[str, int], list[Column]]:
-        """(part, harmonic h) → for each unknown the response at rest of the equations' part to a unit of its harmonic h.
-
-        At rest no harmonic acts on another, so that all are put in together.
-        """
-        nothing, columns = FourierSeries({}, self.order), dict[tuple[str, int], list[Column]]()
-        for j in range(len(rest.unknowns)):
-            moved = {part: [nothing] * len(rest.unknowns) for part in "pq"}
-            for part in "pq":
-                moved[part][j] = waves(parity[part][j], self.order, 0, self.field.one)
-            answer = self.put_in(self.residual, moved, dict.fromkeys("pq", nothing), rest)
-            for part in "pq":
-                for h, column in by_harmonic([getattr(r, part) for r in answer], self.order, 0).items():
-                    columns.setdefault((part, h), []).append(column)
-        return columns
+    At rest no harmonic acts on another, so that all are put in together.
+    """
+    nothing, operators, drift = FourierSeries({}, order), dict[tuple[str, int], list[Column]](), dict[str, Column]()
+    for j in range(len(rest.unknowns)):
+        units = {part: [nothing] * len(rest.unknowns) for part in "pq"}
+        for part in "pq":
+            units[part][j] = waves(parity[part][j], order, 0, one)
+        answer = _varied(residual, rest, units, dict.fromkeys("pq", nothing), exchange)
+        for part in "pq":
+            for h, column in by_harmonic([getattr(r, part) for r in answer], order, 0).items():
+                operators.setdefault((part, h), []).append(column)
+    for part, other in ("pq", "qp"):
+        still, slow = {part: [nothing] * len(rest.unknowns), other: parts[other]}, {other: nothing}
+        answer = _varied(residual, rest, still, slow | {part: constant_series(one, order)}, exchange)
+        drift[part] = by_harmonic([getattr(r, part) for r in answer], 0, 0)[0]
+    return operators, drift
 
 
 _MOST_ORDER = 2  # of averaging

@@ -1,6 +1,8 @@
 """The articulated-body recursion as stages of a program: operations linear in the bodies, nothing multiplied out.
 
 From the ground outward, each joint of a tree has at one state its axes, turn, velocity, acceleration without q'', and energy.
+A link that is symmetric about the axis of its turn and carries nothing is seen in axes that do not turn with it: its angle is in
+no equation, as in a steady spin.
 
 Each link has in its own axes the angular velocity ω and the accelerations (α, a) that it would have with all q'' = 0,
 and from them the torque and force (N, F) about its joint that its bodies then need; a uniform field g is an acceleration −g
@@ -22,11 +24,11 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics.bodies.small_matrices import Small, Stages, blocks, wedge, zeros
-from lagrotor.mechanics.bodies.trees import ZERO, Pair, Tree, TreeLink
+from lagrotor.mechanics.bodies.small_matrices import Small, Stages, blocks, halves, wedge, zeros
+from lagrotor.mechanics.bodies.trees import Tree, TreeLink
 
 _EYE = sp.eye(3)
-_STILL = zeros(3, 3)
+_NONE, _STILL = zeros(3, 1), zeros(3, 3)
 
 
 @dataclass(frozen=True)
@@ -71,9 +73,9 @@ class Joint:
     rotation: Small | None
     turn: Turn
     columns: tuple[Small, ...]
-    rate: Pair
-    spin: Small = ZERO
-    lift: Pair = (ZERO, ZERO)
+    rate: Small
+    spin: Small = _NONE
+    lift: tuple[Small, Small] = (_NONE, _NONE)
     bend: Small = _STILL
 
     def inward(self, e: Small, keep: Stages) -> Small:
@@ -89,7 +91,7 @@ class Joint:
 
     def both(self, change: Callable[[Small, Stages], Small], e: Small, keep: Stages) -> Small:
         """The change of axes, inward or outward, of the angular and of the linear rows of e, (6, m)."""
-        return blocks([[change(Small(e.rows[:3]), keep)], [change(Small(e.rows[3:]), keep)]])
+        return blocks([[change(part, keep)] for part in halves(e)])
 
     @property
     def lever(self) -> Small:
@@ -100,16 +102,17 @@ class Joint:
 
 def joints(tree: Tree, keep: Stages) -> list[Joint]:
     """From the ground outward, link by link: ω, and (α, a)."""
-    chain: list[Joint] = []
-    for link in tree.links:
+    chain, carrying = list[Joint](), {link.parent for link in tree.links}
+    for number, link in enumerate(tree.links):
+        axis = link.axis if number in carrying or not link.is_round else None
         before = chain[link.parent] if link.parent >= 0 else None
         joint = Joint(
             link,
             keep.each(Small.of(link.shift)),
             None if link.rotation == _EYE else keep.each(Small.of(link.rotation)),
-            Turn.by(link.axis, link.angle, keep) if link.axis is not None else Turn(),
-            tuple(keep.each(blocks([[w], [v]])) for w, v in link.columns),
-            (keep.each(link.rate[0]), keep.each(link.rate[1])),
+            Turn.by(axis, link.angle, keep) if axis is not None else Turn(),
+            tuple(map(keep.each, link.columns)),
+            keep.each(link.rate),
         )
         chain.append(_with_motion(joint, before, -Small.of(tree.field), keep))
     return chain
@@ -120,12 +123,12 @@ def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages
 
     α = α' + ω' × u + u',  a = a' + K' d + 2 ω × d' + d'', in turn.
     """
-    w, (b, a) = (before.spin, before.lift) if before else (ZERO, (ZERO, ground))
-    u, d = joint.rate
+    w, (b, a) = (before.spin, before.lift) if before else (_NONE, (_NONE, ground))
+    (u, d), (u_swing, d_swing) = halves(joint.rate), halves(joint.link.swing)
     a = keep.each(a + before.bend * joint.shift) if before else a
     w, b, a = (joint.inward(e, keep) for e in (w, b, a))
-    b = keep.each(b + w.cross(u) + keep.each(joint.link.swing[0]))
-    a = keep.each(a + w.cross(d) * 2 + keep.each(joint.link.swing[1]))
+    b = keep.each(b + w.cross(u) + keep.each(u_swing))
+    a = keep.each(a + w.cross(d) * 2 + keep.each(d_swing))
     w = keep.each(w + u)
     return replace(joint, spin=w, lift=(b, a), bend=keep.each(wedge(b) + keep.symmetric(wedge(w) * wedge(w))))
 
@@ -139,9 +142,9 @@ def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol],
     still = dict.fromkeys(speeds, 0)
     total, motions, fields, depths = -tree.rest.subs(still), list[Small](), list[Small](), list[sp.Expr]()
     for joint in chain:
-        parent, (u, d) = joint.link.parent, joint.link.rate
+        parent = joint.link.parent
         before = motions[parent] if parent >= 0 else zeros(6, 2)
-        rate = blocks([[u, u.each(lambda e: e.subs(still))], [d, d.each(lambda e: e.subs(still))]])
+        rate = blocks([[joint.link.rate, joint.link.rate.each(lambda e: e.subs(still))]])
         V = keep.each(joint.both(joint.inward, keep.each(joint.lever.T * before), keep) + rate)
         motions.append(V)
         products = V.T * keep.each(_rigid(joint, keep) * V)
@@ -206,8 +209,8 @@ def tree_accelerations(
             I = keep.symmetric(I)
         if parent >= 0:
             outer = joint.both(joint.outward, joint.both(joint.outward, I, keep).T, keep)
-            moved = keep.each(joint.lever * keep.symmetric(outer)) * joint.lever.T
-            inertias[parent] = keep.symmetric(inertias[parent] + keep.symmetric(moved))
+            inner = keep.each(joint.lever * keep.symmetric(outer)) * joint.lever.T
+            inertias[parent] = keep.symmetric(inertias[parent] + keep.symmetric(inner))
             for j, f in enumerate(forces[i]):
                 forces[parent][j] = keep.each(forces[parent][j] + joint.lever * joint.both(joint.outward, f, keep))
     factors.reverse()
@@ -240,7 +243,7 @@ def _rigid(joint: Joint, keep: Stages) -> Small:
 def _bias_force(joint: Joint, keep: Stages) -> Small:
     """(N, F) about the joint, Σ m (a + K c) and its moment, with I α + ω × I ω, for the motion without q''."""
     b, a = joint.lift
-    N, F = ZERO, ZERO
+    N, F = _NONE, _NONE
     for mass in joint.link.masses:
         force = keep.each(keep.each(a + joint.bend * mass.centre) * mass.mass)
         turning = mass.inertia * b + joint.spin.cross(keep.each(mass.inertia * joint.spin))

@@ -85,6 +85,11 @@ def blocks(parts: Sequence[Sequence[Small]]) -> Small:
     return Small([[e for part in row for e in part.rows[i]] for row in parts for i in range(len(row[0].rows))])
 
 
+def halves(e: Small) -> tuple[Small, Small]:
+    """The angular and the linear rows of a matrix of six."""
+    return Small(e.rows[:3]), Small(e.rows[3:])
+
+
 def unit(axis: int, length: Scalar) -> Small:
     """A column of three along an axis."""
     return Small.column(*(length if i == axis else _0 for i in range(3)))

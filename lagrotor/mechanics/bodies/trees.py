@@ -16,13 +16,12 @@ import sympy as sp
 from lagrotor.algebra import derivative
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame
 from lagrotor.mechanics.bodies.rigid_bodies import Body, Energy
-from lagrotor.mechanics.bodies.small_matrices import Small, unit, zeros
+from lagrotor.mechanics.bodies.small_matrices import Small, blocks, unit, zeros
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import Coordinates, bias, mass_matrix, t
 
-Pair = tuple[Small, Small]  # angular and linear part
 Place = tuple[int, sp.Matrix, sp.Matrix]
-ZERO = zeros(3, 1)
+_NONE = zeros(3, 1)
 
 
 @dataclass(frozen=True)
@@ -40,7 +39,7 @@ class TreeLink:
 
     parent: its number, −1 for the ground. shift: the link's origin from the parent's, in the parent's axes. rotation, then a
     turn by `angle` about `axis`, if any: components in the link → in the parent. coordinates: the numbers of its own
-    velocities. columns: s_j for each of them; rate: the relative velocity; swing: its derivative without accelerations.
+    velocities. columns (6, 1): s_j of each; rate (6, 1): the relative velocity. swing (6, 1): its derivative at a = 0.
     """
 
     parent: int
@@ -49,10 +48,23 @@ class TreeLink:
     axis: int | None
     angle: sp.Expr
     coordinates: tuple[int, ...]
-    columns: tuple[Pair, ...]
-    rate: Pair
-    swing: Pair
+    columns: tuple[Small, ...]
+    rate: Small
+    swing: Small
     masses: tuple[Mass, ...] = ()
+
+    @property
+    def is_round(self) -> bool:
+        """Whether the link turns about an axis about which its bodies are symmetric."""
+        if self.axis is None:
+            return False
+        k, i, j = self.axis, (self.axis + 1) % 3, (self.axis + 2) % 3
+        return all(
+            mass.centre[i] == mass.centre[j] == 0
+            and mass.inertia[i, i] == mass.inertia[j, j]
+            and mass.inertia[i, j] == mass.inertia[i, k] == mass.inertia[j, k] == 0
+            for mass in self.masses
+        )
 
 
 @dataclass(frozen=True)
@@ -145,44 +157,31 @@ class _Walk:
         self.turned += speeds
         own = tuple(self.number[u] for u in speeds)
         if frame.omega:
-            columns = (*((unit(k, sp.S.One), ZERO) for k in range(3)), (ZERO, ZERO))
-            rate, swing = (Small.column(*speeds), ZERO), (ZERO, ZERO)
+            columns = [blocks([[unit(k, sp.S.One)], [_NONE]]) for k in range(3)]
+            rate, swing = blocks([[Small.column(*speeds)], [_NONE]]), zeros(6, 1)
         else:
-            columns, rate, swing = _velocities(frame, [*places, t], [*speeds, sp.S.One])
+            columns = [_slope(frame, s) for s in (*places, t)]
+            rate = _sum(columns, [*speeds, sp.S.One])
+            swing = _sum([_derivative(rate, s) for s in (*places, t)], [*speeds, sp.S.One])
         angle = frame.amount if frame.axis is not None else sp.S.Zero
         if is_shift:
             d = d + R * frame.amount
         elif frame.axis is None:
             R = R * frame.amount
-        self.links.append(TreeLink(parent, d, R, frame.axis, angle, own, columns[:-1], rate, swing))
+        self.links.append(TreeLink(parent, d, R, frame.axis, angle, own, tuple(columns[: len(own)]), rate, swing))
         self.masses.append([])
         return len(self.links) - 1, sp.zeros(3, 1), sp.eye(3)
 
 
-def _velocities(
-    frame: MovingFrame, places: list[sp.Symbol], rates: list[sp.Expr]
-) -> tuple[tuple[Pair, ...], Pair, Pair]:
-    """The columns s_j of a step for the coordinates and the time, the sum of s_j v_j, and its derivative."""
-    slopes = [_slope(frame, s) for s in places]
-    rate = _sum(slopes, rates)
-    swing = _sum([_derivative(rate, s) for s in places], rates)
-    turns = frame.axis is not None or frame.amount.cols == 3
-
-    def pair(e: Small) -> Pair:
-        return (e, ZERO) if turns else (ZERO, e)
-
-    return tuple(map(pair, slopes)), pair(rate), pair(swing)
-
-
 def _slope(frame: MovingFrame, s: sp.Symbol) -> Small:
-    """The derivative of a step by one coordinate, or the time, in the axes that it leads to."""
+    """The derivative of a step by one coordinate, or the time, in the axes that it leads to, (6, 1)."""
     if frame.axis is not None:
-        return unit(frame.axis, derivative(frame.amount, s))
+        return blocks([[unit(frame.axis, derivative(frame.amount, s))], [_NONE]])
     moved = _derivative(Small.of(frame.amount), s)
     if frame.amount.cols == 1:
-        return moved
+        return blocks([[_NONE], [moved]])
     spin = Small.of(frame.amount).T * moved
-    return Small.column(spin[2, 1], spin[0, 2], spin[1, 0])
+    return blocks([[Small.column(spin[2, 1], spin[0, 2], spin[1, 0])], [_NONE]])
 
 
 def _derivative(matrix: Small, s: sp.Symbol) -> Small:
@@ -190,4 +189,4 @@ def _derivative(matrix: Small, s: sp.Symbol) -> Small:
 
 
 def _sum(columns: list[Small], factors: list[sp.Expr]) -> Small:
-    return sum((column * x for column, x in zip(columns, factors, strict=True)), ZERO)
+    return sum((column * x for column, x in zip(columns, factors, strict=True)), zeros(6, 1))
