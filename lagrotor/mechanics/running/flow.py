@@ -15,7 +15,7 @@ from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
 from lagrotor.numerics.pulse import Window, windows_since
-from lagrotor.numerics.segment import Cause, Integrate, Segment, StopError, Stretch, by_units, reporting
+from lagrotor.numerics.segment import Cause, Integrate, Segment, SegmentSolver, StopError, Stretch, by_units, reporting
 from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Values = Mapping[Any, Any]
@@ -84,12 +84,13 @@ def smooth_motion(
     windows: tuple[Window, ...],
     followed: tuple[NarrowPart, ...] = (),
     progress: Callable[[float], None] | None = None,
+    solver: SegmentSolver | None = None,
 ) -> Integrate:
     """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
 
     The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
     which it is regular. windows: where something acts briefly by the clock. followed: what is integrated with the motion.
-    progress: called with the time of each evaluation by the core.
+    progress: called with the time of each evaluation by the core. solver: one of the core's, the fastest if none is given.
     """
     program, known = motion_program(system, followed), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states) - len(followed)
@@ -113,12 +114,12 @@ def smooth_motion(
         if engine == "fast":
             clock = tuple(range(known, d + len(followed)))  # the time is a state, which may grow without end
             order, between = taylor_order(local, companion), turn / 2 if project else np.inf
-            solver = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
+            chosen = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
         else:
             scale = with_followed(units, followed, local, companion)
-            solver = by_units(_as_in_pulse if followed else by_fastest, scale)
+            chosen = by_units(solver or (_as_in_pulse if followed else by_fastest), scale)
         try:
-            return integrate(problem, since, local, solver).cut(d)
+            return integrate(problem, since, local, chosen).cut(d)
         except StopError as stop:
             singular = words(stop.reached.end if stop.reached else start)
             cause: Cause = "singular" if singular else stop.cause
