@@ -113,7 +113,7 @@ def scenes(seed: int, count: int, dense: bool, most_turns: float = 100.0) -> Ite
 
 
 def systems(seed: int, count: int, dense: bool) -> Iterator[Told]:
-    """Systems of twelve kinds, their numbers from `seed` on."""
+    """Systems of all kinds, their numbers from `seed` on."""
     from tests.mechanics.running import references
 
     sparse = references._times

@@ -11,28 +11,16 @@ Dragt & Finn, J. Math. Phys. 17 (1976) 2215; Hori, Publ. Astron. Soc. Japan 18 (
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from typing import Any, TypeVar
+from functools import cached_property, lru_cache, reduce
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Coefficients = NDArray[Any]
 Exponents = tuple[int, ...]
-
-
-Kind = TypeVar("Kind")
-
-
-def by_squaring(x: Kind, n: int, product: Callable[[Kind, Kind], Kind]) -> Kind:
-    """Return the n-th power of x by an associative product, n ≥ 1."""
-    if n == 1:
-        return x
-    half = by_squaring(x, n // 2, product)
-    square = product(half, half)
-    return product(square, x) if n % 2 else square
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +83,7 @@ class Polynomial:
 
     def power(self, n: int, order: int) -> Polynomial:
         """The n-th power through an order, n ≥ 1."""
-        return by_squaring(self, n, lambda a, b: a.product(b, order))
+        return reduce(lambda a, b: a.product(b, order), [self] * n)
 
     def derivative(self, k: int) -> Polynomial:
         """∂/∂x_k."""

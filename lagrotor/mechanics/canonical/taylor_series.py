@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, reduce
 from itertools import combinations_with_replacement
 from operator import mul
 from typing import Any
@@ -23,7 +23,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
-from lagrotor.mechanics.canonical.polynomials import Polynomial, by_squaring, constant, total
+from lagrotor.mechanics.canonical.polynomials import Polynomial, constant, total
 from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import compile_program
@@ -198,7 +198,7 @@ class TruncatedSeries(NDArrayOperatorsMixin):
     def _power(self, n: float) -> TruncatedSeries:
         if n != int(n) or n < 0:
             return self._composed("power", float(n))
-        return by_squaring(self, int(n), mul) if n else self.space.constant(1.0)
+        return reduce(mul, [self] * int(n)) if n else self.space.constant(1.0)
 
     def _composed(self, name: str, *more: float) -> TruncatedSeries:
         """f of this jet by Horner's rule in what of it is not constant."""

@@ -1,7 +1,6 @@
 """The smooth motion of a system in numbers: its right-hand side, the way back onto its constraints, its integration."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,8 +15,7 @@ from lagrotor.numerics.arrays import real_array
 from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
 from lagrotor.numerics.pulse import Window, windows_since
-from lagrotor.numerics.segment import Cause, Integrate, Segment, StopError, Stretch, by_units, reporting
-from lagrotor.numerics.solvers import dop853
+from lagrotor.numerics.segment import Cause, Integrate, Segment, SegmentSolver, StopError, Stretch, by_units, reporting
 from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Values = Mapping[Any, Any]
@@ -83,16 +81,16 @@ def smooth_motion(
     sizes: Array,
     turn: float,
     start: Array,
-    stiff: bool,
     windows: tuple[Window, ...],
     followed: tuple[NarrowPart, ...] = (),
     progress: Callable[[float], None] | None = None,
+    solver: SegmentSolver | None = None,
 ) -> Integrate:
     """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
 
     The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
     which it is regular. windows: where something acts briefly by the clock. followed: what is integrated with the motion.
-    progress: called with the time of each evaluation by the core.
+    progress: called with the time of each evaluation by the core. solver: one of the core's, the fastest if none is given.
     """
     program, known = motion_program(system, followed), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states) - len(followed)
@@ -100,54 +98,28 @@ def smooth_motion(
     units, begun = np.append(powers_of_two(sizes), np.ones(d - known)), np.zeros(len(followed))
     words = singular_position(system, values, start, sizes)
 
-    def problem_of(begin: float, start: Array, budget: float, companion: bool) -> Problem:
-        return Problem(
-            reporting(program.rate(parameters, begin), progress, begin),
-            start,
-            budget,
-            windows=windows_since(begin, windows, companion),
-            project=project,
-            typical_rate=2 * np.pi / turn,
-        )
-
-    def by_taylor(begin: float, start: Array, times: Array, local: float, companion: bool) -> Stretch:
-        order = taylor_order(local, companion)
-        between = turn / 2 if project else np.inf
-        # The time is a state, which may grow without end.
-        clock = tuple(range(known, d + len(followed)))
-        solver = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
-        return integrate(problem_of(begin, start, np.inf, companion), times, local, solver)
-
-    def by_core(begin: float, start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
-        """By the solver that is fastest; the companion of a stiff motion by DOP853 instead of LSODA: two runs by its methods
-        for stiff ones may be off by the same."""
-        spent, problem = 0, problem_of(begin, start, budget, companion)
-        scale = with_followed(units, followed, local, companion)
-        if companion and stiff and local >= CROSSOVER.value:
-            by_dop853 = by_units(lambda segment, _, tol: dop853(segment, tol / 20), scale)
-            try:
-                return integrate(replace(problem, budget=budget / 2), times, local, by_dop853)
-            except StopError as stop:
-                if stop.cause != "budget":
-                    raise
-                spent = stop.evaluations
-        try:
-            solver = by_units(_as_in_pulse if followed else by_fastest, scale)
-            stretch = integrate(replace(problem, budget=budget - spent), times, local, solver)
-            return replace(stretch, evaluations=spent + stretch.evaluations)
-        except StopError as stop:
-            stop.evaluations += spent
-            raise
-
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         if len(times) == 1:
             return Stretch(start[None], start, 0)
         begin, since = float(times[0]), times - times[0]
         start = np.concatenate([start[:known], [begin] * (d - known), begun])
+        problem = Problem(
+            reporting(program.rate(parameters, begin), progress, begin),
+            start,
+            np.inf if engine == "fast" else budget,
+            windows=windows_since(begin, windows, companion),
+            project=project,
+            typical_rate=2 * np.pi / turn,
+        )
+        if engine == "fast":
+            clock = tuple(range(known, d + len(followed)))  # the time is a state, which may grow without end
+            order, between = taylor_order(local, companion), turn / 2 if project else np.inf
+            chosen = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
+        else:
+            scale = with_followed(units, followed, local, companion)
+            chosen = by_units(solver or (_as_in_pulse if followed else by_fastest), scale)
         try:
-            if engine == "fast":
-                return by_taylor(begin, start, since, local, companion).cut(d)
-            return by_core(begin, start, since, local, companion, budget).cut(d)
+            return integrate(problem, since, local, chosen).cut(d)
         except StopError as stop:
             singular = words(stop.reached.end if stop.reached else start)
             cause: Cause = "singular" if singular else stop.cause

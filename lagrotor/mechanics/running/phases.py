@@ -117,14 +117,6 @@ class Switched:
     hidden: list[tuple[float, float]] = field(default_factory=list)
     accumulations: dict[int, float] = field(default_factory=dict)
 
-    @cached_property
-    def named_values(self) -> dict[str, Any]:
-        return {str(k): v for k, v in self.values.items()}
-
-    @cached_property
-    def sign_names(self) -> tuple[str, ...]:
-        return tuple(str(s.sign) for s in self.surfaces)
-
     @property
     def n(self) -> int:
         return len(self.system.c.q)
@@ -177,7 +169,8 @@ class Switched:
         """The values of the parameters, and of the signs in this mode."""
         if not isinstance(self.values, Mapping):
             return self.values  # and are refused where a parameter is sought
-        return self.named_values | dict(zip(self.sign_names, map(float, mode.signs), strict=True))
+        signs = zip(self.surfaces, mode.signs, strict=True)
+        return {str(k): v for k, v in self.values.items()} | {str(s.sign): float(sign) for s, sign in signs}
 
     def phase(self, mode: ContactMode) -> Phase:
         """The phase of a mode. Which way what slips does not change its equations, only the value of a sign."""

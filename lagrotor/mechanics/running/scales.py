@@ -16,8 +16,8 @@ from lagrotor.algebra import decide_zero, derivative
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import longer, put_in
-from lagrotor.mechanics.running.flow import Array, Rhs, Values, projection_of
-from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
+from lagrotor.mechanics.running.flow import Array, Rhs, Values, smooth_motion
+from lagrotor.mechanics.running.narrow import NarrowPart
 from lagrotor.mechanics.running.programs import (
     Generated,
     clock_program,
@@ -29,9 +29,8 @@ from lagrotor.mechanics.running.programs import (
     velocities_along,
 )
 from lagrotor.mechanics.symmetry import cyclic_coordinates
-from lagrotor.numerics.integrate import Problem, integrate
-from lagrotor.numerics.pulse import Window, brief_windows, windows_since
-from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch, by_units
+from lagrotor.numerics.pulse import Window, brief_windows
+from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch
 from lagrotor.numerics.solvers import dop853, lsoda
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
@@ -115,7 +114,7 @@ def motion_scales(
         stretch = stop.reached or Stretch(start[None], start, 1)
         # Of a motion that stops at once little is known; one whose budget is spent was followed for as long as that.
         reached = max(stop.at - float(times[0]), 0.0 if stop.cause == "budget" else 1e-3 * span)
-        if stop.cause == "stopped":  # it may go to infinity, and be as large as its last steps make it
+        if stop.cause != "budget":  # it may go to infinity, and be as large as its last steps make it
             stretch = replace(stretch, states=stretch.states[: len(stretch.states) * 9 // 10], end=start)
     states, evaluations, stiff = _finite(start, stretch), guess + stretch.evaluations, False
     if smooth and (system.forces or system.dissipation != 0):
@@ -162,25 +161,10 @@ def _coarsely(
     followed: tuple[NarrowPart, ...],
     solver: Callable[[Segment, float], Stretch] = dop853,
 ) -> Integrate:
-    n, m, d, program = len(system.c.q), len(system.speeds), len(start), motion_program(system, followed)
-    parameters = parameter_values(program, values)
-    bare = motion_program(system).rhs(*parameter_values(motion_program(system), values))
-    scale = np.append(first_sizes(bare, start, span, n, m), np.ones(d - n - m))
-    scale = with_followed(scale, followed, _COARSE)
-    project = projection_of(system, values) if system.multipliers else None
-
-    def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
-        since = times - times[0]
-        rate = program.rate(parameters, float(times[0]))
-        start = np.append(start, np.zeros(len(followed)))
-        problem = Problem(rate, start, budget, windows=windows_since(times[0], windows), project=project)
-        try:
-            return integrate(problem, since, local, by_units(lambda part, _, tol: solver(part, tol), scale)).cut(d)
-        except StopError as stop:
-            reached = stop.reached and stop.reached.cut(d)
-            raise StopError(float(times[0]) + stop.at, stop.reason, reached, cause=stop.cause) from None
-
-    return motion
+    program, n, m = motion_program(system), len(system.c.q), len(system.speeds)
+    sizes = first_sizes(program.rhs(*parameter_values(program, values)), start, span, n, m)
+    by_one = lambda part, _, tol: solver(part, tol)  # noqa: E731
+    return smooth_motion(system, values, "core", sizes, span, start, windows, followed, solver=by_one)
 
 
 def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:

@@ -84,17 +84,14 @@ class SystemRun(SampledMotion):
             scales = Scales(float(about["turn"]), np.array(about["sizes"], float), 0)
             values = {str(name): float(value) for name, value in about["values"].items()} | more
             tol, local, engine = check_tolerance(about["tol"]), float(about["local"]), about["engine"]
+            check_engine(engine, "load")
+            whole = len(states) == len(saved.fields["t"]) and scales.sizes.shape == (len(c.q) + len(system.speeds),)
+            if not whole or not np.isfinite(states).all():
+                raise ValueError("its states are none")
+        except InputError:
+            raise
         except (KeyError, TypeError, ValueError, AttributeError) as refusal:
-            if isinstance(refusal, InputError):
-                raise
             raise InputError(f"load: {path} is no run of a system ({refusal}): give a file that `save` wrote") from None
-        if (
-            not np.isfinite(states).all()
-            or len(states) != len(saved.fields["t"])
-            or scales.sizes.shape != (len(c.q) + len(system.speeds),)
-        ):
-            raise InputError(f"load: {path} is no run of a system: its states are none: give a file that `save` wrote")
-        check_engine(engine, "load")
         h = with_events(system, values, given)
         windows = clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
         swings = np.repeat(states[:1], 2, axis=0)  # as far as the motion came between its samples

@@ -276,28 +276,6 @@ def chain(rng: np.random.Generator) -> Drawn:
                  lambda: extrapolated(pendulums(m, l), [*q, *v], times))  # fmt: skip
 
 
-def central(rng: np.random.Generator) -> Drawn:
-    """A power of the distance, in polar coordinates."""
-    c = coordinates("r phi")
-    power = int(rng.choice([-3, -1, 1, 2, 4]))
-    k = float(10 ** rng.uniform(-1, 2))
-    (r, _), (r_v, p_v) = c.q, c.v
-    V = sp.Rational(1, power) * sp.Float(k, 30) * r**power
-    r0, turn = float(rng.uniform(0.5, 2)), float(rng.uniform(0.4, 1.3))
-    rate = turn * np.sqrt(k * r0 ** (power - 2))
-    L = (r_v**2 + r**2 * p_v**2) / 2 - V
-    if power == -3:
-        turn, rate = 1.3, 1.3 * np.sqrt(k * r0 ** (power - 2))  # it flies out, and does not fall into the centre
-
-    def rhs(_: Any, y: np.ndarray) -> np.ndarray:
-        r, _, u, w = y
-        return np.array([u, w, r * w**2 - Long(k) * r ** (power - 1), -2 * u * w / r], Long)
-
-    times = _times(rng, float(rng.uniform(1, 12)) * 2 * np.pi / rate)
-    return Drawn(f"central {power}", System(c, L), {}, (r0, 0.2), (0.0, float(rate)), times, _tol(rng),
-                 lambda: extrapolated(rhs, [r0, 0.2, 0, float(rate)], times))  # fmt: skip
-
-
 def top(rng: np.random.Generator) -> Drawn:
     """A heavy symmetric top in Euler's angles, fast or slow."""
     c = coordinates("phi theta psi")
@@ -367,23 +345,6 @@ def skate(rng: np.random.Generator) -> Drawn:
     return Drawn("skate", system, {}, (0.0, 0.0, f), start, times, _tol(rng), exact)
 
 
-def shaken(rng: np.random.Generator) -> Drawn:
-    """A damped pendulum whose support is shaken, from any time."""
-    c = coordinates("theta")
-    d, A, W = float(10 ** rng.uniform(-3, 0)), float(rng.uniform(0, 30)), float(10 ** rng.uniform(0, 1.3))
-    begin = float(rng.choice([0, 10 ** rng.uniform(0, 3)]))
-    d_, A_, W_ = (sp.Float(x, 30) for x in (d, A, W))
-    L = c.v[0] ** 2 / 2 + (10 - A_ * sp.cos(W_ * t)) * sp.cos(c.q[0])
-    y0 = rng.normal(size=2)
-    times = _times(rng, float(10 ** rng.uniform(-0.3, 1.2)), begin)
-
-    def rhs(s: Any, y: np.ndarray) -> np.ndarray:
-        return np.array([y[1], -(10 - Long(A) * np.cos(Long(W) * s)) * np.sin(y[0]) - 2 * Long(d) * y[1]], Long)
-
-    return Drawn("shaken", System(c, L, dissipation=d_ * c.v[0] ** 2), {}, (y0[0],), (y0[1],), times, _tol(rng),
-                 lambda: extrapolated(rhs, y0, times))  # fmt: skip
-
-
 def relaxing(rng: np.random.Generator) -> Drawn:
     """Van der Pol's oscillator, up to stiffish."""
     c, mu = coordinates("x"), float(10 ** rng.uniform(-1, 1.5))
@@ -414,7 +375,7 @@ def henon_heiles(rng: np.random.Generator) -> Drawn:
                  lambda: extrapolated(rhs, y0, times))  # fmt: skip
 
 
-KINDS = (pendulum, kepler, springs, driven, chain, central, top, rods, skate, shaken, relaxing, henon_heiles)
+KINDS = (pendulum, kepler, springs, driven, chain, kepler, top, rods, skate, driven, relaxing, henon_heiles)
 
 
 def drawn(seed: int) -> Drawn:

@@ -121,6 +121,7 @@ SOUGHT = {
     "two samples": (lambda: henon_heiles(2), 18, [2.96674186, 6.4409149, 9.89681531]),
     "6,001 samples": (lambda: henon_heiles(6001), 18, [2.96674186, 6.4409149, 9.89681531]),
     "stiff": (lambda: van_der_pol(1000, 3000, 301), 3, [807.08474082, 1614.28530372, 2421.48586662]),
+    "relaxation": (lambda: van_der_pol(100, 500, 2001), 6, [81.1723779, 162.59091345, 244.00944899]),
     "narrow": (lambda: bumpy(3), 8, [1.2532359, 1.65349752, 1.69347848, 1.89240504]),
     "impacts": (lambda: (BALL.simulate({g: 1}, (1,), (0,), np.linspace(0, 4, 2001), events=Impact(x, 0.8)), x), 4, []),
 }

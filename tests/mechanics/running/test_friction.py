@@ -17,7 +17,6 @@ from lagrotor.mechanics import (
     constrained_accelerations,
     coordinates,
     reaction,
-    t,
     total_derivative,
 )
 
@@ -91,21 +90,6 @@ def test_a_mass_on_a_belt_sticks_and_slips_in_a_limit_cycle() -> None:
     # The cycle repeats itself: crossings of x = 0.9 while it is carried along are equally far apart.
     carried = run.crossings(x - sp.Rational(9, 10), 1).t
     assert np.ptp(np.diff(carried)[1:]) < 1e-6
-
-
-def test_two_blocks_hold_each_other_and_are_let_go_one_after_the_other() -> None:
-    """The second is pulled by a growing force t: it slides at t = 2, and takes the first along when the spring pulls 1."""
-    c = coordinates("a b")
-    stretch = c.q[1] - c.q[0]
-    L = (c.v[0] ** 2 + c.v[1] ** 2) / 2 - 50 * stretch**2 / 2
-    run = System(c, L, forces=(-sp.sign(c.v[0]), -2 * sp.sign(c.v[1]) + t)).simulate(
-        {}, (0, 0), (0, 0), np.linspace(0, 5, 501), 1e-9
-    )
-    second = run.t[np.argmax(run.q[:, 1] > 1e-7)]
-    first = run.t[np.argmax(run.q[:, 0] > 1e-7)]
-    assert 2 < second < 2.1 and first > second
-    pull = 50 * (run.q[:, 1] - run.q[:, 0])
-    assert pull[run.t < first - 0.01].max() < 1
 
 
 def test_a_force_that_does_not_jump_is_run_through() -> None:

@@ -15,21 +15,12 @@ from lagrotor.errors import ConstraintError, InputError, IntegrationError, Lagro
 from lagrotor.mechanics import System, SystemRun, coordinates, t
 from lagrotor.mechanics.running import programs, simulation
 from lagrotor.mechanics.running.start import rounding_of_start
-from tests.systems import double_pendulum, henon_heiles, values_of
+from tests.systems import Omega, R, double_pendulum, g, henon_heiles, k, l, m, pendulum, values_of
+from tests.systems import rod_pendulum as rod
 
-m, l, g, k, R, Omega, w, A = sp.symbols("m l g k R Omega omega A", positive=True)
+w, A = sp.symbols("omega A", positive=True)
 VALUES = {m: 1.3, l: 0.8, g: 9.81, k: 0.2, R: 0.5, Omega: 6.0, w: 20.0, A: 0.1}
 ANGLE, PLANE = coordinates("theta"), coordinates("x y")
-
-
-def pendulum(**more: object) -> System:
-    (theta,), (theta_v,) = ANGLE.q, ANGLE.v
-    return System(ANGLE, m * l**2 * theta_v**2 / 2 + m * g * l * sp.cos(theta), **more)
-
-
-def rod() -> System:
-    (x, y), v = PLANE.q, PLANE.v
-    return System(PLANE, m * (v[0] ** 2 + v[1] ** 2) / 2 - m * g * y, (x**2 + y**2 - l**2,))
 
 
 def elliptic(times: np.ndarray, amplitude: float) -> np.ndarray:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -56,20 +55,6 @@ def furuta_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
     return np.linalg.solve(mass, [first, K * S * C * v[0] ** 2 - m_ * g_ * l_ * S])
 
 
-def three_bodies() -> System:
-    c = coordinates("x_1 y_1 x_2 y_2 x_3 y_3")
-    places = [sp.Matrix(c.q[2 * i : 2 * i + 2]) for i in range(3)]
-    pairs = [places[i] - places[j] for i in range(3) for j in range(i)]
-    return System(c, m * sum(v**2 for v in c.v) / 2 + sum(A * m**2 / sqrt(e.dot(e)) for e in pairs))
-
-
-def three_bodies_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
-    P = q.reshape(3, 2)
-    way = P[None] - P[:, None]
-    cubes = np.linalg.norm(way, axis=-1) ** 3 + np.eye(3)
-    return (A_ * m_ * way / cubes[..., None]).sum(1).ravel()
-
-
 def shaken_top() -> System:
     c = coordinates("phi theta psi")
     body = Frame(c).moved(0, 0, A * cos(w * t)).turned("zxz", c.q).body(m, (J, J, I), (0, 0, l))
@@ -84,19 +69,6 @@ def shaken_top_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
     return first, second, -first * C + v[0] * v[1] * S
 
 
-def springs() -> System:
-    """Twelve masses in a row between walls, with a quadratic force (Fermi, Pasta, Ulam and Tsingou)."""
-    c = coordinates([f"x_{i}" for i in range(12)])
-    places = (0, *c.q, 0)
-    stretched = [right - left for left, right in pairwise(places)]
-    return System(c, m * sum(v**2 for v in c.v) / 2 - sum(k * (e**2 / 2 + A * e**3 / 3) for e in stretched))
-
-
-def springs_by_hand(s: float, q: np.ndarray, v: np.ndarray) -> object:
-    stretched = np.diff([0, *q, 0])
-    return k_ / m_ * np.diff(stretched + A_ * stretched**2)
-
-
 def of(system: System) -> dict[sp.Symbol, float]:
     """The values of letters that are none of its coordinates."""
     return {letter: value for letter, value in VALUES.items() if letter.name not in map(str, system.c.q)}
@@ -105,11 +77,7 @@ def of(system: System) -> dict[sp.Symbol, float]:
 CASES = {
     "a pendulum on a driven cart with friction": Case(cart, cart_by_hand, (0, 1.0), (0, 0.5)),
     "a Furuta pendulum": Case(furuta, furuta_by_hand, (0, 1.0), (0.5, 0.2)),
-    "three bodies in a plane": Case(
-        three_bodies, three_bodies_by_hand, (1, 0, -1, 0.3, 0, 2), (0, 0.2, 0.1, -0.2, 0, 0.1), A
-    ),
     "a top on a shaken support": Case(shaken_top, shaken_top_by_hand, (0, 0.6, 0), (0.3, 0, 300), J),
-    "a chain of springs": Case(springs, springs_by_hand, tuple(np.sin(np.arange(1, 13))), (0,) * 12),
 }
 
 

@@ -54,20 +54,6 @@ def test_latex_has_functions_dots_and_names() -> None:
     assert lines[4] == r"- \dot{y}_s\left(t\right) + \dot{x} &= 0"
 
 
-def test_what_is_shown_of_a_tree_is_short() -> None:
-    """Two pinned rods: sin² + cos² is 1 in front of an acceleration, too, and the energy is said by its parts."""
-    c = coordinates("a b")
-    upper = Frame(c).pin(c.q[0])
-    lower = upper.moved(1, 0, 0).pin(c.q[1]).body(2, (0, 0, 1), (2, 0, 0))
-    rods = System(c, lower.kinetic + upper.body(1, (0, 0, 1)).kinetic - lower.potential((0, -9.81, 0)))
-    shown = rods._repr_markdown_()
-    assert r"$$\ddot{a} \left(8 \cos b + 12\right) + \ddot{b}" in shown and "$$E = T + V$$" in shown
-    turning = System(
-        ONE, ROD.L + m * (x * ONE.v[1] - y * ONE.v[0])
-    )  # with a term of degree one, which the energy has not
-    assert "E = T + V" not in turning._repr_markdown_()
-
-
 def odd_names() -> System:
     """A bob on a rod with every sign that LaTeX keeps for itself in a name, and coordinates that are no plain letters."""
     c = coordinates(["lambda", "α_in", "γ%", "delta1"])

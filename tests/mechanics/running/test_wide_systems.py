@@ -1,4 +1,4 @@
-"""The promise of a run on random systems of twelve kinds: its error is at most what is estimated, and tol is kept or announced.
+"""The promise of a run on random systems of ten kinds: its error is at most what is estimated, and tol is kept or announced.
 
 Against motions known to 60 bits, made in `references`; the size of a state is what `SystemRun` says it is.
 """
