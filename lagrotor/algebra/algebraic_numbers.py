@@ -1,4 +1,4 @@
-"""Numbers made of radicals and roots of unity: whether one is zero, and whether a sum of logarithms of such numbers is.
+"""Numbers made of radicals and roots of unity: whether one is zero.
 
 A number α = U/L of algebraic integers of a field of degree D, all of whose conjugates are below u and l, is zero or at least
 1/(u**(D−1) l), since the norm of U is a whole number.  u, l and D follow from how α is written (Burnikel, Funke, Mehlhorn,
@@ -95,40 +95,3 @@ class _Bound:
             up, low = (up + (q - 1) * low) / q, low
         up, low = n * up, n * low
         return (low, up) if e.exp < 0 else (up, low)
-
-
-def sum_of_logarithms_is_zero(number: sp.Expr) -> bool | None:
-    """Whether Σ rᵢ log aᵢ of positive numbers, or Σ rᵢ arg zᵢ (arcs of sines and tangents, π), is zero; None of others.
-
-    With N the common denominator: N times the sum is 0, or 2πk for arcs, where Π zᵢ**(N rᵢ) = 1, and an enclosure says
-    that k = 0.
-    """
-    arcs, logarithms = list[tuple[sp.Rational, sp.Expr]](), list[tuple[sp.Rational, sp.Expr]]()
-    number = sp.expand_mul(number)
-    if number.is_zero:
-        return True
-    for term in sp.Add.make_args(number):
-        rate, rest = term.as_coeff_Mul()
-        if rest is sp.pi:
-            arcs.append((rate, sp.S.NegativeOne))
-        elif isinstance(rest, sp.atan):
-            arcs.append((rate, (1 + sp.I * rest.args[0]) / sp.sqrt(1 + rest.args[0] ** 2)))
-        elif isinstance(rest, sp.asin):
-            arcs.append((rate, sp.sqrt(1 - rest.args[0] ** 2) + sp.I * rest.args[0]))
-        elif isinstance(rest, sp.log) and rest.args[0].is_positive:
-            logarithms.append((rate, rest.args[0]))
-        else:
-            return None
-    if arcs and logarithms:
-        return None
-    terms = arcs or logarithms
-    whole = lcm(*(int(rate.q) for rate, _ in terms)) if terms else 1
-    value = enclosed_at(number, {}, 60)
-    if excludes_zero(value):
-        return False
-    if not abs(value.real).b < 3 / iv.mpf(whole):
-        return None
-    exponents = [int(rate * whole) for rate, _ in terms]
-    up = sp.Mul(*(a**n for (_, a), n in zip(terms, exponents, strict=True) if n > 0))
-    down = sp.Mul(*(a**-n for (_, a), n in zip(terms, exponents, strict=True) if n < 0))
-    return is_zero(up - down)

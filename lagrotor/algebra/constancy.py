@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import lcm
 
 import sympy as sp
 
-from lagrotor.algebra.algebraic_numbers import is_zero, sum_of_logarithms_is_zero
+from lagrotor.algebra.algebraic_numbers import is_zero
 from lagrotor.algebra.differentiation import derivative
-from lagrotor.algebra.enclosures import enclosed_at
+from lagrotor.algebra.enclosures import enclosed_at, enclosure
 from lagrotor.algebra.signs import ANY, NONNEGATIVE, Region, is_nonnegative, is_positive, is_real, signs
 from lagrotor.errors import NotExactError
 
@@ -92,7 +93,7 @@ def is_constant_zero(expression: sp.Expr, where: Region, vanishes: Callable[[sp.
         return False
     if not all(vanishes(derivative(expression, letter), where) for letter in letters):
         return False
-    return any(_is_zero_at(expression, point) for point in _places(letters, where))
+    return any(_is_zero(expression.subs(point), vanishes) for point in _places(letters, where))
 
 
 def _places(letters: list[sp.Symbol], where: Region) -> list[dict[sp.Symbol, sp.Expr]]:
@@ -109,11 +110,18 @@ def _places(letters: list[sp.Symbol], where: Region) -> list[dict[sp.Symbol, sp.
     return found[:3]
 
 
-def _is_zero_at(expression: sp.Expr, point: dict[sp.Symbol, sp.Expr]) -> bool:
-    value = expression.subs(point)
+def _is_zero(value: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
     if value.has(sp.nan, sp.zoo, sp.oo):
         return False
-    try:
-        return bool(is_zero(value) or sum_of_logarithms_is_zero(value))
-    except NotExactError:
+    return bool(is_zero(value) or vanishes(value, Region()) or is_small_angle(value, vanishes))
+
+
+def is_small_angle(expression: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
+    """Return whether a number made of arcs is zero: a whole multiple of it is small and has the sine 0."""
+    if expression.free_symbols or not expression.has(sp.asin, sp.acos, sp.atan):
         return False
+    rates = [term.as_coeff_Mul()[0] for term in sp.Add.make_args(sp.expand(expression))]
+    angle = sp.expand(lcm(*(int(rate.q) for rate in rates if rate.is_Rational)) * expression)
+    ends = enclosure(angle, {})
+    small = ends is not None and all(abs(end) < 3 for end in ends)
+    return small and vanishes(sp.sin(angle, evaluate=False), Region())

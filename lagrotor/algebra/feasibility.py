@@ -41,6 +41,8 @@ def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[s
 
     small: letters that are as near to 0 as one likes.
     """
+    if sum(parts(e) for e in (*equations, *(e for e, _ in where.above))) > _MOST_PARTS:
+        return False
     if any(map(_has_no_root, equations)) or any(0 not in (signs(e, where) or ANY) for e in equations):
         return True
     facts = [(sign * e, False) for e in equations if is_real(e, where) for sign in (1, -1)]
@@ -77,7 +79,7 @@ def _has_no_root(e: sp.Expr) -> bool:
 
 def _forms(e: sp.Expr) -> list[sp.Expr]:
     """An expression, its terms, and itself with its squares completed."""
-    if e.has(sp.I) or parts(e) > _MOST_PARTS:
+    if e.has(sp.I):
         return []
     return list(dict.fromkeys((e, sp.expand(e), _completed(sp.expand(e)))))
 

@@ -9,8 +9,8 @@ from math import lcm, prod
 
 import sympy as sp
 
-from lagrotor.algebra.constancy import is_constant_zero
-from lagrotor.algebra.enclosures import enclosure, jet_of
+from lagrotor.algebra.constancy import is_constant_zero, is_small_angle
+from lagrotor.algebra.enclosures import jet_of
 from lagrotor.algebra.integrals import value_of_integral
 from lagrotor.algebra.signs import Region, is_positive
 from lagrotor.algebra.sums import holds_by_induction, value_of_sum, written_out
@@ -92,7 +92,7 @@ def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
         return Proof("It holds for the first n, and for n + 1 if for n.")
     if _is_difference_of_squares(expression, where):
         return Proof("Both sides are positive, and their squares are equal.")
-    if _is_small_angle(expression):
+    if is_small_angle(expression, _vanishes):
         return Proof("Its sine vanishes, and it lies between −π and π.")
     if is_constant_zero(expression, where, _vanishes):
         return Proof("Its derivatives vanish, and it is zero at a point of a connected region.")
@@ -108,21 +108,6 @@ def _is_difference_of_squares(expression: sp.Expr, where: Region) -> bool:
     if not expression.has(sp.Pow) or 0 in sides or sides[0] - sides[1] != expression:
         return False
     return _vanishes(sides[0] ** 2 - sides[1] ** 2, where)
-
-
-def _is_small_angle(expression: sp.Expr) -> bool:
-    """Return whether a number made of arcs is zero: a whole multiple of it is small and has the sine 0."""
-    if expression.free_symbols or not expression.has(sp.asin, sp.acos, sp.atan):
-        return False
-    rates = [term.as_coeff_Mul()[0] for term in sp.Add.make_args(sp.expand(expression))]
-    angle = sp.expand(lcm(*(int(rate.q) for rate in rates if rate.is_Rational)) * expression)
-    ends = enclosure(angle, {})
-    return (
-        ends is not None
-        and abs(ends[0]) < 3
-        and abs(ends[1]) < 3
-        and _vanishes(sp.sin(angle, evaluate=False), Region())
-    )
 
 
 def _vanishes(expression: sp.Expr, where: Region) -> bool:

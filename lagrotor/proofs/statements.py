@@ -300,7 +300,7 @@ def _equilibrium(certificate: Certificate) -> str:
     """Of an equilibrium, with what its stability takes of the system."""
     claim = certificate["claim"]
     given = {
-        "stable": f" Its energy {certificate['energy']} is definite there and does not grow.",
+        "stable": f" Its energy {certificate['energy']} is definite there and conserved.",
         "stable to first order": " It is conservative.",
     }.get(claim["stability"], "")
     at = _at_states(certificate, claim["q"], "=", 25)

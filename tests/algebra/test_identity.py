@@ -17,65 +17,47 @@ m = sp.Symbol("m", positive=True)
 
 IDENTITIES = [
     (sin(x) ** 2 + cos(x) ** 2, 1),
-    (sin(2 * x), 2 * sin(x) * cos(x)),
-    (cos(x / 2) ** 2, (1 + cos(x)) / 2),
     (tan(x / 2), sin(x) / (1 + cos(x))),
     (cos(x / 3) ** 3, (cos(x) + 3 * cos(x / 3)) / 4),
     (cos(5 * x), 16 * cos(x) ** 5 - 20 * cos(x) ** 3 + 5 * cos(x)),
     (sin(x + y), sin(x) * cos(y) + cos(x) * sin(y)),
     (sin(x) * sin(y), (cos(x - y) - cos(x + y)) / 2),
     (tan(x + y), (tan(x) + tan(y)) / (1 - tan(x) * tan(y))),
-    (tan(2 * x), 2 * tan(x) / (1 - tan(x) ** 2)),
-    (sec(x) ** 2, 1 + tan(x) ** 2),
-    (csc(x) ** 2, 1 + cot(x) ** 2),
     (csc(x), cot(x / 2) - cot(x)),
     (sin(x + pi / 4), (sin(x) + cos(x)) / sqrt(2)),
     (cos(x + pi / 3) + cos(x - pi / 3), cos(x)),
     (sin(x + pi / 12), sin(x) * (sqrt(6) + sqrt(2)) / 4 + cos(x) * (sqrt(6) - sqrt(2)) / 4),
     (sin(omega * t + x), sin(omega * t) * cos(x) + cos(omega * t) * sin(x)),
     (cosh(x) ** 2 - sinh(x) ** 2, 1),
-    (sinh(2 * x), 2 * sinh(x) * cosh(x)),
     (tanh(x + y), (tanh(x) + tanh(y)) / (1 + tanh(x) * tanh(y))),
     (coth(x) ** 2 - csch(x) ** 2, tanh(x) ** 2 + sech(x) ** 2),
     (exp(x), cosh(x) + sinh(x)),
     ((exp(x) - exp(-x)) / (exp(x) + exp(-x)), tanh(x)),
-    (x / (1 + 1 / x), x**2 / (x + 1)),
     (1 / (sqrt(2) - 1), 1 + sqrt(2)),
     ((cos(x) + sp.I * sin(x)) ** 2, cos(2 * x) + sp.I * sin(2 * x)),
-    (pi * (x + 1) ** 2, pi * x**2 + 2 * pi * x + pi),
 ]
 
 
 @pytest.mark.parametrize(("left", "right"), IDENTITIES)
-def test_textbook_identity_is_zero(left: sp.Expr, right: sp.Expr) -> None:
+def test_a_textbook_identity_is_zero_and_its_mutated_twin_is_not(left: sp.Expr, right: sp.Expr) -> None:
     assert decide_equal(left, right).answer == "zero"
-
-
-@pytest.mark.parametrize(("left", "right"), IDENTITIES)
-def test_its_mutated_twin_is_not(left: sp.Expr, right: sp.Expr) -> None:
     difference = left - right * sp.Rational(1000, 1001)
     decision = decide_zero(difference)
-    assert decision.answer == "nonzero"
-    assert decision.witness is not None
-    assert decision.evidence is not None
+    assert decision.answer == "nonzero" and decision.witness is not None
     value = abs(difference.subs(decision.witness).evalf(30))
-    assert value > 0
-    assert float(value) == pytest.approx(decision.evidence)
+    assert value > 0 and float(value) == pytest.approx(decision.evidence)
 
 
 @pytest.mark.parametrize(
     ("expression", "domain"),
     [
         (tan(2 * x) - 2 * tan(x) / (1 - tan(x) ** 2), {cos(x), cos(2 * x)}),
-        (tan(x) * cot(x) - 1, {cos(x), sin(x)}),
         (1 / (1 - cos(x) ** 2) - csc(x) ** 2, {sin(x)}),
         (1 / (1 + cos(x)) - 1 / (1 + cos(x)), set()),
         (tan(x / 2) - sin(x) / (1 + cos(x)), {cos(x / 2)}),
         ((x**2 - y**2) / (x**2 * y - y**3) - 1 / y, {y, x - y, x + y}),
         (1 / (m + m * x) - 1 / (m * (x + 1)), {m, x + 1}),
-        (1 / (cosh(x) ** 2 - 1) - csch(x) ** 2, {sinh(x)}),
         ((sqrt(2) - 1) * (sqrt(2) + 1) - 1 / (3 - 2 * sqrt(2)) / (3 + 2 * sqrt(2)), set()),
-        (sin(x) ** 2 + cos(x) ** 2 - 1, set()),
     ],
 )
 def test_domain(expression: sp.Expr, domain: set[sp.Expr]) -> None:
@@ -88,12 +70,10 @@ def test_domain(expression: sp.Expr, domain: set[sp.Expr]) -> None:
     ("expression", "reason"),
     [
         (sqrt(1 + sp.zoo * x), "outside"),
-        (sp.zoo, "outside"),
         (sp.Symbol("A", commutative=False), "outside"),
         (0.5 * x, "floating-point number 0.5"),
         (sqrt(x) * sin(0.25 * x), "floating-point number 0.25"),
         (sp.Symbol("u", infinite=True) - x, "must commute and be finite"),
-        (sin(sp.Symbol("u", infinite=True)), "must commute and be finite"),
         (sin(2 * sp.Symbol("A", commutative=False)), "must commute and be finite"),
         (x + sp.Symbol("z", zero=True) ** -1, "outside"),
         (sp.Pow(sp.Pow(0, sp.S.Half, evaluate=False), -3, evaluate=False), "vanishes identically"),
@@ -285,15 +265,6 @@ def test_matrices() -> None:
 )
 def test_normal_form(expression: sp.Expr, form: sp.Expr) -> None:
     assert sp.expand(normal_form(expression) - form) == 0
-
-
-def test_normal_form_sees_rewritings() -> None:
-    for left, right in IDENTITIES:
-        angles = sp.Add(left, right).atoms(sp.Function)
-        if any(f.func is sp.exp for f in angles):
-            continue  # an exponential alone and beside cosh has other generators
-        if all(rate.q == 1 for f in angles for rate in f.args[0].as_coefficients_dict().values()):
-            assert normal_form(left) == normal_form(right)
 
 
 ATOMS = st.sampled_from(

@@ -14,7 +14,6 @@ from sympy import (
     asin,
     asinh,
     atan,
-    atanh,
     cos,
     cosh,
     cot,
@@ -42,21 +41,15 @@ x, y, e = sp.symbols("x y epsilon")
     ("expression", "order", "series"),
     [
         (sqrt(1 + e * x), 2, 1 + e * x / 2 - e**2 * x**2 / 8),
-        (1 / sqrt(1 - e), 3, 1 + e / 2 + 3 * e**2 / 8 + 5 * e**3 / 16),
-        (sin(e * x), 4, e * x - e**3 * x**3 / 6),
         (cos(x + e), 2, cos(x) - e * sin(x) - e**2 * cos(x) / 2),
-        (1 / (x + e), 2, 1 / x - e / x**2 + e**2 / x**3),
-        (log(1 + e * y), 3, e * y - e**2 * y**2 / 2 + e**3 * y**3 / 3),
         (exp(e * x) * (1 + e) ** 2, 1, 1 + e * (x + 2)),
         (2**e, 1, 1 + e * log(2)),
         (tan(e) + atan(e) + asinh(e), 3, 3 * e - e**3 / 6),
-        (sin(e) / e, 4, 1 - e**2 / 6 + e**4 / 120),
         ((1 - cos(e * x)) / e**2, 2, x**2 / 2 - e**2 * x**4 / 24),
         (e**3 / (sin(e) - e), 2, -6 - 3 * e**2 / 10),
         (1 / e - 1 / sin(e), 1, -e / 6),
         (sqrt(x**2 + y**2 + e), 1, sqrt(x**2 + y**2) + e / (2 * sqrt(x**2 + y**2))),
         ((sin(x) ** 2 + cos(x) ** 2 - 1) * exp(e), 2, 0),
-        (e**5, 4, 0),
         (x * cos(y), 3, x * cos(y)),
     ],
 )
@@ -71,22 +64,18 @@ def test_series(expression: sp.Expr, order: int, series: sp.Expr) -> None:
         (sin(1 / e), "essential singularity or a jump at epsilon = 0: its argument has the negative power -1"),
         (exp(x / sqrt(e)), "negative power -1/2"),
         (sqrt(e**2 + e**3), "depends on the sign of epsilon: declare it positive"),
-        (sqrt(1 + 1 / e), "depends on the sign"),
         (log(-e), "depends on the sign"),
         (acos(cos(e)), "depends on the sign"),
         (sqrt(-1 + sqrt(e)), "may lie on a branch cut"),
         (1 / log(e), "starts with a logarithm"),
-        (sin(log(e)), "starts with a logarithm"),
         (e**x, "no rational number"),
         (e ** Rational(1, 25), "common denominator 25"),
         (cos(e) / e**30, "too few terms"),
         (sp.gamma(e), "not known to be analytic"),
         (1 / (e + sqrt(x**2) - x), "cannot tell"),
-        (e / (e * sqrt(x**2) - e * x + e**2), "cannot tell"),
         (sp.Abs(x + e), "not known to be analytic"),
         (1 / (sin(e) ** 2 + cos(e) ** 2 - 1), "too few terms"),
         (1 / (e + sqrt(x * y) - sqrt(x) * sqrt(y)), "cannot tell"),
-        (1 / (e + log(x * y) - log(x) - log(y)), "cannot tell"),
     ],
 )
 def test_refused(expression: sp.Expr, reason: str) -> None:
@@ -132,24 +121,17 @@ i = sp.I
 @pytest.mark.parametrize(
     "expression",
     [
-        sqrt(-1 + i * e),
         1 / sqrt(-1 + i * e),
         log(-1 + i * e),
         sqrt(x + i * e),
-        sqrt(n + i * e * x),
         (-2 + i * e) ** Rational(1, 3),
-        (-2 + i * e) ** x,
         sqrt(-1 - i * e**20),
         log(-1 + e**20 * sqrt(-2 + e)),
-        sqrt(-1 + e**20 * exp(i * e)),
         sqrt(-1 + e ** Rational(41, 2)),
         sqrt(-1 + e**20 * (sqrt(n) + e)),
-        sqrt(-exp(i * e)),
         sqrt(-1 + e * m),
         log(x + e * log(y)),
-        atan(2 * i + e),
         atan(m + e),
-        asinh(-3 * i + e * x),
     ],
 )
 def test_a_series_from_a_branch_cut_is_refused(expression: sp.Expr) -> None:
@@ -160,18 +142,13 @@ def test_a_series_from_a_branch_cut_is_refused(expression: sp.Expr) -> None:
 @pytest.mark.parametrize(
     "expression",
     [
-        sqrt(-1 + e),
         1 / sqrt(-2 - e + e**2),
-        log(-1 + e * Rational(1, 2)),
         sqrt(1 + i * e),
-        log(3 * i + i * e),
         (-2 + e) ** Rational(1, 3),
         (2 + i * e) ** Rational(-5, 3),
         sqrt(-cos(e)),
         atan(i / 2 + e),
-        atan(3 + 2 * i * e),
         atan(1 + 2 * i + e),
-        asinh(1 + i * e),
         sqrt(2 * exp(i * sp.pi / 7) + e),
     ],
 )
@@ -200,13 +177,9 @@ def test_a_large_power_is_expanded() -> None:
     [
         (1 + e / 2, sqrt(1 + e), 2),
         (e, sin(e), 3),
-        (1 - e**2 / 2, cos(e), 4),
-        (1 + e**2 / 2, cosh(e), 4),
         (sin(x) + e * cos(x), sin(x + e), 2),
         (sin(x) * cos(e) + cos(x) * sin(e), sin(x + e), None),
-        ((1 + e) * (1 - e), 1 - e**2, None),
         (sqrt(1 + 2 * e + e**2), 1 + e, None),
-        (Rational(1, 2), Rational(1, 2) + e, 1),
     ],
 )
 def test_agreement_order(printed: sp.Expr, derived: sp.Expr, order: int | None) -> None:
@@ -220,21 +193,16 @@ q, half = sp.Symbol("q", positive=True), Rational(1, 2)
     ("expression", "order", "series"),
     [
         (cot(e * x), 3, 1 / (e * x) - e * x / 3 - (e * x) ** 3 / 45),
-        (cos(e) / e**9, -5, e**-9 - e**-7 / 2 + e**-5 / 24),
-        (csch(e) - csc(e), 3, -e / 3),
         (tan(pi / 2 + e) + sec(e - pi / 2), 1, e / 2),
         (tan(e + atan(q) + atan(1 / q)), 0, -1 / e),
         (tanh(i * pi / 2 + e) - coth(e), 3, 0),
         (sqrt(sin(e)), 4, e**half - e ** (5 * half) / 12),
         (sqrt(e * q + e**2), 2, sqrt(q) * e**half + e ** (3 * half) / (2 * sqrt(q))),
         (e ** Rational(1, 3) * sqrt(1 + sqrt(e)), 1, e ** Rational(1, 3) + e ** Rational(5, 6) / 2),
-        (cos(sqrt(e)), 2, 1 - e / 2 + e**2 / 24),
         (acos(1 - e), 2, sqrt(2) * (e**half + e ** (3 * half) / 12)),
         (acosh(1 + e) + asin(1 - e), 1, pi / 2),
-        (asin(e) + atanh(e), 3, 2 * e + e**3 / 2),
         ((1 + e) ** (1 / e), 2, exp(1) * (1 - e / 2 + 11 * e**2 / 24)),
         (log(sin(e)), 4, log(e) - e**2 / 6 - e**4 / 180),
-        (log(tan(e)) - log(e), 2, e**2 / 3),
         (e**e, 2, 1 + e * log(e) + e**2 * log(e) ** 2 / 2),
     ],
 )
@@ -257,26 +225,7 @@ def _gap(expression: sp.Expr, series: sp.Expr, small: sp.Symbol, size: sp.Ration
     return sp.Abs((expression - series).subs(small, size).evalf(400, maxn=900)).evalf(20)
 
 
-_FUNCTIONS = (
-    sin,
-    cos,
-    tan,
-    cot,
-    sec,
-    csc,
-    sinh,
-    cosh,
-    tanh,
-    coth,
-    csch,
-    exp,
-    log,
-    atan,
-    asinh,
-    asin,
-    acos,
-    acosh,
-)
+_FUNCTIONS = (sin, cos, tan, cot, sec, csc, sinh, cosh, tanh, coth, csch, exp, log, atan, asinh, asin, acos, acosh)
 _CONSTANTS = (sp.S.One, -sp.S.One, half, pi / 2, pi, i, sqrt(2), sp.S.Zero, sp.Integer(-2), 1 + i)
 _POWERS = (half, -half, Rational(3, 2), Rational(-2, 3), *map(sp.Integer, (-2, -1, 2, 3)))
 
@@ -338,14 +287,6 @@ COEFFICIENTS = st.lists(st.integers(-3, 3), min_size=1, max_size=4)
 
 def polynomial(coefficients: list[int]) -> sp.Expr:
     return sp.Add(*(c * e**k for k, c in enumerate(coefficients)))
-
-
-@settings(max_examples=8, deadline=None)
-@given(COEFFICIENTS, st.sampled_from([sin, cos, exp, atan, lambda u: 1 / (2 + e * u), lambda u: sqrt(1 + e * u)]))
-def test_against_sympy_for_random_polynomials(coefficients: list[int], function: type[sp.Function]) -> None:
-    expression = polynomial(coefficients) * function(polynomial([0, *coefficients]))
-    expected = sp.series(expression, e, 0, 5).removeO()
-    assert sp.expand(truncated_series(expression, e, 4) - expected) == 0
 
 
 @settings(max_examples=25, deadline=None)

@@ -5,7 +5,7 @@ Lagrangian the equations of Lagrange, with d'Alembert's principle where there ar
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain, combinations
+from itertools import chain
 from typing import Any
 
 from flint import arb, arb_mat, fmpz_mod_ctx, fmpz_mod_mat
@@ -211,26 +211,6 @@ class LagrangianOfWords:
             arb_mat(n + k, n + k, found[: (n + k) ** 2]).det() != 0
         )  # as a ball: letters modulo a prime may be dependent
         demand(regular, "the Lagrangian is not shown to give accelerations")
-
-    def check_friction(self, state: list[Ball]) -> None:
-        """Rayleigh's function is quadratic in v, and no principal minor of its matrix is negative over a box about v = 0."""
-        words, n = self.words, self.n
-        slopes, total = self.by(self.D, self.v), words.keep("number", "0")
-        for v, slope in zip(self.v, slopes, strict=True):
-            total = words.keep("add", total, words.keep("multiply", v, slope))
-        demand_equal(
-            words, [total], [words.keep("add", self.D, self.D)], "the friction is not linear in the velocities"
-        )
-        rows = [self.by(slope, self.v) for slope in slopes]
-        ((values, p), *_) = residues(words, [*chain(*rows)])
-        box = [Dual(Rest([x], ZERO, 1)) for x in [*state, *self.others]]
-        exactly = evaluated(words.tape([*chain(*rows)]), box)
-        for places in chain(*(combinations(range(n), k) for k in range(1, n + 1))):
-            at = [i * n + j for i in places for j in places]
-            size = len(places)
-            zero = fmpz_mod_mat(size, size, [values[i] for i in at], fmpz_mod_ctx(p)).rank() < size
-            minor = arb_mat(size, size, [exactly[i].value.at_start() for i in at]).det()
-            demand(zero or minor > 0, "friction is not shown to take energy out")
 
 
 def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:

@@ -127,7 +127,7 @@ def of_any(matrix: Matrix) -> Kind:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PeriodicOrbit(Proved):
-    """A periodic orbit that exists, the only one of its kind within `alone` of its start's middle.
+    """A periodic orbit that exists, the only one of its kind near its start.
 
     period (s) and frequency 2π/period (rad/s), balls; start: the states at t = 0; kind: by its multipliers. pair_sum: μ + 1/μ
     of the pair of multipliers that is not 1, where there is one. certificate: what `check` verifies.
@@ -137,7 +137,6 @@ class PeriodicOrbit(Proved):
     period: Ball
     frequency: Ball
     start: tuple[Ball, ...]
-    alone: Ball
     kind: Kind
     pair_sum: Ball | None
     proof: "OrbitProof"
@@ -331,9 +330,8 @@ def orbit_of(proof: OrbitProof, made: Field) -> PeriodicOrbit:
     """What a proof says."""
     states = proof.states()
     period = states[-1] * proof.problem.turns
-    alone = min((upper(proof.start.spread[i]) for i in proof.problem.free), key=float)
     start = tuple(states[: len(made.states)])
-    return PeriodicOrbit(made, period, 2 * arb.pi() / period, start, alone, *proof.stability(), proof)
+    return PeriodicOrbit(made, period, 2 * arb.pi() / period, start, *proof.stability(), proof)
 
 
 def indices(made: Field, held: Sequence[Any]) -> tuple[int, ...]:

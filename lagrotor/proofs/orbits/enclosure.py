@@ -22,14 +22,13 @@ class Enclosure(Shown):
 
     q, v: coordinates and velocities (of a Scene U, chi, alpha and their rates; of a Structure the axes' components and
     theirs); states: these and, where it enters, the time. derivative: of the states by the start and by the parameters that
-    vary, over the whole start, in the order of `by`. residual: what the constraints leave, which holds zero.
+    vary, over the whole start. residual: what the constraints leave, which holds zero.
     """
 
     field: Field
     t: Ball
     states: tuple[Ball, ...]
     derivative: Matrix
-    by: tuple[str, ...]
     residual: tuple[Ball, ...]
     steps: tuple[CarriedStep, ...]
     start: Start
@@ -123,5 +122,4 @@ def enclose(
         box = last.box(start.spread)
         fixed = [made.values[s] for s in made.arguments[len(box) :]]
         residual = tuple(values_at(made.function(made.held), [*box, *fixed])) if made.held else ()
-        by = tuple(map(str, (*made.states, *made.varying)))
-        return Enclosure(made, end, tuple(box[:n]), last.derivative, by, residual, steps, start, accuracy.bits)
+        return Enclosure(made, end, tuple(box[:n]), last.derivative, residual, steps, start, accuracy.bits)

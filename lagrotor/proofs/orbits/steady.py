@@ -1,18 +1,16 @@
 """Equilibria proved, with their stability: of a system after Routh's reduction they are its steady motions.
 
-Stable where the energy is definite there (Lagrange and Dirichlet) and nothing but friction changes it, unstable where an
-eigenvalue of the linear motion has a positive real part (Lyapunov), stable to first order where all eigenvalues of a
-conservative system are apart and lie on the imaginary axis.
+By the eigenvalues of the linear motion it is unstable where one has a positive real part, asymptotically stable where all have
+negative ones (Lyapunov). Of a conservative system it is stable where the energy is definite there (Lagrange and Dirichlet), and
+stable to first order where all eigenvalues are apart and lie on the imaginary axis.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
 from typing import Any, Literal
 
 import sympy as sp
 
-from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError, NotProved
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import depends_on_time
@@ -37,7 +35,7 @@ from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened
 from lagrotor.proofs.statements import VERSION, Certificate, Proved
 from lagrotor.proofs.tape import Tape, joined
 
-Stability = Literal["stable", "stable to first order", "unstable", "undecided"]
+Stability = Literal["stable", "asymptotically stable", "stable to first order", "unstable", "undecided"]
 TOL = 1e-25
 _NEWTON = 30
 
@@ -92,8 +90,7 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
         J = arb_mat([row[: 2 * n] for row in rows])
         energy = _energy_hessian(made, system)
         found = arb_mat(2 * n, 2 * n, values_at(energy, state))
-        calm = not any(system.forces) and damped(system, made, state)
-        stability, eigenvalues = stability_of(system, J, found, calm)
+        stability, eigenvalues = stability_of(system, J, found)
         names = tuple(map(str, system.c.q))
         certificate = {
             "version": VERSION,
@@ -146,42 +143,25 @@ def _energy_hessian(made: Field, system: Equations) -> Tape:
     return made.function([sp.diff(e, x) for e in first for x in states])
 
 
-def damped(system: Equations, made: Field, state: Sequence[Ball]) -> bool:
-    """Whether Rayleigh's function takes energy out: D = vᵀ H(q) v / 2 with every principal minor of H zero or positive there."""
-    v = system.c.v
-    H = sp.hessian(system.dissipation, v)
-    column = sp.Matrix(v)
-    rest = sp.expand(system.dissipation - (column.T * H * column)[0] / 2)
-    if H.free_symbols & {*v} or decide_zero(rest).answer != "zero":
-        return False
-    minors = [
-        sp.expand(H.extract(rows, rows).det(method="berkowitz"))
-        for size in range(1, len(v) + 1)
-        for rows in map(list, combinations(range(len(v)), size))
-    ]
-    signed = [minor for minor in minors if minor != 0]
-    return all(x > 0 for x in values_at(made.function(signed), state)) if signed else True
-
-
 def definite(matrix: Matrix) -> bool:
     """Whether every symmetric matrix of a ball is positive definite: all leading minors are positive."""
     n = matrix.nrows()
     return all(arb_mat([[matrix[i, j] for j in range(k)] for i in range(k)]).det() > 0 for k in range(1, n + 1))
 
 
-def stability_of(
-    system: Equations, J: Matrix, energy: Matrix, calm: bool
-) -> tuple[Stability, tuple[tuple[Ball, Ball], ...]]:
-    """What the energy, which does not grow where the system is calm, and the linear motion prove."""
+def stability_of(system: Equations, J: Matrix, energy: Matrix) -> tuple[Stability, tuple[tuple[Ball, Ball], ...]]:
+    """Return the stability that the energy or the linear motion proves, and the eigenvalues where they are apart."""
+    conservative = system.dissipation == 0 and not any(system.forces)
     try:
         found = [(z.real, z.imag) for z in J.eig()]
     except ValueError:
         found = []
-    if calm and definite(energy):
+    if conservative and definite(energy):
         return "stable", tuple(found)
     if any(real > 0 for real, _ in found):
         return "unstable", tuple(found)
-    conservative = system.dissipation == 0 and not any(system.forces)
+    if found and all(real < 0 for real, _ in found):
+        return "asymptotically stable", tuple(found)
     if found and conservative and on_axis(found):
         return "stable to first order", tuple(found)
     return "undecided", tuple(found)
