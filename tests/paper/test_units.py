@@ -33,6 +33,7 @@ f = sp.Function("l")
         ("N/(rad s)", "kg m/s³"),
         ("rad/s/s²", "1/s³"),
         ("mJ", "kg m²/s²"),
+        ("W", "kg m²/s³"),
         ("kg m⁻¹ s⁻²", "kg m⁻¹ s⁻²"),
         ("Pa", "kg m⁻¹ s⁻²"),
         ("°", "1"),
