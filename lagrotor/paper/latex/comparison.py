@@ -16,8 +16,8 @@ from lagrotor.paper.latex.tree import Node, Opaque, sympy_expression
 _MOST_DEGREE, MOST_CALLS = 1000, 3_000_000
 TOO_LARGE = "the difference is too large"
 LARGEST = 1e300  # numbers that are compared
-# Points at which two sides are evaluated until both are real, and the share of its terms below which a sum is rounding.
-_MOST_POINTS, _UNCANCELLED = 16, 1e-6
+# Points at which two sides are evaluated until both are real.
+_MOST_POINTS = 16
 
 _step: Calls | None = None  # the calls that are left to the step that is being decided
 

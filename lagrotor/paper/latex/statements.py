@@ -1,7 +1,6 @@
 """The statements of a formula: rows that continue each other, parts between commas and words, sides and relations."""
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
@@ -74,29 +73,13 @@ def _pieces(row: list[Box]) -> list[list[Box]]:
 
 
 def _system(box: Box) -> list[list[Box]] | None:
-    """Return the lines of rows or of a system of equations; None where a box is neither."""
+    """Return the lines of rows, which may stand in a brace; None where a box is none."""
     if box.sub is not None or box.sup is not None:
         return None
     if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
         inside = strip(box.parts[0])
         return _system(inside[0]) if len(inside) == 1 else None
-    if box.kind in ("rows", "cases") or (box.kind == "matrix" and box.name == "array"):
-        lines = [_joined(line.parts) for line in box.parts[0]]
-        if box.kind == "rows" or all(map(_is_related, lines)):
-            return lines
-    return None
-
-
-def _joined(cells: Sequence[list[Box]]) -> list[Box]:
-    """Return the cells of a line; a second relation that continues none is a statement beside the first."""
-    line: list[Box] = []
-    for cell in cells:
-        before, inner = strip(line), strip(cell)
-        ends = any(b and b[k].kind in ("operator", "relation") for b, k in ((before, -1), (inner, 0)))
-        if not ends and _is_related(before) and _is_related(inner):
-            line.append(Box("wide", "", inner[0].at, inner[0].at))
-        line += cell
-    return line
+    return [[part for cell in line.parts for part in cell] for line in box.parts[0]] if box.kind == "rows" else None
 
 
 def _continues(before: list[Box], line: list[Box]) -> bool:

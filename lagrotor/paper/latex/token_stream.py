@@ -185,18 +185,15 @@ class TokenStream:
         inside: list[Token] = []
         braces, depth = 0, 1
         while (token := self.next()) is not None:
-            line = EMPTY_LINE.search(token.text) if token.kind == "text" else None
-            text = token.text[: line.start()] if line else token.text
-            for place, sign in enumerate(text if token.kind == "text" and not braces else ""):
+            text = EMPTY_LINE.split(token.text)[0] if token.kind == "text" and not braces else ""
+            for place, sign in enumerate(text):
                 depth += (sign == opening) - (sign == closing)
                 if depth == 0:
                     self.push(plain(token.text[place + 1 :], token.at + place + 1))
                     return inside + plain(text[:place], token.at)
             braces += BRACES.get(token.kind, 0)
-            if line:
-                inside += plain(text, token.at)
-            if line or braces < 0 or token.text == r"\par":
-                self.push((Token(token.kind, token.text[len(text) if line else 0 :], token.at + len(text)),))
+            if braces < 0 or ends_paragraph(token):
+                self.push((token,))
                 break
             inside.append(token)
         self.fault(at, f"the argument has no end, {closing}, in its paragraph")
