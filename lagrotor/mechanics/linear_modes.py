@@ -4,12 +4,15 @@ Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., ch. 6; Merkin, Introduct
 Gantmacher, The Theory of Matrices, vol. 2, ch. XV (Routh–Hurwitz, Hankel forms).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import sympy as sp
 
 from lagrotor.algebra import decide_zero, normal_form
 from lagrotor.errors import InputError, NotExactError
+from lagrotor.mechanics.expressions import by_symbol, no_letter
 
 _S = sp.Symbol("s")
 
@@ -41,12 +44,15 @@ class LinearSystem:
     def _pencil(self, s: sp.Expr) -> sp.Matrix:
         return s**2 * self.mass + s * self.gyroscopic + self.stiffness
 
-    def modes(self) -> tuple[Mode, ...]:
-        """Return the modes, exact, where the factors of the characteristic polynomial are of degree two in s or s².
+    def modes(self, values: Mapping[sp.Symbol, Any] | None = None) -> tuple[Mode, ...]:
+        """The modes, exact where the factors of the characteristic polynomial are of degree two in s or s²; with `values`
+        for every symbol, numbers, sorted by |rate|.
 
         Raises:
-            InputError: for another factor; `System.linearise(at, values)` has its rates in numbers.
+            InputError: when neither is possible, or a symbol has no value.
         """
+        if values is not None:
+            return self._numeric_modes(values)
         modes: list[Mode] = []
         for factor, _ in sp.factor_list(sp.numer(sp.together(self.characteristic(_S))))[1]:
             if factor.has(_S):
@@ -60,6 +66,19 @@ class LinearSystem:
         columns = [pencil.adjugate()[:, j] for j in range(pencil.cols)]
         column = next((column for column in columns if not all(map(is_identically_zero, column))), None)
         return [column] if column is not None else list(pencil.nullspace(iszerofunc=is_identically_zero))
+
+    def _numeric_modes(self, values: Mapping[sp.Symbol, Any]) -> tuple[Mode, ...]:
+        import numpy as np
+
+        matrices = (self.mass, self.gyroscopic, self.stiffness, self.basis)
+        parts = [m.subs(by_symbol("modes: values", values, m.free_symbols)) for m in matrices]
+        no_letter("modes", set().union(*(m.free_symbols for m in parts)))
+        M, C, K, basis = (np.array(m.tolist(), dtype=float) for m in parts)
+        d = len(M)
+        below = np.linalg.solve(M, np.hstack([-K, -C]))
+        rates, vectors = np.linalg.eig(np.vstack([np.hstack([np.zeros((d, d)), np.eye(d)]), below]))
+        order = sorted(range(2 * d), key=lambda i: (round(float(abs(rates[i])), 9), rates[i].imag))
+        return tuple(Mode(sp.sympify(complex(rates[i]), strict=True), sp.Matrix(basis @ vectors[:d, i])) for i in order)
 
     @property
     def stable_if(self) -> sp.Basic:
@@ -158,9 +177,7 @@ def _roots(factor: sp.Poly) -> list[sp.Expr]:
     if even and factor.degree() == 4:
         squares = sp.roots(sp.Poly(factor.as_expr().subs(s, sp.sqrt(s)), s), multiple=True)
         return [sign * sp.sqrt(square) for square in squares for sign in (1, -1)]
-    raise InputError(
-        f"modes: {factor.as_expr()} = 0 is not solved in closed form: give linearise values={{symbol: number, …}}"
-    )
+    raise InputError(f"modes: {factor.as_expr()} = 0 is not solved in closed form: give values={{symbol: number, …}}")
 
 
 def _all_negative(a: list[sp.Expr]) -> list[sp.Expr]:
