@@ -5,8 +5,10 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.linalg import eigh
 
 from lagrotor.algebra import decide_equal
+from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, LinearSystem, System, coordinates
 from tests.systems import I1, I3, Omega, R, g, heavy_top, hoop, k, l, m, pendulum, rod_pendulum
 
@@ -178,3 +180,17 @@ def test_equal_rates_of_gyroscopic_systems_are_seen_in_any_numbers(stiffness: fl
     coupled = sp.eye(4) * stiffness
     coupled[0, 2] = coupled[1, 3] = sp.Rational(1, 10)  # the second drives the first at its own rate
     assert LinearSystem(sp.eye(4), turn, coupled, sp.eye(4)).stable_if == sp.false
+
+
+def test_modes_in_numbers_have_the_shapes_of_the_generalized_eigenvalue_problem() -> None:
+    """Two masses and three different springs: K u = w² M u by scipy; a symbol without a value is named."""
+    c = coordinates("x y")
+    (x, y), (v, w) = c.q, c.v
+    linear = System(c, m * v**2 / 2 + w**2 - k * x**2 / 2 - (x - y) ** 2 - y**2 / 4).linearise({x: 0, y: 0})
+    squares, shapes = eigh([[3.5, -2], [-2, 2.5]], np.diag([0.7, 2.0]))
+    modes = linear.modes({m: 0.7, k: 1.5})
+    assert [abs(complex(mode.rate)) for mode in modes] == pytest.approx(np.sqrt(np.repeat(squares, 2)))
+    for mode, shape in zip(modes[::2], shapes.T, strict=True):
+        assert complex(mode.shape[1] / mode.shape[0]) == pytest.approx(shape[1] / shape[0])
+    with pytest.raises(InputError, match="modes"):
+        linear.modes({m: 0.7})
