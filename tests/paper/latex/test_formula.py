@@ -21,6 +21,7 @@ def said(latex: str, *others: str, **table: str | bool) -> str:
 
 
 READ = {
+    r"x^{\mathrm{s}} = y": "x__s = y",
     r"F_i = m_i\ddot x_i + \sum_j a_{ij} x_j": "F_i = m_i*x_i_ddot + Sum(a_ij*x_j, j)",
     r"y = \ln\frac ab\,x + \sin\frac{n\pi}{l}": "y = log(a/b)*x + sin(n*pi/l)",
     r"\ddot\theta = -\frac{g}{l}\,\theta.": "theta_ddot = -g/l*theta",
