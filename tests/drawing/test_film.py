@@ -145,21 +145,6 @@ def test_gif_has_its_frames_size_and_duration(short, tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize(
-    ("name", "fps", "says"),
-    [
-        ("pair.png", 25, "end in .gif"),
-        ("pair.gif", 0.5, "fps"),
-        ("pair.gif", np.nan, "fps"),
-        ("no/pair.gif", 25, "existing"),
-    ],
-)
-def test_what_cannot_be_written_is_refused(short, tmp_path, name, fps, says):
-    with pytest.raises(InputError, match=says):
-        short.animate(tmp_path / name, fps=fps)
-    assert not list(tmp_path.iterdir())
-
-
 def test_interrupted_leaves_nothing(short, tmp_path):
     def stop(name):
         if name == "second 2":
@@ -214,14 +199,6 @@ def test_help_names_every_scene(capsys):
     assert main(["animate", "--help"]) == 0
     shown = capsys.readouterr().out
     assert all(name in shown and ready.says in shown for name, ready in SCENES.items())
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", SCENES)
-def test_every_ready_scene_is_filmed_whole(name, tmp_path):
-    assert main(["animate", name, "--out", str(tmp_path / "pair.gif")]) == 0
-    with Image.open(tmp_path / "pair.gif") as film:
-        assert film.n_frames == round(25 * SCENES[name].duration) + 1
 
 
 def test_trajectory_as_html(short):
