@@ -183,7 +183,7 @@ def add_scene_commands(command: Command) -> None:
     added = command(
         "animate",
         animate_command,
-        "write a ready scene's motion as GIF or MP4",
+        "write a ready scene's motion as a GIF",
         "lagrotor animate free-precession --out pair.gif",
     )
     says = "\n".join(f"  {name:<18} {ready.says}" for name, ready in SCENES.items())
