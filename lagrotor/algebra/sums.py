@@ -34,19 +34,6 @@ def written_out(e: sp.Sum) -> sp.Expr | None:
         added = range(1, int(shift) + 1) if shift > 0 else range(int(shift) + 1, 1)
         sign = 1 if shift > 0 else -1
         return sp.Sum(body, (i, low, base)) + sign * sp.Add(*(body.subs(i, base + k) for k in added))
-    if body.has(sp.core.function.AppliedUndef):
-        return _from_one(body, i, low, high)
-    return None
-
-
-def _from_one(body: sp.Expr, i: sp.Symbol, low: sp.Expr, high: sp.Expr) -> sp.Expr | None:
-    """Σ of an unknown f(i + c) as one of f(i) from 1."""
-    shifts = {sp.expand(f.args[0] - i) for f in body.atoms(sp.core.function.AppliedUndef) if f.has(i)}
-    if len(shifts) == 1 and (c := shifts.pop()).is_Integer and c:
-        return sp.Sum(sp.expand(body.subs(i, i - c)), (i, low + c, high + c))
-    if low.is_Integer and low != 1 and abs(low) < _MOST_TERMS:
-        missing = sp.Add(*(body.subs(i, k) for k in (range(1, int(low)) if low > 1 else range(int(low), 1))))
-        return sp.Sum(body, (i, 1, high)) + (-missing if low > 1 else missing)
     return None
 
 

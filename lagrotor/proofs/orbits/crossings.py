@@ -16,6 +16,7 @@ from lagrotor.proofs.stepping import Motion, scaled, taylor, with_rest
 from lagrotor.proofs.tails import Evaluation, Tailed
 from lagrotor.proofs.tape import Tape
 
+Asked = tuple[Field, Tape, Start]
 _DEPTH = 12  # halvings of a step
 
 
@@ -104,7 +105,7 @@ class Means(Proved):
         return {f"mean of {words(e)['of']}": printed(x) for (e, *_), x in zip(self.spans, self.values, strict=True)}
 
 
-def prepared(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[Any]) -> tuple[Field, Tape, Start]:
+def prepared(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[Any]) -> Asked:
     """The field, the expressions as a tape of its arguments, the start."""
     plain = [e.rhs if isinstance(e, sp.Eq) and e.lhs.is_Symbol else e for e in expressions]
     for e in plain:
@@ -169,17 +170,16 @@ def crossing(
     """
     accuracy, where = accuracy_of(tol, "crossing"), "crossing"
     with precision(accuracy.bits, accuracy.terms):
-        end = time_ball(before, where)
-        made, tape, start = prepared(system, values, q0, v0, [event])
+        end, asked = time_ball(before, where), prepared(system, values, q0, v0, [event])
         known, since, pending, clear, steps = 0, arb(0), False, True, list[CarriedStep]()
-        for step, low, high, sign in _signs(made, tape, start, end, accuracy, steps):
+        for step, low, high, sign in _signs(asked, end, accuracy, steps):
             if not sign:
                 pending = True
                 continue
             if known and sign != known:
                 time = since.union(step.node.t + step.h * low)
                 claim = {"time": ball_data(loosened(time)), "first": clear}
-                certificate = _certificate(made, start, steps, accuracy.bits, "crossing", words(event), claim)
+                certificate = _certificate(asked, steps, accuracy.bits, "crossing", words(event), claim)
                 return Crossing(event, True, time, clear, certificate)
             clear = clear and not pending
             known, since, pending = sign, step.node.t + step.h * high, False
@@ -213,22 +213,22 @@ def no_crossing(
     """
     accuracy, where = accuracy_of(tol, "no_crossing"), "no_crossing"
     with precision(accuracy.bits, accuracy.terms):
-        end = time_ball(until, where)
-        made, tape, start = prepared(system, values, q0, v0, [event])
+        end, asked = time_ball(until, where), prepared(system, values, q0, v0, [event])
         steps = list[CarriedStep]()
-        for step, low, _, sign in _signs(made, tape, start, end, accuracy, steps):
+        for step, low, _, sign in _signs(asked, end, accuracy, steps):
             if not sign:
                 at = float((step.node.t + step.h * low).mid())
                 raise NotProved(f"{where}: {words(event)['of']} is not shown to stay off zero beyond t = {at:.10g}")
         claim = {"time": ball_data(end), "first": False}
-        certificate = _certificate(made, start, steps, accuracy.bits, "no crossing", words(event), claim)
+        certificate = _certificate(asked, steps, accuracy.bits, "no crossing", words(event), claim)
         return Crossing(event, False, end, False, certificate)
 
 
 def _signs(
-    made: Field, tape: Tape, start: Start, end: Ball, accuracy: Accuracy, steps: list[CarriedStep]
+    asked: Asked, end: Ball, accuracy: Accuracy, steps: list[CarriedStep]
 ) -> Iterator[tuple[CarriedStep, Ball, Ball, int]]:
-    """Each step up to a time in pieces, with the sign of an expression over them; the steps are added to `steps`."""
+    """Yield each step up to a time in pieces, with the sign of an expression over them; the steps are added to `steps`."""
+    made, tape, start = asked
     for step in steps_of(made.motion, start, end, accuracy):
         steps.append(step)
         for piece in watch(made.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
@@ -236,9 +236,10 @@ def _signs(
 
 
 def _certificate(
-    made: Field, start: Start, steps: Sequence[CarriedStep], bits: int, kind: str, event: Any, claim: dict[str, Any]
+    asked: Asked, steps: Sequence[CarriedStep], bits: int, kind: str, event: Any, claim: dict[str, Any]
 ) -> Certificate:
     """Of a claim about an event, or about means, which name their own expressions."""
+    made, _, start = asked
     flow = flow_data(made.about, made.motion, start, steps, bits) | ({"event": event} if event else {})
     return flow | {"observed": observed_data(made), "kind": kind, "claim": claim}
 
@@ -294,6 +295,6 @@ def means(
             }
             for (e, *_), (since, until), x in zip(spans, ends, values_of, strict=True)
         ]
-        certificate = _certificate(made, start, steps, accuracy.bits, "means", None, {"means": claim})
+        certificate = _certificate((made, tape, start), steps, accuracy.bits, "means", None, {"means": claim})
         whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
         return Means(tuple(whole), tuple(values_of), certificate)

@@ -106,23 +106,6 @@ class Precession(Proved):
         with precision(self.bits):
             return self._signed(self.period)
 
-    def frequency_at(self, r0: Any) -> Ball:
-        """rad/s, of one amplitude of the family.
-
-        Raises:
-            DomainError: where it is none of them.
-        """
-        ends = r0 if isinstance(r0, tuple | list) else (r0, r0)
-        if all(self.ends[0] <= exactly(end) <= self.ends[1] for end in ends):
-            if self.ends[0] == self.ends[1]:
-                return self.frequency
-            with precision(self.bits):
-                U = ball(r0, "frequency_at: r0").atanh()
-                for piece in self.pieces:
-                    if isinstance(piece, FamilyPiece) and piece.ends[0] <= U <= piece.ends[1]:
-                        return self._signed(4 * piece.start(U)[-1])
-        raise DomainError(f"frequency_at: r0 = {r0!r} is not shown to lie in {interval(self.r0)}")
-
     def _signed(self, period: Ball) -> Ball:
         frequency = 2 * arb.pi() / period
         return frequency if self.scene.spins[0] > 0 else frequency.neg(exact=True)
