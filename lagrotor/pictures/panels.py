@@ -132,7 +132,7 @@ def shock_script(scene: Scene, letter: str) -> tuple[Callable[[], Any], Callable
 
     @cache
     def data() -> dict[str, Array]:
-        t: Array = np.arange(2001) * (5 * STEP)
+        t = np.asarray(np.arange(2001) * (5 * STEP), dtype=float)
         return centre_runs(t, simulate(scene, t))
 
     def measure() -> dict[str, float]:
