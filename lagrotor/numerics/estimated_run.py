@@ -310,7 +310,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         best = min(pair, best, key=lambda one: one.merit)
     pair = best
     while unavoidable <= tol < pair.error and not pair.refusal and not _hopeless(course, pair):
-        third = pair.error / APART.value <= tol / 2
+        third = pair.error / APART.value <= tol / 2 and pair.tight.local >= APART.value * TIGHTEST
         local = max(min(pair.tight.local, pair.loose.local * tol / pair.error / 2), APART.value * TIGHTEST)
         local, companion = (pair.tight.local, pair.tight.companion) if third else (local, True)
         if local / APART.value <= 1.1 * course.refused or local >= pair.loose.local:
