@@ -438,7 +438,6 @@ READERS = {
     "files.py": "arrays",
     "mechanics/running/simulation.py": "arrays",
     "models/spring_link/run.py": "arrays",
-    "models/sweeps/kept_chunks.py": "arrays",
     "numerics/run.py": "arrays",
     "numerics/generated.py": "system",
     "pair/scene_document.py": "scene",

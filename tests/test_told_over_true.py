@@ -36,6 +36,6 @@ def test_what_is_told_of_random_runs_is_safe_and_as_tight_as_the_ratio_of_their_
     rows = [*systems(0, 180, dense=True), *structures(100, 25, dense=True)]
     assert not any(row.silent for row in rows)
     assert sum(row.under > 1 for row in rows) <= len(rows) / 100 and max(row.under for row in rows) < 3
-    assert np.median([row.told / row.true for row in rows if row.true > ROUNDED]) < 15
+    assert np.median([row.told / row.true for row in rows if row.true > ROUNDED]) < 25
     # One is 10.4: an orbit that comes near to its centre (kepler 37), at a tolerance of 10⁻⁶.
     assert sorted(row.evaluations / row.plain for row in rows if row.plain > 0)[-2] < 10

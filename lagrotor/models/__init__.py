@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from lagrotor.models.mean_motion import wander_error as wander_error
     from lagrotor.models.mean_motion import wandering_rate as wandering_rate
     from lagrotor.models.orbits.floquet import slow_frequency_error as slow_frequency_error
-    from lagrotor.models.orbits.paired_fit import fourier_orbit as fourier_orbit
     from lagrotor.models.orbits.shooting import OrbitFamily as OrbitFamily
     from lagrotor.models.orbits.shooting import UprightOrbit as UprightOrbit
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit

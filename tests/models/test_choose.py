@@ -116,11 +116,6 @@ def test_the_chosen_rung_meets_the_tolerance_and_hardly_any_cheaper_one_would() 
     assert {model for _, model in chosen} >= {"closed_form", "linear", "minimal"}
 
 
-@pytest.mark.slow
-def test_the_same_on_500_scenes() -> None:
-    check(2, 500)
-
-
 @pytest.mark.parametrize("count", [12, pytest.param(300, marks=pytest.mark.slow)])
 def test_the_fast_extra_misses_none_either_and_foresees_only_long_runs(count: int) -> None:
     pytest.importorskip("heyoka", reason="the fast extra is not installed")

@@ -6,12 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from lagrotor.mechanics import bias, mass_matrix
-from lagrotor.models.programs.minimal_program import _curve as bar_stages
-from lagrotor.models.programs.minimal_program import _Stages, observation, program
+from lagrotor.models.programs.minimal_program import observation, program
 from lagrotor.numerics import Program, compile_program, operations
 from lagrotor.numerics.codegen import Stage, solve_symmetric
 from lagrotor.pair import bar_curve, mercator_axis, mercator_lagrangian, minimal_embedding
@@ -139,36 +136,6 @@ def test_a_changed_sign_is_seen() -> None:
 @pytest.mark.parametrize(("massive", "ratio", "body"), KINDS)
 def test_slim_is_what_it_is_called(massive: bool, ratio: Any, body: int) -> None:
     assert operations(program(massive, ratio, body)) < 0.72 * operations(eliminated(massive, ratio, body))
-
-
-@pytest.mark.parametrize("ratio", LENGTH)
-@settings(max_examples=5, deadline=None)
-@given(share=st.floats(-0.9, 0.9))
-def test_the_derivatives_are_those_of_the_bars_curve(ratio: Any, share: float) -> None:
-    chi = MINIMAL.q[1]
-    at = {chi: sp.Float(share * (np.pi / 2 if ratio == "equal" else np.pi))}
-    at |= dict.fromkeys([k], sp.Float(*LENGTH[ratio] or [1.0]))
-    stages, values = _Stages(), dict(at)
-    found = bar_stages(stages, ratio)
-    for symbol, expression in stages:
-        values[symbol] = expression.xreplace(values).evalf()
-    curve, by_name = bar_curve(ratio), {s.name: float(x) for s, x in values.items()}
-    expected = {
-        "D1": curve.twist.diff(chi), "D2": curve.twist.diff(chi, 2),
-        "W1": curve.latitude.diff(chi), "W2": curve.latitude.diff(chi, 2),
-    }  # fmt: skip
-    for name, expression in expected.items():
-        value = float(getattr(found, name).xreplace(values))
-        assert value == pytest.approx(float(expression.xreplace(at)), rel=1e-9, abs=1e-11), name
-    assert by_name["drop"] == pytest.approx(float(sp.exp(-curve.latitude).xreplace(at)), rel=1e-12)
-    assert float(found.square.xreplace(values)) == pytest.approx(
-        float((found.D1**2 + found.W1**2).xreplace(values)), rel=1e-9
-    )
-    # Twin: the latitude's slope is not rho's.
-    assert (
-        float(found.W1.xreplace(values)) != pytest.approx(float(curve.rho.diff(chi).xreplace(at)), rel=1e-3)
-        or abs(share) < 1e-3
-    )
 
 
 @pytest.mark.parametrize("ratio", LENGTH)

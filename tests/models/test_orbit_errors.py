@@ -10,19 +10,15 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-import lagrotor
 from lagrotor import (
     Link,
     Rotor,
     Scene,
-    Shock,
     corrected_trajectories,
     natural_rate,
     paired_frequency,
     paired_momentum,
-    paired_scene,
     precession_orbit,
-    simulate,
 )
 from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit
@@ -245,17 +241,6 @@ def test_at_any_time_within_the_error_that_time_allows() -> None:
     assert orbit.error < apart < orbit.error_at(times).max()
 
 
-def test_a_paired_scene_stays_on_its_orbit() -> None:
-    for scene, r0 in ((MASSLESS, 0.6), (Scene((-10, 10), link=Link(1, 1, 1)), 0.2)):
-        orbit = precession_orbit(scene, r0)
-        turn = 2 * np.pi / abs(orbit.frequency)
-        run = simulate(paired_scene(scene, r0), np.linspace(0, turn, 31), "minimal", 1e-12)
-        assert np.abs(run.axes - orbit(run.t)).max() < 1e-7
-        assert np.abs(run.axes[:, -1] - run.axes[:, 0]).max() < 1e-7
-    kept = paired_scene(replace(MASSLESS, shock=Shock((1, 0, 0), 1, 0.1)), 0.1)
-    assert kept.shock is not None
-
-
 def test_refused() -> None:
     for r0 in (1.0, -2, float("nan"), "much"):
         with pytest.raises(DomainError, match="r0"):
@@ -287,8 +272,3 @@ def test_a_form_without_a_bound_says_so_and_an_exact_one_is_exact() -> None:
         replace(paired_frequency(3), bound=None).error(0.1, 1.0, 1.0)
     with pytest.raises(DomainError, match="outside its domain"):
         paired_frequency(3).error(1.1, 1.0, 1.0)
-
-
-def test_public_names() -> None:
-    for name in lagrotor.__all__:
-        assert getattr(lagrotor, name).__doc__, name

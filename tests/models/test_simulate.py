@@ -19,12 +19,6 @@ TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
 TURNING = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))
 
 
-def test_times_that_make_sense_are_kept() -> None:
-    assert simulate(UPRIGHT, [0]).t.tolist() == [0]
-    assert simulate(UPRIGHT, (0, 1)).t.tolist() == [0, 1]
-    assert simulate(UPRIGHT, [0.5]).t.tolist() == [0.5]
-
-
 def test_unknown_models_are_refused_by_name() -> None:
     known = "auto, closed_form, linear, averaged, minimal, spheres, euler"
     with pytest.raises(InputError, match=f"model = 'maximal' is not one of {known}"):
@@ -96,11 +90,6 @@ def test_auto_falls_back_to_unit_vectors_and_says_why(scene: Scene, reason: str)
     assert re.match(f"regular everywhere; .*{reason}", run.why)
     assert run.axes == pytest.approx(simulate(scene, times, "spheres", 1e-13).axes, abs=1e-10)
     assert scene.shock or np.ptp(run.energy) < 1e-8
-
-
-def test_refused_input_is_not_run_by_another_model() -> None:
-    with pytest.raises(InputError, match="increasing"):
-        simulate(Scene((10, -10), link=None), [1, 0])
 
 
 def test_a_run_out_of_reach_is_stopped() -> None:

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor import Paper, Scene, Structure, floquet, read_scene, simulate, sweep, write_scene
+from lagrotor import Paper, Scene, Shock, Structure, floquet, read_scene, simulate, sweep, write_scene
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates
 
 SCENE, TIMES = Scene((10.0, -10.0)), np.linspace(0.0, 0.1, 3)
+SHAKEN = Scene((10.0, -10.0), shock=Shock((1, 0, 0), 0.1, 0.1))
 STRUCTURE = Structure([(0, 0), (1, 0)], [(0, 1)], 10.0)
 C = coordinates("q")
 SYSTEM = System(C, C.v[0] ** 2 / 2 - C.q[0] ** 2 / 2)
@@ -39,7 +40,13 @@ class Client:
         (lambda: sweep([SCENE], TIMES, progress=5), r"sweep: progress = 5 must be a function of two numbers"),
         (lambda: sweep([SCENE], TIMES, executor=4), r"sweep: executor = 4 must be .*client\.get_executor\(\)"),
         (lambda: sweep([SCENE], TIMES, executor=Client()), r"sweep: executor = .*client\.get_executor\(\)"),
-        (lambda: sweep([SCENE], TIMES, folder=5), r"sweep: folder = 5 must be a path"),
+        (lambda: sweep(SCENE, TIMES), r"sweep: scenes must be a sequence of at least one Scene"),
+        (lambda: sweep([], TIMES), r"a sequence of at least one Scene"),
+        (lambda: sweep([1.0], TIMES), r"a sequence of at least one Scene"),
+        (lambda: sweep([SCENE], TIMES, chunk=0), r"chunk = 0 must be a whole number"),
+        (lambda: sweep([SCENE], TIMES, chunk=True), r"chunk = True must be a whole number"),
+        (lambda: sweep([SCENE], TIMES, engine="quick"), r"sweep: engine = 'quick' is neither core nor fast"),
+        (lambda: sweep([SHAKEN], TIMES, engine="fast"), r"takes no shock"),
         (lambda: sweep([SCENE], TIMES, 5), r"sweep: tol = 5 must lie between"),
         (lambda: floquet(5, 0.2), r"the paired precession needs a Scene, not 5"),
         (lambda: simulate(SCENE, TIMES).save(5), r"save: path = 5 must be a path"),

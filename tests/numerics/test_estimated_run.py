@@ -419,3 +419,9 @@ def test_two_that_parted_are_hopeless_only_beyond_the_reach_of_the_tightest(grow
         assert not estimated_run._hopeless(course, replace(pair, lost=np.inf))
         begun_lost = replace(pair, loose=estimated_run._Integration(LOST, True, nothing))
         assert not estimated_run._hopeless(course, begun_lost)  # nothing is known of how it grows
+
+
+def test_no_local_error_is_below_the_tightest() -> None:
+    made = Made(share=0.3)
+    made.run(3e-13, T / 10)
+    assert min(made.locals) == TIGHTEST and len(made.locals) < 5

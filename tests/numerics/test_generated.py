@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.numerics import Program
-from lagrotor.numerics.generated import GeneratedFunction, function_of
+from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.printers import program_source
 from tests.numerics.renew_generated import derived_files, kept_functions
 
@@ -41,12 +41,6 @@ def test_a_function_that_is_not_kept_is_derived_once(tmp_path: Path, monkeypatch
     power = kept_in(tmp_path, monkeypatch, "")
     assert power(3)(0.3, 1.0) == power(3)(0.3, 1.0) == pytest.approx([sp.sin(0.3) ** 3 + 1, sp.exp(0.3)])
     assert DERIVED == [3]
-
-
-@pytest.mark.parametrize("module", ["math", "numpy"])
-def test_the_source_defines_the_function_that_is_compiled(module: str) -> None:
-    source = program_source(Program((x, y), (), (sp.atan2(y, x), sp.pi * x)), module)
-    assert function_of(source)(0.3, 0.4) == pytest.approx([0.9272952180016122, 0.3 * 3.141592653589793])
 
 
 MODELS = ("models.simulate", "models.orbits.precession")

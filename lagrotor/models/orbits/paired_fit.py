@@ -1,23 +1,18 @@
-"""The paired precession through a start: amplitude, phase and azimuth fitted, its series through the order that `tol` needs; and
-where that does not reach it, one integrated period as a Fourier series, at any time."""
+"""The paired precession through a start: amplitude, phase and azimuth fitted, its series through the order that `tol` needs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import exp, inf, pi, sqrt
+from math import exp, inf, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.errors import DomainError, LagrotorError
-from lagrotor.models.minimal import MODEL
-from lagrotor.models.model import Array, ClosedMotion, integrate_model, natural_units
-from lagrotor.models.orbits.variational import flow
+from lagrotor.errors import DomainError
+from lagrotor.models.model import Array, ClosedMotion
 from lagrotor.numerics.estimated_run import UNKNOWN
-from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.shown import superscript
 from lagrotor.theory.natural_rate import natural_rate
@@ -30,14 +25,10 @@ if TYPE_CHECKING:
 _Waves = NDArray[np.complex128]
 _ORDERS = (3, 5, 7, 9, 11, 13, 15)
 _FURTHER = (17, 19, 21)  # a second to derive: only for this model by name
-LONG = 300.0  # rad beyond which a period is integrated where the series does not reach the tolerance
 _LARGEST = 0.5  # amplitude beyond which the series is of no use
 _DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
 ROUND = 4e-16  # relative, of an angle
 _SMALL = 0.1  # of an error, known to first order
-_SAMPLES = 256  # of one period: harmonics to 127
-_FLOW = 1e-12  # tolerance of the variational equations
-_LEAST = 1e-16  # of a harmonic that is kept
 # What exchanging the rotors, half a period later, does to an axis.
 _MIRRORS = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
 
@@ -159,20 +150,7 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
     # Half a period later odd waves change sign.
     rotors = _turned(np.stack([waves, np.where(odd, -waves, waves)]) * _MIRRORS[:, None], azimuth)
     reason = f"on its paired precession of amplitude {r0:.3g}: periodic series through r₀{superscript(order)}"
-    answer = ClosedMotion(error, reason, fourier_motion(rotors, frequency, phase))
-    return answer if error <= tol or turned < LONG else _over_periods(scene, answer, frequency, t_end)
-
-
-def _over_periods(scene: Scene, series: ClosedMotion, frequency: float, t_end: float) -> ClosedMotion:
-    """For a long run that the series cannot follow: one period integrated, where the start returns to itself."""
-    try:
-        orbit = fourier_orbit(replace(scene, shock=None), 2 * pi / abs(frequency))
-    except LagrotorError:
-        return series
-    error = (orbit.mismatch + ROUND) * (abs(frequency) * t_end + parting(orbit, t_end))
-    if not error < min(series.error, _SMALL):
-        return series
-    return ClosedMotion(error, "on its paired precession: Fourier series of one integrated period", orbit.motion)
+    return ClosedMotion(error, reason, fourier_motion(rotors, frequency, phase))
 
 
 @lru_cache(maxsize=64)
@@ -195,54 +173,6 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
             f"{r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
         )
     return np.array([r0, phase, azimuth])
-
-
-@dataclass(frozen=True, eq=False)
-class FourierOrbit:
-    """period (s); mismatch: how far axes, and rates over the frequency, are from the start after one period, and what the
-    series leaves out; monodromy (6, 6): of small deviations over one period, in the minimal model's natural units; motion:
-    times (n,) in s → axes and rates, each (2, n, 3)."""
-
-    period: float
-    mismatch: float
-    monodromy: Array
-    motion: Callable[[Array], tuple[Array, Array]]
-
-
-def fourier_orbit(scene: Scene, period: float) -> FourierOrbit:
-    """The scene's motion, its period known to a small share, as the Fourier series of one integrated period.
-
-    The period is corrected so that the axes return as nearly as they do: r(T) − r(0) + r'(0) dT is least. Raises
-    SingularError or IntegrationError where `minimal` cannot run the scene over a period.
-    """
-    units = natural_units(scene)
-    turn = period * units.rate
-    for _ in range(3):
-        times = turn * np.linspace(0.0, 1.0, _SAMPLES + 1)
-        seen = MODEL.observe(units.scene, integrate_model(MODEL, units.scene, times, TIGHTEST, bounded=True).states)
-        off, ahead = seen.axes[:, -1] - seen.axes[:, 0], seen.rates[:, 0]
-        shift = float((off * ahead).sum() / (ahead**2).sum())
-        last, turn = turn, turn - shift
-    turning = (seen.rates[:, -1] - seen.rates[:, 0]) * last / (2 * np.pi)
-    waves = np.fft.rfft(seen.axes[:, :-1], axis=1) / _SAMPLES
-    sizes = np.abs(waves).max(axis=(0, 2))
-    kept = int(np.flatnonzero(sizes > _LEAST).max()) + 1
-    tail = float(sizes[_SAMPLES // 4 :].sum())
-    waves[:, 1:] *= 2  # of those of negative harmonics, too
-    return FourierOrbit(
-        last / units.rate,
-        float(np.abs(off).max() + np.abs(turning).max()) + tail,
-        flow(units.scene)(MODEL.start(units.scene), last, _FLOW).slope,
-        fourier_motion(waves[:, :kept], 2 * np.pi * units.rate / last),
-    )
-
-
-def parting(orbit: FourierOrbit, t_end: float) -> float:
-    """How far deviations from the orbit grow up to t_end (s): the largest norm of the monodromy's powers of 2ⁿ periods."""
-    power, most, count = orbit.monodromy, 1.0, t_end / orbit.period
-    while count >= 1 and most < 1e20:
-        most, power, count = max(most, float(np.linalg.norm(power, 2))), power @ power, count / 2
-    return 2 * most  # between two powers of two
 
 
 def fourier_motion(

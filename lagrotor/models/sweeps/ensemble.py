@@ -1,5 +1,5 @@
 """Many scenes at once: the minimal model on arrays, every trajectory with its own step, each held to the contract of runs as it
-is alone, in chunks that a cache holds.
+is alone, in chunks that a processor's cache has room for.
 
 A chunk is one call of `run_chunk`, which needs nothing but its arguments: any executor of `concurrent.futures` can run
 it, on this machine or on others.
@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from math import pi
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,6 @@ from lagrotor.models.minimal import MODEL, Kind, program, rhs_on_arrays
 from lagrotor.models.model import PACE, NaturalUnits, check_range, constant_momenta, natural_units
 from lagrotor.models.simulate import evolution_of, simulate, trajectory_of
 from lagrotor.models.sweeps.batch_dop853 import Index, Rates, Swarm, march_swarm
-from lagrotor.models.sweeps.kept_chunks import kept_chunks
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.estimated_run import Evolution, Leg, Patience, estimate_runs, first_time
 from lagrotor.numerics.integrate import check_engine, check_tolerance
@@ -108,7 +106,6 @@ def sweep(
     chunk: int = CHUNK,
     executor: Executor | None = None,
     engine: str = "core",
-    folder: str | Path | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Ensemble:
     """Run every scene from its start, which holds at t[0], and read it at the times `t` (m,) in s.
@@ -120,12 +117,10 @@ def sweep(
         engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
         chunk: trajectories at a time.
         executor: a `concurrent.futures.Executor`, of dask `client.get_executor()`; None: chunks run here, one after another.
-        folder: an existing folder for the finished chunks; a later sweep with the same arguments runs only those that are missing
-            or damaged.
         progress: called with the number of trajectories done and of all, after each chunk.
 
     Raises:
-        InputError: for bad arguments, no scene, or a folder with a chunk of another sweep.
+        InputError: for bad arguments, or no scene.
     """
     times, tolerance, members = check_times("sweep", t), check_tolerance(tol, "sweep"), _checked(scenes, chunk, engine)
     if not (progress is None or callable(progress)):
@@ -135,31 +130,15 @@ def sweep(
         raise InputError(f"sweep: executor = {executor!r} must be {way}")
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
     parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
-    target = None if folder is None else kept_chunks(folder, members, times, tolerance, chunk, engine)
     whole, endings, done = _not_run(members, times, tolerance), dict[int, Ending](), 0
-
-    def keep(number: int, result: Ensemble) -> None:
-        nonlocal done
-        for name, values in _arrays(result).items():
-            getattr(whole, name)[parts[number]] = values
+    work = {number: ([members[i] for i in part], times, tolerance, engine) for number, part in enumerate(parts)}
+    for number, result in _run(work, executor):
+        for name in ("axes", "rates", "errors", "evaluations", "models"):
+            getattr(whole, name)[parts[number]] = getattr(result, name)
         endings.update(zip(parts[number], result.endings, strict=True))
         done += len(parts[number])
         if progress is not None:
             progress(done, len(members))
-
-    work: dict[int, tuple[list[Scene], Array, float, str]] = {}
-    for number, part in enumerate(parts):
-        those = [members[i] for i in part]
-        blank = _not_run(those, times, tolerance)
-        if target and (stored := target.read(number, _arrays(blank))):
-            arrays: dict[str, Any] = dict(stored[0])
-            keep(number, replace(blank, endings=stored[1], **arrays))
-        else:
-            work[number] = those, times, tolerance, engine
-    for number, result in _run(work, executor):
-        if target:
-            target.write(number, _arrays(result), result.endings)
-        keep(number, result)
     whole = replace(whole, endings=tuple(ending for _, ending in sorted(endings.items())))
     if missed := int((~(whole.error <= tolerance)).sum()):
         said = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
@@ -173,10 +152,6 @@ def _not_run(scenes: Sequence[Scene], times: Array, tol: float) -> Ensemble:
     axes, rates = np.full((2, n, 2, m, 3), np.nan)
     none, spent = np.full(n, MODELS.index("none")), np.zeros(n, np.int64)
     return Ensemble(tuple(scenes), times, axes, rates, np.full((n, m), np.nan), tol, spent, none, (Ending(),) * n)
-
-
-def _arrays(e: Ensemble) -> dict[str, NDArray[Any]]:
-    return {name: getattr(e, name) for name in ("axes", "rates", "errors", "evaluations", "models")}
 
 
 def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, ...]:
