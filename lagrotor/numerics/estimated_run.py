@@ -6,8 +6,8 @@ exceeds LOST nothing is known. The conserved quantities must be conserved as wel
 
 Where errors follow the local error, the difference is APART − 1 times the error of the better run, and the estimate
 SAFETY (APART − 1) times that error. An error that both runs have alike is not seen, which is why the two local errors differ so
-much: of a fifth of the local error, one of the 1,000 recorded scenes has two runs that are off by the same 2×10⁻⁵. It remains an
-estimate: one of 312 random systems is off by 1.3 times its own, within `tol`.
+much: at a fifth of the local error, one of the 1,000 recorded scenes has two runs that are off by the same 2×10⁻⁵. It remains an
+estimate: of 360 random systems one, whose neighbouring motions part, is off by 1.6 times it, and warns that `tol` is not kept.
 """
 
 import warnings

@@ -85,12 +85,14 @@ def smooth_motion(
     followed: tuple[NarrowPart, ...] = (),
     progress: Callable[[float], None] | None = None,
     solver: SegmentSolver | None = None,
+    stiff: bool = False,
 ) -> Integrate:
     """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
 
     The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
     which it is regular. windows: where something acts briefly by the clock. followed: what is integrated with the motion.
     progress: called with the time of each evaluation by the core. solver: one of the core's, the fastest if none is given.
+    stiff: whether neighbouring motions approach each other so fast that a method for stiff motions may be chosen.
     """
     program, known = motion_program(system, followed), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states) - len(followed)
@@ -117,7 +119,8 @@ def smooth_motion(
             chosen = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
         else:
             scale = with_followed(units, followed, local, companion)
-            chosen = by_units(solver or (_as_in_pulse if followed else by_fastest), scale)
+            core = solver or (_as_in_pulse if followed else by_fastest)
+            chosen = by_units(_tighter(core) if stiff and companion else core, scale)
         try:
             return integrate(problem, since, local, chosen).cut(d)
         except StopError as stop:
@@ -131,3 +134,12 @@ def smooth_motion(
 
 def _as_in_pulse(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     return by_fastest(segment, pulsed or tol >= CROSSOVER.value, tol)
+
+
+def _tighter(solver: SegmentSolver) -> SegmentSolver:
+    """Return the solver at a hundredth of its tolerance: two runs of a stiff motion at like tolerances share their error."""
+
+    def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
+        return solver(segment, pulsed, max(tol / 100, min(tol, CROSSOVER.value)))
+
+    return solve

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(
     not EXTENDED, reason="the references need numbers of 64 bits, which this machine has not"
 )
 ROUNDED = 1e-12  # an error at one of the times that rounding alone may make
-SLACK = 2.0  # of an estimate: the error of seed 1209 is 1.3 times its own, far within tol
+WARNED = 2.0  # times its estimate an error may be where the run warns that tol is not kept: neighbouring motions part
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ def outcome(seed: int, engine: str = "core") -> Outcome:
     true = run.scales.distance(np.hstack([run.q, run.v]), exact)
     sizes = np.abs(exact).max(0)
     assert (run.scales.sizes < 1e4 * np.maximum(sizes, sizes.max() / 1e3)).all()  # no error is hidden in a size
-    everywhere = bool((true <= SLACK * np.maximum(run.errors, ROUNDED)).all())
+    everywhere = bool((true <= (WARNED if announced else 1.0) * np.maximum(run.errors, ROUNDED)).all())
     return Outcome(
         f"{given.name} {seed}", float(true.max()), run.error, bool(true.max() <= given.tol), announced, everywhere
     )
@@ -52,7 +52,8 @@ def held(outcomes: list[Outcome]) -> list[str]:
     return [
         str(o)
         for o in outcomes
-        if o.true > SLACK * max(o.error, ROUNDED) or not o.everywhere or not (o.kept or o.announced)
+        if o.true > (WARNED if o.announced else 1.0) * max(o.error, ROUNDED)
+        or not (o.everywhere and (o.kept or o.announced))
     ]
 
 
