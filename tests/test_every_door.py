@@ -407,7 +407,7 @@ def trusted(evolution: Any, times: Any, tol: float) -> EstimatedRun:
     """A twin of the estimate: one integration with `tol` for its local error, and its error taken for granted."""
     once = evolution.integrate(evolution.start, times, tol, False, np.inf)
     end, errors = Ending("end", float(times[-1])), np.full(len(times), tol)
-    return EstimatedRun(times, once.states, errors, np.inf, once.evaluations, end, tol, np.inf)
+    return EstimatedRun(times, once.states, errors, np.inf, once.evaluations, end, tol)
 
 
 def of_free_tops(door: str) -> Case:

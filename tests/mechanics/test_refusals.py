@@ -355,8 +355,8 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "psi moves there": lambda: SLOT.linearise(dict.fromkeys(S.q, 0) | {S.v[2]: k}),
         "the point is off the constraints: ": lambda: rolling_disc()[0].linearise(DISC | {"psi_dot": 1}),
         "theta moves there and enters": lambda: CART.linearise({ct: 0, cw: 1}, inputs=(F,)),
-        r"functions F\(t\) as inputs": lambda: cart_and_pole(F * t).linearise({ct: 0}, inputs=(F,)),
-        "F' of the input F enters": lambda: System(A, UNIT + v * sp.Function("F")(t).diff(t)).linearise(
+        r"write a letter for an input F\(t\)": lambda: cart_and_pole(F * t).linearise({ct: 0}, inputs=(F,)),
+        r"of a function F\(t\) write a letter F": lambda: System(A, UNIT + v * sp.Function("F")(t).diff(t)).linearise(
             {q: 0}, inputs=(sp.Function("F")(t),)
         ),
         # Weakly nonlinear motion
@@ -386,7 +386,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "after kanes_equations": lambda: System.from_sympy(
             KanesMethod(ReferenceFrame("N"), [q1], [u1], [q1.diff() - u1])
         ),
-        "modes: .* give linearise values": lambda: THREE.modes(),
+        "modes: .* give values": lambda: THREE.modes(),
     },
     SingularError: {
         r"not regular in psi_dot; use fewer": lambda: accelerations(S.v[0] ** 2 + S.v[1] ** 2 - S.q[2], S),

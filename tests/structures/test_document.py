@@ -88,7 +88,7 @@ def test_where_a_bar_keeps_it_from_being_upright_the_command_says_what_can_be_do
 
 def test_the_command_draws(tmp_path, capsys) -> None:
     for name in ("square.png", "square.gif"):
-        assert main(["structure", "square", "--out", str(tmp_path / name), "--t-end", "0.2"]) == 0
+        assert main(["structure", "square", "--out", str(tmp_path / name)]) == 0
         assert (tmp_path / name).stat().st_size > 1000
         assert capsys.readouterr().out.endswith(f"{tmp_path / name}\n")
 
@@ -100,7 +100,6 @@ def test_the_command_draws(tmp_path, capsys) -> None:
         ["missing.toml"],
         ["corner", "--out", "c.docx"],
         ["corner", "--out", "/no/c.png"],
-        ["corner", "--out", "c.gif", "--t-end", "0"],
     ],
 )
 def test_the_command_refuses_in_a_line(given, capsys) -> None:

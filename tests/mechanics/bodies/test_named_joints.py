@@ -10,7 +10,6 @@ from scipy.special import ellipj
 from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import Frame, System, coordinates
 from lagrotor.mechanics.bodies.trees import tree_of
-from lagrotor.mechanics.running import programs
 from lagrotor.mechanics.running.programs import function_program
 from tests.systems import I1, I2, I3, VALUES, ball_top, g, l, m, values_of
 
@@ -205,13 +204,8 @@ def test_a_loop_of_ball_joints_moves_as_a_pendulum_about_the_line_of_its_ends() 
     assert np.abs(run.u[:, 1:]).max() < 1e-9 and run.drift.max() < 1e-10
 
 
-@pytest.mark.parametrize("written", [True, False])
-def test_a_tree_moves_alike_in_velocities_that_are_no_joints(written: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A ball joint and a hinge, with the speed of a point for the hinge's rate, and a wire that stays a constraint: from the
-    Lagrangian as it is written, and by the recursion, which longer ones keep."""
-    if not written:
-        monkeypatch.setattr(programs, "_REDUCED", 0)
-        function_program.cache_clear()
+def test_a_tree_moves_alike_in_velocities_that_are_no_joints() -> None:
+    """A ball joint and a hinge, with the speed of a point for the hinge's rate, and a wire that stays a constraint."""
     c = coordinates("q0 q1 q2 q3 a")
     first = Frame(c).ball("q0 q1 q2 q3", omega="p q r")
     arm = first.moved(l, 0, l / 2).pin(c.q[4], "y")
