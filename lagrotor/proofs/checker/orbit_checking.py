@@ -67,7 +67,7 @@ def check_amplitude(certificate: Any, claimed: Any) -> None:
     demand(certificate["ones"] == 4, "energy and momentum leave one pair of multipliers")
     demand(certificate["free"] == _FREE, "the amplitude is not held")
     U = read_ball(certificate["start"]["middle"][0])
-    demand(claimed[0] == claimed[1] and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
+    demand(claimed == [claimed[0]] * 2 and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
 
 
 def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any) -> None:
