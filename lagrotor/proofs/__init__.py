@@ -16,12 +16,11 @@ cannot be proved raises `NotProved`; it may still be true.
 4. `carried_sets`: steps are joined in Lohner's frames, so that sets do not grow by wrapping.
 5. `orbits/enclosure`, `orbits/crossings`: states, signs and means along the steps.
 6. `matrices`, `orbits/closed_orbits`, `orbits/steady`: Newton's method finds an orbit or equilibrium, and Krawczyk's test proves
-   that it exists and is alone nearby. Enclosed multipliers or eigenvalues give the stability.
-7. `orbits/taylor_models`, `orbits/families`, `orbits/paired_orbits`: all orbits of a family are followed at once as polynomials
-   of a parameter ε.
+   that it exists and is alone nearby. Enclosed multipliers or eigenvalues give the stability. `orbits/paired_orbits` does so
+   for the pair, from a quarter of a period.
 
 **How it is checked.** Each result has a `certificate`, plain data: subject, tape, start, steps, claim. `check` in `checker/`
-reads it and looks for nothing. It has its own series, bounds, Taylor models and derivatives. It takes only the table of
+reads it and looks for nothing. It has its own series, bounds and derivatives. It takes only the table of
 operations, the generated equations of scenes and structures, and the words of `statements` from here. It shows that the tape is
 that of the subject (an identity modulo a prime of 512 bits), that each set holds the image of the one before, and that the claim
 follows. It returns the theorem, composed from the claim that it verified. This second implementation is deliberate.

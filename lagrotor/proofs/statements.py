@@ -284,16 +284,15 @@ def _ones(ones: int, kind: str) -> str:
 
 
 def _precession(certificate: Certificate) -> str:
-    """Of one amplitude or of a family."""
+    """Return the words of the pair's orbit of one amplitude."""
     claim = certificate["claim"]
-    low, high = map(_decimal, claim["r0"])
-    every = f"at r0 = {low}" if low == high else f"for every r0 in [{low}, {high}]"
-    stable = f", {claim['kind']}" if claim.get("kind", "undecided") != "undecided" else ""
+    stable = f", {claim['kind']}" if claim["kind"] != "undecided" else ""
     frequency = printed(2 * arb.pi() / _claimed(claim["period"]), 22)
-    turning = "it turns at" if low == high else "they are one smooth curve and turn at frequencies in"
-    known = _ones(4, claim.get("kind", "undecided"))
     who = _subject(certificate)
-    return f"{who[0].upper()}{who[1:]} has, {every}, a paired precession{stable}; {turning} {frequency} rad/s.{known}"
+    return (
+        f"{who[0].upper()}{who[1:]} has, at r0 = {_decimal(claim['r0'][0])}, a paired precession{stable}; "
+        f"it turns at {frequency} rad/s.{_ones(4, claim['kind'])}"
+    )
 
 
 def _equilibrium(certificate: Certificate) -> str:
@@ -334,6 +333,5 @@ _WORDS: dict[str, Callable[[Certificate], str]] = {
     "no crossing": _no_crossing,
     "means": _means,
     "periodic orbit": _periodic_orbit,
-    "family": _precession,
     "equilibrium": _equilibrium,
 }

@@ -7,13 +7,11 @@ cos solve their differential equations, where integrating s^(n−1) divides by n
 """
 
 from collections.abc import Sequence
-from typing import Any, TypeAlias
+from typing import Any
 
 from lagrotor.errors import NotProved
 from lagrotor.proofs.balls import ZERO, Ball, arb, arb_poly, arb_series, ctx, max_of, upper
 from lagrotor.proofs.tape import Tape
-
-Series: TypeAlias = Any  # Tailed, or a TaylorModel
 
 
 class TailError(NotProved):
@@ -175,14 +173,14 @@ def series_values(tape: Tape, arguments: Sequence[Any]) -> list[Any]:
 
 
 class Evaluation:
-    """The tape over series with their tails, or Taylor models: its values, and derivatives of the outputs backwards."""
+    """The tape over series with their tails: its values, and derivatives of the outputs backwards."""
 
-    def __init__(self, tape: Tape, arguments: Sequence[Series]) -> None:
+    def __init__(self, tape: Tape, arguments: Sequence[Tailed]) -> None:
         self.tape, self._arguments = tape, arguments
-        self.values: list[Series] = []
-        self._slopes: dict[int, Series] = {}  # of an operation of one operand, by that operand
-        self._twins: dict[int, tuple[Series, Series]] = {}
-        self._inverses: dict[int, Series] = {}
+        self.values: list[Tailed] = []
+        self._slopes: dict[int, Tailed] = {}  # of an operation of one operand, by that operand
+        self._twins: dict[int, tuple[Tailed, Tailed]] = {}
+        self._inverses: dict[int, Tailed] = {}
         for place, (name, *on) in enumerate(tape.operations):
             if name == "argument":
                 self.values.append(arguments[on[0]])
@@ -192,15 +190,15 @@ class Evaluation:
                 self.values.append(self._value(place, name, on))
 
     @property
-    def outputs(self) -> list[Series]:
+    def outputs(self) -> list[Tailed]:
         """The tape's outputs."""
         return [self.values[place] for place in self.tape.outputs]
 
-    def fixed(self, value: Ball) -> Series:
+    def fixed(self, value: Ball) -> Tailed:
         """A number as a series."""
         return self._arguments[0].constant(value)
 
-    def _value(self, place: int, name: str, on: list[int]) -> Series:
+    def _value(self, place: int, name: str, on: list[int]) -> Tailed:
         a = self.values[on[0]]
         if name == "add":
             return a + self.values[on[1]]
@@ -213,13 +211,13 @@ class Evaluation:
             return a * self._slopes[place]
         return self._function(place, name, on[0], a)
 
-    def _inverse(self, operand: int) -> Series:
+    def _inverse(self, operand: int) -> Tailed:
         """1/a, once for each operand."""
         if operand not in self._inverses:
             self._inverses[operand] = self.values[operand].inverse()
         return self._inverses[operand]
 
-    def _function(self, place: int, name: str, operand: int, a: Series) -> Series:
+    def _function(self, place: int, name: str, operand: int, a: Tailed) -> Tailed:
         one = self.fixed(arb(1))
         if name in ("sin", "cos"):
             if operand not in self._twins:
@@ -245,11 +243,11 @@ class Evaluation:
         self._slopes[place] = slope
         return a.by_slope(name, slope)
 
-    def gradient(self, output: int) -> list[Series | None]:
+    def gradient(self, output: int) -> list[Tailed | None]:
         """The derivatives of one output by the arguments, None where it does not depend on one; backwards through the tape."""
         place = self.tape.outputs[output]
-        left: dict[int, Series] = {place: self.fixed(arb(1))}
-        found: list[Series | None] = [None] * len(self.tape.arguments)
+        left: dict[int, Tailed] = {place: self.fixed(arb(1))}
+        found: list[Tailed | None] = [None] * len(self.tape.arguments)
         for k in range(place, -1, -1):
             if k not in left:
                 continue
@@ -263,7 +261,7 @@ class Evaluation:
                         left[operand] = left[operand] + part if operand in left else part
         return found
 
-    def _parts(self, k: int, name: str, on: list[int], g: Series) -> list[tuple[int, Series]]:
+    def _parts(self, k: int, name: str, on: list[int], g: Tailed) -> list[tuple[int, Tailed]]:
         if name == "add":
             return [(on[0], g), (on[1], g)]
         if name == "subtract":

@@ -294,6 +294,7 @@ ENTRIES: list[tuple[str, str, Any, str]] = [
     ("enclosure", "steps/0/h/0", "-1p0", "has no length"),
     ("enclosure", "steps/0/terms", 24.0, "no terms"),
     ("enclosure", "bits", 10**12, "no number of bits"),
+    ("paired", "kind", "family", "with a known version and kind"),
     ("enclosure", "steps/1/node/S", [[["0p0", "0p0"]] * 2] * 2, "does not hold the derivative"),
     ("enclosure", "steps/1/node/s", [["0p0", "0p0"]] * 2, "does not hold the motion"),
     ("enclosure", "claim/states/0/1", "-1p0", "a radius is negative"),

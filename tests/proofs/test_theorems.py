@@ -11,7 +11,7 @@ pytest.importorskip("flint", reason="the extra `proof` is not installed")
 from flint import arb
 
 from lagrotor import Link, Scene, floquet
-from lagrotor.errors import InputError
+from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import System, coordinates, t
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
@@ -142,9 +142,18 @@ def test_the_paired_precession_exists(r0: float, link: Link) -> None:
     assert "paired precession, hyperbolic" in verified(orbit)
 
 
-def test_spins_that_are_not_opposite_have_none() -> None:
-    with pytest.raises(InputError):
-        precession(Scene((10, 5)), 0.2)
+@pytest.mark.parametrize(
+    ("spins", "r0", "says"),
+    [
+        ((10, 5), 0.2, "opposite"),
+        ((10, -10), ("0.1", "0.2"), "must be one number"),
+        ((10, -10), ["0.1", "0.1"], "must be one number"),
+        *(((10, -10), r0, "must lie above 0 and below 1") for r0 in ("-0.1", 0, 1)),
+    ],
+)
+def test_a_precession_is_of_opposite_spins_and_one_amplitude(spins: tuple[int, int], r0: Any, says: str) -> None:
+    with pytest.raises((InputError, DomainError), match=says):
+        precession(Scene(spins), r0)
 
 
 def test_another_amplitude_is_refused() -> None:

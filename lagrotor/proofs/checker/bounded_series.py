@@ -10,7 +10,6 @@ from lagrotor.errors import InputError
 from lagrotor.proofs.checker.tapes import ZERO, demand, rational_of, results_of, slopes_of, terms_of
 
 Ball = Any
-Series = Any  # a Rest, or what has its operations
 
 
 class Rest:
@@ -142,13 +141,12 @@ def sign_over(poly: Any, rest: Ball, low: Ball, high: Ball, depth: int = 30) -> 
 
 
 class Dual:
-    """A series, a `Rest` or what has its operations, and its derivatives by the start's coordinates; none where it does not
-    depend on them."""
+    """A series and its derivatives by the start's coordinates; none where it does not depend on them."""
 
-    def __init__(self, value: Series, by: list[Series] | None = None) -> None:
+    def __init__(self, value: Rest, by: list[Rest] | None = None) -> None:
         self.value, self.by = value, by
 
-    def linear(self, factor: Series, other: "Dual | None" = None, second: Series | None = None) -> list[Series] | None:
+    def linear(self, factor: Rest, other: "Dual | None" = None, second: Rest | None = None) -> list[Rest] | None:
         """factor · self' + second · other'."""
         first = None if self.by is None else [factor * x for x in self.by]
         if other is None or other.by is None or second is None:

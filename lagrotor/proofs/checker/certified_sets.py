@@ -61,11 +61,11 @@ def middle_inverse(D: Any) -> Any:
     return arb_mat(D.nrows(), D.ncols(), [x.mid() for x in X.entries()])
 
 
-def krawczyk(miss: Any, slope: Any, A: Any, w: Sequence[Ball], where: str = "") -> list[Ball]:
+def krawczyk(miss: Any, slope: Any, A: Any, w: Sequence[Ball]) -> list[Ball]:
     """Return (1 − A D) w − A F, which must lie within the box w: then F has one zero there."""
     K = ((unit(len(w)) - A * slope) * column(w) - A * miss).entries()
     for x, box in zip(K, w, strict=True):
-        demand(box.contains_interior(x), f"Krawczyk's test does not close{where}")
+        demand(box.contains_interior(x), "Krawczyk's test does not close")
     return list(K)
 
 

@@ -24,7 +24,7 @@ from lagrotor.proofs.checker.certified_sets import (
     number,
     read_ball,
 )
-from lagrotor.proofs.checker.orbit_checking import check_family, check_orbit
+from lagrotor.proofs.checker.orbit_checking import check_orbit
 from lagrotor.proofs.checker.subject_checking import (
     LagrangianOfWords,
     check_subject,
@@ -238,5 +238,4 @@ _RULES: dict[str, Callable[[Any], None]] = {
     "means": check_means,
     "periodic orbit": check_orbit,
     "equilibrium": check_equilibrium,
-    "family": check_family,
 }

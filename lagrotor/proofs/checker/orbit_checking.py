@@ -1,34 +1,25 @@
-"""Periodic orbits and families of them: Krawczyk's test, reversals, period and multipliers of a certificate."""
+"""Periodic orbits: Krawczyk's test, reversals, period and multipliers of a certificate."""
 
-from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any
 
 from flint import arb, arb_mat, arb_poly
 
 from lagrotor.proofs.checker.bounded_series import total
 from lagrotor.proofs.checker.certified_sets import (
-    MOST_TERMS,
     Carried,
-    Flow,
     balls,
     column,
     krawczyk,
     matrix,
     middle_inverse,
-    number,
     read_ball,
     unit,
 )
-from lagrotor.proofs.checker.family_checking import FamilyFlow
 from lagrotor.proofs.checker.reversals import check_reversal
 from lagrotor.proofs.checker.tapes import ZERO, demand, demand_paced, is_place, rational_of
 
 Ball = Any
-_FREE, _CONDITIONS = (
-    [4, 5, 6],
-    (0, 2, 4),
-)  # of the pair: the rates of chi and alpha and the pace; U, alpha and chi' at the end
+_FREE = [4, 5, 6]  # of the pair: the rates of chi and alpha and the pace
 
 
 def check_orbit(certificate: Any) -> None:
@@ -67,18 +58,16 @@ def check_orbit(certificate: Any) -> None:
 
 
 def check_amplitude(certificate: Any, claimed: Any) -> None:
-    """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line."""
-    check_pair(certificate)
+    """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line.
+
+    It is of a scene's motion, with the pair's reversals.
+    """
+    own = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
+    demand("scene" in (certificate["about"] or {}) and own, "it is no precession of the pair")
     demand(certificate["ones"] == 4, "energy and momentum leave one pair of multipliers")
     demand(certificate["free"] == _FREE, "the amplitude is not held")
     U = read_ball(certificate["start"]["middle"][0])
-    demand(claimed[0] == claimed[1] and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
-
-
-def check_pair(certificate: Any) -> None:
-    """It is a scene's motion, with the pair's reversals."""
-    own = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
-    demand("scene" in (certificate["about"] or {}) and own, "it is no precession of the pair")
+    demand(claimed == [claimed[0]] * 2 and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
 
 
 def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any) -> None:
@@ -151,91 +140,3 @@ def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
     off = M.charpoly() - arb_poly([-1, 1]) ** ones * left
     demand(all(x.contains(0) for x in off.coeffs()), "the multipliers are not as many ones and a pair")
     return pair
-
-
-def check_family(certificate: Any) -> None:
-    """Krawczyk's test over every piece; each begins where the one before ends, with the same orbit."""
-    check_pair(certificate)
-    flow = Flow(certificate["motion"])
-    demand_paced(flow.tape)
-    for signs in certificate["reversals"]:
-        check_reversal(flow.tape, signs)
-    pieces = [CheckedPiece(flow.tape, piece) for piece in certificate["pieces"]]
-    for one, other in pairwise(pieces):
-        demand(other.low <= one.high and one.high <= other.high, "there is a gap between two pieces")
-        same = [
-            all(y.contains_interior(x) for x, y in zip(a.start(one.high), b.box(one.high), strict=True))
-            for a, b in ((one, other), (other, one))
-        ]
-        demand(any(same), "two pieces have other orbits at their common end")
-    low, high = (rational_of(text).atanh() for text in certificate["claim"]["r0"])
-    fits = low > 0 and low < high and pieces[0].low <= low and high <= pieces[-1].high
-    demand(bool(fits), "the amplitudes are others")
-    period = read_ball(certificate["claim"]["period"])
-    demand("kind" not in certificate["claim"], "of a family no kind is shown")
-    for piece in pieces:
-        pace = piece.start(piece.low.union(piece.high))[-1]
-        demand(bool(pace > 0) and period.contains(4 * pace), "the period is another")
-
-
-class CheckedPiece:
-    """One piece of the pair's family: unknown are the rates of chi and alpha and the pace; U is middle + half ε."""
-
-    def __init__(self, motion: Any, data: Any) -> None:
-        self.middle, self.half = number(data["middle"]), number(data["half"])
-        self.low, self.high = self.middle - self.half, self.middle + self.half
-        self.x = [arb_poly([number(c) for c in poly]) for poly in data["x"]]
-        W = [number(w) for w in data["W"]]
-        self._demand_start(W)
-        self.W = [W[i] for i in _FREE]
-        self.flow = self._followed(motion, data, W)
-        self.w = self._closed([number(c) for c in data["cuts"]])
-
-    def _demand_start(self, W: list[Ball]) -> None:
-        """The start is in the fixed set of the first reversal, U exactly middle + half ε."""
-        fits = len(self.x) == len(W) == 7 and bool(self.half > 0)
-        still = fits and all(self.x[i].degree() < 0 and W[i].is_zero() for i in (1, 2, 3)) and W[0].is_zero()
-        off = self.x[0] - arb_poly([self.middle, self.half])
-        straight = all(c.is_zero() for c in off.coeffs())
-        demand(still and straight, "a piece does not start in the fixed set of the reversal")
-        demand(all(W[i] > 0 for i in _FREE), "a piece has no box")
-
-    def _followed(self, motion: Any, data: Any, W: list[Ball]) -> FamilyFlow:
-        """The motions of every ε over one unit of s."""
-        n, p = data["terms"], data["degree"]
-        demand(is_place(n, MOST_TERMS) and is_place(p, MOST_TERMS) and n > 2, "a piece has no terms")
-        demand(all(poly.degree() <= p for poly in self.x), "a piece has more terms than its degree")
-        flow, time = FamilyFlow(motion, list(self.x), W, n, p), ZERO
-        for step in data["steps"]:
-            h = number(step["h"])
-            flow.step(h, [number(r) for r in step["tube"]])
-            time += h
-        demand(time.is_exact() and time == 1, "the steps are not one unit of s")
-        return flow
-
-    def _closed(self, cuts: list[Ball]) -> list[Ball]:
-        """Krawczyk's test for every ε between two cuts: what was unknown lies off the middle by no more than these."""
-        whole = bool(cuts[0] == -1 and cuts[-1] == 1 and all(a < b for a, b in pairwise(cuts)))
-        demand(whole, "the cuts leave a part out")
-        found, box = [ZERO] * 3, [arb(0, w) for w in self.W]
-        for a, b in pairwise(cuts):
-            eps = a.union(b)
-            slope = arb_mat([[self.flow.slope(i, j, eps) for j in _FREE] for i in _CONDITIONS])
-            A, miss = middle_inverse(slope), column([self.flow.end(i, eps) for i in _CONDITIONS])
-            K = column(krawczyk(miss, slope, A, box, " over a family"))
-            for _ in range(2):
-                K = (unit(3) - A * slope) * K - A * miss
-            found = [x.union(y) for x, y in zip(found, K.entries(), strict=True)]
-        return found
-
-    def start(self, U: Ball) -> list[Ball]:
-        """What was unknown, for the U of a ball."""
-        return self._about(U, self.w)
-
-    def box(self, U: Ball) -> list[Ball]:
-        """Where it is alone."""
-        return self._about(U, [arb(0, w) for w in self.W])
-
-    def _about(self, U: Ball, off: Sequence[Ball]) -> list[Ball]:
-        eps = (U - self.middle) / self.half
-        return [poly(eps) + w for poly, w in zip(self.x[4:], off, strict=True)]

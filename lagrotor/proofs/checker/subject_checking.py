@@ -20,7 +20,6 @@ from lagrotor.proofs.fields import Field, field_of, structure_program
 from lagrotor.structures.assembly import Assembly, Brace
 
 Ball = Any
-PACED = ("periodic orbit", "family")  # their motions are in units of a pace
 
 
 def check_subject(certificate: Any) -> None:
@@ -43,7 +42,7 @@ def check_subject(certificate: Any) -> None:
 def _rates(words: Words, certificate: Any) -> list[int]:
     """The places of the states' rates in the certificate's program."""
     outputs = words.include(read_tape(certificate["motion"]))
-    if certificate["kind"] in PACED:
+    if certificate["kind"] == "periodic orbit":  # in units of a pace
         return [words.over(place, len(outputs)) for place in outputs]
     return outputs
 
@@ -66,7 +65,7 @@ def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what
 
 def _check_start(certificate: Any, words: Words, held: Sequence[int]) -> None:
     """Along one motion what stays zero may be so at the start; of an orbit or a rest none is shown."""
-    if certificate["kind"] in (*PACED, "equilibrium"):
+    if certificate["kind"] in ("periodic orbit", "equilibrium"):
         demand(len(held) == 0, "a rest or an orbit is not shown to keep constraints")
         return
     spread = balls(certificate["start"]["spread"])

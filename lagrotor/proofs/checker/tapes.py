@@ -1,7 +1,7 @@
 """A certificate's tapes, read, and Taylor terms by recurrences: the k-th term of an operation from those before it.
 
 Each operation is known and on earlier results. An operation that no output needs is followed along the motion as all others are;
-of what is named it says nothing. A term is a ball, or a truncated series of a parameter whose coefficients are balls.
+of what is named it says nothing.
 """
 
 import re

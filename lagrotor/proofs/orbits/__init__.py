@@ -1,1 +1,1 @@
-"""Theorems about motions: enclosures, crossings and means, periodic orbits and families of them, equilibria."""
+"""Theorems about motions: enclosures, crossings and means, periodic orbits, equilibria."""
