@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from lagrotor.errors import LagrotorWarning
+from lagrotor.numerics import estimated_run
+from tests.mechanics.running import references
 from tests.mechanics.running.references import EXTENDED, KINDS, drawn
 
 pytestmark = pytest.mark.skipif(
@@ -60,6 +62,17 @@ def held(outcomes: list[Outcome]) -> list[str]:
 @pytest.mark.parametrize("kind", range(len(KINDS)), ids=lambda i: KINDS[i].__name__)
 def test_one_of_each_kind_keeps_its_promise(kind: int) -> None:
     assert held([outcome(1200 + kind)]) == []
+
+
+def test_an_error_is_known_at_many_times_and_would_be_missed_if_it_were_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Seed 9132: a pendulum whose two runs part no farther from 15 to 60 s, while its error grows tenfold."""
+    sparse, fine = references._times, np.arange(65) / 64
+    monkeypatch.setattr(
+        references, "_times", lambda *args: np.union1d(t := sparse(*args), t[0] + (t[-1] - t[0]) * fine)
+    )
+    assert held([outcome(seed) for seed in (1202, 1203, 1204, 9132)]) == []
+    monkeypatch.setattr(estimated_run, "SAFETY", estimated_run.SAFETY._replace(value=0.05))  # twin
+    assert held([outcome(seed) for seed in (1202, 1203, 1204)])
 
 
 def test_a_run_that_promised_too_much_would_be_seen() -> None:
