@@ -2,13 +2,14 @@
 
 Data pass through these modules in this order:
 
-- `simulate` takes a `Scene`, times, a model and a tolerance. `model="auto"` calls `choose`, which names the cheapest model whose
-  error is known to be below `tol`.
-- `closed_form_model`, `linear` and `averaged` evaluate closed forms and normal modes. `minimal`, `spheres` and `euler` each define a
-  `Model`: a generated program (`programs`), a start, and the axes read back.
+- `simulate` takes a `Scene`, times, a model and a tolerance. `model="auto"` calls `choose`, which names the cheapest
+  model whose error is known to be below `tol`.
+- `closed_form_model`, `linear` and `averaged` evaluate closed forms and normal modes. `minimal`, `spheres` and
+  `euler` each define a `Model`: a generated program (`programs`), a start, and the axes read back.
 - `model.py` integrates a `Model` in natural units and checks what the motion conserves. The result is a `Trajectory`.
 - `sweeps` runs many scenes at once, `spring_link` is the paper's own simulator of rigid bodies and springs.
-- `orbits` finds periodic orbits by shooting, with their Floquet multipliers. `mean_motion` measures drifts on exact runs.
+- `orbits` finds periodic orbits by shooting, with their Floquet multipliers. `mean_motion` measures drifts on exact
+  runs.
 
 A new model is a module with a `Model`, and a row in `simulate.py`.
 """

@@ -1,9 +1,12 @@
 """The paper's system: two rotors on ground joints, a bar between their tips, and a pulse of force.
 
-- `notation` has every symbol with its meaning and unit, `lagrangians` the kinetic energies, the constraint and A and B in symbols.
+- `notation` has every symbol with its meaning and unit, `lagrangians` the kinetic energies, the constraint and A and
+  B in symbols.
 - A `Scene` holds rotors, bar, spins, shock and initial state in SI units. `read_scene` reads one from TOML.
-- `consistent_scene` and `paired_scene` (`initial_conditions`) bring a start onto the bar or onto the paired precession.
-- A `Trajectory` is the result of a simulation: axes over time, tips, energy, momentum, error and ending, the same for every model.
+- `consistent_scene` and `paired_scene` (`initial_conditions`) bring a start onto the bar or onto the paired
+  precession.
+- A `Trajectory` is the result of a simulation: axes over time, tips, energy, momentum, error and ending, the same for
+  every model.
 
 A new quantity of a run is a property of `Trajectory`, which is computed from the axes and their rates alone.
 """

@@ -4,11 +4,11 @@
 - `paired_precession`: opposite spins as a periodic series (`series`), its closed forms (`closed_forms`), their errors
   (`remainder`) and its stability (`stability`). `rate_shift` has other orbits about the upright position.
 - `impulse_response` and `shock_response`: the linear response to an impulse and to a Gaussian pulse.
-- `drift_after_shock`, `averaged_motion`, `charged_particle`: opposite spins averaged over the fast precession, and the slow motion
-  of a scene that follows. `toppling` and `parallel_twist` treat motions with parallel axes.
+- `drift_after_shock`, `averaged_motion`, `charged_particle`: opposite spins averaged over the fast precession, and
+  the slow motion of a scene that follows. `toppling` and `parallel_twist` treat motions with parallel axes.
 
-A `ClosedForm` (`closed_form`) joins expressions with their arguments, domain and order, and is generated as numpy functions. The
-scripts in `derivations/t….py` derive each formula; a new one comes with its script.
+A `ClosedForm` (`closed_form`) joins expressions with their arguments, domain and order, and is generated as numpy
+functions. The scripts in `derivations/t….py` derive each formula; a new one comes with its script.
 """
 
 from typing import TYPE_CHECKING
