@@ -25,6 +25,7 @@ from lagrotor.mechanics.running.motion import SampledMotion, integration_of
 from lagrotor.mechanics.running.narrow import narrow_parts
 from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
+from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
 
@@ -163,7 +164,8 @@ def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
 def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, observe: Observer) -> tuple[Array, int]:
     """Observe the motion from sample i to sample j where the section may be zero; return its last state and the evaluations."""
     begin, end = run.t[[i, j]]
-    local = run.local
+    # Below CROSSOVER no method for stiff motions is chosen, and the others take too many steps.
+    local = max(run.local, CROSSOVER.value) if run.scales.stiff else run.local
     if not run.switched.smooth:
         stretch = march(run.switched, run.states[i], run.t[[i, j]], local, inf, observe)
         return stretch.end, stretch.evaluations
