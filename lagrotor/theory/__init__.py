@@ -1,4 +1,4 @@
-"""Closed forms of the pair, each with its error: shock, drift, toppling, twist, the paired precession."""
+"""Closed forms and averaged motions of the pair: shock, drift, toppling, twist, the paired precession."""
 
 from typing import TYPE_CHECKING
 
