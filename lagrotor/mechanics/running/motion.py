@@ -174,7 +174,16 @@ def integration_of(
     """Return the integration of the motion; progress: called with times at which it is evaluated."""
     if h.smooth and scales:
         return smooth_motion(
-            system, values, engine, scales.sizes, scales.turn, start, scales.windows, h.narrow, progress, stiff=scales.stiff
+            system,
+            values,
+            engine,
+            scales.sizes,
+            scales.turn,
+            start,
+            scales.windows,
+            h.narrow,
+            progress,
+            stiff=scales.stiff,
         )
     observe: Observer | None = progress and (lambda now, left, until, curve: progress(now + until))
     return lambda start, times, local, companion, budget: march(h, start, times, local, budget, observe, companion)
