@@ -2,11 +2,11 @@
 # # Speed against accuracy, in seconds
 #
 # **Objective.** The processor time that an error costs, with the four core packages, with the fast extra, and with other
-# tools on the same pair; trajectories and points of closed forms a second.
+# tools on the same pair; and what runs in a second.
 #
 # **Assumptions.** Times differ from machine to machine and from run to run. These are the results of one machine, recorded in
-# one run by `python -m benchmarks.speed`: medians of processor time over samples of at least 10 ms, the
-# methods in turn. Errors and numbers of evaluations, the same everywhere, are in `b1_chart`.
+# one run by `python -m benchmarks.speed`: medians of processor time over samples of at least 10 ms.
+# Errors and numbers of evaluations, the same everywhere, are in `b1_chart`.
 
 # %%
 from lagrotor.benchmark.records import record_age, recorded_multiple, recorded_speed

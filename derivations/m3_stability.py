@@ -4,8 +4,8 @@
 # **Objective.** For each regime in which a method fails: the threshold that a formula predicts, the one measured, and
 # what lagrotor does there.
 #
-# **Assumptions.** Runs short enough for a report; `lagrotor stability` has the long ones (10,000 turns), the
-# rates of ensembles and the figure.
+# **Assumptions.** Runs short enough for a report; `lagrotor stability` has the long ones (10,000 turns) and the
+# rates of ensembles.
 
 # %%
 from lagrotor.benchmark.limits.step_size import limits

@@ -1,6 +1,6 @@
 """Enclosures of Γ, of Bessel functions J at rational orders by power series, of the elliptic integrals K and E by means.
 
-Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 7, 9, 17.
+Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 6, 9, 17.
 """
 
 from collections.abc import Sequence

@@ -214,15 +214,15 @@ class System(Equations):
         One also names the time where it passed a position at which its constraints are dependent.
 
         Steps are as long as the motion allows, but short where a function of t alone changes faster than it mostly does: in
-        pulses and at steps that are longer than a ten-thousandth of the run. A briefer pulse may be passed over; given as a
-        table or a spline it is not. Steps are short, too, where an expression of coordinates or velocities changes within less
-        than an eighth of their swing, however narrow it is: exp(−((q − c)/w)²), tanh((q − c)/w), 1/(1 + ((q − c)/w)²). Of a
-        callable the narrow parts are not known: give it as an expression, a table or a spline.
+        pulses and at steps that are longer than a ten-thousandth of the run. A briefer pulse may be passed over. Steps are
+        short, too, where an expression of coordinates or velocities changes within less than an eighth of their swing, however
+        narrow it is: exp(−((q − c)/w)²), tanh((q − c)/w), 1/(1 + ((q − c)/w)²). The narrow parts of a callable, a table or a
+        spline are not known: give an expression.
 
         Args:
             values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,
-                callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: no step
-                passes one of its knots, and outside it the run ends.
+                callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: where the
+                motion leaves a table, the run ends.
             q0: at t[0], (N,).
             v0: at t[0], (N,); u (m,) for velocities of one's own.
             t: increasing times (n,), s.

@@ -1,5 +1,5 @@
 """The slow motion measured on exact runs: mean rates after a shock, the force that cancels a drift, times to leave, and by how
-much the closed forms of `theory` for them are wrong.
+much the laws of `theory` for them are wrong.
 
 Oscillations are averaged out by the weight exp(−1/(u (1 − u))) over the window, u from 0 to 1: of one with n turns within
 it about exp(−sqrt(4 pi n)) is left. A mean rate depends on the window besides, as the rate itself changes.

@@ -120,7 +120,7 @@ def simulate(
     """Run `scene` from its start, which holds at t[0], through the times `t` (n,), in s.
 
     The trajectory carries `errors`, the estimated largest error of an axis up to each time, `horizon`, the time from which
-    they exceed `tol`, and `ending`. A run is integrated twice, at two tolerances, and held to what the motion conserves; a
+    they exceed `tol`, and `ending`. A run is integrated twice, at two local errors, and held to what the motion conserves; a
     LagrotorWarning says when `tol` is not kept and what was reached, or that the run ended before its last time: it then
     holds the times up to there.
 

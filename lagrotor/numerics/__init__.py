@@ -6,7 +6,7 @@ Data passes through the modules in this order:
   `generated` keeps written functions as source.
 - `integrate.Problem` is an initial value problem. `integrate.integrate` cuts it at the windows of `pulse`, in which a force acts
   briefly, and solves each `segment.Segment` by one of the `solvers`, or by `taylor` for engine = "fast".
-- `estimated_run.Evolution` is a motion that is to be run. `estimate_run` integrates it at two tolerances and returns an
+- `estimated_run.Evolution` is a motion that is to be run. `estimate_run` integrates it at two local errors and returns an
   `EstimatedRun`: states, errors, horizon and ending.
 - `run.Run` is the base class of every simulated motion: its errors, files and tables.
 - `curves`, `zeros`, `rotations` and `floquet_multipliers` evaluate what was run.

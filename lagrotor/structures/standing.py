@@ -181,9 +181,9 @@ class Standing(Shown):
         """Estimate the time (s) before which no push of that size grows to sqrt(2) times its size in the normal modes: see
         `structures.holding`.
 
-        inf where the structure may turn about the vertical through each joint, as a free top, and for staying near where the
-        energy is least upright, of more than 8 degrees of freedom for pushes that are small enough; 0 where it does not stand
-        or the push is beyond what the expansion is trusted. push: as `largest_push` has it.
+        inf without bars and braces, where each rotor is a free top, and for staying near where the energy is least upright, of
+        more than 8 degrees of freedom for pushes that are small enough; 0 where it does not stand or the push is beyond what the
+        expansion is trusted. push: as `largest_push` has it.
 
         Raises InputError with friction, and for more than 8 degrees of freedom.
         """

@@ -54,10 +54,10 @@ def as_derived(one: GeneratedFunction, given: tuple[Any, ...]) -> bool:
 
 
 def test_of_each_kind_one_that_is_kept_is_what_is_derived() -> None:
-    """All of them in the slow suite; those of the interactive model against Python in tests/report/interactive."""
+    """All of them in the slow suite."""
     for name in MODELS:
         import_module(f"lagrotor.{name}")
-    kinds = [one for one in kept_functions() if "interactive" not in one.name()]
+    kinds = list(kept_functions())
     assert len(kinds) > 10
     for one in kinds:
         given = one.kept[len(one.kept) // 2]

@@ -1,6 +1,6 @@
 """Birkhoff's normal form of a Hamiltonian about an equilibrium, to any order, by Lie series. Of orbits: `return_maps`.
 
-In normal coordinates (see `symplectic`) the quadratic part is H₂ = sum_j ω_j z_j w_j + N and
+In normal coordinates (see `normal_coordinates`) the quadratic part is H₂ = sum_j ω_j z_j w_j + N and
 
     {H₂, z^a w^b} = D z^a w^b + {N, z^a w^b},     D = i sum_j ω_j (a_j − b_j)   for oscillations.
 

@@ -177,7 +177,7 @@ def simulate_structure(
     `run.rates[:, 0]` show.
     drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
     tol: the largest error of an axis over the whole run, 1e-13 to 0.1; `run.errors` are its estimate, from two runs at two
-    tolerances, held to the energy where it is conserved. A LagrotorWarning says when it exceeds tol, or that the run ended
+    local errors, held to the energy where it is conserved. A LagrotorWarning says when it exceeds tol, or that the run ended
     before its last time; it then holds the times up to there. engine: "core", or "fast" with heyoka (`pip install
     lagrotor[fast]`), which takes some seconds to compile a structure, once for all spins.
 
