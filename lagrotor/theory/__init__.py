@@ -1,4 +1,3 @@
-<<<<<<< HEAD
 """Closed forms of the pair, each with its error.
 
 - `natural_frequency` and `natural_rate`: the slow rate of a pair of any two spins.
@@ -11,9 +10,6 @@
 A `ClosedForm` (`closed_form`) joins expressions with their arguments, domain and order, and is generated as numpy
 functions. The scripts in `derivations/t….py` derive each formula; a new one comes with its script.
 """
-=======
-"""Closed forms and averaged motions of the pair: shock, drift, toppling, twist, the paired precession."""
->>>>>>> 52dc3e9b01d72bfa8c53f1e9348c583b8a56cf7a
 
 from typing import TYPE_CHECKING
 
