@@ -10,19 +10,12 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
-from lagrotor.errors import InputError, LagrotorWarning, SingularError
+from lagrotor.errors import SingularError
 from lagrotor.mechanics import project_velocity
-from lagrotor.models.linear import linear_error
 
 UPRIGHT = Scene((10, -10))
 TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
 TURNING = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))
-
-
-def test_unknown_models_are_refused_by_name() -> None:
-    known = "auto, closed_form, linear, averaged, minimal, spheres, euler"
-    with pytest.raises(InputError, match=f"model = 'maximal' is not one of {known}"):
-        simulate(UPRIGHT, [0, 1], model="maximal")
 
 
 def test_a_model_that_cannot_hold_the_scene_says_which_can() -> None:
@@ -67,14 +60,6 @@ def towards_the_line() -> Scene:
     return Scene((-2, 2), axes=since.axes[:, 0], rates=-since.rates[:, 0])
 
 
-def test_auto_takes_the_least_model_and_says_why() -> None:
-    """See test_choose for the choice itself."""
-    run = simulate(UPRIGHT, [0, 1])
-    assert run.model == "closed_form"
-    assert run.why == "at rest and left alone: nothing moves; error 0"
-    assert simulate(UPRIGHT, [0, 1], "minimal").why == "by name"
-
-
 @pytest.mark.parametrize(
     ("scene", "reason"),
     [
@@ -90,14 +75,6 @@ def test_auto_falls_back_to_unit_vectors_and_says_why(scene: Scene, reason: str)
     assert re.match(f"regular everywhere; .*{reason}", run.why)
     assert run.axes == pytest.approx(simulate(scene, times, "spheres", 1e-13).axes, abs=1e-10)
     assert scene.shock or np.ptp(run.energy) < 1e-8
-
-
-def test_a_run_out_of_reach_is_stopped() -> None:
-    """Both axes through the joint line at once, where the bar's constraint itself is singular."""
-    falling = Scene((0, 0), rates=((1, 0, 0), (1, 0, 0)))
-    with pytest.warns(LagrotorWarning, match=r"minimal ended early: .* at t = 1\.\d+ s"):
-        run = simulate(falling, [0, 1, 2], "minimal")
-    assert run.t.tolist() == [0, 1] and run.ending.early and 1 < run.ending.at < 2
 
 
 # A shock of given impulse, shorter and shorter, becomes a jump of the rates.
@@ -162,12 +139,6 @@ def test_a_shock_that_is_not_felt_costs_no_digit(at: float) -> None:
     assert (runs[0] == runs[1]).all()
     near = replace(scene, shock=Shock((1, 0, 0), 5.0, 0.1))
     assert np.abs(simulate(near, [0, 1.0, 10.0], "minimal", 1e-10).axes - runs[0]).max() > 1e-2  # twin
-
-
-def test_no_error_is_above_what_two_unit_vectors_can_miss_each_other_by() -> None:
-    wide = paired_scene(Scene((10, -10)), 0.204)
-    assert linear_error(wide, 10.0) == 2.0
-    assert "normal modes have an error of 2.0" in simulate(wide, [0, 10.0]).why
 
 
 @pytest.mark.parametrize("model", ["auto", "spheres"])
