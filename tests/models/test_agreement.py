@@ -1,7 +1,6 @@
-"""Three exact models, one motion: against each other, against independent right-hand sides, and against symmetry."""
+"""Three exact models against independent right-hand sides, folded over, and into the dead point."""
 
-from functools import lru_cache
-from math import cos, hypot, sin
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -9,15 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor import Link, Rotor, Scene, Shock, Trajectory, simulate
+from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.errors import LagrotorWarning
 from lagrotor.mechanics import project_position, project_velocity, solve_constrained
 from lagrotor.models import euler, minimal, spheres
 
 TIMES = np.linspace(0, 10, 41)
-TOL = 1e-11
 ROTOR = Rotor(mass=1.3, length=0.9, I1=0.7, I3=1.1)
-TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
 
 
 def constraints(q: np.ndarray, k: float) -> np.ndarray:
@@ -37,34 +34,6 @@ def scene_near(seed: int, rotor: Rotor, link: Link, spins: tuple[float, float], 
     q = project_position(lambda q: constraints(q, k), lambda q: normals(q, k), guess)
     v = project_velocity(normals(q, k), speed * draw.normal(size=6).clip(-2, 2))
     return Scene(spins, rotor, link, axes=q.reshape(2, 3), rates=v.reshape(2, 3))
-
-
-def scene_at(state: tuple[float, ...], rotor: Rotor, link: Link, spins: tuple[float, float]) -> Scene:
-    """The scene of a state (U, chi, alpha, rates) of the model without the bar."""
-    seen = minimal._observe(Scene(spins, rotor, link), np.array([state]))
-    return Scene(spins, rotor, link, axes=seen.axes[:, 0], rates=seen.rates[:, 0])
-
-
-PAIRED = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))
-ALONG = ((0.3 * cos(0.3), 2.0, -0.3 * sin(0.3)), (0.3 * cos(0.3), -2.8, -0.3 * sin(0.3)))
-# name → scene, and whether the Euler angles stay off theta = 0.
-SCENES: dict[str, tuple[Scene, bool]] = {
-    "opposite": (Scene((10, -10), axes=TILTED, rates=PAIRED), True),
-    "opposite, heavy bar": (Scene((10, -10), link=Link(1, 0.5, 0.1), axes=TILTED, rates=PAIRED), True),
-    "opposite, short bar": (Scene((10, -10), link=Link(0.8, 0, 0), axes=TILTED, rates=PAIRED), True),
-    "unequal": (Scene((10, -7), axes=TILTED, rates=ALONG), True),
-    "equal spins": (scene_near(2, Rotor(), Link(1, 0.2, 0.02), (10, 10)), True),
-    "long heavy bar, other rotor": (scene_near(5, ROTOR, Link(1.4, 0.5, 0.1), (10, -7)), True),
-    "short heavy bar, other rotor": (scene_near(8, ROTOR, Link(0.8, 0.4, 0.05), (6, 9)), True),
-    "from rest upright": (Scene((10, -9), link=Link(1, 0.3, 0.1), rates=((0.4, 1, 0), (0.4, -0.5, 0))), False),
-    "folding over": (scene_at((0.1, 1.2, 0.3, 0.2, 4.0, 0.5), ROTOR, Link(0.7, 0, 0), (0.5, -0.8)), False),
-    "folding over, heavy": (scene_at((0.1, 1.2, 0.3, 0.2, 4.0, 0.5), ROTOR, Link(0.7, 0.3, 0.02), (0.5, -0.8)), False),
-}
-
-
-@lru_cache(maxsize=64)
-def run_of(name: str, model: str) -> Trajectory:
-    return simulate(SCENES[name][0], TIMES, model, TOL)
 
 
 # Right-hand sides at one state.
@@ -127,11 +96,13 @@ def test_the_right_hand_sides_are_those_of_the_bodies(
     assert np.abs(oracle(faster) - expected).max() > 1e-6 or hypot(*scene.rates[0]) < 0.1
 
 
-@pytest.mark.parametrize("name", ["folding over", "folding over, heavy"])
-def test_a_scene_may_start_folded_over(name: str) -> None:
+@pytest.mark.parametrize("link", [Link(0.7), Link(0.7, 0.3, 0.02)])
+def test_a_scene_may_start_folded_over(link: Link) -> None:
     """Where the twist has turned back, the curve's parameter must come from the other branch."""
-    run = run_of(name, "spheres")
-    scene = run.scene
+    spins = (0.5, -0.8)
+    start = minimal.MODEL.observe(Scene(spins, ROTOR, link), np.array([(0.1, 1.2, 0.3, 0.2, 4.0, 0.5)]))
+    scene = Scene(spins, ROTOR, link, axes=start.axes[:, 0], rates=start.rates[:, 0])
+    run = simulate(scene, TIMES, "spheres", 1e-11)
     for i in range(0, len(TIMES), 2):
         here = Scene(scene.spins, scene.rotor, scene.link, axes=run.axes[:, i], rates=run.rates[:, i])
         seen = minimal.MODEL.observe(here, np.array([minimal.MODEL.start(here)]))
@@ -141,19 +112,9 @@ def test_a_scene_may_start_folded_over(name: str) -> None:
         assert accelerations(minimal, here) == pytest.approx(expected, abs=1e-6 * (1 + np.abs(expected).max()))
 
 
-# Shocks.
-
-
-# Symmetries of the motion.
-
-
-# Closed forms.
-
-
-@pytest.mark.parametrize("tol", [1e-4, 1e-11, *(pytest.param(tol, marks=pytest.mark.slow) for tol in (1e-6, 1e-9))])
+@pytest.mark.parametrize("tol", [1e-4, 1e-11])
 def test_a_run_into_the_dead_point_stops_at_every_tolerance(tol: float) -> None:
-    """Exactly planar toppling along the bar meets r_1 = r_2 = e_x, where the constraints are dependent. A loose step used
-    to jump over it onto a branch that a side force of any size denies; at none may it pass in silence."""
+    """Planar toppling along the bar meets r_1 = r_2 = e_x, where the constraints are dependent; loose steps jumped over it."""
     still = Scene(spins=(0, 0), link=Link(1, 1, 1), shock=Shock((50, 0, 0), at=0.2, width=0.02))
     for model in ("spheres", "auto"):
         with pytest.warns(LagrotorWarning, match="ended early: a singular position was reached at t = "):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, Shock, consistent_scene, paired_scene, simulate
+from lagrotor import Link, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.models import euler, minimal
 from lagrotor.models import simulate as simulating
@@ -16,7 +16,7 @@ from tests.models.one_integration import observed
 SHOCKED = Scene(
     (10, -9), link=Link(0.8, 0.3, 0.05), shock=Shock((40, -11, 5), 0.6, 0.05, 2), rates=((0.4, 1, 0), (0.4, -0.5, 0))
 )
-T, START = np.linspace(0, 3, 31), np.zeros(1)
+T = np.linspace(0, 3, 31)
 
 
 def set_to(monkeypatch: pytest.MonkeyPatch, constant: str, value: float) -> None:
@@ -45,11 +45,6 @@ def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch
         estimated_run, "_alikeness", lambda *_: 1.0
     )  # twin: unheard, it passes with a small error estimate
     assert simulate(SHOCKED, T, "minimal", 1e-9).error < 1e-9
-
-
-TUMBLING = consistent_scene(
-    (10, -9), [[0.6, 0.2, 0.77], [0.5, -0.4, 0.77]], [[2, 1, 0], [-1, 2, 0]], None, Link(1.3, 0.01, 0.1)
-)
 
 
 @pytest.mark.parametrize("turns", [20, pytest.param(1000, marks=pytest.mark.slow)])

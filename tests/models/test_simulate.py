@@ -13,22 +13,8 @@ from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import SingularError
 from lagrotor.mechanics import project_velocity
 
-UPRIGHT = Scene((10, -10))
 TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
 TURNING = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))
-
-
-def test_a_model_that_cannot_hold_the_scene_says_which_can() -> None:
-    with pytest.raises(SingularError, match=r"euler: theta_1 = 0 rad.* use model='minimal' or 'spheres'"):
-        simulate(UPRIGHT, [0, 1], model="euler")
-    free = Scene((10, -10), link=None, axes=TILTED)
-    for model in ("minimal", "euler"):
-        with pytest.raises(SingularError, match=rf"{model}: the scene has no bar.*use model='spheres'"):
-            simulate(free, [0, 1], model=model)
-    with pytest.raises(SingularError, match=r"axis 1 lies along the joint line.*use model='spheres'"):
-        simulate(on_the_line(), [0, 1], model="minimal")
-    for model in ("spheres", "auto"):
-        simulate(free, [0, 1], model=model)
 
 
 def test_unit_vectors_refuse_a_start_beside_the_dead_point_and_one_further_off_runs() -> None:

@@ -110,14 +110,6 @@ def test_a_motion_that_blows_up_is_stopped_where_it_does() -> None:
     assert near.states[0, 0] == pytest.approx(100, rel=1e-6)
 
 
-def test_the_time_of_the_stop_is_the_scenes_time() -> None:
-    problem = Problem(
-        lambda s, y: [y[0] ** 2], np.array([2.0]), ENOUGH, lambda s, y: [0.0], at=3.0, windows=pulse_windows(0.1)
-    )
-    with pytest.raises(IntegrationError, match=r"near t = 0\.5 s"):
-        integrate(problem, np.array([9.0]), 1e-9)
-
-
 @pytest.mark.parametrize("bad", [float("nan"), float("inf")])
 @pytest.mark.parametrize("since", [0.0, 0.7])
 def test_a_rate_that_is_not_finite_stops_the_run(since: float, bad: float) -> None:

@@ -134,27 +134,6 @@ def test_a_projection_from_far_off_is_not_taken(bounded: bool, monkeypatch: pyte
     assert off < 1e-4 if bounded else off > 0.1
 
 
-def jittery(calls: list[float]):  # type: ignore[no-untyped-def]
-    """A right-hand side known to three digits only: no step is short enough for a tight tolerance. Its times are kept."""
-    digits = np.random.default_rng(0)
-
-    def rhs(s: float, y: Array) -> list[float]:
-        calls.append(s)
-        return [y[1], -y[0] * (1 + 1e-3 * digits.random())]
-
-    return rhs
-
-
-def test_a_solver_that_does_not_get_on_stops_before_all_is_spent() -> None:
-    """Twin: what gets on with its run may spend as much as the run is allowed."""
-    calls = list[float]()
-    with pytest.raises(StopError) as stopped:
-        dop853(Segment(jittery(calls), np.array([1.0, 0.0]), 0.0, 2e3, TIMES, budget=200_000), 1e-12)
-    assert stopped.value.evaluations < 6_000 and stopped.value.at < 1
-    run = dop853(Segment(oscillate, np.array([1.0, 0.0]), 0.0, 2e3, TIMES, budget=200_000), 1e-8)
-    assert run.evaluations > 20_000
-
-
 @pytest.mark.parametrize("engine", [lsoda, adams, dop853])
 def test_no_step_passes_a_singular_position(engine) -> None:
     """A straight motion through it feels nothing: only the time that is left until then shortens the steps."""
@@ -210,27 +189,3 @@ def test_what_lsoda_reached_is_at_the_time_that_it_says(scale: float, phase: flo
         budget=20_000,
     )
     assert lsoda(segment, 1e-9).states[-1] == pytest.approx([np.cos(20 + phase), -np.sin(20 + phase)], abs=1e-6)
-
-
-@pytest.mark.parametrize("budget", [500, 10**5])
-def test_unwatched_lsoda_spends_no_more_than_its_budget_in_all(budget: int) -> None:
-    """Not between each two outputs; twin: with enough it comes to its end, and each evaluation is made once."""
-    times, calls = np.linspace(1.0, 100.0, 100), [0]
-
-    def rates(s: float, y: Array) -> list[float]:
-        calls[0] += 1
-        return [y[1], -y[0]]
-
-    def watched(s: float, y: Array) -> list[float]:
-        return rates(s, y)
-
-    watched.bare = rates  # type: ignore[attr-defined]
-    segment = Segment(watched, np.array([1.0, 0.0]), 0.0, 100.0, times, budget=budget)
-    if budget == 500:
-        with pytest.raises(StopError) as stopped:
-            lsoda(segment, 1e-8)
-        assert stopped.value.cause == "budget" and stopped.value.reached
-        assert stopped.value.evaluations == pytest.approx(calls[0], abs=3) and calls[0] < 2 * budget + 5
-    else:
-        run = lsoda(segment, 1e-8)
-        assert 1_000 < run.evaluations == pytest.approx(calls[0], abs=3)
