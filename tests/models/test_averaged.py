@@ -93,8 +93,7 @@ def test_long_runs_take_few_evaluations() -> None:
     ],
 )
 def test_a_difference_of_another_kind_hides_no_error(pair: Scene, r0: float) -> None:
-    """On the paired precession the orders 2 and 4 differ by the turning about the joint line, of a radian in a thousand turns,
-    and 4 and 6 by little."""
+    """On the paired precession the orders 2 and 4 differ by the turning about the joint line, 4 and 6 by little."""
     orbit = series_orbit(pair, r0, 21)
     t = turns(orbit.start, 1000, 61)
     run = simulate(orbit.start, t, "averaged", 1e-4)

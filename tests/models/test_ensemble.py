@@ -61,13 +61,6 @@ def test_what_minimal_loses_spheres_finishes():
     assert np.isfinite(found.axes).all()
 
 
-def test_a_start_on_the_joint_line_is_left_to_spheres_and_one_across_it_is_not():
-    """The minimal model has no coordinates for an axis along x; along y it has."""
-    along, across = (Scene((1.0, 2.0), axes=axes) for axes in (((1, 0, 0), (0, 0, 1)), ((0, 1, 0), (0, 1, 0))))
-    found = sweep([along, across], [0.0, 0.1], 1e-6)
-    assert [MODELS[m] for m in found.models] == ["spheres", "minimal"]
-
-
 def test_what_nothing_finishes_is_nan(monkeypatch):
     from lagrotor.errors import IntegrationError
 

@@ -126,10 +126,7 @@ def test_no_answer_is_farther_off_than_it_says() -> None:
 @pytest.mark.skipif(not ENOUGH, reason="needs numbers of 64 bits")
 @pytest.mark.parametrize("seed", [2, 3])
 def test_no_answer_of_five_thousand_is_farther_off_than_it_says(seed: int) -> None:
-    """And the bounds are not idle: of each kind some are within a factor of ten; a tenth of them would fail.
-
-    Of a start a factor of twenty: its bound is twice the orbit's, since going to the bar may double a distance.
-    """
+    """Of each kind some are within a factor of ten, of a start, whose bound is twice the orbit's, of twenty."""
     ratios = checked(50, 50, seed)
     assert len(ratios["orbit"]) == 2_550
     for name, values in ratios.items():

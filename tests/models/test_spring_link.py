@@ -29,7 +29,6 @@ from lagrotor.models.spring_link.rigid_body import (
 )
 from lagrotor.models.spring_link.run import rate_function, step_function
 from lagrotor.models.spring_link.system import join_bar, paper_bodies, printed_link_force
-from lagrotor.numerics import skew_matrix
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)
@@ -40,9 +39,6 @@ TILTED = Rotation.from_rotvec([0.4, -0.9, 0.3]).as_matrix()
 def slope(x, y):
     """Exponent p of y ~ x^p."""
     return np.polyfit(np.log(x), np.log(y), 1)[0]
-
-
-# --- one body, free of torque
 
 
 def spun(inertia, transform=inertia_transform):
@@ -68,27 +64,12 @@ def free_precession(t):
     return (Rotation.from_rotvec(L * t / 2) * Rotation.from_rotvec(e * (1 - 0.5) * (L @ e) * t)).as_matrix() @ TILTED
 
 
-def asymmetric(t):
-    """R(t) from Euler's equations in the body frame, which know nothing of the world's."""
-    I0 = np.diag([1.0, 2.0, 2.5])
-
-    def rate(_, y):
-        Omega, R = y[:3], y[3:].reshape(3, 3)
-        return [*np.linalg.solve(I0, np.cross(I0 @ Omega, Omega)), *(R @ skew_matrix(Omega[None])[0]).ravel()]
-
-    start = [*(TILTED.T @ [1, 2, 3]), *TILTED.ravel()]
-    return solve_ivp(rate, (0, t), start, method="DOP853", rtol=1e-12, atol=1e-12).y[3:, -1].reshape(3, 3)
-
-
-@pytest.mark.parametrize(
-    ("inertia", "exact"), [(np.diag([2, 2, 1.0]), free_precession), (np.diag([1, 2, 2.5]), asymmetric)]
-)
-def test_free_body_converges_to_the_exact_motion_at_first_order(inertia, exact):
-    steps = np.array([4e-3, 2e-3, 1e-3])
+def test_free_body_converges_to_the_exact_motion_at_first_order():
+    steps, inertia = np.array([4e-3, 2e-3, 1e-3]), np.diag([2, 2, 1.0])
     start = spun(inertia)
     runs = [turned(inertia, dt) for dt in steps]
     assert all((run.L == start.L).all() for run in runs)
-    off = [abs(run.R[0] - exact(2.0)).max() for run in runs]
+    off = [abs(run.R[0] - free_precession(2.0)).max() for run in runs]
     lost = [abs(energy(run) - energy(start)) for run in runs]
     assert slope(steps, off) == pytest.approx(1, abs=0.1)
     assert slope(steps, lost) == pytest.approx(1, abs=0.1)
@@ -99,9 +80,6 @@ def test_the_printed_inertia_transform_fails_unless_the_body_is_isotropic():
     printed = [turned(unequal, dt, transform=printed_inertia_transform).R[0] for dt in (2e-3, 5e-4)]
     assert min(abs(R - free_precession(2.0)).max() for R in printed) > 0.3
     assert turned(equal, 1e-3, transform=printed_inertia_transform).R[0] == pytest.approx(turned(equal, 1e-3).R[0])
-
-
-# --- finite rotation
 
 
 component = st.floats(-1e3, 1e3) | st.floats(-1e-300, 1e-300) | st.sampled_from([0.0, 5e-324, -5e-324, 1e-170, 1e-160])
@@ -124,9 +102,6 @@ def test_the_papers_shocked_run_turns_nan_with_the_printed_rotation_only():
     assert run.paper_energy == pytest.approx([100, 100, 100.44], abs=0.01)
 
 
-# --- links
-
-
 def test_link_forces_by_hand():
     gap, along, across = np.array([[0.1, 0, 0]]), np.array([[2.0, 0, 0]]), np.array([[0, 2.0, 0]])
     for law in (link_force, printed_link_force):
@@ -134,9 +109,6 @@ def test_link_forces_by_hand():
     assert link_force(gap, across, 30.0, 5.0) == pytest.approx(np.array([[-3.0, -10.0, 0]]))
     assert printed_link_force(gap, across, 30.0, 5.0) == pytest.approx(np.array([[-3.0, 0, 0]]))
     assert (printed_link_force(0 * gap, along, 30.0, 5.0) == 0).all()
-
-
-# --- the pair
 
 
 @pytest.mark.parametrize("rotation", [finite_rotation, printed_rotation])
@@ -195,9 +167,6 @@ def test_the_misplaced_bar_is_the_papers_energy_spike():
     assert spike.energy[0] == pytest.approx(100 + 2 * 1e4 * 0.5**2 / 2)
 
 
-# --- the longest stable step
-
-
 @pytest.mark.parametrize(
     ("S", "D", "link", "spin"),
     [(1e4, 250, BAR, 10), (1e4, 0, BAR, 0), (1e4, 10, Link(1, 0.01, 0.1), 10), (1e5, 1, Link(1, 0.3, 0.02), 5),
@@ -212,17 +181,11 @@ def test_step_limit_is_where_the_step_fails(S, D, link, spin):
     assert not step_grows(system, 0.95 * limit.whole)
 
 
-# --- refusals
-
-
 def test_a_step_beyond_the_limit_says_so():
     system = paper_system(MOVING, 1e4, 250)
     with pytest.warns(LagrotorWarning, match="longest stable step"):
         run = run_steps(system, None, np.arange(11) * 0.1, 5e-3)
     assert run.ending.early and len(run.t) < 11 and run.summary()["estimated error"] == "not known"
-
-
-# --- total momenta
 
 
 def test_bodies_without_grounds_keep_their_momenta_and_a_ground_takes_them():

@@ -20,7 +20,6 @@ from lagrotor.models import spheres
 from lagrotor.numerics import estimated_run, taylor
 from lagrotor.numerics.solvers import lsoda
 from lagrotor.numerics.taylor import taylor_order
-from tests.models.oracle import exact_axes
 from tests.models.wide_scenes import COUNT, IN_128_BITS, SEED, Array, Wide, reference, turns, wide_scenes
 from tests.models.wide_scenes import run as run_of
 
@@ -242,22 +241,6 @@ def test_two_runs_at_local_errors_too_near_each_other_are_off_alike(monkeypatch:
     assert all(one.run and one.error <= one.run.error <= one.trial.tol for one in outcomes(ALIKE, "core"))
     monkeypatch.setattr(estimated_run, "APART", estimated_run.APART._replace(value=5.0))  # twin
     assert any(one.missed and not one.warned for one in outcomes(ALIKE, "core"))
-
-
-REFERENCE_OFF = [92, 218, 653]
-
-
-@NO_HEYOKA
-def test_beside_a_dead_point_the_record_is_off_by_more_than_its_own_tolerances_say() -> None:
-    """Integrated in 128 bits, the axes are those of the runs, whose errors seemed three to seven times their estimates."""
-    import heyoka
-
-    for i in REFERENCE_OFF:
-        exact = exact_axes(TRIALS[i].scene, TRIALS[i].t, 1e-26, X=heyoka.real128).astype(float)
-        off = np.linalg.norm(exact - RECORDED["axes"][i], axis=-1).max(0)
-        assert (off > 2 * RECORDED["own"][i]).any() and (off < unsure(i)).all()
-        run = run_of(TRIALS[i])
-        assert (np.linalg.norm(run.axes - exact, axis=-1).max(0) < run.errors).all()
 
 
 @NO_HEYOKA

@@ -66,10 +66,7 @@ def test_the_order_is_the_one_asked_for_and_a_step_leaves_what_is_asked(heyoka, 
 
 
 def test_an_azimuth_of_many_turns_costs_no_digit(heyoka) -> None:
-    """alpha is cyclic, chi an angle: ten thousand turns more change neither the motion nor the steps.
-
-    Twin: where chi is not said to be an angle, its size sets the steps.
-    """
+    """alpha is cyclic, chi an angle: ten thousand turns more change no step; twin: where chi is not said to be one, they do."""
     scene = Scene((10, -7), **MOVING)
     start, (form, values) = minimal.MODEL.start(scene), minimal.MODEL.program(scene, False)
     far = start + np.array([0, 0, 2e4 * np.pi, 0, 0, 0])
