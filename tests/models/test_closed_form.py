@@ -1,4 +1,4 @@
-"""The closed forms: each against the exact models, from any start that it holds, and what is refused and why."""
+"""The closed forms: each against the exact models, from any start that it holds."""
 
 from dataclasses import replace
 from math import cos, sin

@@ -1,4 +1,4 @@
-"""Runs that know their error: estimate, horizon, what the motion conserves, and the same answer in any units."""
+"""Runs that know their error: what the motion conserves, bars kept for long, and runs that take the same steps."""
 
 from dataclasses import replace
 

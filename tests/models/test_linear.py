@@ -1,4 +1,4 @@
-"""The linear rung: its exponential decided, its error measured and estimated, shocks, and what it refuses."""
+"""The linear rung: its exponential, its error measured and estimated, and shocks."""
 
 from dataclasses import replace
 

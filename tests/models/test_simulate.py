@@ -1,4 +1,4 @@
-"""`simulate`: what it refuses, what `auto` picks, and shocks however short."""
+"""`simulate`: starts beside the dead point, what `auto` falls back to, and shocks however short."""
 
 import re
 from dataclasses import replace
