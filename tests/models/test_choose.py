@@ -157,16 +157,3 @@ def test_reasons(scene: Scene, tol: float, model: str, reason: str) -> None:
     assert choice.model == model and choice.estimate <= tol
     assert re.search(reason, choice.reason)
     assert simulate(scene, [0, 5.0], tol=tol).why == choice.reason
-
-
-def test_the_estimate_integrates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No rate is evaluated in a loop: none is asked for before the model is chosen."""
-
-    def never(*_: object) -> None:
-        raise AssertionError("integrated")
-
-    monkeypatch.setattr("lagrotor.models.model.integrate", never)
-    for scene in (Scene((10, -10), shock=SHOCK), paired_scene(Scene((10, -10)), 0.2)):
-        assert choose(scene, 10.0, 1e-10).estimate <= 1e-10
-        with pytest.raises(AssertionError, match="integrated"):  # twin: a run does integrate
-            simulate(scene, [0.0, 10.0], "minimal")

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
-from math import cos, hypot, inf, nan, sin
+from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,7 @@ import pytest
 from numpy.polynomial import Chebyshev
 
 from lagrotor import Link, Rotor, Scene, Shock, Trajectory, consistent_scene, simulate
-from lagrotor.errors import InputError
-from lagrotor.models import exact_orbit, paper_system, run_solver
+from lagrotor.models import exact_orbit
 
 END, POINTS = 1.5, 81
 TIMES = END / 2 * (1 - np.cos(np.pi * np.arange(POINTS) / (POINTS - 1)))  # Chebyshev points: rates integrate exactly
@@ -48,27 +47,10 @@ def mirrored(scene: Scene) -> Scene:
     return replace(scene, spins=[-w for w in scene.spins[::-1]], axes=axes, rates=rates, shock=shock)
 
 
-def scaled(scene: Scene, mass: float, length: float, time: float) -> Scene:
-    """The same scene in other units."""
-    rotor, link, shock = scene.rotor, scene.link, scene.shock
-    assert link is not None
-    inertia = mass * length**2
-    force = mass * length / time**2
-    return Scene(
-        [w / time for w in scene.spins],
-        Rotor(mass * rotor.mass, length * rotor.length, inertia * rotor.I1, inertia * rotor.I3),
-        Link(length * link.length, mass * link.mass, inertia * link.inertia),
-        shock and Shock([force * f for f in shock.force], time * shock.at, time * shock.width, shock.body),
-        scene.axes,
-        np.array(scene.rates) / time,
-    )
-
-
 class Model:
     """A model that `simulate` offers, and the scenes that it holds; `rigid`: it keeps the bar's length to rounding."""
 
     scenes: tuple[str, ...] = ("paired", "unequal", "shocked", "wide")
-    conserving = True
 
     def __init__(self, name: str, *scenes: str, rigid: bool = False) -> None:
         self.name, self.rigid = name, rigid
@@ -78,27 +60,6 @@ class Model:
         return simulate(scene, t, self.name, tol)
 
 
-class SpringLink(Model):
-    """Stiff springs: the error falls as one over the stiffness, so it is twice what doubling that changes, with the margin
-    of an estimate to leading order."""
-
-    conserving = False
-
-    def run(self, scene: Scene, t: Any, tol: Any = 1e-8) -> Trajectory:
-        # N/m and kg/s for rotors of 1 kg at 10 rad/s, in the units of the scene.
-        unit = scene.rotor.mass * np.abs(scene.spins).max() ** 2 / 100
-        seen, stiffer = (
-            run_solver(paper_system(scene, S * unit, 2 * (S * scene.rotor.mass * unit) ** 0.5), scene.shock, t, tol)
-            for S in (2e4, 4e4)
-        )
-        error = 4 * float(np.linalg.norm(seen.axes - stiffer.axes, axis=-1).max())
-        momenta = np.repeat(np.array(scene.momenta)[:, None], len(seen.t), axis=1)
-        return Trajectory(
-            scene=scene, model=self.name, why="", t=seen.t, axes=seen.axes, rates=seen.rates, momenta=momenta,
-            errors=np.full(len(seen.t), error), evaluations=seen.evaluations,
-        )  # fmt: skip
-
-
 MODELS = [
     Model("closed_form", "paired"),
     Model("linear", "paired", "unequal", "shocked", rigid=True),
@@ -106,7 +67,6 @@ MODELS = [
     Model("minimal", rigid=True),
     Model("spheres"),
     Model("euler"),
-    SpringLink("spring_link", "paired", "unequal"),
 ]
 
 
@@ -123,16 +83,6 @@ def within(*runs: Trajectory) -> float:
 def fastest(scene: Scene) -> float:
     """Rate (rad/s) of a free rotor's axis: an error of the axes by e is one of their rates by about this times e."""
     return max(map(abs, scene.momenta)) / scene.rotor.J
-
-
-def check_observables(model: Model, name: str) -> None:
-    run, n = run_of(model, name), POINTS
-    shapes = {"t": (n,), "axes": (2, n, 3), "rates": (2, n, 3), "momenta": (2, n), "tips": (2, n, 3)}
-    shapes |= {"energy": (n,), "link_length": (n,), "inclinations": (2, n), "azimuths": (2, n)}
-    assert {part: getattr(run, part).shape for part in shapes} == shapes
-    assert {part.shape for part in run.invariants.values()} == {(n,)}
-    assert run.model == model.name and (run.t == TIMES).all() and run.evaluations >= 0
-    assert all(np.isfinite(getattr(run, part)).all() for part in shapes)
 
 
 def check_unit_axes(model: Model, name: str) -> None:
@@ -199,71 +149,24 @@ def check_parts_of_the_times(model: Model, name: str) -> None:
         assert np.abs(run.rates - whole.rates[:, part]).max() < fastest(run.scene) * e
 
 
-def check_start_is_at_the_first_time(model: Model, name: str) -> None:
-    """Begun at any time, with a shock as long after it, it is the same motion."""
-    whole, scene = run_of(model, name), scene_of(name)
-    later = replace(scene, shock=scene.shock and scene.shock.since(-3.5))
-    run, e = model.run(later, TIMES + 3.5), 2 * within(whole)
-    assert run.t[0] == 3.5 and np.abs(run.axes - whole.axes).max() < e
-
-
 def check_mirrored(model: Model, name: str) -> None:
     run, image = run_of(model, name), model.run(mirrored(scene_of(name)), TIMES)
     assert np.abs(image.axes - run.axes[::-1] * FLIP).max() < within(run, image)
 
 
-def check_units(model: Model, name: str) -> None:
-    mass, length, time = 3.0, 2.0, 0.5
-    run, other = run_of(model, name), model.run(scaled(scene_of(name), mass, length, time), time * TIMES)
-    e = within(run, other)
-    assert np.abs(other.axes - run.axes).max() < e
-    assert np.abs(time * other.rates - run.rates).max() < fastest(run.scene) * e
-    assert other.tips == pytest.approx(length * run.tips, abs=length**2 * e)
-
-
-BAD_TIMES: list[tuple[Any, str]] = [
-    *(
-        (t, "must be an increasing array of finite times")
-        for t in ([1, 0.5], [0, 1, 1], [0, nan], [0, inf], [], [[0, 1], [2, 3]], 1.0)
-    ),
-    *((t, "must be an array of times") for t in ("soon", [0, "x"], [[0], [1, 2]], ["0", "1"], [True, False])),
-    (None, "must be an (increasing )?array"),
-]
-
-
-def check_refusals(model: Model, name: str) -> None:
-    scene = scene_of(name)
-    for t, message in BAD_TIMES:
-        with pytest.raises(InputError, match=f"t = .*({message})"):
-            model.run(scene, t)
-    for tol in (0, 1e-14, 0.11, -1e-9, nan, "tight"):
-        with pytest.raises(InputError, match="tol = "):
-            model.run(scene, [0, 1], tol)
-    if not isinstance(model, SpringLink):
-        with pytest.raises(InputError, match="scene = 'two rotors' must be a Scene"):
-            simulate("two rotors", [0, 1], model.name)  # type: ignore[arg-type]
-
-
 CHECKS = {check.__name__.removeprefix("check_"): check for check in (
-    check_observables, check_unit_axes, check_tangent_rates, check_rates_are_derivatives, check_bar_length, check_conserved,
-    check_start, check_error, check_parts_of_the_times, check_start_is_at_the_first_time, check_mirrored,
-    check_units, check_refusals,
+    check_unit_axes, check_tangent_rates, check_rates_are_derivatives, check_bar_length, check_conserved, check_start,
+    check_error, check_parts_of_the_times, check_mirrored,
 )}  # fmt: skip
 
 
 @pytest.mark.parametrize("check", CHECKS)
 @pytest.mark.parametrize(
     ("model", "name"),
-    [
-        pytest.param(m, s, marks=pytest.mark.slow if (m.name, s) == ("spring_link", "paired") else ())
-        for m in MODELS
-        for s in m.scenes
-    ],
+    [(m, s) for m in MODELS for s in m.scenes],
     ids=lambda v: getattr(v, "name", v),
 )
 def test_every_model(model: Model, name: str, check: str) -> None:
-    if check == "conserved" and not model.conserving:
-        pytest.skip("dampers take energy: see test_spring_link")
     CHECKS[check](model, name)
 
 
@@ -277,7 +180,6 @@ def turned(axes: np.ndarray, angle: float) -> np.ndarray:
 
 
 WRONG: dict[str, Any] = {
-    "observables": lambda run: replace(run, momenta=run.momenta[:1]),
     "unit_axes": lambda run: replace(run, axes=run.axes * (1 + 1e-6)),
     "tangent_rates": lambda run: replace(run, rates=run.rates + 1e-5 * run.axes),
     "rates_are_derivatives": lambda run: replace(run, rates=run.rates * (1 + 1e-5)),
@@ -286,9 +188,7 @@ WRONG: dict[str, Any] = {
     "start": lambda run: replace(run, axes=np.roll(run.axes, -1, axis=1)),
     "error": lambda run: replace(run, axes=turned(run.axes, 1e-4)),
     "parts_of_the_times": lambda run: replace(run, axes=turned(run.axes, 1e-6 * len(run.t))),
-    "start_is_at_the_first_time": lambda run: replace(run, axes=turned(run.axes, 1e-6 * run.t[0])),
     "mirrored": lambda run: replace(run, axes=turned(run.axes, 1e-4)),
-    "units": lambda run: replace(run, axes=turned(run.axes, 1e-4 * hypot(*run.scene.spins))),
 }
 
 
@@ -298,12 +198,10 @@ class Spoiled(Model):
         self.check = check
 
     def run(self, scene: Scene, t: Any, tol: Any = TOL) -> Trajectory:
-        if self.check == "refusals":
-            return super().run(scene_of("unequal"), TIMES)
         return WRONG[self.check](super().run(scene, t, tol))
 
 
 @pytest.mark.parametrize("check", CHECKS)
 def test_a_model_with_a_fault_fails(check: str) -> None:
-    with pytest.raises((AssertionError, pytest.fail.Exception)):
+    with pytest.raises(AssertionError):
         CHECKS[check](Spoiled(check), "unequal")

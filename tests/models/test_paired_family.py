@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Scene, floquet, orbit_family, simulate
-from lagrotor.errors import DomainError, InputError
 from lagrotor.models import exact_orbit, trace_family
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.variational import flow
@@ -64,13 +63,6 @@ def test_family_agrees_with_shooting():
         assert family.frequencies[i] == pytest.approx(exact_orbit(scene, r0).frequency, rel=1e-10)
     end = simulate(family.orbit(1).scene, [0.0, 2 * np.pi / family.frequencies[1]], "minimal", 1e-13)
     assert np.abs(end.axes[:, 1] - np.array(family.orbit(1).scene.axes)).max() < 1e-9
-
-
-def test_refused():
-    with pytest.raises(InputError, match="opposite"):
-        orbit_family(Scene(spins=(10, 10)), [0.1])
-    with pytest.raises(DomainError, match="increase"):
-        orbit_family(Scene(spins=(10, -10)), [0.3, 0.2])
 
 
 @pytest.mark.slow

@@ -94,26 +94,6 @@ def test_two_runs_that_swing_through_each_other_are_no_better_known_where_they_m
     assert not (errors(0.0)[inside] >= whole[inside]).all()  # the twin
 
 
-def test_two_runs_that_meet_by_chance_at_the_first_time_are_no_better_known_there() -> None:
-    """Between the ends of long steps two interpolations swing through the motion; at the first time that is read they agree."""
-    times = np.array([0.0, 0.01, 10.0])
-
-    def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
-        swing = 5 * np.sin(6 * np.pi * times / 0.01) if companion else 0.0
-        states = 1 + (1e-8 * (1 + swing) * ((times > 0) & (times <= 0.01)))[:, None]
-        return Stretch(states, states[-1], 1)
-
-    def errors(parts: int) -> Array:
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(estimated_run, "_PARTS", parts)
-            distance = lambda one, other: np.abs(one - other)[:, 0]  # noqa: E731
-            run = estimate_run(Evolution(np.ones(1), integrate, distance, 1.0, ENOUGH), times, 1e-6)
-            return run.errors / np.abs(run.states[:, 0] - 1).max()
-
-    assert errors(estimated_run._PARTS)[1] > 1
-    assert errors(1)[1] < 0.1  # the twin
-
-
 def test_two_runs_that_part_slowly_by_chance_are_no_better_known_there() -> None:
     """Errors that grow like t and like t²: their difference is no larger at 7 than at 3, and zero between."""
     t = np.linspace(0.0, 40.0, 401)
@@ -153,13 +133,6 @@ def test_what_no_tolerance_keeps_is_the_best_there_is_and_is_said() -> None:
     with warnings.catch_warnings():  # twin
         warnings.simplefilter("error")
         Made(share=0.1).run(1e-6).warn_unless_kept("made", 1e-6)
-
-
-def test_rounding_that_breaks_a_tolerance_is_not_run_against() -> None:
-    made = Made(share=0.01)
-    run = made.run(1e-13, 1e3 * T)
-    assert run.errors[-1] > ROUNDING * 1e4
-    assert set(made.locals) == {APART * TIGHTEST, TIGHTEST}
 
 
 @pytest.mark.parametrize(("share", "integrations"), [(1.01, 4), (0.99, 2)])
@@ -202,17 +175,6 @@ def test_a_singular_position_is_said_only_where_it_is_measured() -> None:
     measured = made.run(1e-6, singular=lambda y: "the pole" if y[0] > 1 else "")
     assert (measured.ending.kind, measured.ending.reason) == ("singular", "the pole")
     assert made.run(1e-6, singular=lambda y: "").ending.kind == "stopped"
-
-
-def test_where_the_tight_one_stops_a_looser_pair_runs() -> None:
-    made = Made(share=0.1)
-    made.fails[1e-7] = StopError(7.3, "too many", cause="budget")
-    run = made.run(1e-6)
-    assert run.ending.kind == "end" and run.local > 1e-7
-    elsewhere = Made(share=0.1)
-    elsewhere.fails = made.fails
-    run = elsewhere.run(1e-6, elsewhere=True)  # twin: where other coordinates are at hand, it is left to them
-    assert run.ending.kind == "budget" and len(elsewhere.locals) == 2
 
 
 FIRST_LOCAL = 1e-6 * FIRST
@@ -274,11 +236,6 @@ def test_what_is_conserved_is_held_to_the_error() -> None:
         Made(share=np.nan).run(1e-6, elsewhere=True)
 
 
-def test_a_run_by_another_clock() -> None:
-    later = Made(share=0.1).run(1e-6).by_clock(3.0, 2.0)
-    assert later.t.tolist() == (3 + 2 * T).tolist() and later.ending.at == 23
-
-
 def test_between_two_events_that_differ_only_what_is_read_there_is_compared() -> None:
     """A jump of 1 at 4.95 in one run and at 5.05 in the other: what is read at 5 may be either."""
 
@@ -290,14 +247,6 @@ def test_between_two_events_that_differ_only_what_is_read_there_is_compared() ->
     evolution = replace(Made().evolution(), integrate=integrate)
     run = estimate_run(evolution, T, 1e-3)
     assert run.errors[5] > 1 and run.errors[6] < 1e-3 and run.ending.kind == "end"
-
-
-def test_no_looser_pair_is_tried_once_one_is_given_up() -> None:
-    """All local errors fail: each pair is looser, and the last is the first beyond GIVEN_UP."""
-    made, limit = Made(share=0.1), estimated_run.GIVEN_UP.value
-    made.fails[1.0] = StopError(7.3, "too many", cause="budget")
-    made.run(1e-7)
-    assert limit < max(made.locals) <= limit * APART**2
 
 
 def test_of_too_many_turns_nothing_is_begun() -> None:
@@ -341,21 +290,6 @@ def test_below_what_is_resolved_safety_counts_twice(local: float, slack: float, 
     )
 
 
-def test_two_runs_that_are_off_alike_in_what_they_conserve_are_known_no_better() -> None:
-    """Errors e and share e are (1 − share) e apart: the difference counts 2 share/(1 − share) times, of what both are off."""
-
-    def ratio(looser: float, better: float) -> float:
-        off, error = iter((looser, better)), Made(share=4e-4).run(1e-6).errors[-1]
-        run = Made(share=4e-4).run(1e-6, defect=lambda t, y: np.array([0.0, next(off)]))
-        return float(run.errors[-1] / error)
-
-    limit = ROUNDING * (START + 10)
-    cases = {(1, 1 / 3): 1, (1, 0.5): 2, (1, -1): 1, (0.5, 0.1): 1, (0.5, 0.4): 8}
-    assert [ratio(1e-9 * a, 1e-9 * b) for a, b in cases] == pytest.approx([*cases.values()], rel=0.3)
-    assert ratio(9 * limit, 9 * limit) == pytest.approx(1)  # rounding may be all that it is
-    assert ratio(11 * limit, 11 * limit) > 10
-
-
 def test_two_that_agree_are_known_no_better_than_a_share_of_their_local_error() -> None:
     run = Made(share=0.0).run(1e-4)
     assert run.errors == pytest.approx(LEAST * run.local + rounding(T))
@@ -393,35 +327,3 @@ def test_no_tighter_pair_is_tried_than_one_that_was_refused() -> None:
     made.fails[2e-9] = StopError(7.3, "too many", cause="budget")
     run = made.run(1e-6)
     assert run.ending.kind == "end" and run.errors[-1] > 1e-6 and sum(local < 2e-9 for local in made.locals) == 1
-
-
-@pytest.mark.parametrize(
-    ("growth", "reach"),
-    [
-        # A difference that grows as t⁴ is LOST where TIGHTEST t⁴ is.
-        (lambda t: 1e-6 * t**4, (LOST / TIGHTEST) ** 0.25),
-        # One that grows at once, late, by e^(λt) as if from the start.
-        (
-            lambda t: 1e-6 * np.exp(np.log(LOST / 1e-6) * np.maximum(t - 9, 0)),
-            10 * np.log(LOST / TIGHTEST) / np.log(LOST / 1e-6),
-        ),
-    ],
-    ids=["power", "exponential"],
-)
-def test_two_that_parted_are_hopeless_only_beyond_the_reach_of_the_tightest(growth: Any, reach: float) -> None:
-    nothing = Stretch(np.empty((0, 1)), np.ones(1), 0)
-    integration = estimated_run._Integration(1e-6, True, nothing)
-    for end, hopeless in ((reach / 1.1, False), (reach * 1.1, True)):
-        course = estimated_run._Course(Made().evolution(), np.linspace(0, end, 4001))
-        errors = growth(course.t)
-        pair = estimated_run._Pair(integration, integration, errors, float(course.t[np.argmax(errors > LOST)]))
-        assert bool(estimated_run._hopeless(course, pair)) is hopeless
-        assert not estimated_run._hopeless(course, replace(pair, lost=np.inf))
-        begun_lost = replace(pair, loose=estimated_run._Integration(LOST, True, nothing))
-        assert not estimated_run._hopeless(course, begun_lost)  # nothing is known of how it grows
-
-
-def test_no_local_error_is_below_the_tightest() -> None:
-    made = Made(share=0.3)
-    made.run(3e-13, T / 10)
-    assert min(made.locals) == TIGHTEST and len(made.locals) < 5

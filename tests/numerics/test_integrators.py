@@ -6,8 +6,6 @@ from math import cos
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, consistent_scene, simulate
-from lagrotor.models import minimal, spheres
 from lagrotor.numerics import solvers as lsoda_module
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.segment import Array, Segment, StopError
@@ -58,17 +56,6 @@ def test_the_first_step_of_lsoda_is_short_where_the_start_is_fast() -> None:
     assert 0 < max(seen[:4]) < 1e-9
 
 
-def test_the_weights_integrate_polynomials_exactly() -> None:
-    A, B, S, P = adams_weights(5)
-    nodes = np.arange(5) - 4.0
-    for n in range(5):
-        assert A.sum(0) @ nodes**n == pytest.approx(1 / (n + 1))
-        assert B.sum(0) @ nodes**n == pytest.approx(-((-1.0) ** (n + 1)) / (n + 1))
-        assert S @ nodes**n == pytest.approx((nodes ** (n + 1) - (-4.0) ** (n + 1)) / (n + 1))
-    x = 1.7 ** np.arange(6)
-    assert x @ P.T @ (np.arange(5) - 2.0) ** 3 == pytest.approx(1.7**4 / 4)
-
-
 def test_rounding_of_the_weights_does_not_gather(monkeypatch: pytest.MonkeyPatch) -> None:
     """Weights that are rounded once change the energy in each step alike, and in each run: two runs would agree, and be wrong."""
 
@@ -115,26 +102,6 @@ def test_the_adams_pair_finds_its_step_at_once(error: float, ceiling: int) -> No
     assert adams(segment(), error).evaluations < ceiling
 
 
-def test_a_state_out_of_reach_gives_no_number() -> None:
-    scene = Scene((10, -7))
-    beyond, nowhere = np.array([0.0, 2.0, 0, 0, 0, 0]), np.zeros(12)
-    assert np.isnan(minimal.MODEL.rate(scene, False)(0.0, beyond)).all()
-    assert np.isnan(spheres.MODEL.rate(scene, False)(0.0, nowhere)).all()
-
-
-@pytest.mark.parametrize("tol", [1e-4, 1e-6, 1e-8, 1e-9])
-def test_where_the_constraints_drift_fast_the_run_is_cut_shorter(tol: float) -> None:
-    """Axes that are pressed: their constraints' error grows exponentially within what the start's pace calls a turn."""
-    pressed = consistent_scene(
-        (20, -20), ((0.003, 0.01, 1), (0.002, 0, 1)), ((0, -1, 0), (0, -1, 0)), link=Link(1, 1, 0.05)
-    )
-    times = np.linspace(0, 5, 21)
-    run, exact = simulate(pressed, times, "spheres", tol), simulate(pressed, times, "minimal", 1e-12)
-    assert np.abs(run.axes - exact.axes).max() < 100 * tol
-    assert np.abs(run.link_length - 1).max() < 1e-10
-    assert run.evaluations < 15_000  # 5,800, or 10,000 where rounding has it that a third run is wanted
-
-
 def around_the_circle(s: float, y: Array) -> list[float]:
     """The unit circle at unit speed; off it the radius grows, and with it the speed, so that a projection has lost the angle."""
     off = y @ y - 1
@@ -153,50 +120,6 @@ def test_a_projection_from_far_off_is_not_taken(bounded: bool, monkeypatch: pyte
     assert off < 1e-4 if bounded else off > 0.1
 
 
-def test_a_run_that_stops_says_what_it_cost() -> None:
-    """Its own evaluations, of all the solvers that it tried; `simulate` adds those of a model that stopped on the way."""
-    spent = [0]
-
-    def blows_up(s: float, y: Array) -> list[float]:
-        spent[0] += 1
-        return [float(y[0] * y[0])]
-
-    for tol in (1e-6, 1e-12):
-        spent[0] = 0
-        with pytest.raises(StopError) as stopped, np.errstate(all="ignore"):
-            integrate(Problem(blows_up, np.ones(1), 1e5, typical_rate=1.0), np.array([2.0]), tol)
-        assert 0.1 * spent[0] < stopped.value.evaluations <= spent[0]
-
-
-def jittery(calls: list[float]):  # type: ignore[no-untyped-def]
-    """A right-hand side known to three digits only: no step is short enough for a tight tolerance. Its times are kept."""
-    digits = np.random.default_rng(0)
-
-    def rhs(s: float, y: Array) -> list[float]:
-        calls.append(s)
-        return [y[1], -y[0] * (1 + 1e-3 * digits.random())]
-
-    return rhs
-
-
-@pytest.mark.parametrize("engine", [lsoda, dop853])
-def test_a_solver_that_stops_has_counted_all_that_it_spent(engine) -> None:
-    calls = list[float]()
-    with pytest.raises(StopError) as stopped:
-        engine(Segment(jittery(calls), np.array([1.0, 0.0]), 0.0, 20.0, TIMES, budget=2_000), 1e-12)
-    assert 1_900 < stopped.value.evaluations == pytest.approx(len(calls), abs=3)
-
-
-def test_a_solver_that_does_not_get_on_stops_before_all_is_spent() -> None:
-    """Twin: what gets on with its run may spend as much as the run is allowed."""
-    calls = list[float]()
-    with pytest.raises(StopError) as stopped:
-        dop853(Segment(jittery(calls), np.array([1.0, 0.0]), 0.0, 2e3, TIMES, budget=200_000), 1e-12)
-    assert stopped.value.evaluations < 6_000 and stopped.value.at < 1
-    run = dop853(Segment(oscillate, np.array([1.0, 0.0]), 0.0, 2e3, TIMES, budget=200_000), 1e-8)
-    assert run.evaluations > 20_000
-
-
 @pytest.mark.parametrize("engine", [lsoda, adams, dop853])
 def test_no_step_passes_a_singular_position(engine) -> None:
     """A straight motion through it feels nothing: only the time that is left until then shortens the steps."""
@@ -213,34 +136,9 @@ def test_no_step_passes_a_singular_position(engine) -> None:
     assert engine(straight, 1e-9).end[0] == pytest.approx(-1)  # twin: what is not watched is passed
 
 
-def test_lsoda_does_not_run_far_beyond_where_its_steps_must_be_shorter() -> None:
-    """An oscillation that comes near a singular position each half turn; it was run to its end each time, and then anew."""
-
-    def farthest_back(drift: float) -> float:
-        back, last = [0.0], [0.0]
-
-        def rhs(s: float, y: Array) -> list[float]:
-            back[0], last[0] = max(back[0], last[0] - s), max(last[0], s)
-            return oscillate(s, y)
-
-        segment = Segment(rhs, np.array([1.0, 0.0]), 0.0, 20.0, TIMES, project=lambda y: y + drift)
-        try:
-            run = lsoda(replace(segment, time_to_singular=lambda y: 20 * abs(float(y[0]))), 1e-9)
-            assert run.states[:, 0] == pytest.approx(np.cos(TIMES), abs=1e-6)
-        except StopError:
-            assert drift
-        return back[0]
-
-    assert farthest_back(0.0) < 0.5
-    assert farthest_back(1e-3) > 1  # twin: what drifts is run again
-
-
 @pytest.mark.parametrize(("scale", "phase"), [(51.27, 0.419), (9.05, 0.442), (7.21, 4.468), (17.25, 1.77)])
 def test_what_lsoda_reached_is_at_the_time_that_it_says(scale: float, phase: float) -> None:
-    """A run whose last steps stop just before a part's end, whose state there was taken for the end's: 0.016 to 0.09 off.
-
-    Four of 600 random ones in which that showed.
-    """
+    """Four of 600 runs that stop just before a part's end, where the state was taken for the end's, 0.016 to 0.09 off."""
     segment = Segment(
         oscillate,
         np.array([np.cos(phase), -np.sin(phase)]),
@@ -252,47 +150,3 @@ def test_what_lsoda_reached_is_at_the_time_that_it_says(scale: float, phase: flo
         budget=20_000,
     )
     assert lsoda(segment, 1e-9).states[-1] == pytest.approx([np.cos(20 + phase), -np.sin(20 + phase)], abs=1e-6)
-
-
-@pytest.mark.parametrize(("last", "budget", "cause"), [(np.inf, 500, "budget"), (37.3, 10**5, "stopped")])
-def test_lsoda_hands_back_what_it_reached(last: float, budget: int, cause: str) -> None:
-    """Of an oscillation whose evaluations are spent, or whose rate is not finite from 37.3 on; twin: with enough, all of it."""
-    times = np.linspace(1.0, 100.0, 100)
-
-    def rates(s: float, y: Array) -> list[float]:
-        return [y[1], -y[0] if s < last else np.nan]
-
-    with pytest.raises(StopError) as stopped:
-        lsoda(Segment(rates, np.array([1.0, 0.0]), 0.0, 100.0, times, budget=budget), 1e-8)
-    stop = stopped.value
-    assert stop.cause == cause and stop.reached is not None and stop.evaluations >= min(budget, 500)
-    n = len(stop.reached.states)
-    assert n > 20 and stop.at == times[n - 1] and (stop.reached.end == stop.reached.states[-1]).all()
-    assert n == 37 or last == np.inf
-    assert np.abs(stop.reached.states[:, 0] - np.cos(times[:n])).max() < 1e-5
-    whole = Segment(lambda s, y: [y[1], -y[0]], np.array([1.0, 0.0]), 0.0, 100.0, times, budget=10**5)
-    assert len(lsoda(whole, 1e-8).states) == 100
-
-
-@pytest.mark.parametrize("budget", [500, 10**5])
-def test_unwatched_lsoda_spends_no_more_than_its_budget_in_all(budget: int) -> None:
-    """Not between each two outputs; twin: with enough it comes to its end, and each evaluation is made once."""
-    times, calls = np.linspace(1.0, 100.0, 100), [0]
-
-    def rates(s: float, y: Array) -> list[float]:
-        calls[0] += 1
-        return [y[1], -y[0]]
-
-    def watched(s: float, y: Array) -> list[float]:
-        return rates(s, y)
-
-    watched.bare = rates  # type: ignore[attr-defined]
-    segment = Segment(watched, np.array([1.0, 0.0]), 0.0, 100.0, times, budget=budget)
-    if budget == 500:
-        with pytest.raises(StopError) as stopped:
-            lsoda(segment, 1e-8)
-        assert stopped.value.cause == "budget" and stopped.value.reached
-        assert stopped.value.evaluations == pytest.approx(calls[0], abs=3) and calls[0] < 2 * budget + 5
-    else:
-        run = lsoda(segment, 1e-8)
-        assert 1_000 < run.evaluations == pytest.approx(calls[0], abs=3)

@@ -6,7 +6,6 @@ from math import exp, inf
 import numpy as np
 import pytest
 
-from lagrotor import Scene, Shock
 from lagrotor.numerics.pulse import PULSE_REACH, Window, brief_windows, pulse_windows, segments
 
 
@@ -82,10 +81,3 @@ def test_where_a_function_changes_briefly_steps_are_short(name, unit):
 def test_what_changes_alike_all_the_time_has_no_window(function):
     assert brief_windows(lambda t: function(t)[None], 0.0, 10.0) == ()
     assert brief_windows(lambda t: function(t)[None], 1.0, 1.0) == ()
-
-
-def test_a_scene_knows_whether_its_pulse_acts_within_a_run():
-    scene = Scene((10, -10), shock=Shock((1, 0, 0), at=2.0, width=0.1))
-    assert scene.shock_until(1.4) is scene.shock is scene.shock_until(9)
-    assert scene.shock_until(1.3) is None
-    assert Scene((10, -10), shock=Shock((1, 0, 0), at=-0.7, width=0.1)).shock_until(5) is None

@@ -1,16 +1,14 @@
 """The fast extra: the same motion as the core's, orders and steps set apart, and a word where it is not installed."""
 
 import sys
-from threading import Thread
 
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, Shock, consistent_scene, simulate
+from lagrotor import Scene, Shock, simulate
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.models import minimal, spheres
 from lagrotor.models import simulate as simulating
-from lagrotor.models.model import integrate_model
 from lagrotor.models.programs.minimal_program import program
 from lagrotor.numerics import taylor
 from lagrotor.numerics.integrate import Problem, integrate
@@ -55,15 +53,6 @@ def test_unit_vectors_run_by_taylor_steps_only_where_there_is_no_bar_to_come_int
     assert found == [True, True, False, True]
 
 
-@pytest.mark.parametrize("link", [Link(0.8), Link(1.4, 0.2, 0.0), Link(1, 0.01, 0.1)])
-@pytest.mark.parametrize("times", [[4.0], [0.0], [0.5, 4.0], [0.0, 4.0]])
-def test_any_bar_at_any_times(heyoka, link: Link, times: list[float]) -> None:
-    scene = consistent_scene((10, -7), ((0.1, 0.05, 1), (0.05, 0, 1)), ((0, 0.5, 0), (0, 0.2, 0)), link=link)
-    core, fast = (simulate(scene, times, "minimal", 1e-12, engine) for engine in ("core", "fast"))
-    assert fast.axes.shape == (2, len(times), 3)
-    assert fast.axes == pytest.approx(core.axes, abs=1e-10)
-
-
 @pytest.mark.parametrize(
     ("tol", "order"), [(0.1, 10), (1e-3, 10), (1e-7, 10), (9e-8, 14), (1e-11, 14), (9e-12, 16), (1e-13, 16)]
 )
@@ -76,22 +65,8 @@ def test_the_order_is_the_one_asked_for_and_a_step_leaves_what_is_asked(heyoka, 
     assert error < max(tol, 1e-12)
 
 
-def test_within_an_order_the_step_follows_the_tolerance(heyoka) -> None:
-    """The component that stands still sets it: steps as tol^(−1/order), within the rounding of a few of them."""
-    scene, times = Scene((10, -7), **MOVING), [20.0]
-    spent = [
-        integrate_model(minimal.MODEL, scene, np.array(times), tol, "fast").evaluations for tol in (1e-2, 1e-4, 1e-6)
-    ]
-    assert taylor_order(1e-2) == taylor_order(1e-6) == 10
-    assert spent[1] / spent[0] == pytest.approx(100**0.1, rel=0.1)
-    assert spent[2] / spent[1] == pytest.approx(100**0.1, rel=0.1)
-
-
 def test_an_azimuth_of_many_turns_costs_no_digit(heyoka) -> None:
-    """alpha is cyclic, chi an angle: ten thousand turns more change neither the motion nor the steps.
-
-    Twin: where chi is not said to be an angle, its size sets the steps.
-    """
+    """alpha is cyclic, chi an angle: ten thousand turns more change no step; twin: where chi is not said to be one, they do."""
     scene = Scene((10, -7), **MOVING)
     start, (form, values) = minimal.MODEL.start(scene), minimal.MODEL.program(scene, False)
     far = start + np.array([0, 0, 2e4 * np.pi, 0, 0, 0])
@@ -117,23 +92,6 @@ def test_what_reaches_the_joint_line_stops_and_says_so(heyoka) -> None:
     with pytest.warns(LagrotorWarning, match="engine='core' may go on|axis 1 lies along the joint line"):
         run = simulate(falling, [0.0, 1.0, 20.0], "minimal", 1e-9, "fast")
     assert run.ending.early and 1 < run.ending.at < 20 and run.t.tolist() == [0, 1]
-
-
-def test_threads_do_not_share_a_solver(heyoka) -> None:
-    scenes = [Scene((10, spin), **MOVING) for spin in (-7, -8)]
-    alone = [simulate(scene, TIMES, "minimal", 1e-9, "fast").axes for scene in scenes]
-    found = {}
-
-    def work(i: int) -> None:
-        for _ in range(50):
-            found[i] = simulate(scenes[i], TIMES, "minimal", 1e-9, "fast")
-
-    threads = [Thread(target=work, args=(i,)) for i in range(2)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert all((found[i].axes == alone[i]).all() for i in range(2))
 
 
 def test_what_stops_a_run_is_seen_at_its_last_step_and_not_at_the_last_time_read(heyoka) -> None:

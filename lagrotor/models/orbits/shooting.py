@@ -26,7 +26,7 @@ from lagrotor.theory.paired_precession.series import shape_of
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 
 # Bound of the error of a quarter period integrated at the tightest tolerance, relative to the flow's derivative; calibrated
-# by tests/models/test_orbit_errors.py, against collocation.
+# by tests/models/test_orbit_errors.py, against orbits in numbers of 64 bits.
 _INTEGRATED = 3e-14
 _LAST_MISS = 1e-8  # before a step of Newton's method, which squares it
 # Tolerance of the flow until the conditions are missed by less than _NEAR: a quarter of the cost.
