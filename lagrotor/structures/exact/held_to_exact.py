@@ -24,8 +24,8 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
     root = normal.growth[0] + 1j * normal.rates[0]
     if not root.real > 0:
         raise InputError("measured_growth: nothing grows about upright")
-    shape = 1e-5 * normal.shapes[0]
-    run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-8)
+    shape = 1e-5 * normal.shapes[0]  # tol below is 10⁻⁵ of this tilt
+    run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-10)
     roots, left = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
     w = left[:, np.argmin(np.abs(roots - root))]
     first, last = (abs(w @ state) for state in _coordinates(linear, run.axes, run.rates).T)
