@@ -24,10 +24,8 @@ from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.shock_response import shock_response
 
 _SAMPLES = 32  # a turn of the swing
-_LEAST, _MOST = (
-    4,
-    10_000,
-)  # swings of an exact run: below, no mean tells the drift from the swing; beyond, it takes too long
+_LEAST = 4  # swings of an exact run, below which no mean separates the drift from the swing
+_MOST = 10_000  # swings of an exact run, beyond which it takes too long
 _LONGEST = 3  # times what the averaged motion takes, of an exact run
 
 

@@ -86,7 +86,7 @@ def test_a_run_that_promised_too_much_would_be_seen() -> None:
 def test_three_hundred_and_sixty_random_systems_keep_their_promise_and_it_is_tight() -> None:
     outcomes = [outcome(seed) for seed in range(360)]
     assert held(outcomes) == []
-    assert np.median([o.error / o.true for o in outcomes if o.true > 1e-13]) < 25  # it is 16
+    assert np.median([o.error / o.true for o in outcomes if o.true > 1e-13]) < 25
 
 
 @pytest.mark.slow
