@@ -313,9 +313,9 @@ def arguments(function: ast.FunctionDef) -> list[str]:
 
 
 def explained(docstring: str, section: str) -> set[str]:
-    """What a section of a docstring in Google's form has entries of."""
-    found = re.search(rf"^{section}:\n((?: {{4}}.*\n?|\n)*)", docstring, re.MULTILINE)
-    return set(re.findall(r"^ {4}(\w+):", found[1], re.MULTILINE)) if found else set()
+    """Names that a section of a numpydoc docstring explains."""
+    match = re.search(rf"^{section}\n-+\n(.*?)(?=^\w[^\n]*\n-+\n|\Z)", docstring, re.MULTILINE | re.DOTALL)
+    return set(re.findall(r"^\*{0,2}(\w+)(?= :|$)", match[1], re.MULTILINE)) if match else set()
 
 
 def test_arguments_and_what_is_raised_have_sections_that_the_reference_sets_as_lists() -> None:
@@ -326,8 +326,12 @@ def test_arguments_and_what_is_raised_have_sections_that_the_reference_sets_as_l
         for name, each in functions.items()
         if len(arguments(each)) > 2
         and (
-            "Args:" not in (text := ast.get_docstring(each) or "")
-            or [a for a in arguments(each) if a not in explained(text, "Args") and not re.search(rf"\b{a}\b", text)]
+            "Parameters\n-" not in (text := ast.get_docstring(each) or "")
+            or [
+                a
+                for a in arguments(each)
+                if a not in explained(text, "Parameters") and not re.search(rf"\b{a}\b", text)
+            ]
         )
     }
     assert len(functions) > 300 and lacking == {}
@@ -335,7 +339,7 @@ def test_arguments_and_what_is_raised_have_sections_that_the_reference_sets_as_l
         name: extra
         for name, each in functions.items()
         if (
-            extra := explained(ast.get_docstring(each) or "", "Args")
+            extra := explained(ast.get_docstring(each) or "", "Parameters")
             - {*arguments(each), getattr(each.args.kwarg, "arg", "")}
         )
     }
@@ -345,9 +349,9 @@ def test_arguments_and_what_is_raised_have_sections_that_the_reference_sets_as_l
 
 
 def test_a_docstring_without_its_sections_is_seen() -> None:
-    text = "What it is.\n\nArgs:\n    a: one.\n        b: more of it.\n    c: another.\n\nRaises:\n    InputError: no."
-    assert explained(text, "Args") == {"a", "c"} and explained(text, "Raises") == {"InputError"}
-    assert explained("What it is. Args: a: one.", "Args") == set()
+    text = "Do.\n\nParameters\n----------\na : int\n    One.\nc\n    Another.\n\nRaises\n------\nInputError\n    No."
+    assert explained(text, "Parameters") == {"a", "c"} and explained(text, "Raises") == {"InputError"}
+    assert explained("Do. Parameters: a : one.", "Parameters") == set()
     function = ast.parse("def f(self, a, *b, c=1, **d): ...").body[0]
     assert isinstance(function, ast.FunctionDef) and arguments(function) == ["a", "b", "c"]
 

@@ -22,10 +22,14 @@ def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
 def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.Expr]) -> sp.Expr:
     """Σ r ∂e/∂s, the rate of an expression.
 
-    Args:
-        expression: e.
-        symbols: each s.
-        rates: r, at which s changes.
+    Parameters
+    ----------
+    expression : Expr
+        E.
+    symbols : Iterable[Symbol]
+        Each s.
+    rates : Iterable[Expr]
+        R, at which s changes.
     """
     given = [(s, r) for s, r in zip(symbols, rates, strict=True) if r != 0]
     slopes = [(derivative(expression, s), r) for s, r in given]

@@ -106,11 +106,15 @@ class Decision:
 def decide_zero(expression: sp.Expr, within: Iterable[Any] = ()) -> Decision:
     """Decide expression = 0; with floats in it, beyond the bound on the work and where nothing proves it "undecided".
 
-    Args:
-        within: inequalities that hold of the letters, x > 0, besides what these are declared to be.
+    Parameters
+    ----------
+    within : Iterable[Any], default ()
+        Inequalities that hold of the letters, x > 0, besides what these are declared to be.
 
-    Raises:
-        InputError: for what is not a scalar expression, for two letters of one name, and for what is no inequality.
+    Raises
+    ------
+    InputError
+        For what is not a scalar expression, for two letters of one name, and for what is no inequality.
     """
     try:
         expression = scalar(expression, "decide_zero")
@@ -244,19 +248,26 @@ def _listed(roots: Roots) -> str:
 def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase, within: Iterable[Any] = ()) -> Decision:
     """Decide left = right; matrices are equal if every entry is, and unequal if any is.
 
-    Examples:
-        >>> from sympy import log, symbols
-        >>> x = symbols("x", positive=True)
-        >>> decide_equal(log(x**2), 2*log(x)).answer, decide_equal(x**2/x, x + 1).answer
-        ('zero', 'nonzero')
+    Parameters
+    ----------
+    left : Expr or MatrixBase
+        An expression or a matrix.
+    right : Expr or MatrixBase
+        Likewise.
+    within : Iterable[Any], default ()
+        Inequalities, as of `decide_zero`.
 
-    Args:
-        left: an expression or a matrix.
-        right: likewise.
-        within: inequalities, as of `decide_zero`.
+    Raises
+    ------
+    InputError
+        The two differ in shape, or are no expressions; two letters of one name.
 
-    Raises:
-        InputError: the two differ in shape, or are no expressions; two letters of one name.
+    Examples
+    --------
+    >>> from sympy import log, symbols
+    >>> x = symbols("x", positive=True)
+    >>> decide_equal(log(x**2), 2*log(x)).answer, decide_equal(x**2/x, x + 1).answer
+    ('zero', 'nonzero')
     """
     left, right = sympified(left, "decide_equal"), sympified(right, "decide_equal")
     shapes = getattr(left, "shape", ()), getattr(right, "shape", ())
@@ -291,9 +302,12 @@ def normal_form(expression: sp.Expr) -> sp.Expr:
     P is of degree below two in every squared generator and Q is free of them, which makes P/Q unique for given base
     angles (x itself, or x/n if the expression has n-th parts of x) and roots.
 
-    Raises:
-        NotExactError: outside the class, and for roots whose sign differs between regions.
-        InputError: for what is not a scalar expression.
+    Raises
+    ------
+    NotExactError
+        Outside the class, and for roots whose sign differs between regions.
+    InputError
+        For what is not a scalar expression.
     """
     expression = scalar(expression, "normal_form")
     found = survey(expression, largest=inf)

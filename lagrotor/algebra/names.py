@@ -11,12 +11,17 @@ from lagrotor.errors import InputError
 def check_names(where: str, *given: Any) -> None:
     """Refuse symbols of one name and other assumptions.
 
-    Args:
-        where: how the error begins.
-        given: expressions, matrices, relations, rows and mappings of them; anything else is passed over, and so are dummies.
+    Parameters
+    ----------
+    where : str
+        How the error begins.
+    given
+        Expressions, matrices, relations, rows and mappings of them; anything else is passed over, and so are dummies.
 
-    Raises:
-        InputError: if there are two.
+    Raises
+    ------
+    InputError
+        If there are two.
     """
     seen: dict[str, sp.Symbol] = {}
     for symbol in symbols_in(given):

@@ -75,14 +75,21 @@ class LeadingTerm:
 def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
     """Return the series of an expression, with its principal part.
 
-    Args:
-        expression: a scalar.
-        small: the symbol about whose 0 it is expanded.
-        order: through small**order.
+    Parameters
+    ----------
+    expression : Expr
+        A scalar.
+    small : Symbol
+        The symbol about whose 0 it is expanded.
+    order : int
+        Through small**order.
 
-    Raises:
-        NotExactError: if the expression is not known to have one there.
-        InputError: for what is not a scalar expression, a symbol and a whole number.
+    Raises
+    ------
+    NotExactError
+        If the expression is not known to have one there.
+    InputError
+        For what is not a scalar expression, a symbol and a whole number.
     """
     terms = [
         sp.expand_mul(coefficient.xreplace({_LOG: sp.log(small)})) * small**power
@@ -95,14 +102,20 @@ def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Ex
 def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> LeadingTerm:
     """Return the first term of a series that does not vanish.
 
-    Args:
-        expression: a scalar.
-        small: the symbol about whose 0 it is expanded.
-        through: the order below which is looked, terms small**(through + 1) * log(small)**k included; where there is none
-            the expression is O(small**(through + 1)).
+    Parameters
+    ----------
+    expression : Expr
+        A scalar.
+    small : Symbol
+        The symbol about whose 0 it is expanded.
+    through : int, default 8
+        The order below which is looked, terms small**(through + 1) * log(small)**k included; where there is none
+        the expression is O(small**(through + 1)).
 
-    Raises:
-        NotExactError: if a coefficient met on the way is undecided, or the expression has no series at small = 0.
+    Raises
+    ------
+    NotExactError
+        If a coefficient met on the way is undecided, or the expression has no series at small = 0.
     """
     for power, coefficient in _terms(scalar(expression, "leading_term"), small, through):
         decision = decide_zero(coefficient)
@@ -119,14 +132,21 @@ def agreement_order(printed: sp.Expr, derived: sp.Expr, small: sp.Symbol, throug
 
     The order is absolute, also where the sides have a pole: 1/sin(e) and 1/e agree through order 0 and part by e/6.
 
-    Args:
-        printed: one side.
-        derived: the other.
-        small: the symbol about whose 0 both are expanded.
-        through: the order through which is looked.
+    Parameters
+    ----------
+    printed : Expr
+        One side.
+    derived : Expr
+        The other.
+    small : Symbol
+        The symbol about whose 0 both are expanded.
+    through : int, default 8
+        The order through which is looked.
 
-    Raises:
-        NotExactError: as `leading_term` does.
+    Raises
+    ------
+    NotExactError
+        As `leading_term` does.
     """
     return leading_term(scalar(printed, "agreement_order") - scalar(derived, "agreement_order"), small, through)
 

@@ -162,17 +162,27 @@ def animate_lines(
 
     Seen along y where nothing moves along it, from above where nothing rises, else obliquely.
 
-    Args:
-        path: of the file, which is written whole or not at all.
-        t: times of the frames, (m,), in s.
-        lines: each (m, p, 3), in m.
-        fps: frames per second.
-        inks: colours of the lines, again from the first where there are fewer than lines.
-        traced: the lines whose last point leaves its path; all where it is not given.
-        step: called with each second of the film as it begins.
+    Parameters
+    ----------
+    path : str or Path
+        Of the file, which is written whole or not at all.
+    t : Array
+        Times of the frames, (m,), in s.
+    lines : sequence
+        Each (m, p, 3), in m.
+    fps : float
+        Frames per second.
+    inks : sequence, default ROTORS
+        Colours of the lines, again from the first where there are fewer than lines.
+    traced : Sequence[int] or None, optional
+        The lines whose last point leaves its path; all where it is not given.
+    step : callable, default lambda name: None
+        Called with each second of the film as it begins.
 
-    Raises:
-        InputError: for a name or a rate that will not do, before anything is drawn.
+    Raises
+    ------
+    InputError
+        For a name or a rate that will not do, before anything is drawn.
     """
     target, flat = Path(path), _flat(lines)
     check_film(target, float(t[-1] - t[0]), fps)

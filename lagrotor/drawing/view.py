@@ -92,15 +92,23 @@ def view_lines(
 ) -> View:
     """Lines that move as a view.
 
-    Args:
-        t: times of the frames, (m,), in s.
-        lines: each (m, p, 3), in m; a line of one time stands still, (1, p, 3).
-        inks: their colours, again from the first where there are fewer than lines.
-        title: a line above.
-        traced: the lines whose last point leaves its path; all where it is not given.
+    Parameters
+    ----------
+    t : Array
+        Times of the frames, (m,), in s.
+    lines : sequence
+        Each (m, p, 3), in m; a line of one time stands still, (1, p, 3).
+    inks : sequence
+        Their colours, again from the first where there are fewer than lines.
+    title : str, default ''
+        A line above.
+    traced : Sequence[int] or None, optional
+        The lines whose last point leaves its path; all where it is not given.
 
-    Raises:
-        InputError: a motion that is empty or not finite.
+    Raises
+    ------
+    InputError
+        A motion that is empty or not finite.
     """
     held = [np.asarray(line, float) for line in lines]
     if not held or len(t) < 2 or not all(line.size and np.isfinite(line).all() for line in held):

@@ -26,15 +26,23 @@ WORST_CONDITION = 1e12
 def solve_constrained(M: Array, h: Array, G: Array, gamma: Array, Q: Array) -> tuple[Array, Array]:
     """(a, λ) at one state, shapes (n,) and (k,).
 
-    Args:
-        M: mass matrix (n, n).
-        h: the other terms of M a + h = Q + Gᵀ λ, (n,).
-        G: Jacobian (k, n) of the constraints.
-        gamma: γ of G a + γ = 0, (k,).
-        Q: generalised forces (n,).
+    Parameters
+    ----------
+    M : Array
+        Mass matrix (n, n).
+    h : Array
+        The other terms of M a + h = Q + Gᵀ λ, (n,).
+    G : Array
+        Jacobian (k, n) of the constraints.
+    gamma : Array
+        Γ of G a + γ = 0, (k,).
+    Q : Array
+        Generalised forces (n,).
 
-    Raises:
-        SingularError: when M is singular or the rows of G are linearly dependent.
+    Raises
+    ------
+    SingularError
+        When M is singular or the rows of G are linearly dependent.
     """
     W, S = _normals("solve_constrained", G, M)
     free = np.linalg.solve(M, Q - h)
@@ -55,15 +63,23 @@ def project_position(
     10⁻¹⁴ (1 + |q|), a length in q, whatever the units of g, or when g is below the rounding of its terms, 4 eps |G| |q|: beside
     dependent constraints that rounding alone moves q by more.
 
-    Args:
-        g_fun: q → g, (k,).
-        G_fun: q → G, (k, n).
-        q: where it begins, (n,).
-        mass: M, (n, n); 1 when none is given.
+    Parameters
+    ----------
+    g_fun : callable
+        Q → g, (k,).
+    G_fun : callable
+        Q → G, (k, n).
+    q : Array
+        Where it begins, (n,).
+    mass : Array or None, optional
+        M, (n, n); 1 when none is given.
 
-    Raises:
-        ConstraintError: with the residual left after 20 steps.
-        SingularError: where the rows of G are dependent.
+    Raises
+    ------
+    ConstraintError
+        With the residual left after 20 steps.
+    SingularError
+        Where the rows of G are dependent.
     """
     start, q = q, np.array(q, dtype=float)
     for _ in range(_STEPS):
@@ -83,13 +99,19 @@ def project_position(
 def project_velocity(G: Array, v: Array, mass: Array | None = None) -> Array:
     """v − M⁻¹ Gᵀ S⁻¹ G v, shape (n,): the velocity with G v = 0 nearest to v in the mass metric.
 
-    Args:
-        G: Jacobian (k, n) of the constraints.
-        v: (n,).
-        mass: M, (n, n); 1 when none is given.
+    Parameters
+    ----------
+    G : Array
+        Jacobian (k, n) of the constraints.
+    v : Array
+        (n,).
+    mass : Array or None, optional
+        M, (n, n); 1 when none is given.
 
-    Raises:
-        SingularError: when M is singular or the rows of G are linearly dependent.
+    Raises
+    ------
+    SingularError
+        When M is singular or the rows of G are linearly dependent.
     """
     W, S = _normals("project_velocity", G, mass)
     return v - W @ np.linalg.solve(S, G @ v)

@@ -391,8 +391,10 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
 
     For small systems: the adjugate grows fast with their number of coordinates.
 
-    Raises:
-        SingularError: when det M or det S vanishes identically.
+    Raises
+    ------
+    SingularError
+        When det M or det S vanishes identically.
     """
     M, G = system.mass, system.rows
     push, by_reaction = push_left(replace(system, velocities=()), system.push)
@@ -407,8 +409,10 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
 def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
     """n − rank G at one configuration. The rank is numerical: the singular values of G above rounding.
 
-    Raises:
-        InputError: when a symbol of G has no value in `at`.
+    Raises
+    ------
+    InputError
+        When a symbol of G has no value in `at`.
     """
     G = system.rows.subs(dict(at))
     if G.free_symbols:

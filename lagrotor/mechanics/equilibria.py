@@ -29,10 +29,13 @@ Solution = dict[sp.Symbol, sp.Expr]
 class Equilibrium:
     """Values of the unknowns, `at`, and the conditions (relations) under which they are real and nothing is singular.
 
-    Attributes:
-        regular: whether the mass matrix is regular there. Where it is not, as at the pole of spherical coordinates, no force
-            along a coordinate is necessary for rest and may not be enough: other coordinates decide.
-        enclosure: where it was found in a box, rationals between which each coordinate is proved to lie; `at` is rounded.
+    Attributes
+    ----------
+    regular : bool, default True
+        Whether the mass matrix is regular there. Where it is not, as at the pole of spherical coordinates, no force
+        along a coordinate is necessary for rest and may not be enough: other coordinates decide.
+    enclosure : mapping, default field(default_factory=dict)
+        Where it was found in a box, rationals between which each coordinate is proved to lie; `at` is rounded.
     """
 
     at: Mapping[sp.Symbol, sp.Expr]

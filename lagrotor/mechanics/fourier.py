@@ -52,10 +52,14 @@ class FourierSeries:
     def assign(self, n: int, h: int, value: Coefficient) -> None:
         """Set a coefficient of a series that is made of terms; `forget` what was computed without it.
 
-        Args:
-            n: the power of eps.
-            h: the harmonic.
-            value: the coefficient.
+        Parameters
+        ----------
+        n : int
+            The power of eps.
+        h : int
+            The harmonic.
+        value : Coefficient
+            The coefficient.
         """
         if value:
             self._compute(n)[h] = value  # type: ignore[index]

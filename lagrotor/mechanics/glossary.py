@@ -33,11 +33,16 @@ class Glossary(dict[sp.Symbol, Entry]):
     def letter(self, name: str, meaning: str, unit: str, **assumptions: bool) -> sp.Symbol:
         """A symbol that enters the glossary as it is declared.
 
-        Args:
-            name: as sympy takes it.
-            meaning: in words.
-            unit: as in "kg m^2"; 1 for a number.
-            assumptions: sympy's, such as positive=True.
+        Parameters
+        ----------
+        name : str
+            As sympy takes it.
+        meaning : str
+            In words.
+        unit : str
+            As in "kg m^2"; 1 for a number.
+        assumptions : bool
+            Sympy's, such as positive=True.
         """
         symbol = sp.Symbol(name, **assumptions)
         self[symbol] = Entry(symbol, meaning, unit)

@@ -29,8 +29,10 @@ t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a c
 class Coordinates:
     """The names of one configuration: coordinates q, velocities v = q', accelerations a = q'', n of each.
 
-    Raises:
-        InputError: when the lengths differ or a symbol appears twice.
+    Raises
+    ------
+    InputError
+        When the lengths differ or a symbol appears twice.
     """
 
     q: tuple[sp.Symbol, ...]
@@ -51,13 +53,16 @@ class Coordinates:
 def coordinates(names: str | Sequence[str]) -> Coordinates:
     """Real symbols for the named coordinates: "theta phi" gives theta, theta_dot, theta_ddot, phi, ...
 
-    Examples:
-        >>> c = coordinates("theta phi")
-        >>> c.q, c.v
-        ((theta, phi), (theta_dot, phi_dot))
+    Raises
+    ------
+    InputError
+        There is no name, one is repeated, or does not begin with a letter.
 
-    Raises:
-        InputError: there is no name, one is repeated, or does not begin with a letter.
+    Examples
+    --------
+    >>> c = coordinates("theta phi")
+    >>> c.q, c.v
+    ((theta, phi), (theta_dot, phi_dot))
     """
     if not isinstance(names, Sequence):
         raise InputError(f"coordinates: {names!r} must be names: coordinates('phi theta psi')")
@@ -117,14 +122,21 @@ def euler_lagrange(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 def accelerations(L: sp.Expr, c: Coordinates, forces: Sequence[sp.Expr] | None = None) -> sp.Matrix:
     """a = M⁻¹ (Q − h), shape (n, 1).
 
-    Args:
-        L: the Lagrangian.
-        c: its coordinates.
-        forces: Q, zero when none are given.
+    Parameters
+    ----------
+    L : Expr
+        The Lagrangian.
+    c : Coordinates
+        Its coordinates.
+    forces : Sequence[Expr] or None, optional
+        Q, zero when none are given.
 
-    Raises:
-        SingularError: when det M vanishes identically.
-        InputError: when there are not n forces.
+    Raises
+    ------
+    SingularError
+        When det M vanishes identically.
+    InputError
+        When there are not n forces.
     """
     M = mass_matrix(L, c)
     return linear_solve(M, force_column(forces, c, "accelerations") - bias(L, c), singular_mass("accelerations", M, c))

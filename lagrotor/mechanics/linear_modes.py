@@ -48,8 +48,10 @@ class LinearSystem:
         """The modes, exact where the factors of the characteristic polynomial are of degree two in s or s²; with `values`
         for every symbol, numbers, sorted by |rate|.
 
-        Raises:
-            InputError: when neither is possible, or a symbol has no value.
+        Raises
+        ------
+        InputError
+            When neither is possible, or a symbol has no value.
         """
         if values is not None:
             return self._numeric_modes(values)

@@ -144,15 +144,23 @@ def _rate_along_speeds(system: Equations, f: sp.Expr) -> sp.Expr:
 def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
     """H(q, p) = p · v − L at p = ∂L/∂v: for L = ½ v·M v + b·v − V,  H = ½ (p − b)·M⁻¹(p − b) + V. Goldstein §8.1.
 
-    Args:
-        L: the Lagrangian.
-        c: its coordinates.
-        p: names of the momenta, or n symbols.
+    Parameters
+    ----------
+    L : Expr
+        The Lagrangian.
+    c : Coordinates
+        Its coordinates.
+    p : sequence
+        Names of the momenta, or n symbols.
 
-    Raises:
-        DomainError: when L is not quadratic in v.
-        SingularError: when det M vanishes identically.
-        InputError: when p does not name n new symbols.
+    Raises
+    ------
+    DomainError
+        When L is not quadratic in v.
+    SingularError
+        When det M vanishes identically.
+    InputError
+        When p does not name n new symbols.
     """
     if not all(isinstance(s, sp.Symbol) for s in p) or len({*p}) != len(p):
         raise InputError(f"legendre: momenta {tuple(p)}: each must be a symbol of its own; rename them")

@@ -30,18 +30,19 @@ if TYPE_CHECKING:
 class System(Equations):
     """System(c, L, constraints=(), rolling=(), dissipation=0, forces=()): a Lagrangian L(q, v, t), and what acts on it.
 
-    Examples:
-        >>> from sympy import cos, symbols
-        >>> from lagrotor.mechanics import coordinates
-        >>> m, l, g = symbols("m l g", positive=True)
-        >>> c = coordinates("theta")
-        >>> pendulum = System(c, m * l**2 * c.v[0]**2 / 2 + m * g * l * cos(c.q[0]))
-        >>> pendulum.motion[0]
-        g*l*m*sin(theta) + l**2*m*theta_ddot
-        >>> pendulum.linearise({c.q[0]: 0}).modes()[0].rate
-        I*sqrt(g)/sqrt(l)
-
     The arguments are those of `Equations`, to which this class adds what is derived from them.
+
+    Examples
+    --------
+    >>> from sympy import cos, symbols
+    >>> from lagrotor.mechanics import coordinates
+    >>> m, l, g = symbols("m l g", positive=True)
+    >>> c = coordinates("theta")
+    >>> pendulum = System(c, m * l**2 * c.v[0]**2 / 2 + m * g * l * cos(c.q[0]))
+    >>> pendulum.motion[0]
+    g*l*m*sin(theta) + l**2*m*theta_ddot
+    >>> pendulum.linearise({c.q[0]: 0}).modes()[0].rate
+    I*sqrt(g)/sqrt(l)
     """
 
     @staticmethod
@@ -81,19 +82,29 @@ class System(Equations):
         Without values: M a + C v + K q = 0 in symbols, see `steady_motions.linearise`; for inputs and outputs, and about a motion
         that rolls, A, B, C, D in symbols. With values: the numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u.
 
-        Args:
-            at: the equilibrium, or the coordinates and velocities of the motion.
-            values: of the parameters.
-            inputs: u, parameters, zero unless they have a value.
-            outputs: y, expressions in q, v, a and the multipliers.
+        Parameters
+        ----------
+        at : Mapping[Any, Any] or Equilibrium
+            The equilibrium, or the coordinates and velocities of the motion.
+        values : Values or None, optional
+            Of the parameters.
+        inputs : sequence, default ()
+            U, parameters, zero unless they have a value.
+        outputs : sequence, default ()
+            Y, expressions in q, v, a and the multipliers.
 
-        Returns:
+        Returns
+        -------
             A LinearSystem, a StateEquations, or with values a StateSpace.
 
-        Raises:
-            SingularError: where accelerations are left.
-            ConstraintError: off the constraints.
-            InputError: where the coefficients change with time.
+        Raises
+        ------
+        SingularError
+            Where accelerations are left.
+        ConstraintError
+            Off the constraints.
+        InputError
+            Where the coefficients change with time.
         """
         for name, listed in (("inputs", inputs), ("outputs", outputs)):
             if isinstance(listed, str) or not isinstance(listed, Sequence | sp.MatrixBase):
@@ -119,14 +130,21 @@ class System(Equations):
     def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
         """Return the monodromy matrix of a periodic motion and its multipliers, each with its error and NaN where it is below it.
 
-        Args:
-            at: coordinates and velocities at t = 0, or at the value of t. A rest in a system that is driven is a motion, too.
-            values: of the parameters.
-            period: s; at rest that of what drives.
+        Parameters
+        ----------
+        at : mapping
+            Coordinates and velocities at t = 0, or at the value of t. A rest in a system that is driven is a motion, too.
+        values : Values
+            Of the parameters.
+        period : float
+            S; at rest that of what drives.
 
-        Raises:
-            InputError: where the motion has not come back after the period, or forces jump.
-            ConstraintError: as `linearise`.
+        Raises
+        ------
+        InputError
+            Where the motion has not come back after the period, or forces jump.
+        ConstraintError
+            As `linearise`.
         """
         from lagrotor.mechanics.running import function_values, monodromy
 
@@ -138,14 +156,21 @@ class System(Equations):
     ) -> "RootLocus":
         """The rates of small motion as one letter takes numbers.
 
-        Args:
-            at: coordinates and velocities, which may be expressions in the letter.
-            values: of the other parameters.
-            letter: the one that changes.
-            numbers: increasing, (n,).
+        Parameters
+        ----------
+        at : mapping
+            Coordinates and velocities, which may be expressions in the letter.
+        values : Values
+            Of the other parameters.
+        letter : Symbol or str
+            The one that changes.
+        numbers : array_like
+            Increasing, (n,).
 
-        Raises:
-            InputError: where the letter has a value already, and as `linearise`.
+        Raises
+        ------
+        InputError
+            Where the letter has a value already, and as `linearise`.
         """
         from lagrotor.mechanics.running import function_values, root_loci
 
@@ -157,14 +182,21 @@ class System(Equations):
     ) -> "StabilityChart":
         """The largest growth of small motion over two letters: as many evaluations as numbers, and twenty for each boundary.
 
-        Args:
-            at: coordinates and velocities, which may be expressions in the letters.
-            values: of the other parameters.
-            numbers: {letter: increasing numbers, …}.
-            period: of a periodic motion, which grows by its multipliers: a number or an expression in the letters.
+        Parameters
+        ----------
+        at : mapping
+            Coordinates and velocities, which may be expressions in the letters.
+        values : Values
+            Of the other parameters.
+        numbers : mapping
+            {letter: increasing numbers, …}.
+        period : optional
+            Of a periodic motion, which grows by its multipliers: a number or an expression in the letters.
 
-        Raises:
-            InputError: as `root_locus`.
+        Raises
+        ------
+        InputError
+            As `root_locus`.
         """
         from lagrotor.mechanics.running import function_values, root_loci
 
@@ -174,15 +206,23 @@ class System(Equations):
     def consistent(self, values: "Values", q0: "ArrayLike", v0: "ArrayLike", t: float = 0.0) -> "tuple[Array, Array]":
         """The state (q, v) on the constraints that is nearest to a start in the mass metric.
 
-        Args:
-            values: of the parameters.
-            q0: (N,).
-            v0: (N,).
-            t: the time, s.
+        Parameters
+        ----------
+        values : Values
+            Of the parameters.
+        q0 : array_like
+            (N,).
+        v0 : array_like
+            (N,).
+        t : float, default 0.0
+            The time, s.
 
-        Raises:
-            ConstraintError: when it is not reached.
-            SingularError: where the constraints are dependent.
+        Raises
+        ------
+        ConstraintError
+            When it is not reached.
+        SingularError
+            Where the constraints are dependent.
         """
         from lagrotor.mechanics.running import function_values, start
 
@@ -219,25 +259,39 @@ class System(Equations):
         narrow it is: exp(−((q − c)/w)²), tanh((q − c)/w), 1/(1 + ((q − c)/w)²). The narrow parts of a callable, a table or a
         spline are not known: give an expression.
 
-        Args:
-            values: {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,
-                callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: where the
-                motion leaves a table, the run ends.
-            q0: at t[0], (N,).
-            v0: at t[0], (N,); u (m,) for velocities of one's own.
-            t: increasing times (n,), s.
-            tol: the largest error of the whole run, relative to the sizes of coordinates and velocities. It is estimated;
-                where it is not kept, a LagrotorWarning says up to which time it is, and what the error is: as `run.error`,
-                `run.errors` and `run.horizon`.
-            engine: "core", or "fast" with heyoka.
-            events: what changes the velocities or ends the run.
-            progress: called with the time (s) of each evaluation by the core, and of each step of a run with events.
+        Parameters
+        ----------
+        values : Values
+            {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,
+            callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: where the
+            motion leaves a table, the run ends.
+        q0 : array_like
+            At t[0], (N,).
+        v0 : array_like
+            At t[0], (N,); u (m,) for velocities of one's own.
+        t : array_like
+            Increasing times (n,), s.
+        tol : float, default 1e-09
+            The largest error of the whole run, relative to the sizes of coordinates and velocities. It is estimated;
+            where it is not kept, a LagrotorWarning says up to which time it is, and what the error is: as `run.error`,
+            `run.errors` and `run.horizon`.
+        engine : Engine, default 'core'
+            "core", or "fast" with heyoka.
+        events : Event or Impact or Sequence[Event or Impact], default ()
+            What changes the velocities or ends the run.
+        progress : callable or None, optional
+            Called with the time (s) of each evaluation by the core, and of each step of a run with events.
 
-        Raises:
-            InputError: for a value that is missing or makes no sense.
-            ConstraintError: for a start off the constraints.
-            SingularError: for a singular mass matrix.
-            IntegrationError: where nothing can be reached, or a run would take more than 10⁸ evaluations.
+        Raises
+        ------
+        InputError
+            For a value that is missing or makes no sense.
+        ConstraintError
+            For a start off the constraints.
+        SingularError
+            For a singular mass matrix.
+        IntegrationError
+            Where nothing can be reached, or a run would take more than 10⁸ evaluations.
         """
         from lagrotor.mechanics.running import simulation
 

@@ -85,20 +85,30 @@ def lindstedt_poincare(
     At order n the coefficients of eps^n enter linearly, harmonic by harmonic, by the operator of the linear mode; where
     that is singular (the mode's own harmonic) the frequency's correction omega_{n − begins_at} makes the system solvable.
 
-    Args:
-        residual: (unknowns, frequency) → the equations of motion as Fourier series, zero on the orbit; derivatives by the
-            phase, time derivatives carried by the frequency.
-        rest: unknowns at equilibrium; the value of the first at Phi = 0, less rest, is eps.
-        mode: {harmonic: coefficient} of each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's
-            parity by its sign; an unknown without a first-order part is a cosine series.
-        order: through eps^order.
-        field: that of the coefficients.
-        numeric: the same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
-        begins_at: the power of eps of the mode; 0 where eps is another small quantity, at which the equations are linear, and the
-            mode an amplitude.
+    Parameters
+    ----------
+    residual : Residual
+        (unknowns, frequency) → the equations of motion as Fourier series, zero on the orbit; derivatives by the
+        phase, time derivatives carried by the frequency.
+    rest : sequence
+        Unknowns at equilibrium; the value of the first at Phi = 0, less rest, is eps.
+    mode : Sequence[mapping
+        {harmonic: coefficient} of each at first order (cos for h ≥ 0, sin for h < 0), which also fixes each unknown's
+        parity by its sign; an unknown without a first-order part is a cosine series.
+    order : int
+        Through eps^order.
+    field : Domain
+        That of the coefficients.
+    numeric : Residual or None, optional
+        The same equations with floating-point coefficients; the series then has those, and is found ten times as fast.
+    begins_at : int, default 1
+        The power of eps of the mode; 0 where eps is another small quantity, at which the equations are linear, and the
+        mode an amplitude.
 
-    Raises:
-        SingularError: when it is not: a resonance with another mode.
+    Raises
+    ------
+    SingularError
+        When it is not: a resonance with another mode.
     """
     one = field.one
     sines = [bool(m) and min(m) < 0 for m in mode]
@@ -302,15 +312,23 @@ def characteristic_exponents(
 ) -> ExponentSeries:
     """A and B through eps**order, for an orbit through at least that order.
 
-    Args:
-        residual: the equations, over `field`, as `lindstedt_poincare` takes them.
-        exchange: the sign that p and q take where the equations use half a period later.
-        sines: which unknowns of the orbit are sine series; p has the same parities, q the opposite ones.
-        neutral: the numbers of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged.
-        numeric: the same equations with floating-point coefficients, for an orbit that has those.
+    Parameters
+    ----------
+    residual : Residual
+        The equations, over `field`, as `lindstedt_poincare` takes them.
+    exchange : int, default 1
+        The sign that p and q take where the equations use half a period later.
+    sines : sequence
+        Which unknowns of the orbit are sine series; p has the same parities, q the opposite ones.
+    neutral : tuple[int, int]
+        The numbers of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged.
+    numeric : Residual or None, optional
+        The same equations with floating-point coefficients, for an orbit that has those.
 
-    Raises:
-        SingularError: where an order cannot be solved: another exponent comes close to zero.
+    Raises
+    ------
+    SingularError
+        Where an order cannot be solved: another exponent comes close to zero.
     """
     parity = {"p": list(sines), "q": [not sine for sine in sines]}
     fixed, nothing, one = (
@@ -411,9 +429,12 @@ class Oscillation:
         """The relative error of the frequency for values of all letters, small and amplitude among them, measured against the
         period of a run from the start that the series gives, which is known to some 10⁻¹¹.
 
-        Raises:
-            InputError: for a letter without a value.
-            SingularError: where the run does not come back.
+        Raises
+        ------
+        InputError
+            For a letter without a value.
+        SingularError
+            Where the run does not come back.
         """
         import numpy as np
 
@@ -530,9 +551,12 @@ def _stiffness_and_mass(terms: Mapping[tuple[int, ...], sp.Expr], place: str) ->
 class AveragedMotion:
     """Y' = `rates` for Y = (a, b), through small**order, and q and q' at a time t by a, b and t: with u₁ for the second order.
 
-    Attributes:
-        letters: a and b.
-        frequency: ν.
+    Attributes
+    ----------
+    letters : tuple[Symbol, Symbol]
+        A and b.
+    frequency : Expr
+        Ν.
     """
 
     letters: tuple[sp.Symbol, sp.Symbol]
@@ -558,15 +582,23 @@ class AveragedMotion:
     def run(self, values: Mapping[Any, Any], q0: float, v0: float, times: Any) -> Any:
         """(q, q') at the times, (2, n), in numbers.
 
-        Args:
-            values: of all letters.
-            q0: at times[0].
-            v0: q' there.
-            times: (n,).
+        Parameters
+        ----------
+        values : mapping
+            Of all letters.
+        q0 : float
+            At times[0].
+        v0 : float
+            Q' there.
+        times
+            (n,).
 
-        Raises:
-            InputError: for a letter without a value.
-            SingularError: where no amplitudes give the start.
+        Raises
+        ------
+        InputError
+            For a letter without a value.
+        SingularError
+            Where no amplitudes give the start.
         """
         import numpy as np
         from scipy.optimize import root

@@ -23,14 +23,21 @@ _MAY_PART = 1e-9  # what rounding may have grown to
 def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
     """The closed form that holds a scene.
 
-    Args:
-        scene: any.
-        t_end: up to which it must hold, s.
-        tol: the error that the order of a series, at most 15, is for; the answer's may exceed it.
-        best: take the least error that can be had, from a series through r0^21.
+    Parameters
+    ----------
+    scene : Scene
+        Any.
+    t_end : float
+        Up to which it must hold, s.
+    tol : float
+        The error that the order of a series, at most 15, is for; the answer's may exceed it.
+    best : bool, default False
+        Take the least error that can be had, from a series through r0^21.
 
-    Raises:
-        DomainError: with the reason, where no closed form holds the scene.
+    Raises
+    ------
+    DomainError
+        With the reason, where no closed form holds the scene.
     """
     if scene.shock_until(t_end):
         raise DomainError("closed_form: no closed form goes through a shock; use model='linear' or 'minimal'")

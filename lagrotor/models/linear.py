@@ -156,9 +156,12 @@ def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[A
 def linear_run(scene: Scene, t: Array) -> Observed:
     """Axes and rates of the linear motion at times t (n,).
 
-    Raises:
-        SingularError: without a bar, or for an axis along the joint line.
-        DomainError: where the motion leaves |U|, |chi| <= pi/3.
+    Raises
+    ------
+    SingularError
+        Without a bar, or for an axis along the joint line.
+    DomainError
+        Where the motion leaves |U|, |chi| <= pi/3.
     """
     return MODEL.observe(scene, _linear_states(scene, t))
 
@@ -189,9 +192,12 @@ def linear_error(scene: Scene, t_end: float) -> float:
     into the other, and may leave the turning exponentially: `_spread` is by how much. LINEAR_MARGIN times the sum is given,
     2 where that is not small: two axes are at most opposite.
 
-    Raises:
-        SingularError: as `linear_run`.
-        DomainError: as `linear_run`, and for a run of so many turns that the sum would cost more than it saves.
+    Raises
+    ------
+    SingularError
+        As `linear_run`.
+    DomainError
+        As `linear_run`, and for a run of so many turns that the sum would cost more than it saves.
     """
     linear, shock = pair_modes(scene), scene.shock_until(t_end)
     turns = linear.frequency * t_end / (2 * pi)
@@ -221,9 +227,12 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
     The linear motion keeps the bar's length and the axes' in curved coordinates; its distance from the response in
     (x, y_1, y_2) is known exactly, and its own error is below `linear_error`. SAFETY times both is taken; second order.
 
-    Raises:
-        InputError: as `shock_response`.
-        DomainError: as `linear_error`, or where the error is beyond 0.1.
+    Raises
+    ------
+    InputError
+        As `shock_response`.
+    DomainError
+        As `linear_error`, or where the error is beyond 0.1.
     """
     response = shock_response(scene)
     t = np.linspace(0.0, t_end, 17 + int(_A_TURN * response.frequency * t_end / (2 * pi)))

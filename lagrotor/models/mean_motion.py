@@ -32,8 +32,10 @@ _LONGEST = 3  # times what the averaged motion takes, of an exact run
 def mean_over(t: Array, values: Array) -> float:
     """Return the mean of values (n,) at evenly spaced times t (n,), oscillations averaged out.
 
-    Raises:
-        DomainError: for n < 8.
+    Raises
+    ------
+    DomainError
+        For n < 8.
     """
     if len(t) < 8:
         raise DomainError(f"mean_over: {len(t)} values are too few for a mean")
@@ -57,13 +59,19 @@ def wandering_rate(run: Trajectory) -> float:
 def run_after(scene: Scene, turns: float = 24, tol: float = 1e-11) -> Trajectory:
     """Return an exact run from the end of a scene's shock, evenly sampled.
 
-    Args:
-        scene: with a shock.
-        turns: swings that it lasts.
-        tol: as in `simulate`.
+    Parameters
+    ----------
+    scene : Scene
+        With a shock.
+    turns : float, default 24
+        Swings that it lasts.
+    tol : float, default 1e-11
+        As in `simulate`.
 
-    Raises:
-        InputError: without a shock or spin.
+    Raises
+    ------
+    InputError
+        Without a shock or spin.
     """
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:
@@ -78,9 +86,12 @@ def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
 
     To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time.
 
-    Raises:
-        InputError: as `cancelling_force`.
-        DomainError: where no such force is found.
+    Raises
+    ------
+    InputError
+        As `cancelling_force`.
+    DomainError
+        Where no such force is found.
     """
     from scipy.optimize import newton
 
@@ -104,13 +115,19 @@ def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     """Return the time (s) from the shock's peak until the mean of both x, averaged over six swings, reaches ± `bound`.
 
-    Args:
-        scene: with a shock.
-        bound: of x, in units of R.
-        longest: s, after which it is given up.
+    Parameters
+    ----------
+    scene : Scene
+        With a shock.
+    bound : float
+        Of x, in units of R.
+    longest : float
+        S, after which it is given up.
 
-    Raises:
-        DomainError: when it does not within `longest`, or does within the first swings.
+    Raises
+    ------
+    DomainError
+        When it does not within `longest`, or does within the first swings.
     """
     run = run_after(scene, 6 + int(np.ceil(longest * shock_response(scene).frequency / (2 * np.pi))), 1e-9)
     t, values, shock = run.t, run.axes[..., 0].mean(0), scene.shock
@@ -131,9 +148,12 @@ def toppling_error(scene: Scene, duration: float) -> float:
 
     The mean is from the pulse's end to `duration` s after its peak.
 
-    Raises:
-        InputError: as `toppling_after_shock`, or the duration is no finite number.
-        DomainError: below 4 swings after the pulse, or beyond 10⁴.
+    Raises
+    ------
+    InputError
+        As `toppling_after_shock`, or the duration is no finite number.
+    DomainError
+        Below 4 swings after the pulse, or beyond 10⁴.
     """
     law = toppling_after_shock(scene)
     return abs(turning_rate(run_after(scene, _turns(scene, duration, "toppling_error"))) - law)
@@ -142,9 +162,12 @@ def toppling_error(scene: Scene, duration: float) -> float:
 def wander_error(scene: Scene, duration: float) -> float:
     """Return how far (1/s) `wander_after_shock` is from the exact mean rate of x, over the same time as in `toppling_error`.
 
-    Raises:
-        InputError: as `toppling_error`.
-        DomainError: as `toppling_error`.
+    Raises
+    ------
+    InputError
+        As `toppling_error`.
+    DomainError
+        As `toppling_error`.
     """
     law = wander_after_shock(scene)
     return abs(wandering_rate(run_after(scene, _turns(scene, duration, "wander_error"))) - law)
@@ -155,9 +178,12 @@ def cancelling_force_error(scene: Scene, duration: float) -> float:
 
     The mean is over the same time as in `toppling_error`.
 
-    Raises:
-        InputError: as `toppling_error`.
-        DomainError: as `toppling_error` and `exact_cancelling_force`.
+    Raises
+    ------
+    InputError
+        As `toppling_error`.
+    DomainError
+        As `toppling_error` and `exact_cancelling_force`.
     """
     law, turns = cancelling_force(scene), _turns(scene, duration, "cancelling_force_error")
     return abs(exact_cancelling_force(scene, turns) - law) if law else 0.0  # nothing along x, nothing to cancel
@@ -181,10 +207,13 @@ def time_to_reach_error(scene: Scene, x: float) -> float:
 
     A sample of that run, 1/32 swing, is added. It is inf where the averaged motion does not get there.
 
-    Raises:
-        InputError: as `time_to_reach`.
-        DomainError: as `time_to_reach`, where the exact motion reaches x within the first swings or not within 3 times as
-            long, and where its run is longer than 10⁴ swings.
+    Raises
+    ------
+    InputError
+        As `time_to_reach`.
+    DomainError
+        As `time_to_reach`, where the exact motion reaches x within the first swings or not within 3 times as
+        long, and where its run is longer than 10⁴ swings.
     """
     law, turn = time_to_reach(scene, x), 2 * np.pi / natural_rate(scene)
     if law == np.inf:
@@ -202,9 +231,12 @@ def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
 
     The centre of the exact state, of leading order itself, swings a little.
 
-    Raises:
-        InputError: as `guiding_centre` and its path.
-        DomainError: likewise, where the exact motion has no centre, and where it is longer than 10⁴ swings.
+    Raises
+    ------
+    InputError
+        As `guiding_centre` and its path.
+    DomainError
+        Likewise, where the exact motion has no centre, and where it is longer than 10⁴ swings.
     """
     centre, turn = guiding_centre(scene), 2 * np.pi / abs(natural_rate(scene))
     times = check_times("guiding_centre_error", t)

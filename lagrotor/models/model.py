@@ -298,12 +298,17 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
 def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> Array:
     """The errors of axes and rates, signed, that would explain how far a run is from conserving what it must.
 
-    Args:
-        scene: in natural units.
-        t: the run's times (n,).
-        seen: its states at them.
-        nodes: times of a shock, among t. Without them its work is not known, and what comes after it is held to the first state
-            after it.
+    Parameters
+    ----------
+    scene : Scene
+        In natural units.
+    t : Array
+        The run's times (n,).
+    seen : Observed
+        Its states at them.
+    nodes : PulseNodes or None
+        Times of a shock, among t. Without them its work is not known, and what comes after it is held to the first state
+        after it.
     """
     (a, b), (v1, v2) = scene.inertias, seen.rates
     size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())

@@ -124,26 +124,37 @@ def simulate(
     LagrotorWarning says when `tol` is not kept and what was reached, or that the run ended before its last time: it then
     holds the times up to there.
 
-    Examples:
-        >>> from lagrotor import Scene, paired_scene
-        >>> run = simulate(paired_scene(Scene(spins=(10, -10)), 0.204), [0.0, 1.0, 2.0], tol=1e-9)
-        >>> run.tips.shape, run.error < 1e-9
-        ((2, 3, 3), True)
+    Parameters
+    ----------
+    model : str, default 'auto'
+        "closed_form", "linear", "averaged", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes
+        within `tol` of the exact ones over the run, named with its reason in the trajectory; see `choose`.
+    tol : float, default 1e-09
+        The largest error of an axis (a unit vector; tips: in units of R) over the whole run, 1e-13 to 0.1.
+    engine : str, default 'core'
+        "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
+        "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
+    progress : callable or None, optional
+        Called with the time in s of each evaluation by the core; a solver's last step may go past the end, and each of
+        the runs that are compared begins anew.
 
-    Args:
-        model: "closed_form", "linear", "averaged", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes
-            within `tol` of the exact ones over the run, named with its reason in the trajectory; see `choose`.
-        tol: the largest error of an axis (a unit vector; tips: in units of R) over the whole run, 1e-13 to 0.1.
-        engine: "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
-            "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
-        progress: called with the time in s of each evaluation by the core; a solver's last step may go past the end, and each of
-            the runs that are compared begins anew.
+    Raises
+    ------
+    InputError
+        A bad argument.
+    SingularError
+        A model's coordinates cannot hold the start.
+    DomainError
+        A closed form or the normal modes do not hold the scene.
+    IntegrationError
+        Nothing of the run could be computed, or it did not conserve what it must.
 
-    Raises:
-        InputError: a bad argument.
-        SingularError: a model's coordinates cannot hold the start.
-        DomainError: a closed form or the normal modes do not hold the scene.
-        IntegrationError: nothing of the run could be computed, or it did not conserve what it must.
+    Examples
+    --------
+    >>> from lagrotor import Scene, paired_scene
+    >>> run = simulate(paired_scene(Scene(spins=(10, -10)), 0.204), [0.0, 1.0, 2.0], tol=1e-9)
+    >>> run.tips.shape, run.error < 1e-9
+    ((2, 3, 3), True)
     """
     if not isinstance(scene, Scene):
         raise InputError(f"simulate: scene = {scene!r} must be a Scene")

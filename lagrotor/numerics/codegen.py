@@ -22,10 +22,13 @@ Stage = tuple[sp.Symbol, sp.Expr]
 class Program:
     """arguments → stages → outputs; a stage may use the arguments and the stages before it.
 
-    Attributes:
-        shared: the stages were made so that sums and products have few parts in common: only equal subexpressions are then
-            sought, in a time linear in their number.
-        positive: expressions that are positive within the range in which the program is well conditioned.
+    Attributes
+    ----------
+    shared : bool, default False
+        The stages were made so that sums and products have few parts in common: only equal subexpressions are then
+        sought, in a time linear in their number.
+    positive : tuple[Expr, ...], default ()
+        Expressions that are positive within the range in which the program is well conditioned.
     """
 
     arguments: tuple[sp.Symbol, ...]

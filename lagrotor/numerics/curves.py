@@ -38,11 +38,16 @@ def peak(rate: Array, amplitude: Array) -> float:
 def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
     """Mean of x: of whole turns, it is their centre.
 
-    Args:
-        t: times (n,).
-        x: (n,) or (n, k).
-        start: from this time.
-        end: to this.
+    Parameters
+    ----------
+    t : Array
+        Times (n,).
+    x : Array
+        (n,) or (n, k).
+    start : float
+        From this time.
+    end : float
+        To this.
     """
     times = np.linspace(start, end, 400, endpoint=False)
     columns = x.reshape(len(t), -1).T
@@ -52,10 +57,14 @@ def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
 def first_passage(t: Array, x: Array, level: float) -> float:
     """Return when x first rises to a level, on the cubic spline through its samples; infinity where it does not.
 
-    Args:
-        t: times (n,).
-        x: samples (n,) of a smooth curve.
-        level: the value to be passed.
+    Parameters
+    ----------
+    t : Array
+        Times (n,).
+    x : Array
+        Samples (n,) of a smooth curve.
+    level : float
+        The value to be passed.
     """
     from scipy.interpolate import CubicSpline
 
@@ -98,11 +107,16 @@ class Harmonics:
 def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
     """The fit of harmonics of a given rate.
 
-    Args:
-        t: times (n,), s.
-        x: (n,) or (n, k).
-        rate: rad/s.
-        count: of harmonics.
+    Parameters
+    ----------
+    t : Array
+        Times (n,), s.
+    x : Array
+        (n,) or (n, k).
+    rate : float
+        Rad/s.
+    count : int, default 2
+        Of harmonics.
     """
     s, columns = t - t[0], x.reshape(len(t), -1)
     waves = [wave(n * rate * s) for n in range(1, count + 1) for wave in (np.cos, np.sin)]
@@ -117,12 +131,18 @@ def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: flo
     Its rate is sought on a grid, five cells to a turn of the phase over the whole run; then within the best cell and its
     neighbour.
 
-    Args:
-        t: times (n,), s.
-        x: (n,) or (n, k).
-        guess: of the rate, rad/s.
-        low: times the guess, from which it is sought.
-        high: times the guess, to which.
+    Parameters
+    ----------
+    t : Array
+        Times (n,), s.
+    x : Array
+        (n,) or (n, k).
+    guess : float
+        Of the rate, rad/s.
+    low : float, default 0.8
+        Times the guess, from which it is sought.
+    high : float, default 1.3
+        Times the guess, to which.
     """
     from scipy.optimize import minimize_scalar
 

@@ -34,8 +34,10 @@ class Problem:
     run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
     no step is longer than half of `time_to_singular` of the state where it begins.
 
-    Attributes:
-        windows: of s, where something acts briefly, one after the other; within no step is longer than each says.
+    Attributes
+    ----------
+    windows : tuple[Window, ...], default ()
+        Of s, where something acts briefly, one after the other; within no step is longer than each says.
     """
 
     free: RightHandSide

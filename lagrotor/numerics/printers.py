@@ -143,11 +143,15 @@ def program_source(program: Program, module: str = "math") -> str:
 def compile_program(program: Program, module: str = "math", doc: str = "") -> Callable[..., Any]:
     """The program as a function of its arguments, returning a list of outputs.
 
-    Args:
-        program: what is computed.
-        module: "math" takes Python floats, one state at a time (the fastest where a solver calls one state at a time); "numpy"
-            arrays that broadcast together; "mpmath" numbers of any precision.
-        doc: the function's docstring.
+    Parameters
+    ----------
+    program : Program
+        What is computed.
+    module : str, default 'math'
+        "math" takes Python floats, one state at a time (the fastest where a solver calls one state at a time); "numpy"
+        arrays that broadcast together; "mpmath" numbers of any precision.
+    doc : str, default ''
+        The function's docstring.
     """
     function = function_of(program_source(program, module))
     function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(program.outputs)} numbers"

@@ -15,8 +15,10 @@ _LEVI_CIVITA = np.array(
 def turn_between(u: Array, v: Array) -> Array:
     """Shortest rotations P with P u = v, P = (u·v) 1 + [n]× + n nᵀ/(1 + u·v), n = u × v: (…, 3) → (…, 3, 3).
 
-    Raises:
-        InputError: where v is opposite to u: there is no shortest one.
+    Raises
+    ------
+    InputError
+        Where v is opposite to u: there is no shortest one.
     """
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
@@ -36,14 +38,21 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
     at the other end, and the mean with the same from the pole r_1 leaves an error of order h⁵ a step. Hence: r and
     orthogonality to rounding, the angle about r to O(h⁴).
 
-    Args:
-        t: times (n,), s.
-        axes: unit vectors r, (k, n, 3).
-        rates: r', (k, n, 3), 1/s.
-        spins: omega, constant, (k,), rad/s.
+    Parameters
+    ----------
+    t : Array
+        Times (n,), s.
+    axes : Array
+        Unit vectors r, (k, n, 3).
+    rates : Array
+        R', (k, n, 3), 1/s.
+    spins : Array
+        Omega, constant, (k,), rad/s.
 
-    Raises:
-        InputError: where an axis turns by pi between two samples.
+    Raises
+    ------
+    InputError
+        Where an axis turns by pi between two samples.
     """
     r0, r1, v0, v1 = axes[:, :-1], axes[:, 1:], rates[:, :-1], rates[:, 1:]
     carried, h = turn_between(r0, r1), np.diff(t)
@@ -62,14 +71,21 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
 def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[Array, Array]:
     """Unit axes and their tangent rates (k, m, 3) between samples: Hermite cubics, O(h⁴).
 
-    Args:
-        t: the samples' times (n,).
-        axes: unit vectors at them, (k, n, 3).
-        rates: their rates, (k, n, 3).
-        times: the others, (m,).
+    Parameters
+    ----------
+    t : Array
+        The samples' times (n,).
+    axes : Array
+        Unit vectors at them, (k, n, 3).
+    rates : Array
+        Their rates, (k, n, 3).
+    times : Array
+        The others, (m,).
 
-    Raises:
-        InputError: for times outside the samples, or fewer than two of these.
+    Raises
+    ------
+    InputError
+        For times outside the samples, or fewer than two of these.
     """
     if len(t) < 2 or times.min() < t[0] or times.max() > t[-1]:
         raise InputError("between_samples: the run needs two times at least, and holds no time outside them")

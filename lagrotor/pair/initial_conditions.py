@@ -35,17 +35,27 @@ def consistent_scene(
 ) -> Scene:
     """The scene whose start is nearest, in the mass metric, to what is given and satisfies the bar.
 
-    Args:
-        spins: rad/s.
-        axes: (2, 3).
-        rates: (2, 3), 1/s.
-        rotor: as in `Scene`.
-        link: as in `Scene`.
-        shock: as in `Scene`.
+    Parameters
+    ----------
+    spins : tuple[float, float]
+        Rad/s.
+    axes : array_like
+        (2, 3).
+    rates : array_like, default ((0, 0, 0), (0, 0, 0))
+        (2, 3), 1/s.
+    rotor : Rotor or None, optional
+        As in `Scene`.
+    link : Link or None, optional
+        As in `Scene`.
+    shock : Shock or None, optional
+        As in `Scene`.
 
-    Raises:
-        ConstraintError: when the axes cannot be brought onto the bar.
-        InputError: for what Scene refuses.
+    Raises
+    ------
+    ConstraintError
+        When the axes cannot be brought onto the bar.
+    InputError
+        For what Scene refuses.
     """
     scene = Scene(spins, rotor or Rotor(), link or Link(), shock)
     try:

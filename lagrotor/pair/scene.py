@@ -120,12 +120,15 @@ class Scene:
     |r_i| = 1, |ell e_x + R (r_2 − r_1)| = ell, and the rates be tangent to both.
     `link=None` leaves the two rotors uncoupled.
 
-    Examples:
-        >>> Scene(spins=(10, -10)).momenta
-        (10.0, -10.0)
+    Raises
+    ------
+    InputError
+        Axes, rates or sizes that do not fit together; the message names the way out.
 
-    Raises:
-        InputError: axes, rates or sizes that do not fit together; the message names the way out.
+    Examples
+    --------
+    >>> Scene(spins=(10, -10)).momenta
+    (10.0, -10.0)
     """
 
     spins: tuple[float, float]
@@ -216,8 +219,10 @@ class Scene:
     def k(self) -> float:
         """ell/R, the bar's length in lengths of an axis.
 
-        Raises:
-            InputError: without a bar.
+        Raises
+        ------
+        InputError
+            Without a bar.
         """
         if self.link is None:
             raise InputError("Scene: k = ell/R needs a bar; give the scene a link")

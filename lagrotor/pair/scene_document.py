@@ -18,8 +18,10 @@ def read_scene(path: str | Path) -> Scene:
 
     `link = "none"` is a pair without a bar.
 
-    Raises:
-        InputError: with the reason where there is none.
+    Raises
+    ------
+    InputError
+        With the reason where there is none.
     """
     return read_document(path, scene_of)
 
@@ -36,8 +38,10 @@ def read_document(path: str | Path, make: Callable[[dict[str, Any]], Kind]) -> K
 def scene_of(given: Mapping[str, Any]) -> Scene:
     """The scene of a table with the fields' names.
 
-    Raises:
-        InputError: for names that are none, or values that make no sense.
+    Raises
+    ------
+    InputError
+        For names that are none, or values that make no sense.
     """
     check_fields(given, Scene, "a scene")
     if "spins" not in given:
@@ -82,8 +86,10 @@ def scene_toml(scene: Scene) -> str:
 def write_scene(scene: Scene, path: str | Path) -> Path:
     """Write the scene as TOML, whole or not at all.
 
-    Raises:
-        InputError: where that cannot be.
+    Raises
+    ------
+    InputError
+        Where that cannot be.
     """
     if not isinstance(scene, Scene):
         raise InputError(f"write_scene: scene = {scene!r} must be a Scene")

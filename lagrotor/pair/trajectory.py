@@ -116,10 +116,14 @@ class Trajectory(Run):
     def animate(self, path: str | Path, fps: float = 25.0, step: Callable[[str], None] = lambda name: None) -> Path:
         """Write the motion as a film.
 
-        Args:
-            path: a `.gif`.
-            fps: pictures per second.
-            step: called with each second of the film as it begins.
+        Parameters
+        ----------
+        path : str or Path
+            A `.gif`.
+        fps : float, default 25.0
+            Pictures per second.
+        step : callable, default lambda name: None
+            Called with each second of the film as it begins.
         """
         from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
@@ -179,9 +183,11 @@ class Trajectory(Run):
     def load(path: str | Path) -> "Trajectory":
         """The run that `save` wrote as `.npz`.
 
-        Raises:
-            InputError: where that is not what the file is: not whole, or not a motion (times that decrease, axes that are
-                no unit vectors, numbers that are not finite).
+        Raises
+        ------
+        InputError
+            Where that is not what the file is: not whole, or not a motion (times that decrease, axes that are
+            no unit vectors, numbers that are not finite).
         """
         about, held, known = read_run(path)
         try:

@@ -39,9 +39,12 @@ class PrintedNumber(float):
 class Part:
     """One part of a claim's sentence, in words, and whether the numbers bear it out.
 
-    Attributes:
-        only_if: where it does not hold unconditionally, the condition under which it does; empty where there is none.
-        theorems: those from which it follows; without any it rests on runs, which are estimates.
+    Attributes
+    ----------
+    only_if : str, default ''
+        Where it does not hold unconditionally, the condition under which it does; empty where there is none.
+    theorems : tuple[Theorem, ...], default ()
+        Those from which it follows; without any it rests on runs, which are estimates.
     """
 
     says: str
@@ -92,8 +95,10 @@ class Finding:
     def decided_by(self, proved: Iterable[Part], where: str) -> "Finding":
         """The finding with parts that follow from theorems in place of those of the same words.
 
-        Raises:
-            ProofError: where there is no such part, where it has no theorem, or where a run says otherwise.
+        Raises
+        ------
+        ProofError
+            Where there is no such part, where it has no theorem, or where a run says otherwise.
         """
         parts = {part.says: part for part in self.parts}
         for part in proved:
@@ -112,13 +117,19 @@ class Finding:
 class ClaimTest:
     """The test of one claim: `measure(case)` runs a case and returns name → number; `decide` makes a finding of them.
 
-    Attributes:
-        case: what the claim is about, whatever `measure` takes.
-        foreign: part of the sentence → a case in which that part comes out otherwise.
-        model: what is run.
-        prove: case → those parts that follow from theorems, with them; a part that the runs decide otherwise, and a certificate
-            that is rejected, are errors.
-        unproved: why the other parts rest on runs.
+    Attributes
+    ----------
+    case
+        What the claim is about, whatever `measure` takes.
+    foreign : mapping
+        Part of the sentence → a case in which that part comes out otherwise.
+    model : str
+        What is run.
+    prove : callable or None, optional
+        Case → those parts that follow from theorems, with them; a part that the runs decide otherwise, and a certificate
+        that is rejected, are errors.
+    unproved : str, default ''
+        Why the other parts rest on runs.
     """
 
     id: str
@@ -133,8 +144,10 @@ class ClaimTest:
     def evaluated(self, case: Any) -> "Result":
         """Any case, measured and decided, by theorems where there are any.
 
-        Raises:
-            ProofError: where a theorem contradicts a run or its certificate is rejected.
+        Raises
+        ------
+        ProofError
+            Where a theorem contradicts a run or its certificate is rejected.
         """
         began = time.perf_counter()
         measured = {name: float(value) for name, value in self.measure(case).items()}

@@ -78,20 +78,29 @@ def judge_text(
 ) -> Judgement:
     """An equation as text, judged; of a chain each member is held against the last.
 
-    Examples:
-        >>> judge_text("sqrt(x**2) = x", given=["x >= 0"])
-        sqrt(x**2) = x: holds-if
-          under the given premise x ≥ 0
+    Parameters
+    ----------
+    equation : str
+        Left = right, or a chain of several; also LaTeX.
+    given : Iterable[str], default ()
+        Premises, a relation each: `J = I_3`, `x >= 0`, `a != b`.
+    positive : Iterable[str], default ()
+        Names of the letters that are positive; the others are real.
+    small : str, default ''
+        The letter in which the equation is claimed through small**order only.
+    order : int, default 0
+        That order; an O(…) in the equation gives both.
 
-    Args:
-        equation: left = right, or a chain of several; also LaTeX.
-        given: premises, a relation each: `J = I_3`, `x >= 0`, `a != b`.
-        positive: names of the letters that are positive; the others are real.
-        small: the letter in which the equation is claimed through small**order only.
-        order: that order; an O(…) in the equation gives both.
+    Raises
+    ------
+    InputError
+        What cannot be read, with the place and the way out.
 
-    Raises:
-        InputError: what cannot be read, with the place and the way out.
+    Examples
+    --------
+    >>> judge_text("sqrt(x**2) = x", given=["x >= 0"])
+    sqrt(x**2) = x: holds-if
+      under the given premise x ≥ 0
     """
     texts = tuple(_statements(equation, "judge"))
     if not all(set(text.signs) == {"="} for text in texts):

@@ -39,21 +39,30 @@ _RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "u
 def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None = None, order: int = 0) -> Verdict:
     """One printed expression held against a derived one.
 
-    Examples:
-        >>> from sympy import Symbol, sqrt
-        >>> x = Symbol("x", real=True)
-        >>> judge(sqrt(x**2), x, given=x >= 0).verdict
-        'holds-if'
+    Parameters
+    ----------
+    printed
+        A sympy expression or matrix, or text in the names of the letters of `derived` and `given`.
+    derived
+        A sympy expression or matrix, or a `Series`.
+    given : Given, default ()
+        What may be assumed, one set in any order and form: Eq(a, b), x >= 0, Ne(a, b), {J: I_3}, a Premise, or several.
+    small : Symbol or None, optional
+        The letter in which equality is claimed through small**order only.
+    order : int, default 0
+        That order.
 
-    Args:
-        printed: a sympy expression or matrix, or text in the names of the letters of `derived` and `given`.
-        derived: a sympy expression or matrix, or a `Series`.
-        given: what may be assumed, one set in any order and form: Eq(a, b), x >= 0, Ne(a, b), {J: I_3}, a Premise, or several.
-        small: the letter in which equality is claimed through small**order only.
-        order: that order.
+    Raises
+    ------
+    InputError
+        Text that cannot be read, a premise that is none.
 
-    Raises:
-        InputError: text that cannot be read, a premise that is none.
+    Examples
+    --------
+    >>> from sympy import Symbol, sqrt
+    >>> x = Symbol("x", real=True)
+    >>> judge(sqrt(x**2), x, given=x >= 0).verdict
+    'holds-if'
     """
     right, premises = derived if isinstance(derived, Series) else sympified(derived, "judge"), premises_of(given)
     if small is not None and not isinstance(small, sp.Symbol):

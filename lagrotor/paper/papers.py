@@ -30,11 +30,15 @@ class Paper(Catalogue):
     """A folder with `paper.toml`, `equations.toml`, and, where there are any, `claims.toml`, `figures.toml`, `symbols.py`,
     `derivations/`, `figures/`, and the record of verdicts, `recorded.toml`.
 
-    Attributes:
-        scripts_in: the folder that holds `derivations/` and `figures/`, where it is another.
+    Attributes
+    ----------
+    scripts_in : Path or None, optional
+        The folder that holds `derivations/` and `figures/`, where it is another.
 
-    Raises:
-        InputError: for a folder whose parts do not fit together; the message names the file.
+    Raises
+    ------
+    InputError
+        For a folder whose parts do not fit together; the message names the file.
     """
 
     scripts_in: Path | None = None
@@ -67,13 +71,19 @@ class Paper(Catalogue):
         One equation runs its own derivation only; whether its error reaches a result of the paper is then taken from the
         record of the last whole audit.
 
-        Args:
-            identifier: of the one.
-            progress: called with the name of each script before it runs.
+        Parameters
+        ----------
+        identifier : str or None, optional
+            Of the one.
+        progress : Progress or None, optional
+            Called with the name of each script before it runs.
 
-        Raises:
-            InputError: for an equation that the paper does not have, or that no derivation states.
-            ScriptError: for a script that fails.
+        Raises
+        ------
+        InputError
+            For an equation that the paper does not have, or that no derivation states.
+        ScriptError
+            For a script that fails.
         """
         self.check_scripts()
         if identifier is not None:
@@ -89,8 +99,10 @@ class Paper(Catalogue):
     def check_scripts(self) -> None:
         """Check, before anything runs, that letters can be read and that no equation has two verdicts or is unknown.
 
-        Raises:
-            InputError: with file and line otherwise.
+        Raises
+        ------
+        InputError
+            With file and line otherwise.
         """
         _ = self.glossary
         for identifier, (stem, line) in self.scripts.stating.items():
@@ -116,8 +128,10 @@ class Paper(Catalogue):
     def statements(self, stem: str) -> list[Statement]:
         """What one derivation states, beside the print.
 
-        Raises:
-            InputError: with file and line where it does not fit.
+        Raises
+        ------
+        InputError
+            With file and line where it does not fit.
         """
         statements = []
         for each in self.stated(stem):
@@ -131,8 +145,10 @@ class Paper(Catalogue):
     def statement(self, stated: Stated) -> Statement:
         """What a derivation states, beside the print.
 
-        Raises:
-            InputError: where it does not fit the paper.
+        Raises
+        ------
+        InputError
+            Where it does not fit the paper.
         """
         return statement(stated, self)
 
@@ -179,8 +195,10 @@ class Paper(Catalogue):
     def with_reach(self, verdicts: Iterable[Verdict]) -> list[Verdict]:
         """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them.
 
-        Raises:
-            InputError: for an equation that is judged twice.
+        Raises
+        ------
+        InputError
+            For an equation that is judged twice.
         """
         found: dict[str, Verdict] = {}
         for verdict in verdicts:
@@ -229,8 +247,10 @@ class Paper(Catalogue):
     def claim_tests(self) -> dict[str, ClaimTest]:
         """Every test that a script shows, by claim, in the paper's order. Nothing is run but the scripts that show them.
 
-        Raises:
-            InputError: for a claim that is tested twice or is not in claims.toml.
+        Raises
+        ------
+        InputError
+            For a claim that is tested twice or is not in claims.toml.
         """
         if not self.claims:
             return {}

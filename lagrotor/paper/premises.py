@@ -20,13 +20,18 @@ _SIGNS = {sp.Eq: "=", sp.Ne: "≠", sp.Ge: "≥", sp.Gt: ">", sp.Le: "≤", sp.L
 class Premise:
     """What is assumed. says: in a physicist's words. put: the equations that state it, old = new, as a substitution.
 
-    Attributes:
-        where: further relations, Eq, Ne, Ge, Gt, Le, Lt.
-        small: for an approximation, the quantity in which only the leading terms are kept; `put` then brings it in, and a letter
-            on both sides of a row stands on the right for its scaled value.
-        broken: how far the paper's own scene is from it, in words; empty where the scene keeps it.
-        defines: it says what a letter of the print stands for, and nothing of what is derived: an equation that says the same is
-            no circle then.
+    Attributes
+    ----------
+    where : tuple[Relational, ...], default ()
+        Further relations, Eq, Ne, Ge, Gt, Le, Lt.
+    small : Symbol or None, optional
+        For an approximation, the quantity in which only the leading terms are kept; `put` then brings it in, and a letter
+        on both sides of a row stands on the right for its scaled value.
+    broken : str, default ''
+        How far the paper's own scene is from it, in words; empty where the scene keeps it.
+    defines : bool, default False
+        It says what a letter of the print stands for, and nothing of what is derived: an equation that says the same is
+        no circle then.
     """
 
     says: str
@@ -114,11 +119,16 @@ def parameter_premise(
 ) -> Premise:
     """A premise about parameters, such as ell = R: how far the paper's own values break it is computed from them.
 
-    Args:
-        says: in words.
-        put: letter → what is put in for it.
-        own: letter → the value of the paper's own scene.
-        meanings: letters that stand for expressions in other letters.
+    Parameters
+    ----------
+    says : str
+        In words.
+    put : mapping
+        Letter → what is put in for it.
+    own : mapping
+        Letter → the value of the paper's own scene.
+    meanings : Mapping[Symbol, Expr] or None, optional
+        Letters that stand for expressions in other letters.
     """
     off = []
     for left, right in put.items():

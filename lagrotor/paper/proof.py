@@ -94,14 +94,20 @@ def prove(
 ) -> Step:
     """Decide left = right exactly, or through small**order; for rows of expressions and matrices entry by entry.
 
-    Args:
-        says: what is decided, in words.
-        names: LaTeX shown for the left sides.
-        written: LaTeX shown for the whole equations, in vectors and sums where what is compared are components.
+    Parameters
+    ----------
+    says : str, default ''
+        What is decided, in words.
+    names : str or Sequence[str], default ()
+        LaTeX shown for the left sides.
+    written : str or Sequence[str], default ()
+        LaTeX shown for the whole equations, in vectors and sums where what is compared are components.
 
-    Raises:
-        ProofError: with the difference where it does not hold or is not decided, and where a left side is too long to be read and
-            neither named nor written.
+    Raises
+    ------
+    ProofError
+        With the difference where it does not hold or is not decided, and where a left side is too long to be read and
+        neither named nor written.
     """
     pairs = _pairs(left, right)
     check_names(f"prove: {says or 'this step'}", pairs, small)

@@ -65,19 +65,28 @@ def verdict(
 ) -> Stated:
     """What the paper prints as `identifier` is to be judged against what was derived under no premise.
 
-    Args:
-        derived: the quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is given
-            without any premise put in, as a `Series` where it is known through some order only.
-        premises: without which the line does not hold.
-        correction: likewise, what should be printed; it is judged against `derived`, which may hold quantities besides the
-            printed ones.
-        wrong: what is wrong with the line, in words.
-        uses: ids of equations that this one rests on, or what was stated of them, which gives the letters that are defined there
-            their derived meaning.
-        evidence: sentences beside the verdict.
-        written: what was derived, as a physicist writes it; a correction may be given as a form too. It is checked against the
-            paper when it is judged.
-        prove: for a number that is read off a run, what proves its bounds, called when it is judged; the theorem decides then.
+    Parameters
+    ----------
+    derived : Side or mapping, optional
+        The quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is given
+        without any premise put in, as a `Series` where it is known through some order only.
+    premises : Iterable[Premise], default ()
+        Without which the line does not hold.
+    correction : Side or mapping, optional
+        Likewise, what should be printed; it is judged against `derived`, which may hold quantities besides the
+        printed ones.
+    wrong : str, default ''
+        What is wrong with the line, in words.
+    uses : Iterable['str or Stated'], default ()
+        Ids of equations that this one rests on, or what was stated of them, which gives the letters that are defined there
+        their derived meaning.
+    evidence : Iterable[str], default ()
+        Sentences beside the verdict.
+    written : Form or Mapping[str, Form] or None, optional
+        What was derived, as a physicist writes it; a correction may be given as a form too. It is checked against the
+        paper when it is judged.
+    prove : Proof or Mapping[str, Proof] or None, optional
+        For a number that is read off a run, what proves its bounds, called when it is judged; the theorem decides then.
     """
     return Stated(identifier, derived, tuple(premises), correction, wrong, tuple(uses), tuple(evidence), written, prove)
 

@@ -21,10 +21,13 @@ NOT_AGAIN = "on record, not proved again here; lagrotor claims does, with python
 class Theorem:
     """What is proved: `says`, in the words of `lagrotor.proofs.check`; `encloses`, the enclosure as it is printed.
 
-    Attributes:
-        certificate: what `check` verifies, plain data; None where the theorem is on record only.
-        quantity: the name in the certificate of what a printed number is compared with: a state, an expression of which it is
-            the mean, `time`, `period` or `frequency`.
+    Attributes
+    ----------
+    certificate : dict[str, Any] or None, optional
+        What `check` verifies, plain data; None where the theorem is on record only.
+    quantity : str, default ''
+        The name in the certificate of what a printed number is compared with: a state, an expression of which it is
+        the mean, `time`, `period` or `frequency`.
     """
 
     says: str
@@ -36,13 +39,19 @@ class Theorem:
     def of(cls, proved: Any, encloses: str = "", quantity: str = "") -> "Theorem":
         """That of a proof of `lagrotor.proofs`, which needs python-flint.
 
-        Args:
-            proved: an orbit, a crossing, an enclosure or an equilibrium.
-            encloses: its enclosure as it is printed.
-            quantity: what a printed number is held against.
+        Parameters
+        ----------
+        proved
+            An orbit, a crossing, an enclosure or an equilibrium.
+        encloses : str, default ''
+            Its enclosure as it is printed.
+        quantity : str, default ''
+            What a printed number is held against.
 
-        Raises:
-            InputError: where the theorem has no such quantity.
+        Raises
+        ------
+        InputError
+            Where the theorem has no such quantity.
         """
         from lagrotor.proofs.statements import quantities, theorem_of
 

@@ -37,14 +37,22 @@ class Series:
 class Relation:
     """`printed` should equal `derived`; with `small`, up to and including small**claimed.
 
-    Attributes:
-        within: for a number read off a run, the relative error that its printed digits allow.
-        quantity: what both are, in LaTeX.
-        scene: values that the text gives for this line, a premise of their own.
-        known: the small quantity and the order through which the derived side is known, where it is a series.
-        written: LaTeX of the derived side, in a correction of what should be printed, as a physicist writes it.
-        granted: it is equal under the premises only.
-        theorem: it encloses the number that is printed, and decides in place of the derived side.
+    Attributes
+    ----------
+    within : Rational or None, optional
+        For a number read off a run, the relative error that its printed digits allow.
+    quantity : str, default ''
+        What both are, in LaTeX.
+    scene : mapping, default field(default_factory=dict)
+        Values that the text gives for this line, a premise of their own.
+    known : tuple[Symbol, int] or None, optional
+        The small quantity and the order through which the derived side is known, where it is a series.
+    written : str, default ''
+        LaTeX of the derived side, in a correction of what should be printed, as a physicist writes it.
+    granted : bool, default False
+        It is equal under the premises only.
+    theorem : Theorem or None, optional
+        It encloses the number that is printed, and decides in place of the derived side.
     """
 
     printed: Side
@@ -74,11 +82,16 @@ class Relation:
 def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
     """The relations of a line `… = p_1 = p_2 = …`, each member held against the derived expression.
 
-    Args:
-        derived: the expression.
-        small: the small quantity of a line that holds to an order.
-        claimed: that order.
-        printed: p_1, p_2, ….
+    Parameters
+    ----------
+    derived : Side
+        The expression.
+    small : Symbol or None, optional
+        The small quantity of a line that holds to an order.
+    claimed : int, default 0
+        That order.
+    printed : Side
+        P_1, p_2, ….
     """
     return tuple(
         Relation(sp.sympify(p, strict=True), sp.sympify(derived, strict=True), small, claimed) for p in printed
@@ -89,15 +102,24 @@ def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed
 class Statement:
     """What one equation of a paper is compared with; id: its id, empty where it belongs to none; title: what it is about.
 
-    Attributes:
-        relations: printed against derived, one for each member of each printed line.
-        premises: what may be assumed.
-        correction: what should be printed, as relations of their own.
-        wrong: what is wrong, in a line.
-        names: the line only introduces a letter.
-        measured: it is a number read off a run.
-        depends_on: ids of the equations that this one uses.
-        evidence: sentences with the numbers that were computed.
+    Attributes
+    ----------
+    relations : tuple[Relation, ...]
+        Printed against derived, one for each member of each printed line.
+    premises : tuple[Premise, ...], default ()
+        What may be assumed.
+    correction : tuple[Relation, ...], default ()
+        What should be printed, as relations of their own.
+    wrong : str, default ''
+        What is wrong, in a line.
+    names : bool, default False
+        The line only introduces a letter.
+    measured : bool, default False
+        It is a number read off a run.
+    depends_on : tuple[str, ...], default ()
+        Ids of the equations that this one uses.
+    evidence : tuple[str, ...], default ()
+        Sentences with the numbers that were computed.
     """
 
     id: str
@@ -138,17 +160,26 @@ def check_premises(sides: Any, premises: Iterable[Premise]) -> None:
 class LineVerdict:
     """What was decided of one member of one printed line, or of one line of a correction.
 
-    Attributes:
-        premises: those that it needs; of what is refuted all that were assumed, under which its difference is stated.
+    Attributes
+    ----------
+    premises : tuple[Premise, ...], default ()
+        Those that it needs; of what is refuted all that were assumed, under which its difference is stated.
         order, small: of a series.
-        domain: relations that hold wherever both sides are defined and real.
-        difference: of what is refuted, printed less derived under the premises; of matrices the entry `place`, of series the
-            first coefficient.
-        witness: letter → value, a point that satisfies the premises.
-        enclosure: two rationals of one sign between which the difference lies there.
-        sides: the same of the printed and of the derived side; None for a side whose principal value there is not real.
-        reason: why it does not hold, in words.
-        dimensions: what the units of the letters say of it; no verdict rests on them.
+    domain : tuple[Relational, ...], default ()
+        Relations that hold wherever both sides are defined and real.
+    difference : Expr or None, optional
+        Of what is refuted, printed less derived under the premises; of matrices the entry `place`, of series the
+        first coefficient.
+    witness : Mapping[Symbol, Any] or None, optional
+        Letter → value, a point that satisfies the premises.
+    enclosure : tuple[Rational, Rational] or None, optional
+        Two rationals of one sign between which the difference lies there.
+    sides : tuple[tuple[Rational, Rational] or None, tuple[Rational, Rational] or None] or None, optional
+        The same of the printed and of the derived side; None for a side whose principal value there is not real.
+    reason : str, default ''
+        Why it does not hold, in words.
+    dimensions : Dimensions or None, optional
+        What the units of the letters say of it; no verdict rests on them.
     """
 
     relation: Relation

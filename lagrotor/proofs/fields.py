@@ -45,8 +45,10 @@ _EXPRESSION, _LONGEST = re.compile(r"^\d|[\s+*/().-]"), 20_000  # a name that is
 def ball(value: Any, where: str = "value") -> Ball:
     """Return the ball of a number, a pair (lowest, highest) or an expression of numbers, at the precision in force.
 
-    Raises:
-        InputError: if the value is none of these, or not finite.
+    Raises
+    ------
+    InputError
+        If the value is none of these, or not finite.
     """
     if isinstance(value, tuple | list) and len(value) == 2:
         low, high = (ball(end, where) for end in value)

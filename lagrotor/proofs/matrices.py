@@ -45,8 +45,10 @@ def matrix_norm(matrix: Matrix) -> Ball:
 def middle_inverse(slope: Matrix) -> Matrix:
     """Return an exact matrix near the inverse of the derivative's middle.
 
-    Raises:
-        NotProved: if the middle is singular.
+    Raises
+    ------
+    NotProved
+        If the middle is singular.
     """
     try:
         return middle_of(middle_of(slope).inv())
@@ -57,8 +59,10 @@ def middle_inverse(slope: Matrix) -> Matrix:
 def inverse(matrix: Matrix) -> Matrix:
     """Enclose the inverses of all matrices of a ball: X (1 + R + R² + …), X near the middle's inverse, R = 1 − M X.
 
-    Raises:
-        NotProved: if the sum is not shown to converge.
+    Raises
+    ------
+    NotProved
+        If the sum is not shown to converge.
     """
     n, X = matrix.nrows(), middle_inverse(matrix)
     R = identity(n) - matrix * X

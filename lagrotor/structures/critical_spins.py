@@ -155,8 +155,10 @@ def sign_patterns(s: Assembly) -> Patterns:
 
     A turn of all signs changes nothing (a mirror image).
 
-    Raises:
-        InputError: for more rotors, and where upright breaks a bar's length.
+    Raises
+    ------
+    InputError
+        For more rotors, and where upright breaks a bar's length.
     """
     N = len(s.joints)
     if N > _MOST:

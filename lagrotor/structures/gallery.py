@@ -80,8 +80,10 @@ GALLERY = {
 def example(name: str) -> Structure:
     """The structure of that name.
 
-    Raises:
-        InputError: where there is none.
+    Raises
+    ------
+    InputError
+        Where there is none.
     """
     if name not in GALLERY:
         raise InputError(

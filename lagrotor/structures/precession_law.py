@@ -140,14 +140,20 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
 
     The law is accurate where no multiple of the mode's rate is near another rate; `steady_precession` has the exact orbit.
 
-    Args:
-        s: without friction, upright at rest.
-        mode: its number in `modes()`, from 0; one with a rate of its own that neither grows nor decays.
+    Parameters
+    ----------
+    s : Assembly
+        Without friction, upright at rest.
+    mode : int, default 0
+        Its number in `modes()`, from 0; one with a rate of its own that neither grows nor decays.
 
-    Raises:
-        InputError: as `steady_precession`, for more than 8 degrees of freedom, where another mode grows or has no rate, and where
-            a multiple of the mode's rate is the rate of another that it drives.
-        SingularError: where rates are lost beside the largest.
+    Raises
+    ------
+    InputError
+        As `steady_precession`, for more than 8 degrees of freedom, where another mode grows or has no rate, and where
+        a multiple of the mode's rate is the rate of another that it drives.
+    SingularError
+        Where rates are lost beside the largest.
     """
     where = "precession_law"
     rate, shape = precessing_mode(s, mode, where)

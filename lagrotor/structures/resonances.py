@@ -56,15 +56,22 @@ _TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow o
 class Resonance(Shown):
     """A resonance of order 3 or 4 that can feed modes of both signs of energy, or slow ones that nearly resonate with rest.
 
-    Attributes:
-        vectors: the k, whole numbers for each mode, nearest first; rates (rad/s) of the modes, negative of those of negative
-            energy, with all spins multiplied by `at`.
-        detuning: k·rates of the first, rad/s.
-        per_factor: its slope.
-        growth: c, largest: κ, both in 1/s for N = (reach × push)²; push: the root of the sum of squares of all axes' rates at the
-            start, upright, in rad/s.
-        reach: of the steepest push.
-        falls: whether its own terms do not stop it.
+    Attributes
+    ----------
+    vectors : tuple[tuple[int, ...], ...]
+        The k, whole numbers for each mode, nearest first; rates (rad/s) of the modes, negative of those of negative
+        energy, with all spins multiplied by `at`.
+    detuning : float
+        K·rates of the first, rad/s.
+    per_factor : float
+        Its slope.
+    growth : float
+        C, largest: κ, both in 1/s for N = (reach × push)²; push: the root of the sum of squares of all axes' rates at the
+        start, upright, in rad/s.
+    reach : float
+        Of the steepest push.
+    falls : bool
+        Whether its own terms do not stop it.
     """
 
     order: int
@@ -278,15 +285,23 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
 def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
     """The normal form of a structure about upright, in units of its `LocalHamiltonian`.
 
-    Args:
-        s: the structure.
-        factor: by which all spins are multiplied.
-        detuning: up to which resonances are kept, rad/s.
-        order: through which.
+    Parameters
+    ----------
+    s : Assembly
+        The structure.
+    factor : float, default 1.0
+        By which all spins are multiplied.
+    detuning : float, default 0.0
+        Up to which resonances are kept, rad/s.
+    order : int, default 4
+        Through which.
 
-    Raises:
-        InputError: as `local_hamiltonian`.
-        SingularError: where a rate is zero in it that is not.
+    Raises
+    ------
+    InputError
+        As `local_hamiltonian`.
+    SingularError
+        Where a rate is zero in it that is not.
     """
     check_upright(s, "normal_form_of")
     form = normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
@@ -458,12 +473,17 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
     """Return the factors on all spins beyond the critical one at which modes are in resonance, each with what it does.
 
-    Args:
-        s: the structure.
-        orders: of the resonances.
+    Parameters
+    ----------
+    s : Assembly
+        The structure.
+    orders : sequence, default (3, 4)
+        Of the resonances.
 
-    Raises:
-        InputError: where upright breaks a bar's length.
+    Raises
+    ------
+    InputError
+        Where upright breaks a bar's length.
     """
     from scipy.optimize import brentq
 

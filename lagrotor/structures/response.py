@@ -109,8 +109,10 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
     With N = 8 − 8d − d² + 2d³ and 0 < d < 1 from γ² = 2d (2 − d)² (4 − 3d)/N:  1 − ρ = d (8 − 11d + 4d²)/N, f² = (1 − d) ρ,
     ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ these are f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ.
 
-    Raises:
-        DomainError: unless 0 < γ < √2.
+    Raises
+    ------
+    DomainError
+        Unless 0 < γ < √2.
     """
     d = _d_where(0, _in_domain("gamma", gamma, 2**0.5) ** 2)
     below = _worst_case(d)[1]
@@ -122,8 +124,10 @@ def spins_white_noise(gamma: ArrayLike) -> Absorber:
 
     The mean square is sqrt(4/γ² − 1).
 
-    Raises:
-        DomainError: unless 0 < γ < √2.
+    Raises
+    ------
+    DomainError
+        Unless 0 < γ < √2.
     """
     g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(g2 * (4 - g2)) / 4, np.sqrt(4 / g2 - 1))
@@ -137,8 +141,10 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
 
     μ the ratio of masses; Den Hartog's fixed points lie at sqrt(1 + 2/μ).
 
-    Raises:
-        DomainError: unless μ > 0.
+    Raises
+    ------
+    DomainError
+        Unless μ > 0.
     """
     m = _in_domain("mu", mu, np.inf)
     s = np.sqrt(4 + 3 * m)

@@ -259,15 +259,23 @@ def _why(linear: SmallMotion, growth: float, factor: float) -> str:
 def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-9) -> float:
     """Return the time (s) at which an axis of the exact motion first tilts by the sine 0.95, inf where none does.
 
-    Args:
-        s: the structure.
-        push: the axes' rates (N, 2), rad/s, from upright, brought onto the bars.
-        longest: s.
-        tol: of each step, relative.
+    Parameters
+    ----------
+    s : Assembly
+        The structure.
+    push : array_like
+        The axes' rates (N, 2), rad/s, from upright, brought onto the bars.
+    longest : float
+        S.
+    tol : float, default 1e-09
+        Of each step, relative.
 
-    Raises:
-        InputError: for what is no push.
-        IntegrationError: where the solver fails.
+    Raises
+    ------
+    InputError
+        For what is no push.
+    IntegrationError
+        Where the solver fails.
     """
     from scipy.integrate import solve_ivp
 

@@ -125,14 +125,20 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     Where one integral more makes a family of orbits of the same tilt, as the turning of a pair about its joint line, it is that
     nearest to the mode.
 
-    Args:
-        s: without friction, upright at rest.
-        mode: its number in `modes()`, from 0; one with a rate of its own that neither grows nor decays.
-        tilt: the largest component of an axis' unit vector in the mode, between 0.001 and 1.
+    Parameters
+    ----------
+    s : Assembly
+        Without friction, upright at rest.
+    mode : int, default 0
+        Its number in `modes()`, from 0; one with a rate of its own that neither grows nor decays.
+    tilt : float, default 0.1
+        The largest component of an axis' unit vector in the mode, between 0.001 and 1.
 
-    Raises:
-        InputError: for a mode or tilt that there is not, for one of several modes of the same rate, with friction, and where
-            no such orbit is reached.
+    Raises
+    ------
+    InputError
+        For a mode or tilt that there is not, for one of several modes of the same rate, with friction, and where
+        no such orbit is reached.
     """
     where = "steady_precession"
     rate, shape = precessing_mode(s, mode, where)

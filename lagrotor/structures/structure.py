@@ -31,14 +31,17 @@ if TYPE_CHECKING:
 class Structure(Assembly):
     """Structure(joints, bars, spins, rotor, link, gravity, load, friction, hinge, braces): see `Assembly`.
 
-    Examples:
-        >>> from lagrotor.structures import example
-        >>> corner = example("corner")
-        >>> len(corner.joints), len(corner.bars)
-        (3, 2)
+    Raises
+    ------
+    InputError
+        Bars that cannot close, a bar to itself, dependent constraints, no degree of freedom left, loads below zero.
 
-    Raises:
-        InputError: bars that cannot close, a bar to itself, dependent constraints, no degree of freedom left, loads below zero.
+    Examples
+    --------
+    >>> from lagrotor.structures import example
+    >>> corner = example("corner")
+    >>> len(corner.joints), len(corner.bars)
+    (3, 2)
     """
 
     if TYPE_CHECKING:  # what may be given, which the fields then hold as tuples
@@ -89,8 +92,10 @@ _PARTS = {"rotor": Rotor, "link": Link, "braces": Brace}
 def read_structure(path: str | Path) -> Structure:
     """The structure that a TOML file describes.
 
-    Raises:
-        InputError: with the reason where there is none.
+    Raises
+    ------
+    InputError
+        With the reason where there is none.
     """
     return read_document(path, structure_of)
 
@@ -98,8 +103,10 @@ def read_structure(path: str | Path) -> Structure:
 def structure_of(given: dict[str, Any]) -> Structure:
     """The structure of a table with the fields' names.
 
-    Raises:
-        InputError: for other names and for values out of range.
+    Raises
+    ------
+    InputError
+        For other names and for values out of range.
     """
     check_fields(given, Assembly, "a structure")
     if "joints" not in given:
@@ -129,7 +136,9 @@ def toml_of(s: Assembly) -> str:
 def write_structure(s: Assembly, path: str | Path) -> Path:
     """Write the structure as TOML, whole or not at all.
 
-    Raises:
-        InputError: where that cannot be.
+    Raises
+    ------
+    InputError
+        Where that cannot be.
     """
     return write_text(path_of("write_structure: path", path), toml_of(s))

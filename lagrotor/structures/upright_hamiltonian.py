@@ -56,8 +56,10 @@ class LocalHamiltonian:
 def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     """The Hamiltonian about upright through an order.
 
-    Raises:
-        InputError: where a bar is not as long as its tips are apart when upright, or friction acts.
+    Raises
+    ------
+    InputError
+        Where a bar is not as long as its tips are apart when upright, or friction acts.
     """
     check_upright(s, "local_hamiltonian")
     linear, c = small_motion(s), coefficients(s)

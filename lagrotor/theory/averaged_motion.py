@@ -33,11 +33,16 @@ _LONGEST = 1e4  # units of time of a motion, which takes some to grow or to turn
 class SlowMotion:
     """The centre (lean beta, half-angle eta, rad) of a swing of amplitude `swing` s (rad, in the half-angle).
 
-    Attributes:
-        momentum: p = k P/G.
-        weight: kappa = (sigma − 1) k²/2.
-        ratio: k.
-        rate: g = G/(2 (a + b) k²), rad/s.
+    Attributes
+    ----------
+    momentum : float
+        P = k P/G.
+    weight : float
+        Kappa = (sigma − 1) k²/2.
+    ratio : float
+        K.
+    rate : float
+        G = G/(2 (a + b) k²), rad/s.
     """
 
     lean: float
@@ -126,9 +131,12 @@ def slow_motion(scene: Scene) -> SlowMotion:
 
     The pulse leaves the centre (x, (y_1 − y_2)/2) of the linear response, its swing s in (y_1 − y_2)/2, and P = −p_y.
 
-    Raises:
-        InputError: as `shock_response`, and unless the spins are opposite.
-        DomainError: where |eta| + s > 0.4.
+    Raises
+    ------
+    InputError
+        As `shock_response`, and unless the spins are opposite.
+    DomainError
+        Where |eta| + s > 0.4.
     """
     response = shock_response(scene)
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
@@ -160,10 +168,13 @@ def time_to_reach(scene: Scene, x: float) -> float:
     It is inf where x turns back before. Of the averaged motion, to leading order in the shock at any x; the relative error is of
     second order in it, and `lagrotor.models.time_to_reach_error` measures it.
 
-    Raises:
-        InputError: as `slow_motion`.
-        DomainError: as `slow_motion`, unless 0 < x < 1, where the pair comes to twist by more than 30 degrees before,
-            sin chi = (|eta| + s)/(k sqrt(1 − x²)), and where x turns back before but `turns_back` refuses to say so.
+    Raises
+    ------
+    InputError
+        As `slow_motion`.
+    DomainError
+        As `slow_motion`, unless 0 < x < 1, where the pair comes to twist by more than 30 degrees before,
+        sin chi = (|eta| + s)/(k sqrt(1 − x²)), and where x turns back before but `turns_back` refuses to say so.
     """
     if not 0 < finite_number(x, "time_to_reach: x", "1") < 1:
         raise DomainError(f"time_to_reach: x = {x:g} must lie between 0 and 1")
@@ -190,10 +201,13 @@ def turns_back(scene: Scene) -> bool:
 
     3 + sqrt(3/2) for a short pulse. Below it x grows, at least until the pair twists by 30 degrees, the end of the expansion.
 
-    Raises:
-        InputError: as `slow_motion`.
-        DomainError: as `slow_motion`, where the pair twists by more than 30 degrees from the start or before x turns back, and
-            beside the threshold, where twice the next order's part of the slow frequency could decide it.
+    Raises
+    ------
+    InputError
+        As `slow_motion`.
+    DomainError
+        As `slow_motion`, where the pair twists by more than 30 degrees from the start or before x turns back, and
+        beside the threshold, where twice the next order's part of the slow frequency could decide it.
     """
     motion = slow_motion(scene)
     size = motion.swing**2 + motion.half**2
@@ -219,11 +233,16 @@ def turns_back(scene: Scene) -> bool:
 def next_brackets(s2: Any, d: Any, sigma: Any, k2: Any) -> tuple[Any, Any]:
     """Return (F_6, L_4) of `slow_frequency`, of numbers or symbols.
 
-    Args:
-        s2: s² = sigma r0².
-        d: the push.
-        sigma: shape of the bar.
-        k2: k².
+    Parameters
+    ----------
+    s2
+        S² = sigma r0².
+    d
+        The push.
+    sigma
+        Shape of the bar.
+    k2
+        K².
     """
     cubic = (3 / sigma + 10 - 8 * sigma) * k2 - 12, 8 * k2 / sigma + 14, (4 / sigma + 2) * k2 + 8
     square = (8 / sigma + 15 - 54 * sigma + 31 * sigma**2) * k2 + 6 / sigma - 21 + 51 * sigma
@@ -253,16 +272,23 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
     The relative error of a bracket is of fourth order in r0 where r0² and d are small alike; that of the frequency, which
     `lagrotor.models.slow_frequency_error` measures, is large where a bracket nearly vanishes.
 
-    Args:
-        scene: with opposite spins and a bar.
-        r0: sine of the inclination at the moments when the axes are parallel, with the push.
-        momentum: P about the joint line (kg m²/s) less that of the exact paired precession of this r0: a push, by which the pair
-            turns. That of the precession is G s²/k to leading order only; with P less G s²/k the law is off at the next order.
+    Parameters
+    ----------
+    scene : Scene
+        With opposite spins and a bar.
+    r0 : float
+        Sine of the inclination at the moments when the axes are parallel, with the push.
+    momentum : float, default 0.0
+        P about the joint line (kg m²/s) less that of the exact paired precession of this r0: a push, by which the pair
+        turns. That of the precession is G s²/k to leading order only; with P less G s²/k the law is off at the next order.
 
-    Raises:
-        InputError: unless the spins are opposite and there is a bar.
-        DomainError: where F_6 and L_4 are more than half of what F and L are with all their leading terms positive, and s² for
-            kappa s² where that is larger.
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite and there is a bar.
+    DomainError
+        Where F_6 and L_4 are more than half of what F and L are with all their leading terms positive, and s² for
+        kappa s² where that is larger.
     """
     amplitude = amplitude_of(r0, "slow_frequency")
     push = finite_number(momentum, "slow_frequency: momentum", "kg m²/s")

@@ -72,9 +72,12 @@ class GuidingCentre:
 
         No bound of what is left is known; `lagrotor.models.guiding_centre_error` measures it on the exact motion.
 
-        Raises:
-            InputError: unless the times are finite, ascending and not before 0.
-            DomainError: where the bar comes into line with an axis before.
+        Raises
+        ------
+        InputError
+            Unless the times are finite, ascending and not before 0.
+        DomainError
+            Where the bar comes into line with an axis before.
         """
         from scipy.integrate import solve_ivp
 
@@ -109,10 +112,13 @@ def guiding_centre(scene: Scene) -> GuidingCentre:
 
     Over the time in which it goes some finite way its path is off by an angle of first order in the amplitude of the swing.
 
-    Raises:
-        InputError: without a bar or spin, with a shock, and for opposite spins: near upright the rate of their swing is the
-            same everywhere, so that the next order counts (`slow_motion`).
-        DomainError: where the swing exceeds 0.4 rad, or the bar is in line with an axis.
+    Raises
+    ------
+    InputError
+        Without a bar or spin, with a shock, and for opposite spins: near upright the rate of their swing is the
+        same everywhere, so that the next order counts (`slow_motion`).
+    DomainError
+        Where the swing exceeds 0.4 rad, or the bar is in line with an axis.
     """
     if not isinstance(scene, Scene) or scene.link is None or scene.shock is not None or sum(scene.spins) == 0:
         raise InputError(f"guiding_centre: {scene!r} needs a bar, spins that are not opposite, and no shock")

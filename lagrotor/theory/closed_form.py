@@ -77,9 +77,12 @@ class ClosedForm:
 
         Zero for an exact form (order None), under its assumptions.
 
-        Raises:
-            InputError: as a call does, and for a series of which no bound is known.
-            DomainError: as a call does, and where the series is beyond its range.
+        Raises
+        ------
+        InputError
+            As a call does, and for a series of which no bound is known.
+        DomainError
+            As a call does, and where the series is beyond its range.
         """
         flat, shape = self._check_arguments(values)
         if self.order is None:

@@ -104,8 +104,10 @@ def toppling_after_shock(scene: Scene) -> float:
 
     `lagrotor.models.toppling_error` measures its error.
 
-    Raises:
-        InputError: as `shock_response` does, and unless the spins are opposite.
+    Raises
+    ------
+    InputError
+        As `shock_response` does, and unless the spins are opposite.
     """
     return float(shock_toppling()(*_arguments(scene, "toppling_after_shock")))  # type: ignore[arg-type]
 
@@ -115,8 +117,10 @@ def wander_after_shock(scene: Scene) -> float:
 
     `lagrotor.models.wander_error` measures its error.
 
-    Raises:
-        InputError: as `toppling_after_shock`.
+    Raises
+    ------
+    InputError
+        As `toppling_after_shock`.
     """
     sign = 1.0 if scene.shock is None or scene.shock.body == 1 else -1.0
     first, *others = _arguments(scene, "wander_after_shock")
@@ -129,9 +133,12 @@ def cancelling_force(scene: Scene) -> float:
 
     The force that does so on exact runs depends on how long one averages: `lagrotor.models.cancelling_force_error`.
 
-    Raises:
-        InputError: as `toppling_after_shock`.
-        DomainError: where no force does.
+    Raises
+    ------
+    InputError
+        As `toppling_after_shock`.
+    DomainError
+        Where no force does.
     """
     p_x, _, *others = _arguments(scene, "cancelling_force")
     assert scene.shock is not None

@@ -41,13 +41,16 @@ def natural_rate(scene: Scene) -> float:
     Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)); see `natural_frequency`. Exact in the limit of small
     motion; `natural_rate_error` gives the error at an amplitude. Source: 5.28, corrected.
 
-    Examples:
-        >>> from lagrotor import Scene
-        >>> round(natural_rate(Scene(spins=(10, -10))), 12)
-        8.0
+    Raises
+    ------
+    InputError
+        Not a Scene.
 
-    Raises:
-        InputError: not a Scene.
+    Examples
+    --------
+    >>> from lagrotor import Scene
+    >>> round(natural_rate(Scene(spins=(10, -10))), 12)
+    8.0
     """
     if not isinstance(scene, Scene):
         raise InputError(f"natural_rate: {scene!r} must be a Scene")
@@ -70,9 +73,11 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
     empirical, held in 10,000 random swings, off by at most 0.71 of it. One rotor alone precesses at Omega_0 / cos theta
     exactly. A swing of opposite spins that is made to turn at nu besides is shifted by −(a + b) nu/(k G) of Omega_0 more.
 
-    Raises:
-        DomainError: unless 0 <= r <= 0.4, √N r² <= 0.12, sigma r² <= 0.5, and where a twist beside the orbit grows by more than
-            exp(6) in 20 turns.
+    Raises
+    ------
+    DomainError
+        Unless 0 <= r <= 0.4, √N r² <= 0.12, sigma r² <= 0.5, and where a twist beside the orbit grows by more than
+        exp(6) in 20 turns.
     """
     rate = natural_rate(scene)
     if not 0 <= amplitude <= LARGEST_SWING.value:

@@ -34,8 +34,10 @@ def twist_growth() -> ClosedForm:
     rho the sine of the half-angle of the cone.
     The mean of the twist's stiffness b Omega² rho² sin² Phi over its inertia (a − b)/2. `twist_growth_error` gives its error.
 
-    Raises:
-        DomainError: for b > 0 on a cone wider than Lyapunov's criterion covers.
+    Raises
+    ------
+    DomainError
+        For b > 0 on a cone wider than Lyapunov's criterion covers.
     """
     rate = G / (a + b)
     mean = sp.integrate(b * rate**2 * rho**2 * sp.sin(Phi) ** 2, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi)
@@ -83,13 +85,19 @@ def lyapunov_criterion() -> sp.Rel:
 def parallel_scene(scene: Scene, angle: float, twist_rate: float = 0.0) -> Scene:
     """A scene started in parallel steady precession, at x = sin(angle), of rate G / ((a + b) cos angle).
 
-    Args:
-        scene: with equal spins and a bar.
-        angle: half that of the cone about the vertical, rad.
-        twist_rate: Delta' at the start, small, rad/s.
+    Parameters
+    ----------
+    scene : Scene
+        With equal spins and a bar.
+    angle : float
+        Half that of the cone about the vertical, rad.
+    twist_rate : float, default 0.0
+        Delta' at the start, small, rad/s.
 
-    Raises:
-        InputError: unless the spins are equal and there is a bar.
+    Raises
+    ------
+    InputError
+        Unless the spins are equal and there is a bar.
     """
     from lagrotor.pair.initial_conditions import consistent_scene
 
@@ -108,9 +116,12 @@ def twist_multiplier_growth(scene: Scene, angle: float) -> float:
     Zero where it is bounded. Error, of the integration over a period: 5e-6 of the rate of precession where it is below
     that, less beyond.
 
-    Raises:
-        InputError: unless the spins are equal.
-        DomainError: unless 0 < angle < pi/2.
+    Raises
+    ------
+    InputError
+        Unless the spins are equal.
+    DomainError
+        Unless 0 < angle < pi/2.
     """
     from scipy.integrate import solve_ivp
 
@@ -133,8 +144,10 @@ def twist_bounded(scene: Scene, angle: float) -> bool:
 
     b > 0, that is K < m ell²/4, and Lyapunov's criterion holds.
 
-    Raises:
-        InputError: as `parallel_scene`.
+    Raises
+    ------
+    InputError
+        As `parallel_scene`.
     """
     inertia_a, inertia_b, _ = _equal(scene, angle, "twist_bounded")
     criterion = lyapunov_criterion().subs({a: inertia_a, b: inertia_b, rho: sin(angle)})

@@ -24,10 +24,14 @@ from lagrotor.pair.scene import Scene
 def shift_coefficient(sigma: Any, k: Any, share: Any) -> Any:
     """c of Omega = Omega_0 (1 + c r0² + …), of numbers or symbols.
 
-    Args:
-        sigma: shape of the bar.
-        k: ell / R.
-        share: as `opposite_share` has it.
+    Parameters
+    ----------
+    sigma
+        Shape of the bar.
+    k
+        Ell / R.
+    share
+        As `opposite_share` has it.
     """
     return (2 + 3 * share * (sigma - 1) - share**2 * (sigma**2 - 1) - 3 * share**2 * sigma / k**2) / 4
 
@@ -35,10 +39,14 @@ def shift_coefficient(sigma: Any, k: Any, share: Any) -> Any:
 def drift_coefficient(sigma: Any, k: Any, root: Any) -> Any:
     """alpha'/(Omega_0 r0⁴), of numbers or symbols.
 
-    Args:
-        sigma: shape of the bar.
-        k: ell / R.
-        root: sqrt(share/sigma), of the sign of G_1 − G_2.
+    Parameters
+    ----------
+    sigma
+        Shape of the bar.
+    k
+        Ell / R.
+    root
+        Sqrt(share/sigma), of the sign of G_1 − G_2.
     """
     return root**3 * sigma**2 * (sigma - 5) / (16 * k)
 
@@ -65,8 +73,10 @@ def frequency_shift(scene: Scene) -> float:
 
     For any two spins, any bar: 1/2 for equal ones, as 1/cos has it.
 
-    Raises:
-        InputError: without a bar, and without any spin.
+    Raises
+    ------
+    InputError
+        Without a bar, and without any spin.
     """
     share = opposite_share(scene)
     return float(shift_coefficient(scene.sigma, scene.k, share))
@@ -78,8 +88,10 @@ def azimuth_drift(scene: Scene) -> float:
     Leading order for r0² well below |G_1 + G_2|/|G_1 − G_2|. Zero for equal spins; zero for opposite ones, of whose orbits, with
     any rate of turning, this is the paired precession.
 
-    Raises:
-        InputError: without a bar, and without any spin.
+    Raises
+    ------
+    InputError
+        Without a bar, and without any spin.
     """
     share, (first, second) = opposite_share(scene), scene.momenta
     if first == -second:

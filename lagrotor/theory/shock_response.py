@@ -118,8 +118,10 @@ def shock_response(scene: Scene) -> ShockResponse:
     `lagrotor.models.linear.shock_response_error` estimates it. A force along z does nothing to this order.
     Source: 4.2, 5 and 5.2.1 of the paper, where these are read off simulations.
 
-    Raises:
-        InputError: without a shock or a bar, when the pair is not at rest upright, or when the pulse began before t = 0.
+    Raises
+    ------
+    InputError
+        Without a shock or a bar, when the pair is not at rest upright, or when the pulse began before t = 0.
     """
     if not isinstance(scene, Scene) or scene.shock is None or scene.link is None:
         raise InputError(f"shock_response: {scene!r} must be a Scene with a bar and a shock")

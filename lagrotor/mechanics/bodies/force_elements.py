@@ -38,13 +38,19 @@ class Pathway:
     def line(cls, c: Coordinates, P: Vector, Q: Vector) -> "Pathway":
         """The straight line between two points.
 
-        Args:
-            c: the coordinates.
-            P: where it begins.
-            Q: where it ends.
+        Parameters
+        ----------
+        c : Coordinates
+            The coordinates.
+        P : Vector
+            Where it begins.
+        Q : Vector
+            Where it ends.
 
-        Raises:
-            InputError: for what is no point.
+        Raises
+        ------
+        InputError
+            For what is no point.
         """
         return cls(c, ((sp.S.One, _distance(*_points(P, Q))),))
 
@@ -61,17 +67,27 @@ class Pathway:
     ) -> "Pathway":
         """The shortest path that does not enter a cylinder; straight where the straight line passes on that side.
 
-        Args:
-            c: the coordinates.
-            P: where it begins.
-            Q: where it ends.
-            radius: of the cylinder.
-            centre: a point of its axis.
-            axis: the axis' direction.
-            side: 1 where the path turns about the axis in its positive sense from P to Q, −1 in the other, by up to 3/2 π.
+        Parameters
+        ----------
+        c : Coordinates
+            The coordinates.
+        P : Vector
+            Where it begins.
+        Q : Vector
+            Where it ends.
+        radius
+            Of the cylinder.
+        centre : Vector, default (0, 0, 0)
+            A point of its axis.
+        axis : Vector, default (0, 0, 1)
+            The axis' direction.
+        side : int, default 1
+            1 where the path turns about the axis in its positive sense from P to Q, −1 in the other, by up to 3/2 π.
 
-        Raises:
-            InputError: for an axis that is none, another side, or an end that stays inside.
+        Raises
+        ------
+        InputError
+            For an axis that is none, another side, or an end that stays inside.
         """
         p, q = _points(P, Q)
         o, a = (

@@ -80,9 +80,12 @@ class Hamiltonian:
 
         P: the new momenta, symbols of their own.
 
-        Raises:
-            InputError: for a P that is no symbol or is already one of H, and an F with old momenta.
-            SingularError: where det ∂²F/∂q∂P vanishes identically: it generates nothing.
+        Raises
+        ------
+        InputError
+            For a P that is no symbol or is already one of H, and an F with old momenta.
+        SingularError
+            Where det ∂²F/∂q∂P vanishes identically: it generates nothing.
         """
         F, q, p = self._function("generated: F", F), self.q, self.p
         new = vector_of("generated: P", P, len(q))
@@ -114,18 +117,27 @@ class Hamiltonian:
         A steady motion is an equilibrium of what `System.routh` leaves of its angles. With letters for their momenta the
         derivatives of the actions' coefficients by them are the mean rates of the angles.
 
-        Args:
-            at: {coordinate or momentum: value}; where no momentum is named they are those of rest, of an orbit those of the
-                velocities in it; t: of a drive.
-            values: of the parameters; without them the coefficients are exact where the frequencies are rational, or rational in
-                the parameters.
-            detuning: what is combined of the frequencies, in rad/s, up to which a resonance is kept.
-            period: of the orbit, s; near enough is enough, but that of a drive.
+        Parameters
+        ----------
+        at : mapping
+            {coordinate or momentum: value}; where no momentum is named they are those of rest, of an orbit those of the
+            velocities in it; t: of a drive.
+        values : Mapping[Any, Any] or None, optional
+            Of the parameters; without them the coefficients are exact where the frequencies are rational, or rational in
+            the parameters.
+        detuning : float, default 0.0
+            What is combined of the frequencies, in rad/s, up to which a resonance is kept.
+        period : float or None, optional
+            Of the orbit, s; near enough is enough, but that of a drive.
 
-        Raises:
-            InputError: where `at` is none of these, a coordinate is not named or a letter needs a value.
-            DomainError: where H is not analytic there, or depends on time without a period.
-            SingularError: where a multiplier of an orbit is 1 or −1.
+        Raises
+        ------
+        InputError
+            Where `at` is none of these, a coordinate is not named or a letter needs a value.
+        DomainError
+            Where H is not analytic there, or depends on time without a period.
+        SingularError
+            Where a multiplier of an orbit is 1 or −1.
         """
         from lagrotor.mechanics.canonical.normal_forms import normal_form_at
 

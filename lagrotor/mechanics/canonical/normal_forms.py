@@ -46,16 +46,23 @@ _SMALL = 1e-16  # of the largest coefficient: what is left of a nilpotent part's
 class NormalForm(Shown):
     """H(z, w) in normal form through order `known_through`, and how one comes to it.
 
-    Attributes:
-        frequencies: ω_j, negative for modes of negative energy (λ of a saddle's, 0 of what stands still), as numbers or
-            expressions.
-        series: H as a polynomial in z_1 … z_n, w_1 … w_n, {z_j, w_j} = weights_j, w_j = z̄_j where floating-point numbers are (k
-            z̄_j, k > 0, where they are exact).
-        generators: χ of degree 3, 4, … in the order in which exp(L_χ) are applied.
-        vectors: x − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂.
-        error: how far the inverse transformation of the series is from the Hamiltonian, the largest difference of coefficients of
-            a degree over the largest one, and the brackets of the coordinates from what they should be; 0 where it is exact.
-        field: that of the coefficients, None for numbers.
+    Attributes
+    ----------
+    frequencies : tuple[Any, ...]
+        Ω_j, negative for modes of negative energy (λ of a saddle's, 0 of what stands still), as numbers or
+        expressions.
+    series : Polynomial
+        H as a polynomial in z_1 … z_n, w_1 … w_n, {z_j, w_j} = weights_j, w_j = z̄_j where floating-point numbers are (k
+        z̄_j, k > 0, where they are exact).
+    generators : tuple[Polynomial, ...]
+        Χ of degree 3, 4, … in the order in which exp(L_χ) are applied.
+    vectors
+        X − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂.
+    error : float
+        How far the inverse transformation of the series is from the Hamiltonian, the largest difference of coefficients of
+        a degree over the largest one, and the brackets of the coordinates from what they should be; 0 where it is exact.
+    field : optional
+        That of the coefficients, None for numbers.
     """
 
     frequencies: tuple[Any, ...]
@@ -130,10 +137,14 @@ def birkhoff(
 
     Floating-point coefficients are complex; those of a `field` are its elements.
 
-    Args:
-        weights: {z_j, w_j}, (n,), −i of oscillations and 1 of saddles and of what has the rate zero.
-        detuning: |D| up to which terms are kept, in rad/s.
-        vectors: x − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂, handed on.
+    Parameters
+    ----------
+    weights : Coefficients
+        {z_j, w_j}, (n,), −i of oscillations and 1 of saddles and of what has the rate zero.
+    detuning : float, default 0.0
+        |D| up to which terms are kept, in rad/s.
+    vectors : optional
+        X − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂, handed on.
     """
     n = len(weights)
     pair = [tuple(int(i in (j, n + j)) for i in range(2 * n)) for j in range(n)]

@@ -59,13 +59,19 @@ class ReturnMapForm(NormalForm):
     α_j (rad) lies between −π and π and is known up to turns, its sign that of Krein, as that of an energy; of a hyperbolic
     pair it is the logarithm of the multiplier, and K a series in its product z w.
 
-    Attributes:
-        period: of the orbit, s.
-        orbit: its start, {q or p: value}.
-        frame: (q, p) − (q₀, p₀) of the displacement y, a series of its components (u_1 … u_m, v_1 … v_m).
-        unit: of an action, that of the orbit's size.
-        error: the largest difference of a degree's coefficients over the largest of them, between two integrations, and of the
-            map from what the form gives back.
+    Attributes
+    ----------
+    period : float, default 0.0
+        Of the orbit, s.
+    orbit : mapping, optional
+        Its start, {q or p: value}.
+    frame : tuple[Polynomial, ...], default ()
+        (q, p) − (q₀, p₀) of the displacement y, a series of its components (u_1 … u_m, v_1 … v_m).
+    unit : float, default 1.0
+        Of an action, that of the orbit's size.
+    error
+        The largest difference of a degree's coefficients over the largest of them, between two integrations, and of the
+        map from what the form gives back.
     """
 
     period: float = 0.0
@@ -106,14 +112,20 @@ class ReturnMapForm(NormalForm):
 def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) -> NormalForm:
     """The normal form of a canonical map y → F(y), y = (u_1 … u_m, v_1 … v_m), F(0) = 0, through K of an order.
 
-    Args:
-        F: real polynomials through the degree order − 1.
-        detuning: |1 − e^{iα·(a − b)}| up to which a resonance is kept.
+    Parameters
+    ----------
+    F : sequence
+        Real polynomials through the degree order − 1.
+    detuning : float, default 0.0
+        |1 − e^{iα·(a − b)}| up to which a resonance is kept.
 
-    Raises:
-        InputError: where F is no such map to first order.
-        SingularError: where a multiplier is 1 or −1, above 10⁶, or double and not diagonal, or some too near to 1 beside others
-            near −1.
+    Raises
+    ------
+    InputError
+        Where F is no such map to first order.
+    SingularError
+        Where a multiplier is 1 or −1, above 10⁶, or double and not diagonal, or some too near to 1 beside others
+        near −1.
     """
     check_form_order(order, detuning)
     n = len(F)

@@ -47,10 +47,14 @@ _TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that
 class MonodromyMatrix(Shown):
     """The matrix Φ (n, n) of one turn in the independent `states`, and its eigenvalues, the multipliers.
 
-    Attributes:
-        error: difference of two integrations of Φ, relative to it.
-        multipliers: (n,), the largest first; NaN where one is smaller than its error.
-        errors: absolute error of each multiplier, (n,); of one that is NaN the bound of its size.
+    Attributes
+    ----------
+    error : float
+        Difference of two integrations of Φ, relative to it.
+    multipliers : NDArray[complex128]
+        (n,), the largest first; NaN where one is smaller than its error.
+    errors : Array
+        Absolute error of each multiplier, (n,); of one that is NaN the bound of its size.
     """
 
     states: tuple[sp.Symbol, ...]

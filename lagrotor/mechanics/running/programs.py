@@ -106,8 +106,10 @@ def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generat
 
     followed: g, the factor and the part of each ψ, ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
 
-    Raises:
-        SingularError: when the mass matrix or the Schur complement is singular in its structure.
+    Raises
+    ------
+    SingularError
+        When the mass matrix or the Schur complement is singular in its structure.
     """
     stages, rates, _ = motion_of_speeds(system)
     clock = [sp.S.One] * depends_on_time(system)

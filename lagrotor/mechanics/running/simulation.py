@@ -59,14 +59,21 @@ class SystemRun(SampledMotion):
     def load(path: str | Path, system: Equations, events: Any = (), functions: Values | None = None) -> "SystemRun":
         """The run that `save` wrote; a file holds no equations.
 
-        Args:
-            path: the .npz file.
-            system: what it was a run of.
-            events: those it was run with.
-            functions: the values of functions it was run with.
+        Parameters
+        ----------
+        path : str or Path
+            The .npz file.
+        system : Equations
+            What it was a run of.
+        events : default ()
+            Those it was run with.
+        functions : Values or None, optional
+            The values of functions it was run with.
 
-        Raises:
-            InputError: where it is no such file, or one of another system.
+        Raises
+        ------
+        InputError
+            Where it is no such file, or one of another system.
         """
         if not isinstance(system, Equations):
             raise InputError(f"load: system = {system!r} must be the System that it is a run of")

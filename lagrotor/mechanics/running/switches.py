@@ -25,8 +25,10 @@ from lagrotor.mechanics.lagrangian import force_column, gradient, jacobian, t
 class Event:
     """Where section(q, v, t) = 0 is crossed: upward (direction = 1), downward (−1), or both (0).
 
-    Attributes:
-        velocities: those after it, an expression of the state before it for each coordinate; without them the run ends there.
+    Attributes
+    ----------
+    velocities : tuple[Expr, ...] or None, optional
+        Those after it, an expression of the state before it for each coordinate; without them the run ends there.
     """
 
     section: sp.Expr

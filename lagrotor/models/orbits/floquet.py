@@ -82,14 +82,20 @@ class Floquet(Shown):
 def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     """Floquet multipliers of the paired precession of amplitude r0, through the variational equations, with their error.
 
-    Args:
-        scene: with opposite spins and a bar.
-        momentum: about the joint line beyond the orbit's own (kg m²/s), a push: the orbit then closes up to a turn about that
-            line.
+    Parameters
+    ----------
+    scene : Scene
+        With opposite spins and a bar.
+    momentum : float, default 0.0
+        About the joint line beyond the orbit's own (kg m²/s), a push: the orbit then closes up to a turn about that
+        line.
 
-    Raises:
-        InputError: unless the spins are opposite and there is a bar.
-        DomainError: when no orbit is found.
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite and there is a bar.
+    DomainError
+        When no orbit is found.
     """
     orbit = exact_orbit(scene, r0)
     return floquet_of(_pushed(orbit, momentum) if momentum else orbit)
@@ -98,14 +104,21 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
 def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> float:
     """How far (rad/s, in the complex plane) `slow_frequency` is from the exact orbit's, whose error is added.
 
-    Args:
-        scene: as in `slow_frequency`.
-        r0: sine of the inclination at the moments when the axes are parallel, with the push.
-        momentum: about the joint line beyond that of the exact paired precession of this r0 (kg m²/s).
+    Parameters
+    ----------
+    scene : Scene
+        As in `slow_frequency`.
+    r0 : float
+        Sine of the inclination at the moments when the axes are parallel, with the push.
+    momentum : float, default 0.0
+        About the joint line beyond that of the exact paired precession of this r0 (kg m²/s).
 
-    Raises:
-        InputError: as `slow_frequency`.
-        DomainError: likewise, and where no orbit is found.
+    Raises
+    ------
+    InputError
+        As `slow_frequency`.
+    DomainError
+        Likewise, and where no orbit is found.
     """
     law, orbit = slow_frequency(scene, r0, momentum), floquet(scene, r0, momentum)
     return abs(law - orbit.slow_frequency) + orbit.exponent_error * abs(orbit.frequency) / (2 * pi)

@@ -24,15 +24,22 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
     The answer has its own bounds, `error` and `frequency_error`, and says how it was found.
     Source: 5.21 and 5.22 of the paper, corrected.
 
-    Args:
-        scene: with opposite spins and a bar.
-        r0: sine of the inclination when the axes are parallel.
-        tol: a series through as many orders as that needs, at most r0^13; beyond, the exact periodic orbit, found by shooting and
-            sampled as harmonics.
+    Parameters
+    ----------
+    scene : Scene
+        With opposite spins and a bar.
+    r0 : float
+        Sine of the inclination when the axes are parallel.
+    tol : float, default 1e-09
+        A series through as many orders as that needs, at most r0^13; beyond, the exact periodic orbit, found by shooting and
+        sampled as harmonics.
 
-    Raises:
-        InputError: unless the spins are opposite, there is a bar, and 0 < tol < 1.
-        DomainError: unless |r0| < 1, and where neither reaches `tol`.
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite, there is a bar, and 0 < tol < 1.
+    DomainError
+        Unless |r0| < 1, and where neither reaches `tol`.
     """
     amplitude = amplitude_of(r0, "precession_orbit")
     if isinstance(tol, bool) or not (isinstance(tol, int | float | np.floating) and 0 < tol < 1):
@@ -97,13 +104,20 @@ def _harmonics(exact: ExactOrbit, n: int) -> Array:
 def paired_scene(scene: Scene, r0: float, tol: float = 1e-9) -> Scene:
     """A scene started on its paired precession at Phi = 0: `precession_orbit(scene, r0, tol).start`.
 
-    Args:
-        scene: with opposite spins and a bar.
-        r0: amplitude.
-        tol: the start is exact on the bar; its axes are within 2 tol of the periodic orbit, its velocities within 2 tol Omega_0.
+    Parameters
+    ----------
+    scene : Scene
+        With opposite spins and a bar.
+    r0 : float
+        Amplitude.
+    tol : float, default 1e-09
+        The start is exact on the bar; its axes are within 2 tol of the periodic orbit, its velocities within 2 tol Omega_0.
 
-    Raises:
-        InputError: as `precession_orbit`.
-        DomainError: likewise.
+    Raises
+    ------
+    InputError
+        As `precession_orbit`.
+    DomainError
+        Likewise.
     """
     return precession_orbit(scene, r0, tol).start

@@ -150,9 +150,12 @@ class QuarterPeriod:
 def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     """The orbit of amplitude r0 = sin(theta) when the axes are parallel, for the scene's rotor, bar and spins.
 
-    Raises:
-        InputError: unless the spins are opposite.
-        DomainError: unless 0 < |r0| < 1 and when no orbit of that amplitude is found.
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite.
+    DomainError
+        Unless 0 < |r0| < 1 and when no orbit of that amplitude is found.
     """
     if amplitude_of(r0, "exact_orbit") == 0:
         raise DomainError("exact_orbit: r0 = 0 is the pair at rest, with no orbit; take an amplitude above 0")
@@ -203,8 +206,10 @@ def trace_family(scene: Scene) -> OrbitFamily:
     The family is said to end where steps below 1e-5 fail: the period or the speed grows without bound, or the orbit
     reaches a singular position.
 
-    Raises:
-        InputError: unless the spins are opposite.
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite.
     """
     curve = QuarterPeriod(scene)
     z = curve.correct(curve.linear(atanh(_START)), np.array([1.0, 0, 0, 0]), atanh(_START))
@@ -235,10 +240,13 @@ def trace_family(scene: Scene) -> OrbitFamily:
 def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) -> OrbitFamily:
     """The orbits at the given increasing amplitudes r0 (n,), each found from the one before.
 
-    Raises:
-        InputError: unless the spins are opposite.
-        DomainError: when an amplitude is outside (0, 1), not above the one before, or past the first turn or the end of the
-            family.
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite.
+    DomainError
+        When an amplitude is outside (0, 1), not above the one before, or past the first turn or the end of the
+        family.
     """
     curve = QuarterPeriod(scene)
     wanted = np.asarray(amplitudes, float)
@@ -267,9 +275,12 @@ class UprightOrbit:
 def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
     """The orbit of amplitude r0 = sin(inclination) where the axes are parallel, of the scene's rotor, bar and spins.
 
-    Raises:
-        InputError: without a bar, without spin, and for opposite spins, whose orbit is `exact_orbit`.
-        DomainError: unless 0 < |r0| < 1, and where Newton's method, begun at the linear motion, finds none.
+    Raises
+    ------
+    InputError
+        Without a bar, without spin, and for opposite spins, whose orbit is `exact_orbit`.
+    DomainError
+        Unless 0 < |r0| < 1, and where Newton's method, begun at the linear motion, finds none.
     """
     amplitude, (first, second) = amplitude_of(r0, "upright_orbit"), scene.momenta
     if scene.link is None or first + second == 0:

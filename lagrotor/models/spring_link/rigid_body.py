@@ -76,8 +76,10 @@ class RigidBody:
     I₀ (3, 3) about the centre in the body frame, in kg m²; rotation R (3, 3); mass in kg; angular velocity Omega (3,)
     in rad/s and velocity U (3,) of the centre in m/s, both in world components.
 
-    Raises:
-        InputError: for a mass not above zero, an inertia not symmetric and positive, an R that is no rotation.
+    Raises
+    ------
+    InputError
+        For a mass not above zero, an inertia not symmetric and positive, an R that is no rotation.
     """
 
     centre: Array

@@ -105,8 +105,10 @@ class SpringRun(Run):
     def load(path: str | Path) -> "SpringRun":
         """The run that `save` wrote as `.npz`.
 
-        Raises:
-            InputError: where that is not what the file is.
+        Raises
+        ------
+        InputError
+            Where that is not what the file is.
         """
         _, held, known = read_run(path)
         n = len(known["t"])
@@ -150,14 +152,21 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
     A step above `step_limit` is run all the same, for as long as it lasts: until the state is not a number, or beyond LOST. What
     was reached is handed back with its ending, and a LagrotorWarning. The error of a fixed step is not estimated.
 
-    Args:
-        system: the bodies and links.
-        shock: on a vertex.
-        t: the times (n,) that are read, whole multiples of dt, s.
-        dt: the step, s.
+    Parameters
+    ----------
+    system : RigidBodySystem
+        The bodies and links.
+    shock : Shock or None
+        On a vertex.
+    t : array_like
+        The times (n,) that are read, whole multiples of dt, s.
+    dt : float
+        The step, s.
 
-    Raises:
-        InputError: for dt not above zero, times between the steps, or a step longer than the shock is wide (it could miss it).
+    Raises
+    ------
+    InputError
+        For dt not above zero, times between the steps, or a step longer than the shock is wide (it could miss it).
     """
     times = check_times("run_steps", t)
     if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
@@ -203,16 +212,24 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     State X, U, R, L of every body, with R' = [Omega]× R. The run is cut at the shock's edges, ± 6.5 widths, within which no step
     is longer than the width.
 
-    Args:
-        system: the bodies and links.
-        shock: on a vertex.
-        t: the times (n,), s.
-        tol: the largest error of the whole run, estimated as of every run: of the places in units of the largest body, and of
-            R; a LagrotorWarning says where it is not kept.
+    Parameters
+    ----------
+    system : RigidBodySystem
+        The bodies and links.
+    shock : Shock or None
+        On a vertex.
+    t : array_like
+        The times (n,), s.
+    tol : float, default 1e-08
+        The largest error of the whole run, estimated as of every run: of the places in units of the largest body, and of
+        R; a LagrotorWarning says where it is not kept.
 
-    Raises:
-        InputError: for bad times or tolerance.
-        IntegrationError: when nothing can be reached.
+    Raises
+    ------
+    InputError
+        For bad times or tolerance.
+    IntegrationError
+        When nothing can be reached.
     """
     times, tolerance = check_times("run_solver", t), check_tolerance(tol, "run_solver")
     rate, n_b = rate_function(system, shock), len(system.vertices)

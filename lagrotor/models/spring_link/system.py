@@ -34,11 +34,16 @@ def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
     The sound reading of 3.19: linear, smooth where the vertices coincide, which is where a joint is kept, and damping every
     relative motion. Its damper is not central: it exerts the couple D gap × rate, which vanishes with the gap.
 
-    Args:
-        gap: X_1 − X_2, (n, 3), m.
-        rate: U_1 − U_2, (n, 3), m/s.
-        S: stiffness, N/m.
-        D: damping, kg/s.
+    Parameters
+    ----------
+    gap : Array
+        X_1 − X_2, (n, 3), m.
+    rate : Array
+        U_1 − U_2, (n, 3), m/s.
+    S : float
+        Stiffness, N/m.
+    D : float
+        Damping, kg/s.
     """
     return -S * gap - D * rate
 
@@ -50,11 +55,16 @@ def printed_link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
     term lacks its ê_21. The spring is that of `link_force`; the damper acts along the line of separation only. It
     leaves a gap that circles undamped, and at gap = 0, where every joint starts, e is 0/0 (here 0: no damping there).
 
-    Args:
-        gap: X_1 − X_2, (n, 3), m.
-        rate: U_1 − U_2, (n, 3), m/s.
-        S: stiffness, N/m.
-        D: damping, kg/s.
+    Parameters
+    ----------
+    gap : Array
+        X_1 − X_2, (n, 3), m.
+    rate : Array
+        U_1 − U_2, (n, 3), m/s.
+    S : float
+        Stiffness, N/m.
+    D : float
+        Damping, kg/s.
     """
     size = np.linalg.norm(gap, axis=1, keepdims=True)
     e = gap / (size + (size == 0))
@@ -68,8 +78,10 @@ class RigidBodySystem:
     X, U (n + 1, 3) of the centres, R (n + 1, 3, 3), L (n + 1, 3) about the centres, Omega (n + 1, 3). The ground's L
     gathers what the links have handed to it. `force`, `rotation`, `transform` may be replaced by their printed twins.
 
-    Raises:
-        InputError: for S not above zero, D below zero, no body, a body or vertex that is not there.
+    Raises
+    ------
+    InputError
+        For S not above zero, D below zero, no body, a body or vertex that is not there.
     """
 
     def __init__(
@@ -110,11 +122,16 @@ class RigidBodySystem:
     def link(self, body1: int, body2: int, vertex1: int, vertex2: int) -> None:
         """Join two bodies.
 
-        Args:
-            body1: one.
-            body2: the other.
-            vertex1: of the one.
-            vertex2: of the other.
+        Parameters
+        ----------
+        body1 : int
+            One.
+        body2 : int
+            The other.
+        vertex1 : int
+            Of the one.
+        vertex2 : int
+            Of the other.
         """
         self._join(self._end(body1, vertex1), self._end(body2, vertex2))
 
@@ -126,11 +143,16 @@ class RigidBodySystem:
     def push(self, body: int, vertex: int, force: ArrayLike, strength: float = 1.0) -> None:
         """Push a body for the step to come: after `compute_forces`, before `step`.
 
-        Args:
-            body: which.
-            vertex: of it.
-            force: (3,) in N.
-            strength: by which it is multiplied.
+        Parameters
+        ----------
+        body : int
+            Which.
+        vertex : int
+            Of it.
+        force : array_like
+            (3,) in N.
+        strength : float, default 1.0
+            By which it is multiplied.
         """
         i, arm = self._end(body, vertex)
         given = finite_array("push: force", force, (3,)) * strength
@@ -155,8 +177,10 @@ class RigidBodySystem:
 
         Semi-implicit: positions move with the new velocities, which the forces at the old state made.
 
-        Raises:
-            InputError: for a dt not above zero.
+        Raises
+        ------
+        InputError
+            For a dt not above zero.
         """
         if not (isfinite(dt) and dt > 0):
             raise InputError(f"step: dt = {dt!r} s must be a finite number above zero")
@@ -248,8 +272,10 @@ def step_limit(system: RigidBodySystem) -> StepLimit:
 
     which is 2/sqrt(w S) without damping and 2/(w D) for damping alone. The largest w decides.
 
-    Raises:
-        InputError: when the system has no link.
+    Raises
+    ------
+    InputError
+        When the system has no link.
     """
     W = system.joint_mobility()
     if not len(W):
@@ -274,8 +300,10 @@ def paper_bodies(scene: Scene, bar_height: float | None = None) -> list[RigidBod
     bar_height (m) puts the bar's centre at that z instead. The paper's z starts at the rotors' centres (grounds at
     −0.5, tips at 0.5), ours at the ground joints: its right 0.5 is our 1.0, its mistaken 1 (section 4.1) our 1.5.
 
-    Raises:
-        InputError: for a bar without mass or without inertia, which no third body can be.
+    Raises
+    ------
+    InputError
+        For a bar without mass or without inertia, which no third body can be.
     """
     rotor, link = scene.rotor, scene.link
     half = (link.length if link else rotor.length) / 2
@@ -309,12 +337,18 @@ def paper_system(
 ) -> RigidBodySystem:
     """The paper's program for a scene: its `paper_bodies`, vertex 1 of each rotor grounded, the bar linked to both tips.
 
-    Args:
-        scene: without a bar it gives two rotors and two links.
-        stiffness: S, N/m.
-        damping: D, kg/s.
-        bar_height: as in `paper_bodies`, m.
-        laws: the `force`, `rotation` and `transform` of RigidBodySystem.
+    Parameters
+    ----------
+    scene : Scene
+        Without a bar it gives two rotors and two links.
+    stiffness : float
+        S, N/m.
+    damping : float
+        D, kg/s.
+    bar_height : float or None, optional
+        As in `paper_bodies`, m.
+    laws : callable
+        The `force`, `rotation` and `transform` of RigidBodySystem.
     """
     system = RigidBodySystem(paper_bodies(scene, bar_height), stiffness, damping, **laws)
     system.ground(2, 1)

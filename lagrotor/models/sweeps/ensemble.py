@@ -45,8 +45,10 @@ class Ensemble(Shown):
     of the minimal coordinates; "none" is one of which nothing was reached. endings (n,): how each ended; after its end its axes,
     rates and errors are NaN.
 
-    Attributes:
-        errors: the estimated largest error of an axis up to each time, as a `Trajectory` has it.
+    Attributes
+    ----------
+    errors : Array
+        The estimated largest error of an axis up to each time, as a `Trajectory` has it.
     """
 
     scenes: tuple[Scene, ...]
@@ -84,8 +86,10 @@ class Ensemble(Shown):
     def trajectory(self, i: int) -> Trajectory:
         """Number i up to its end, with all that can be read off it.
 
-        Raises:
-            InputError: where nothing of it was reached.
+        Raises
+        ------
+        InputError
+            Where nothing of it was reached.
         """
         n = int(np.isfinite(self.errors[i]).sum())
         if not n:
@@ -110,17 +114,26 @@ def sweep(
 ) -> Ensemble:
     """Run every scene from its start, which holds at t[0], and read it at the times `t` (m,) in s.
 
-    Args:
-        scenes: as many as there are runs.
-        tol: the largest error of an axis over each whole run, as of `simulate` and by the same estimate. A LagrotorWarning says
-            how many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
-        engine: "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
-        chunk: trajectories at a time.
-        executor: a `concurrent.futures.Executor`, of dask `client.get_executor()`; None: chunks run here, one after another.
-        progress: called with the number of trajectories done and of all, after each chunk.
+    Parameters
+    ----------
+    scenes : sequence
+        As many as there are runs.
+    tol : float, default 1e-06
+        The largest error of an axis over each whole run, as of `simulate` and by the same estimate. A LagrotorWarning says
+        how many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
+    engine : str, default 'core'
+        "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
+    chunk : int, default CHUNK
+        Trajectories at a time.
+    executor : Executor or None, optional
+        A `concurrent.futures.Executor`, of dask `client.get_executor()`; None: chunks run here, one after another.
+    progress : callable or None, optional
+        Called with the number of trajectories done and of all, after each chunk.
 
-    Raises:
-        InputError: for bad arguments, or no scene.
+    Raises
+    ------
+    InputError
+        For bad arguments, or no scene.
     """
     times, tolerance, members = check_times("sweep", t), check_tolerance(tol, "sweep"), _checked(scenes, chunk, engine)
     if not (progress is None or callable(progress)):

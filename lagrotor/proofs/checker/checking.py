@@ -45,9 +45,12 @@ def check(certificate: Any) -> str:
     Of an expression the words themselves are evaluated, and the program is shown to be that of the scene, the structure, the
     Lagrangian or the rates that the theorem names.
 
-    Raises:
-        InputError: for what is no certificate.
-        NotProved: with the first thing that does not hold.
+    Raises
+    ------
+    InputError
+        For what is no certificate.
+    NotProved
+        With the first thing that does not hold.
     """
     try:
         certificate = plain(certificate)

@@ -293,18 +293,27 @@ def periodic_orbit(
 ) -> PeriodicOrbit:
     """The periodic orbit near the start q0, v0 and the period (s), proved to exist.
 
-    Args:
-        values: as in `enclose`.
-        tol: as in `enclose`.
-        reversals: one or two rows of signs ±1, one for each state (q, v): time reversed under the first is a motion, and the
-            start lies in its fixed set; likewise the second, if any, at a quarter period instead of the first at half of it.
-        held: states that keep their value, by symbol or name; where orbits come in families, as many as the family has parameters
-            are held, the first that can be, unless given.
-        integrals: how many the system has, its energy among them, each with a pair of multipliers that are 1.
+    Parameters
+    ----------
+    values : Values or None, optional
+        As in `enclose`.
+    tol : float, default TOL
+        As in `enclose`.
+    reversals : sequence, default ()
+        One or two rows of signs ±1, one for each state (q, v): time reversed under the first is a motion, and the
+        start lies in its fixed set; likewise the second, if any, at a quarter period instead of the first at half of it.
+    held : sequence, default ()
+        States that keep their value, by symbol or name; where orbits come in families, as many as the family has parameters
+        are held, the first that can be, unless given.
+    integrals : int, default 1
+        How many the system has, its energy among them, each with a pair of multipliers that are 1.
 
-    Raises:
-        InputError: for what makes no sense.
-        NotProved: where no orbit can be proved, with how far it came.
+    Raises
+    ------
+    InputError
+        For what makes no sense.
+    NotProved
+        Where no orbit can be proved, with how far it came.
     """
     accuracy, where = accuracy_of(tol, "periodic_orbit"), "periodic_orbit"
     with precision(accuracy.bits, accuracy.terms):

@@ -69,9 +69,12 @@ def watch(motion: Motion, tape: Tape, step: CarriedStep, w: Balls) -> list[Watch
 class Crossing(Proved):
     """A proved crossing, in a time that `time` holds, or a proved non-crossing up to `time`.
 
-    Attributes:
-        first: whether it is proved to be the first crossing, too.
-        certificate: what `check` verifies.
+    Attributes
+    ----------
+    first : bool
+        Whether it is proved to be the first crossing, too.
+    certificate : Certificate
+        What `check` verifies.
     """
 
     expression: sp.Basic
@@ -154,19 +157,30 @@ def crossing(
 ) -> Crossing:
     """A proof that an expression of the states passes zero, with when.
 
-    Args:
-        system: as in `enclose`.
-        values: as in `enclose`.
-        q0: as in `enclose`.
-        v0: as in `enclose`.
-        event: the expression; of a Scene it may have x_1 … z_2 of the axes and their rates, of a Structure x_0, y_0, z_0, ….
-            A long one may have a name, Eq(E, expression).
-        before: s.
-        tol: as in `enclose`.
+    Parameters
+    ----------
+    system
+        As in `enclose`.
+    values : Values or None, optional
+        As in `enclose`.
+    q0 : optional
+        As in `enclose`.
+    v0 : optional
+        As in `enclose`.
+    event : optional
+        The expression; of a Scene it may have x_1 … z_2 of the axes and their rates, of a Structure x_0, y_0, z_0, ….
+        A long one may have a name, Eq(E, expression).
+    before : optional
+        S.
+    tol : float, default TOL
+        As in `enclose`.
 
-    Raises:
-        InputError: for what makes no sense.
-        NotProved: where the sign is not shown to change, with how far the proof came.
+    Raises
+    ------
+    InputError
+        For what makes no sense.
+    NotProved
+        Where the sign is not shown to change, with how far the proof came.
     """
     accuracy, where = accuracy_of(tol, "crossing"), "crossing"
     with precision(accuracy.bits, accuracy.terms):
@@ -199,17 +213,27 @@ def no_crossing(
 ) -> Crossing:
     """A proof that an expression of the states does not pass zero from t = 0 on.
 
-    Args:
-        system: as in `enclose`.
-        values: as in `enclose`.
-        q0: as in `enclose`.
-        v0: as in `enclose`.
-        event: as in `crossing`.
-        until: s.
-        tol: as in `enclose`.
+    Parameters
+    ----------
+    system
+        As in `enclose`.
+    values : Values or None, optional
+        As in `enclose`.
+    q0 : optional
+        As in `enclose`.
+    v0 : optional
+        As in `enclose`.
+    event : optional
+        As in `crossing`.
+    until : optional
+        S.
+    tol : float, default TOL
+        As in `enclose`.
 
-    Raises:
-        NotProved: with the time up to which it is proved.
+    Raises
+    ------
+    NotProved
+        With the time up to which it is proved.
     """
     accuracy, where = accuracy_of(tol, "no_crossing"), "no_crossing"
     with precision(accuracy.bits, accuracy.terms):
@@ -254,17 +278,27 @@ def means(
 ) -> Means:
     """Means of expressions of the states over spans of time, (1/(t₂ − t₁)) ∫ e dt from t₁ to t₂, enclosed.
 
-    Args:
-        system: as in `enclose`.
-        values: as in `enclose`.
-        q0: as in `enclose`.
-        v0: as in `enclose`.
-        spans: (expression, t₁, t₂) for each mean, t in s, expressions as in `crossing`.
-        tol: as in `enclose`.
+    Parameters
+    ----------
+    system
+        As in `enclose`.
+    values : Values or None, optional
+        As in `enclose`.
+    q0 : optional
+        As in `enclose`.
+    v0 : optional
+        As in `enclose`.
+    spans : sequence, default ()
+        (expression, t₁, t₂) for each mean, t in s, expressions as in `crossing`.
+    tol : float, default TOL
+        As in `enclose`.
 
-    Raises:
-        InputError: for what makes no sense.
-        NotProved: where the enclosure ends before the last t₂.
+    Raises
+    ------
+    InputError
+        For what makes no sense.
+    NotProved
+        Where the enclosure ends before the last t₂.
     """
     accuracy, where = accuracy_of(tol, "means"), "means"
     if not isinstance(spans, Sequence) or any(not isinstance(span, tuple | list) or len(span) != 3 for span in spans):

@@ -98,19 +98,30 @@ def enclose(
 ) -> Enclosure:
     """Balls of the state of a motion, by a validated integration from t = 0.
 
-    Args:
-        system: a `System`; a `Scene`, with its own start; a `Structure`, q0 its tilt and v0 the axes' rates; or a `Program` with
-            its states first.
-        values: numbers, exact decimals as they are written, or pairs (lowest, highest).
-        q0: likewise.
-        v0: likewise.
-        t: s.
-        tol: what a step may leave out, relative to the state's size: order, steps and precision follow from it.
+    Parameters
+    ----------
+    system
+        A `System`; a `Scene`, with its own start; a `Structure`, q0 its tilt and v0 the axes' rates; or a `Program` with
+        its states first.
+    values : Values or None, optional
+        Numbers, exact decimals as they are written, or pairs (lowest, highest).
+    q0 : optional
+        Likewise.
+    v0 : optional
+        Likewise.
+    t : optional
+        S.
+    tol : float, default TOL
+        What a step may leave out, relative to the state's size: order, steps and precision follow from it.
 
-    Raises:
-        InputError: for what makes no sense.
-        ConstraintError: for a start off the constraints.
-        NotProved: where the enclosure ends before t.
+    Raises
+    ------
+    InputError
+        For what makes no sense.
+    ConstraintError
+        For a start off the constraints.
+    NotProved
+        Where the enclosure ends before t.
     """
     accuracy = accuracy_of(tol, "enclose")
     with precision(accuracy.bits, accuracy.terms):

@@ -82,15 +82,23 @@ class Precession(Proved):
 def precession(scene: Scene, r0: Any, tol: float = TOL) -> Precession:
     """Prove that the paired precession of amplitude r0 = sin(theta) exists, theta the inclination when the axes are parallel.
 
-    Args:
-        scene: with opposite spins and a bar.
-        r0: one number, exact as the decimal that it is written in.
-        tol: what a step may leave out.
+    Parameters
+    ----------
+    scene : Scene
+        With opposite spins and a bar.
+    r0
+        One number, exact as the decimal that it is written in.
+    tol : float, default TOL
+        What a step may leave out.
 
-    Raises:
-        InputError: unless the spins are opposite and r0 is one number.
-        DomainError: unless 0 < r0 < 1.
-        NotProved: with how far the proof came.
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite and r0 is one number.
+    DomainError
+        Unless 0 < r0 < 1.
+    NotProved
+        With how far the proof came.
     """
     accuracy = accuracy_of(tol, "precession")
     if isinstance(r0, tuple | list):

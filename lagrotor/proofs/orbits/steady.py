@@ -44,9 +44,12 @@ _NEWTON = 30
 class ProvedEquilibrium(Proved):
     """An equilibrium that exists, the only one in a box about it. q: its coordinates, balls; stability: what is proved of it.
 
-    Attributes:
-        eigenvalues: of the linear motion, balls (real, imaginary), where they are apart.
-        certificate: what `check` verifies.
+    Attributes
+    ----------
+    eigenvalues : tuple[tuple[Ball, Ball], ...]
+        Of the linear motion, balls (real, imaginary), where they are apart.
+    certificate : Certificate
+        What `check` verifies.
     """
 
     names: tuple[str, ...]
@@ -63,15 +66,23 @@ class ProvedEquilibrium(Proved):
 def equilibrium(system: Equations, values: Values | None = None, q0: Any = None, tol: float = TOL) -> ProvedEquilibrium:
     """An equilibrium proved to exist, with its stability.
 
-    Args:
-        system: a `System`.
-        values: numbers or pairs (lowest, highest).
-        q0: near which it lies.
-        tol: as in `enclose`.
+    Parameters
+    ----------
+    system : Equations
+        A `System`.
+    values : Values or None, optional
+        Numbers or pairs (lowest, highest).
+    q0 : optional
+        Near which it lies.
+    tol : float, default TOL
+        As in `enclose`.
 
-    Raises:
-        InputError: for what makes no sense.
-        NotProved: where none can be proved near q0.
+    Raises
+    ------
+    InputError
+        For what makes no sense.
+    NotProved
+        Where none can be proved near q0.
     """
     if not isinstance(system, Equations):
         raise InputError(f"equilibrium: {system!r} must be a System")

@@ -346,10 +346,14 @@ class ExactMotion:
 def exact_motion(s: Assembly, force: Drive | None = None, ground: Drive | None = None) -> ExactMotion:
     """The exact model of a structure.
 
-    Args:
-        s: the structure.
-        force: t → forces on its tips, (N, 3), N.
-        ground: t → accelerations of its ground.
+    Parameters
+    ----------
+    s : Assembly
+        The structure.
+    force : Drive or None, optional
+        T → forces on its tips, (N, 3), N.
+    ground : Drive or None, optional
+        T → accelerations of its ground.
     """
     return ExactMotion(coefficients(s), saddle(s), force, ground)
 

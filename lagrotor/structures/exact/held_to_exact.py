@@ -16,8 +16,10 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
 
     The amplitude is the projection on that mode's left vector, so that no other mode contributes.
 
-    Raises:
-        InputError: where nothing grows, and where upright breaks a bar's length.
+    Raises
+    ------
+    InputError
+        Where nothing grows, and where upright breaks a bar's length.
     """
     check_upright(s, "measured_growth")
     linear, normal = small_motion(s), modes(s)
@@ -37,8 +39,10 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
 
     The run lasts `turns` periods of the slowest mode, from a random start of size 10⁻⁶.
 
-    Raises:
-        InputError: where upright breaks a bar's length.
+    Raises
+    ------
+    InputError
+        Where upright breaks a bar's length.
     """
     from scipy.linalg import expm
 

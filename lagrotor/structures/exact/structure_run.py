@@ -90,8 +90,10 @@ class StructureRun(Run):
     def load(path: str | Path) -> "StructureRun":
         """The run that `save` wrote as `.npz`; its structure is an `Assembly`.
 
-        Raises:
-            InputError: where that is not what the file is: not whole, or not a motion of that structure.
+        Raises
+        ------
+        InputError
+            Where that is not what the file is: not whole, or not a motion of that structure.
         """
         about, held, known = read_run(path)
         try:
@@ -122,8 +124,10 @@ class StructureRun(Run):
         """Write the motion as a film, `.gif`, at its own speed, axes between the samples by Hermite cubics; bars
         grey, braces green, rotors coloured by the sense of their spins.
 
-        Raises:
-            InputError: for a name, a folder or a frame rate that will not do, before anything is drawn.
+        Raises
+        ------
+        InputError
+            For a name, a folder or a frame rate that will not do, before anything is drawn.
         """
         from lagrotor.drawing.film import animate_lines, check_film, frame_times
 

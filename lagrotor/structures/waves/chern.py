@@ -37,9 +37,11 @@ def chern_numbers(p: Cell, grid: int = 24) -> Chern:
 
     Its sign is that of the flux of i ⟨u|∇u⟩ with e_1 × e_2 of the steps as positive.
 
-    Raises:
-        InputError: where the pattern has one step or friction, where a wave falls or has rate zero, where the bars leave no
-            freedom, or more at some q than at others.
+    Raises
+    ------
+    InputError
+        Where the pattern has one step or friction, where a wave falls or has rate zero, where the bars leave no
+        freedom, or more at some q than at others.
     """
     if len(p.steps) != 2:
         raise InputError("chern_numbers: the pattern repeats along one step: a Chern number needs two")
@@ -139,14 +141,21 @@ class EdgeWaves:
 def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> EdgeWaves:
     """The waves of a strip inside a gap of the bulk.
 
-    Args:
-        p: the pattern.
-        rate: rad/s.
-        width: cells.
-        points: wave numbers that are tried.
+    Parameters
+    ----------
+    p : Cell
+        The pattern.
+    rate : float
+        Rad/s.
+    width : int, default 16
+        Cells.
+    points : int, default 181
+        Wave numbers that are tried.
 
-    Raises:
-        InputError: for a pattern with one step.
+    Raises
+    ------
+    InputError
+        For a pattern with one step.
     """
     d = dispersion(p.strip(width), np.linspace(0, 2 * np.pi, points))
     share = (np.abs(d.shapes) ** 2).sum(-1).reshape(*d.rates.shape, width, -1).sum(-1)

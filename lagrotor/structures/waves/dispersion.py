@@ -67,8 +67,10 @@ def _wave_sum(q: Array, steps: Array, parts: Array) -> Matrix:
 def bloch(p: Cell) -> Bloch:
     """The matrices of a pattern's small motion at any wave number.
 
-    Raises:
-        InputError: for what `Structure` refuses in a cell and its neighbours.
+    Raises
+    ------
+    InputError
+        For what `Structure` refuses in a cell and its neighbours.
     """
     away, (c, rate) = p.neighbours, cell_coefficients(p)
     places = dict.fromkeys([(0,) * len(p.steps), *(shift for _, shift in away)])
@@ -180,8 +182,10 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
 
     The bars hold as constraints, so that only what they leave at q moves; a bar that stretches is a stiff brace.
 
-    Raises:
-        InputError: for a q of another shape.
+    Raises
+    ------
+    InputError
+        For a q of another shape.
     """
     d = len(p.steps)
     points = finite_array("dispersion: q", q)

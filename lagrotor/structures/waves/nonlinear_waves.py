@@ -174,8 +174,10 @@ class NonlinearWave(Shown):
     def rate_at(self, amplitude: float) -> float:
         """rate + shift a², rad/s.
 
-        Raises:
-            InputError: for an amplitude that is not from 0 to `trusted`.
+        Raises
+        ------
+        InputError
+            For an amplitude that is not from 0 to `trusted`.
         """
         if not 0 <= finite_number(amplitude, "NonlinearWave: amplitude", "1") <= self.trusted:
             raise InputError(
@@ -187,8 +189,10 @@ class NonlinearWave(Shown):
     def state(self, *counts: int, amplitude: float) -> tuple[Array, Array]:
         """Tilts and rates (n, 2) at t = 0 of the rotors of `pattern.piece(*counts)` in this wave, through second order.
 
-        Raises:
-            InputError: as `rate_at`.
+        Raises
+        ------
+        InputError
+            As `rate_at`.
         """
         omega = self.rate_at(amplitude)
         point = np.array([1, 1, *self.forced * amplitude / 2]) * amplitude / 2
@@ -215,14 +219,20 @@ class NonlinearWave(Shown):
 def nonlinear_wave(p: Cell, q: ArrayLike, band: int) -> NonlinearWave:
     """A wave through second order, its rate through third.
 
-    Args:
-        p: the pattern.
-        q: (d,), rad a cell.
-        band: as `dispersion` numbers them at q; −1 − k is the wave k of −q where its rate there is below zero.
+    Parameters
+    ----------
+    p : Cell
+        The pattern.
+    q : array_like
+        (d,), rad a cell.
+    band : int
+        As `dispersion` numbers them at q; −1 − k is the wave k of −q where its rate there is below zero.
 
-    Raises:
-        InputError: with friction, for a wave without a rate or one that grows, where bars do not allow it beyond first order, and
-            where what it forces, its mean or second harmonic, is in resonance.
+    Raises
+    ------
+    InputError
+        With friction, for a wave without a rate or one that grows, where bars do not allow it beyond first order, and
+        where what it forces, its mean or second harmonic, is in resonance.
     """
     b = _bloch_without_friction(p)
     wave = _wave(p, b, q, band)
@@ -255,15 +265,23 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
 
     By the symplectic product of the wave with the run.
 
-    Args:
-        p: the pattern.
-        run: of the piece.
-        counts: of its cells.
-        q: (d,), rad a cell.
-        band: as in `nonlinear_wave`.
+    Parameters
+    ----------
+    p : Cell
+        The pattern.
+    run : StructureRun
+        Of the piece.
+    counts : sequence
+        Of its cells.
+    q : array_like
+        (d,), rad a cell.
+    band : int
+        As in `nonlinear_wave`.
 
-    Raises:
-        InputError: as `nonlinear_wave`, and for a run of another piece.
+    Raises
+    ------
+    InputError
+        As `nonlinear_wave`, and for a run of another piece.
     """
     b = _bloch_without_friction(p)
     wave, cells = _wave(p, b, q, band), np.array(p.cells(*counts))
@@ -357,9 +375,11 @@ def three_waves(p: Cell, q: float) -> tuple[ThreeWaves, ...]:
     Found between 181 wave numbers by the sign of ω₁ + ω₂ − ω₃ and then to rounding: where it touches zero without a change of
     sign, none is found.
 
-    Raises:
-        InputError: for a pattern with two steps, where such triads are curves, with friction, and where two waves of a triad have
-            one q and rate.
+    Raises
+    ------
+    InputError
+        For a pattern with two steps, where such triads are curves, with friction, and where two waves of a triad have
+        one q and rate.
     """
     from scipy.optimize import brentq
 

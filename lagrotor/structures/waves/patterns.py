@@ -39,8 +39,10 @@ def polygon_ring(count: int, spring: float | None = None, **more: Any) -> Patter
     """One rotor a cell, each bar turned by 2π/count against the one before it: `piece(count)` is the closed ring; with `spring`
     (N/m) braces instead of bars.
 
-    Raises:
-        InputError: below 3.
+    Raises
+    ------
+    InputError
+        Below 3.
     """
     if count < 3:
         raise InputError(f"polygon_ring: {count} rotors are no polygon: give 3 or more")

@@ -23,8 +23,10 @@ def paired_frequency(order: int = 3) -> ClosedForm:
 
     Arguments r_0, sigma, k.
 
-    Raises:
-        InputError: unless order is a whole number, 1 or more.
+    Raises
+    ------
+    InputError
+        Unless order is a whole number, 1 or more.
     """
     series = paired_series(order)
     form = ClosedForm(
@@ -52,8 +54,10 @@ def corrected_trajectories(order: int = 3) -> ClosedForm:
     r_0 is the sine of the inclination when the axes are parallel (Phi = 0). Tips: ∓ell/2 e_x + R r_i.
     Arguments r_0, Phi, sigma, k.
 
-    Raises:
-        InputError: unless order is a whole number, 1 or more.
+    Raises
+    ------
+    InputError
+        Unless order is a whole number, 1 or more.
     """
     series = paired_series(order)
     x, y, z = (series.expression(part) for part in (series.x, series.Y, series.z))
@@ -86,9 +90,12 @@ def paired_momentum(order: int = 4) -> ClosedForm:
     P = sum_i (y_i p_zi − z_i p_yi) + G (x_1 − x_2), p_i = a r_i' + b r_j': constant on the orbit, even in r_0.
     Times G (kg m²/s) it is the momentum. Arguments r_0, sigma, k.
 
-    Raises:
-        InputError: unless order is a whole number, 1 or more.
-        SingularError: should it not be constant in the phase.
+    Raises
+    ------
+    InputError
+        Unless order is a whole number, 1 or more.
+    SingularError
+        Should it not be constant in the phase.
     """
     orbit = paired_series(order)
     s = orbit.field.from_sympy(sigma)

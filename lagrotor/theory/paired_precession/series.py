@@ -214,11 +214,15 @@ def check_order(order: int) -> int:
 def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> PairedSeries:
     """The orbit for sigma = `shape` and k = `ratio`, rational numbers or symbols, through r0**order.
 
-    Args:
-        exact: with coefficients of the field; otherwise, for numbers only, in floating point, a tenth of the work.
+    Parameters
+    ----------
+    exact : bool, default True
+        With coefficients of the field; otherwise, for numbers only, in floating point, a tenth of the work.
 
-    Raises:
-        InputError: unless the order is a whole number, 1 or more, and at most 16 with a symbol, 32 without.
+    Raises
+    ------
+    InputError
+        Unless the order is a whole number, 1 or more, and at most 16 with a symbol, 32 without.
     """
     check_order(order)
     shape, ratio = sp.sympify(shape, strict=True), sp.sympify(ratio, strict=True)

@@ -21,13 +21,19 @@ SERIES_ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to
 class PrecessionOrbit(Shown):
     """A paired precession with bounds of its errors. Called with times it gives both axes. At t = 0 they are parallel.
 
-    Attributes:
-        frequency: angular, rad/s, negative where rotor 1 spins negatively.
-        frequency_error: its bound, rad/s.
-        error: bound of the distance of an axis, and of its derivative by the phase, from the exact orbit's at equal phase, over a
-            whole turn (of a tip: in units of R).
-        method: how it was found.
-        harmonics: of r_1, (H + 1, 3), as in lagrotor.theory.paired_precession.orbit_harmonics.
+    Attributes
+    ----------
+    frequency : float
+        Angular, rad/s, negative where rotor 1 spins negatively.
+    frequency_error : float
+        Its bound, rad/s.
+    error : float
+        Bound of the distance of an axis, and of its derivative by the phase, from the exact orbit's at equal phase, over a
+        whole turn (of a tip: in units of R).
+    method : str
+        How it was found.
+    harmonics : Array
+        Of r_1, (H + 1, 3), as in lagrotor.theory.paired_precession.orbit_harmonics.
     """
 
     scene: Scene
@@ -55,8 +61,10 @@ class PrecessionOrbit(Shown):
     def at_phase(self, phase: ArrayLike) -> Array:
         """Axes at phases (…) in rad: (2, …, 3), as of a run.
 
-        Raises:
-            DomainError: for a phase that is not finite.
+        Raises
+        ------
+        DomainError
+            For a phase that is not finite.
         """
         phases = np.asarray(phase, dtype=float)
         if not np.isfinite(phases).all():
@@ -109,14 +117,21 @@ def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
     At equal phase the error is O(r0**(order + 1)), the frequency's O(r0**(order + 1)) for an odd order. Both are infinite
     for order < 5, whose terms are too few for an estimate. Source: 5.21 and 5.22 of the paper, corrected.
 
-    Args:
-        scene: with opposite spins and a bar.
-        r0: sine of the inclination when the axes are parallel.
-        order: through r0**order.
+    Parameters
+    ----------
+    scene : Scene
+        With opposite spins and a bar.
+    r0 : float
+        Sine of the inclination when the axes are parallel.
+    order : int
+        Through r0**order.
 
-    Raises:
-        InputError: unless the spins are opposite, there is a bar, and order is at least 1.
-        DomainError: unless |r0| < 1, and where the terms of the series do not fall.
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite, there is a bar, and order is at least 1.
+    DomainError
+        Unless |r0| < 1, and where the terms of the series do not fall.
     """
     amplitude = amplitude_of(r0, "precession_orbit")
     series = paired_series(order, *shape_of(scene))

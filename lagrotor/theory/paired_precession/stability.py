@@ -29,11 +29,16 @@ _X, _TWIST = 0, 1  # the unknowns whose displacement changes nothing at rest
 def exponent_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> ExponentSeries:
     """A and B through r_0**order.
 
-    Args:
-        order: a whole number.
-        shape: sigma, a rational number or symbol.
-        ratio: k, likewise.
-        exact: as in `paired_series`.
+    Parameters
+    ----------
+    order : int
+        A whole number.
+    shape : Expr, default sigma
+        Sigma, a rational number or symbol.
+    ratio : Expr, default k
+        K, likewise.
+    exact : bool, default True
+        As in `paired_series`.
     """
     return _exponents(paired_series(order, shape, ratio, exact), exact)
 
@@ -59,8 +64,10 @@ def growth_squared(order: int = 6, dumbbell: bool = False) -> ClosedForm:
     Negative: the orbit is elliptic and its neighbours turn about it by 2 pi sqrt(−lambda²) a turn.
     Arguments r_0, sigma, k.
 
-    Raises:
-        InputError: for an order below the first term's.
+    Raises
+    ------
+    InputError
+        For an order below the first term's.
     """
     first = 8 if dumbbell else 6
     if order < first:
@@ -152,9 +159,13 @@ def most_growth(r0: float, sigma: float, k: float) -> float:
     lambda² ≤ (3/16) sigma² (1 − sigma) r_0⁶ / k² + (9/32) r_0⁸ / k⁴. The terms are derived (`growth_squared`); that their
     sum is a bound is not: the tests hold it to the exact multipliers of random bars, 0.4 < sigma < 1.8, 0.5 < k < 2.
 
-    Args:
-        r0: amplitude, at most 0.5.
-        sigma: shape.
-        k: ell / R.
+    Parameters
+    ----------
+    r0 : float
+        Amplitude, at most 0.5.
+    sigma : float
+        Shape.
+    k : float
+        Ell / R.
     """
     return sqrt(max(3 * sigma**2 * (1 - sigma) * r0**6 / (16 * k**2), 0.0) + 9 * r0**8 / (32 * k**4))
