@@ -15,7 +15,7 @@ from benchmarks.structure_comparison import MASSLESS, staircase
 from lagrotor.benchmark.runner import Array, check_work
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
-from lagrotor.process import begin_process
+from lagrotor.process_settings import begin_process
 from lagrotor.structures import exact_motion
 from lagrotor.structures.exact.compiled_motion import compiled_right_hand_side
 from lagrotor.structures.structure import Structure

@@ -20,7 +20,7 @@ from lagrotor.benchmark.throughput import Throughput, throughput
 from lagrotor.drawing import paper_style
 from lagrotor.files import write_beside, write_text
 from lagrotor.pictures.benchmark_figures import speed_chart
-from lagrotor.process import begin_process
+from lagrotor.process_settings import begin_process
 
 ALL_METHODS: dict[str, Method] = METHODS | CANDIDATES | PEERS
 _SAMPLES = 7

@@ -11,7 +11,7 @@ import sympy as sp
 
 from lagrotor.pair.notation import P_X, G, Omega, P, a, att, b, k, nu, p_y, r0, sigma
 from lagrotor.paper import FigureLink, Table, prove
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.theory import cancelling_impulse, growth_squared, toppling_threshold
 from lagrotor.theory.natural_frequency import natural_frequency
 

@@ -17,8 +17,8 @@ from lagrotor.pair.notation import I3, J, R, m, omega_1, omega_2
 from lagrotor.paper import Formula, Premise, prove, verdict
 from lagrotor.paper.grammar import cross, vector
 from lagrotor.paper.proof import form
-from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.premises import EQUAL_SPINS
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 rotors = PAPER.scripts.run("derivations", "s2a_angular_momentum")
 pair = PAPER.scripts.run("derivations", "s2b_linear_pair")

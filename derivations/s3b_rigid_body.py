@@ -20,7 +20,7 @@ from lagrotor.pair.notation import ROTOR
 from lagrotor.paper import Formula, Premise, prove, verdict
 from lagrotor.paper.grammar import cross, rotation, symmetric, vector
 from lagrotor.paper.proof import form
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 particles = PAPER.scripts.run("derivations", "s3a_particles")
 masses, places, velocities, arms, L = (particles[name] for name in ("masses", "places", "velocities", "arms", "L"))

@@ -19,7 +19,7 @@ from lagrotor.pair.notation import PAIR, ROTOR
 from lagrotor.paper import Formula, Premise, prove, verdict
 from lagrotor.paper.grammar import cross_matrix, inverse, rotation, vector
 from lagrotor.paper.proof import form
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 body = PAPER.scripts.run("derivations", "s3b_rigid_body")
 theta, phi, _ = ROTOR.q

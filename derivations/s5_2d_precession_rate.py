@@ -19,8 +19,8 @@ from lagrotor.paper import Premise, Remark, prove, verdict
 from lagrotor.paper.grammar import rate as moving
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.ansatz import no_bar_force, opposite_azimuths, opposite_spin_angles
-from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.theory.natural_frequency import natural_frequency
 
 theta_1, theta_2 = ANSATZ.q[:2]

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lagrotor.about import __version__
-from lagrotor.faces import names_of_face
+from lagrotor.lazy_imports import names_of_face
 
 if TYPE_CHECKING:
     from mkdocs.structure.files import Files

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor.benchmark.runner import work_at
 from lagrotor.drawing import OKABE_ITO
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 # Method → colour and marker: models as `simulate` runs them, engines on the minimal model, other solvers of scipy on it.
 LOOKS = {

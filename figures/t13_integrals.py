@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from lagrotor import Scene, simulate
 from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, OKABE_ITO
 from lagrotor.errors import LagrotorError, LagrotorWarning
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 MADE = PAPER.scripts.run("derivations", "t13_integrals")
 PAIR, RATE, start, log_distances = (MADE[name] for name in ("PAIR", "RATE", "start", "log_distances"))

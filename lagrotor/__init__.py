@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from lagrotor.about import __version__ as __version__
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 from lagrotor.renamed import install
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lagrotor.pair.scene_document import write_scene as write_scene
     from lagrotor.pair.trajectory import Trajectory as Trajectory
     from lagrotor.paper.papers import Paper as Paper
-    from lagrotor.paper.rotor_pair.own_paper import audit as audit
+    from lagrotor.paper.rotor_pair.rotor_pair_audit import audit as audit
     from lagrotor.structures.assembly import Brace as Brace
     from lagrotor.structures.structure import Structure as Structure
     from lagrotor.structures.waves.patterns import Pattern as Pattern

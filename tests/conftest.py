@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
-from lagrotor.process import begin_process
+from lagrotor.process_settings import begin_process
 
 begin_process()
 
@@ -74,7 +74,7 @@ def pytest_collection_finish() -> None:
 @pytest.fixture(scope="session")
 def audit() -> Any:
     """Every verdict on the paper, decided once a process."""
-    from lagrotor.paper.rotor_pair.own_paper import PAPER
+    from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
     return PAPER.audit()
 

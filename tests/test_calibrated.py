@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import lagrotor
-from lagrotor.numerics.calibrated import Calibrated
+from lagrotor.numerics.solver_constants import Calibrated
 
 PACKAGE = Path(lagrotor.__file__).parent
 ROOMS = sorted(
@@ -26,4 +26,4 @@ def test_a_calibrated_number_names_the_test_that_holds_it(room: str) -> None:
 
 
 def test_every_room_that_has_such_numbers_is_seen() -> None:
-    assert {"lagrotor.models.simulate", "lagrotor.theory.calibrated_factors"} <= {*ROOMS}
+    assert {"lagrotor.models.simulate", "lagrotor.theory.fitted_factors"} <= {*ROOMS}

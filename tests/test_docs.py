@@ -11,7 +11,7 @@ from types import ModuleType
 import pytest
 
 import lagrotor
-from lagrotor.faces import names_of_face
+from lagrotor.lazy_imports import names_of_face
 
 ROOT = Path(lagrotor.__file__).parent.parent
 pytestmark = pytest.mark.skipif(not (ROOT / "docs").is_dir(), reason="installed without the documentation")

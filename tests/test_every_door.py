@@ -22,8 +22,8 @@ from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.mechanics import System, SystemRun, coordinates
 from lagrotor.mechanics.running import simulation as system_door
 from lagrotor.models import SpringRun, averaged, paper_system, run_solver
-from lagrotor.numerics import estimated_run
-from lagrotor.numerics.estimated_run import EstimatedRun
+from lagrotor.numerics import error_estimate
+from lagrotor.numerics.error_estimate import EstimatedRun
 from lagrotor.numerics.rotations import turn_about
 from lagrotor.numerics.run import Ending, Run
 from lagrotor.structures import StructureRun
@@ -457,7 +457,7 @@ def test_a_door_that_hands_tol_on_as_a_local_error_is_found_out(door: str, monke
 @pytest.mark.parametrize("door", DOORS)
 def test_an_estimate_that_says_too_little_is_found_out(door: str, monkeypatch: pytest.MonkeyPatch) -> None:
     for constant in ("SAFETY", "LEAST"):
-        monkeypatch.setattr(estimated_run, constant, getattr(estimated_run, constant)._replace(value=1e-4))
+        monkeypatch.setattr(error_estimate, constant, getattr(error_estimate, constant)._replace(value=1e-4))
     monkeypatch.setattr(averaged, "FALLING", averaged.FALLING._replace(value=1e-4))
     run, said = quiet(case_of(door, 0), case_of(door, 0).tol)
     with pytest.raises(AssertionError):

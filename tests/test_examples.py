@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import lagrotor
-from lagrotor.faces import names_of_face
+from lagrotor.lazy_imports import names_of_face
 
 PACKAGE = Path(lagrotor.__file__).parent
 DOCS = PACKAGE.parent / "docs"

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from lagrotor.faces import names_of_face
+from lagrotor.lazy_imports import names_of_face
 
 ROOT = Path(__file__).parent.parent
 # From the ground up: a room imports from those before it and from itself. A part of a room may have its floor.
@@ -18,10 +18,10 @@ FLOORS = (
         "about",
         "errors",
         "files",
-        "process",
-        "faces",
+        "process_settings",
+        "lazy_imports",
         "renamed",
-        "shown",
+        "result_display",
         "algebra",
         "numerics",
         "drawing",

@@ -34,7 +34,7 @@ def test_every_run_has_a_name_of_its_own_and_files() -> None:
 
 def test_the_extras_are_in_the_environment_that_tests_them() -> None:
     assert "fast,notebook" in (ROOT / "Makefile").read_text() and len(extras_files()) > 8
-    assert {"tests/numerics/test_taylor.py", "tests/pair/test_shown.py"} <= set(extras_files())
+    assert {"tests/numerics/test_taylor.py", "tests/pair/test_result_display.py"} <= set(extras_files())
     needing = re.compile(rf"importorskip\(\s*\"(?:{'|'.join(EXTRAS)})\"")
     files = [path for path in (ROOT / "tests").rglob("test_*.py") if needing.search(path.read_text())]
     assert {path.relative_to(ROOT).as_posix() for path in files} <= set(extras_files())

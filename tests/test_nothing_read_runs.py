@@ -22,8 +22,8 @@ from lagrotor.commands.command_line import main
 from lagrotor.errors import LagrotorError
 from lagrotor.files import read_arrays
 from lagrotor.mechanics import System, coordinates
-from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.run import read_run
+from lagrotor.numerics.source_cache import GeneratedFunction
 from lagrotor.paper import Glossary, Paper, Premise, judge
 from lagrotor.paper.latex.check import check_source
 from lagrotor.paper.latex.displays import read_source
@@ -31,9 +31,9 @@ from lagrotor.paper.latex.init import begin_paper, confirm
 from lagrotor.paper.latex.stated_system import write_derivation
 from lagrotor.paper.papers import opened
 from lagrotor.proofs.coq.certificate import PREAMBLE
-from lagrotor.proofs.coq.checked_by_coq import CERTIFICATE_LIST, foreign_word, read_certificates
+from lagrotor.proofs.coq.coq_check import CERTIFICATE_LIST, foreign_word, read_certificates
 from lagrotor.report.job import cache as report_cache
-from lagrotor.report.page.pieces import markdown_html
+from lagrotor.report.page.html_elements import markdown_html
 from lagrotor.structures import read_structure
 
 ROOT = Path(lagrotor.__file__).parent
@@ -412,7 +412,7 @@ HTML = [
 
 @pytest.mark.parametrize("text", HTML)
 def test_nothing_in_a_papers_texts_runs_in_its_page(text: str, tmp_path: Path) -> None:
-    from lagrotor.report.page.pieces import prose, typeset
+    from lagrotor.report.page.html_elements import prose, typeset
 
     shown = [markdown_html(text), prose(text), typeset(text.strip("$"))]
     shown += [Scene(spins=(1.0, -1.0))._repr_html_(), judge(sp.Symbol(text), sp.Symbol(text) + 1)._repr_html_()]
@@ -434,12 +434,12 @@ READERS = {
     "commands/paper_commands.py": "LaTeX",
     "drawing/film.py": "own",
     "drawing/view.py": "own",
-    "faces.py": "own",
+    "lazy_imports.py": "own",
     "files.py": "arrays",
     "mechanics/running/simulation.py": "arrays",
     "models/spring_link/run.py": "arrays",
     "numerics/run.py": "arrays",
-    "numerics/generated.py": "system",
+    "numerics/source_cache.py": "system",
     "pair/scene_document.py": "scene",
     "pair/trajectory.py": "arrays",
     "paper/catalogue.py": "program",
@@ -450,18 +450,18 @@ READERS = {
     "paper/latex/init.py": "LaTeX",
     "paper/latex/token_stream.py": "LaTeX",
     "paper/theorems.py": "theorem",
-    "proofs/coq/checked_by_coq.py": "certificates",
+    "proofs/coq/coq_check.py": "certificates",
     "renamed.py": "own",
     "report/content.py": "own",
     "report/formulas/font.py": "own",
     "report/page/interactive.py": "own",
     "report/job/cache.py": "products",
     "report/job/folder.py": "own",
-    "report/job/reach.py": "program",
+    "report/job/dependencies.py": "program",
     "report/job/reproduce.py": "products",
     "report/job/steps.py": "paper.toml",
     "report/page/pages.py": "own",
-    "report/page/pieces.py": "own",
+    "report/page/html_elements.py": "own",
     "structures/exact/structure_run.py": "arrays",
 }
 _NAMES = {

@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from lagrotor.process import begin_process
+from lagrotor.process_settings import begin_process
 
 
 def test_a_process_has_one_thread_of_linear_algebra_unless_its_user_chose_otherwise(

@@ -47,7 +47,7 @@ def test_the_shell_commands_are_understood(capsys: pytest.CaptureFixture[str], t
 
 
 def test_the_table_of_verdicts_is_the_record() -> None:
-    from lagrotor.paper.rotor_pair.own_paper import PAPER
+    from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
     for kind, pattern in (("equations", r"\d"), ("claims", "C")):
         counts = Counter(row.verdict for name, row in PAPER.recorded.items() if re.match(pattern, name))

@@ -13,7 +13,7 @@ from lagrotor.mechanics.glossary import latex
 from lagrotor.paper import LineVerdict, judge_text
 from lagrotor.paper.grammar import read
 from lagrotor.paper.judgement import letters_in
-from lagrotor.paper.readable import readable
+from lagrotor.paper.plain_text import readable
 from lagrotor.paper.verdicts import AGREES, point_text
 from lagrotor.report.formulas.mathml_latex import mathml
 

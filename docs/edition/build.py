@@ -21,7 +21,7 @@ from typing import Any
 from printed import examples_of
 
 from lagrotor.about import __version__
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.formulas.font import font_face
 from lagrotor.report.job.steps import audit_in_processes
 

@@ -9,7 +9,7 @@ A question passes through the modules in this order:
   exponentials. The zero polynomial is the proof. `roots`, `reduction` and `algebraic_numbers` treat radicals and
   relations.
 - For other functions `translation` replaces each unknown function by a symbol with the relations that are known of
-  it. `proving`, `sums` and `integrals` use induction, derivatives and antiderivatives.
+  it. `analytic_proofs`, `sums` and `integrals` use induction, derivatives and antiderivatives.
 - `refutation` looks for a point at which `enclosures` exclude zero. A `Decision` is "zero", "nonzero" with the point,
   or undecided.
 - `signs` and `feasibility` decide inequalities, and `branches` names the fewest under which an identity holds.
@@ -21,7 +21,7 @@ module decides by `simplify` or by sympy's automatic evaluation.
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.algebra.differentiation import along as along
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from lagrotor.algebra.identity import decide_equal as decide_equal
     from lagrotor.algebra.identity import decide_zero as decide_zero
     from lagrotor.algebra.identity import normal_form as normal_form
-    from lagrotor.algebra.names import check_names as check_names
+    from lagrotor.algebra.name_clashes import check_names as check_names
     from lagrotor.algebra.power_series import LeadingTerm as LeadingTerm
     from lagrotor.algebra.power_series import agreement_order as agreement_order
     from lagrotor.algebra.power_series import leading_term as leading_term

@@ -7,7 +7,7 @@ from itertools import product
 
 import sympy as sp
 
-from lagrotor.algebra.proving import Proof, proof_of_zero
+from lagrotor.algebra.analytic_proofs import Proof, proof_of_zero
 from lagrotor.algebra.refutation import sample
 from lagrotor.algebra.signs import Region, conditions, is_nonnegative, is_positive, is_real
 from lagrotor.errors import NotExactError

@@ -1,8 +1,8 @@
 """Decision whether an expression vanishes identically: exactly in a class, by a point or by a proof beyond it.
 
 Beyond the class below, a point at which an enclosure excludes zero refutes (`lagrotor.algebra.refutation`), and zero is proved
-by translation into the class, by induction or by derivatives (`lagrotor.algebra.proving`); where neither ends, or only on a
-branch (`lagrotor.algebra.branches`), the decision says so.
+by translation into the class, by induction or by derivatives (`lagrotor.algebra.analytic_proofs`); where neither ends, or only
+on a branch (`lagrotor.algebra.branches`), the decision says so.
 
 The class: sums, products and integer powers of symbols, rationals, pi, i, square roots of rational functions of the
 symbols with rational coefficients, |x| of real x, and of
@@ -40,20 +40,20 @@ from typing import Any, Literal
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
+from lagrotor.algebra.analytic_proofs import Proof, evaluated, proof_of_zero
 from lagrotor.algebra.branches import branch_of_zero, sided, simplest
 from lagrotor.algebra.enclosures import Point
 from lagrotor.algebra.evidence import largest_value, points
 from lagrotor.algebra.feasibility import has_principal_values
 from lagrotor.algebra.generators import survey
-from lagrotor.algebra.names import check_names
+from lagrotor.algebra.name_clashes import check_names
 from lagrotor.algebra.numbering import Numbering, without_number
-from lagrotor.algebra.proving import Proof, evaluated, proof_of_zero
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
 from lagrotor.algebra.refutation import sample
 from lagrotor.algebra.scalar import parts, scalar, sympified
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
-from lagrotor.algebra.work import kept
+from lagrotor.algebra.work_budget import kept
 from lagrotor.errors import InputError, NotExactError, TooLargeError
 
 # A divisor larger than this is kept whole in the domain: its factors may take hours to find.

@@ -5,7 +5,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra.enclosures import enclosure
-from lagrotor.algebra.names import check_names
+from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError, NotExactError
 
 # Deeper expressions exhaust the stack, larger ones the memory; equal parts count as often as they occur.

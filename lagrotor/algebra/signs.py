@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 import sympy as sp
 
-from lagrotor.algebra.work import kept
+from lagrotor.algebra.work_budget import kept
 from lagrotor.errors import InputError
 
 Signs: TypeAlias = frozenset[int]

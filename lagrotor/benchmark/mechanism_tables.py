@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Measured, MechanismKind
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 
 _Row = tuple[str, ...]
 _RUN = f"run to {scientific(MECHANISM_ERROR)} rad (ms)"

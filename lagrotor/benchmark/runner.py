@@ -14,8 +14,8 @@ from lagrotor.errors import LagrotorError
 from lagrotor.models import minimal, spheres
 from lagrotor.models.model import integrate_model
 from lagrotor.numerics.arrays import Array as Array
-from lagrotor.numerics.calibrated import Calibrated
 from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.solver_constants import Calibrated
 from lagrotor.pair.scene import Scene
 
 Runner = Callable[[float], tuple[Array, int]]

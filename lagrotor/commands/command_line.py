@@ -18,7 +18,7 @@ from lagrotor.commands.paper_commands import add_paper_commands
 from lagrotor.commands.scene_commands import add_scene_commands, add_structure_commands
 from lagrotor.commands.terminal import Parser, say
 from lagrotor.errors import LagrotorError
-from lagrotor.process import begin_process
+from lagrotor.process_settings import begin_process
 
 _CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
 

@@ -133,7 +133,7 @@ def _add_paper(parser: argparse.ArgumentParser) -> None:
 
 def _paper(given: argparse.Namespace) -> "Paper":
     if given.paper is None:
-        from lagrotor.paper.rotor_pair.own_paper import PAPER
+        from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
         return PAPER
     from lagrotor.paper.papers import opened
@@ -205,7 +205,7 @@ def readings_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
     from lagrotor.paper.latex.init import confirm
     from lagrotor.paper.latex.readings import readings
-    from lagrotor.paper.readable import from_latex, readable
+    from lagrotor.paper.plain_text import from_latex, readable
 
     paper = Catalogue(given.folder)
     if given.confirm:
@@ -247,7 +247,7 @@ def check_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.latex.check import FAULT, WRONG, Check, check_source
     from lagrotor.paper.latex.displays import read_source
     from lagrotor.paper.latex.notation import Notation, declared_notation
-    from lagrotor.paper.readable import readable
+    from lagrotor.paper.plain_text import readable
 
     rows, displayed = [], 0
     for file in given.sources:
@@ -317,7 +317,7 @@ def reproduce_command(given: argparse.Namespace) -> int:
 def audit_command(given: argparse.Namespace) -> int:
     from lagrotor.paper.audit import NOT_YET, in_words, verdicts_json
     from lagrotor.paper.catalogue import known_id
-    from lagrotor.paper.readable import readable
+    from lagrotor.paper.plain_text import readable
     from lagrotor.report.content import count_list, word
     from lagrotor.report.facts import note
 
@@ -344,7 +344,7 @@ def audit_command(given: argparse.Namespace) -> int:
         if found is not None and waiting:
             say(f"{len(found.ids)} equations: {count_list(found.counts)}", 0)
     if given.certify is not None:
-        from lagrotor.proofs.coq.checked_by_coq import certify
+        from lagrotor.proofs.coq.coq_check import certify
 
         files = sum(bool(row.file) for row in certify(shown, paper, given.certify))
         say(f"{_some(files, 'certificate')} in {given.certify}; to check: lagrotor certify {given.certify}", 0)
@@ -355,8 +355,8 @@ def audit_command(given: argparse.Namespace) -> int:
 
 
 def certify_command(given: argparse.Namespace) -> int:
-    from lagrotor.paper.readable import from_latex
-    from lagrotor.proofs.coq.checked_by_coq import check_certificates, read_certificates
+    from lagrotor.paper.plain_text import from_latex
+    from lagrotor.proofs.coq.coq_check import check_certificates, read_certificates
     from lagrotor.report.content import word
 
     began = time.perf_counter()
@@ -390,7 +390,7 @@ def certify_command(given: argparse.Namespace) -> int:
 def claims_command(given: argparse.Namespace) -> int:
     from lagrotor.paper import claim_tests
     from lagrotor.paper.catalogue import known_id
-    from lagrotor.paper.readable import readable
+    from lagrotor.paper.plain_text import readable
     from lagrotor.report.content import word
 
     paper = _paper(given)

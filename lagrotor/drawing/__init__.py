@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.drawing.style import CASE_COLOURS as CASE_COLOURS

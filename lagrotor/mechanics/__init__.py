@@ -17,7 +17,7 @@ modules can do as methods of one line. A new analysis is a function of an `Equat
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.bodies.contacts import Contact as Contact

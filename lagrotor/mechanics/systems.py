@@ -224,17 +224,17 @@ class System(Equations):
         SingularError
             Where the constraints are dependent.
         """
-        from lagrotor.mechanics.running import function_values, start
+        from lagrotor.mechanics.running import function_values, initial_state
 
         self, values = function_values.put_functions("consistent", self, values)
-        return start.consistent("consistent", self, values, q0, v0, t)
+        return initial_state.consistent("consistent", self, values, q0, v0, t)
 
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
         """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.flow`."""
-        from lagrotor.mechanics.running import flow, function_values, start
+        from lagrotor.mechanics.running import flow, function_values, initial_state
 
         self, values = function_values.put_functions("rhs", self, values)
-        start.check_values("rhs", self, values)
+        initial_state.check_values("rhs", self, values)
         return flow.rhs(self, values, engine)
 
     def simulate(

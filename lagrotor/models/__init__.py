@@ -16,7 +16,7 @@ A new model is a module with a `Model`, and a row in `simulate.py`.
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.models.closed_form_model import closed_form as closed_form

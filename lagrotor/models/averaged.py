@@ -23,10 +23,10 @@ from lagrotor.errors import DomainError, SingularError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, inverse_matrix, total, variable
 from lagrotor.models.minimal import MODEL, RATIOS
 from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, natural_units
-from lagrotor.numerics.calibrated import LOST, Calibrated
-from lagrotor.numerics.estimated_run import UNKNOWN
-from lagrotor.numerics.generated import generated
+from lagrotor.numerics.error_estimate import UNKNOWN
 from lagrotor.numerics.segment import StopError
+from lagrotor.numerics.solver_constants import LOST, Calibrated
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:

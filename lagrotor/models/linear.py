@@ -19,9 +19,9 @@ import numpy as np
 from lagrotor.errors import DomainError, SingularError
 from lagrotor.models.minimal import MODEL, rhs_on_arrays
 from lagrotor.models.model import Array, ClosedMotion, Observed
-from lagrotor.numerics.calibrated import Calibrated
-from lagrotor.numerics.estimated_run import UNKNOWN
-from lagrotor.numerics.generated import generated
+from lagrotor.numerics.error_estimate import UNKNOWN
+from lagrotor.numerics.solver_constants import Calibrated
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.theory.shock_response import pulse_response, shock_response
 

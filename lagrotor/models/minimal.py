@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, SingularError
 from lagrotor.models.model import Array, Model, Observed, constant_momenta, scenes_of
-from lagrotor.numerics.generated import generated
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:

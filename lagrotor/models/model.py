@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lagrotor.numerics.arrays import Array as Array
-from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import pulse_windows
 from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch, reporting
+from lagrotor.numerics.source_cache import GeneratedFunction
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory, momentum_about_joints, tilting_energy
 

@@ -27,14 +27,14 @@ from lagrotor.models.model import (
     typical_rate,
 )
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.calibrated import Calibrated
-from lagrotor.numerics.estimated_run import EstimatedRun, Evolution, Patience, estimate_run, first_time, start_beside
+from lagrotor.numerics.error_estimate import EstimatedRun, Evolution, Patience, estimate_run, first_time, start_beside
 from lagrotor.numerics.integrate import check_engine, check_progress, check_tolerance
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import StopError, Stretch
+from lagrotor.numerics.solver_constants import Calibrated
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 
 LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
@@ -87,7 +87,7 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
 
     The errors of the closed forms and of the linear model are estimated analytically; no integration is needed. A short run
     of a pair with its bar takes engine = "fast" less time than that estimate, and is integrated at once. An integrated
-    model is held to `tol` while it runs: see `lagrotor.numerics.estimated_run`.
+    model is held to `tol` while it runs: see `lagrotor.numerics.error_estimate`.
     """
     turns, missed = typical_rate(scene) * t_end / (2 * pi), "a run too short to estimate the cheaper ones' errors"
     names = ["closed_form", "linear"] if engine == "core" or scene.link is None or turns > SHORT.value else []

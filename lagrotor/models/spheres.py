@@ -13,8 +13,8 @@ import numpy as np
 
 from lagrotor.errors import SingularError
 from lagrotor.models.model import Array, Model, Observed, constant_momenta
-from lagrotor.numerics.generated import generated
 from lagrotor.numerics.segment import Projection
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:

@@ -3,10 +3,10 @@
 Data passes through the modules in this order:
 
 - `codegen.Program` is a straight-line program of sympy expressions; `printers` writes it as Python or JavaScript, and
-  `generated` keeps written functions as source.
+  `source_cache` keeps written functions as source.
 - `integrate.Problem` is an initial value problem. `integrate.integrate` cuts it at the windows of `pulse`, in which a force acts
   briefly, and solves each `segment.Segment` by one of the `solvers`, or by `taylor` for engine = "fast".
-- `estimated_run.Evolution` is a motion that is to be run. `estimate_run` integrates it at two local errors and returns an
+- `error_estimate.Evolution` is a motion that is to be run. `estimate_run` integrates it at two local errors and returns an
   `EstimatedRun`: states, errors, horizon and ending.
 - `run.Run` is the base class of every simulated motion: its errors, files and tables.
 - `curves`, `zeros`, `rotations` and `floquet_multipliers` evaluate what was run.
@@ -17,7 +17,7 @@ A new solver is a function of a `Segment` and a local error that returns a `Stre
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program as Program

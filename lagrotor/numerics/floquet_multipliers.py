@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.numerics.arrays import Array
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 
 _SWEEPS = 40  # of the orthogonal iteration: they separate eigenvalues of which one is twice as large as the other
 _APART = 1e-12  # of a direction: blocks that are separated

@@ -7,7 +7,6 @@ from typing import Literal
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.calibrated import CROSSOVER, DETOUR, LSODA_SAFETY
 from lagrotor.numerics.pulse import Window, segments
 from lagrotor.numerics.segment import (
     Array,
@@ -19,6 +18,7 @@ from lagrotor.numerics.segment import (
     StopError,
     Stretch,
 )
+from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 from lagrotor.numerics.solvers import adams, dop853, lsoda
 
 TIGHTEST = 1e-13

@@ -18,7 +18,7 @@ from sympy.printing.pycode import AbstractPythonCodePrinter, MpmathPrinter, Pyth
 from lagrotor.errors import InputError
 from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
-from lagrotor.numerics.generated import function_of
+from lagrotor.numerics.source_cache import function_of
 
 _BLOCK = 8192  # values at once: what a processor keeps close
 

@@ -14,7 +14,7 @@ import numpy as np
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES, path_of, read_arrays, write_arrays, write_beside, write_text
 from lagrotor.numerics.arrays import Array
-from lagrotor.shown import Shown, scientific
+from lagrotor.result_display import Shown, scientific
 
 _SAYS = {
     "end": "the last time was reached",

@@ -21,7 +21,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
-from lagrotor.numerics.estimated_run import Leg
+from lagrotor.numerics.error_estimate import Leg
 from lagrotor.numerics.segment import (
     Array,
     Projection,

@@ -13,7 +13,7 @@ A new quantity of a run is a property of `Trajectory`, which is computed from th
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.pair.examples import DAMPING as DAMPING

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
-from lagrotor.numerics.generated import generated
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 
 Array = NDArray[np.floating[Any]]

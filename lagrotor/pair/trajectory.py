@@ -11,7 +11,7 @@ from lagrotor.errors import InputError
 from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.run import Quantity, Run, read_run
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

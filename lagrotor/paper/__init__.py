@@ -2,10 +2,11 @@
 
 Data pass through these types in this order. `Paper` is a folder, a `Catalogue` of equations, claims and figures in TOML, with
 its scripts and its record. `grammar` reads a printed line as sympy objects. A derivation shows formulas, forms and steps
-(`proof`: `Formula`, `Form`, `prove`), and states an equation by `verdict` (`stating`). `statement` puts it beside the print,
-as a `Statement` of `Relation`s under `Premise`s. `hypotheses` makes one set of the premises; the `ledger` decides each line
-and gives a `Verdict` of `LineVerdict`s, with a `Theorem` where there is one. `Audit` holds the verdicts of a paper, in words
-and as data. `ClaimTest` runs a claim that is made in words. `record` compares verdicts and claims with those on record.
+(`proof`: `Formula`, `Form`, `prove`), and states an equation by `verdict` (`equation_statements`). `statement` puts it beside
+the print, as a `Statement` of `Relation`s under `Premise`s. `hypotheses` makes one set of the premises; the `ledger` decides
+each line and gives a `Verdict` of `LineVerdict`s, with a `Theorem` where there is one. `Audit` holds the verdicts of a paper,
+in words and as data. `ClaimTest` runs a claim that is made in words. `record` compares verdicts and claims with those on
+record.
 
 `judge` and `judge_text` need no paper. `latex` reads LaTeX. To add a paper, write its folder (`lagrotor init`); to add a
 function that every print may call, add it to `grammar.FUNCTIONS`.
@@ -13,7 +14,7 @@ function that every print may call, add it to `grammar.FUNCTIONS`.
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.glossary import Glossary as Glossary
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from lagrotor.paper.claim_tests import Finding as Finding
     from lagrotor.paper.claim_tests import Part as Part
     from lagrotor.paper.claim_tests import Result as Result
+    from lagrotor.paper.equation_statements import Stated as Stated
+    from lagrotor.paper.equation_statements import verdict as verdict
     from lagrotor.paper.judgement import Judgement as Judgement
     from lagrotor.paper.judgement import judge_text as judge_text
     from lagrotor.paper.latex.stated_system import stated as stated
@@ -34,8 +37,6 @@ if TYPE_CHECKING:
     from lagrotor.paper.proof import Remark as Remark
     from lagrotor.paper.proof import Step as Step
     from lagrotor.paper.proof import prove as prove
-    from lagrotor.paper.stating import Stated as Stated
-    from lagrotor.paper.stating import verdict as verdict
     from lagrotor.paper.tables import FigureLink as FigureLink
     from lagrotor.paper.tables import Table as Table
     from lagrotor.paper.theorems import Theorem as Theorem
@@ -45,6 +46,6 @@ if TYPE_CHECKING:
     from lagrotor.paper.verdicts import Statement as Statement
     from lagrotor.paper.verdicts import Verdict as Verdict
     from lagrotor.paper.verdicts import chain as chain
-    from lagrotor.shown import scientific as scientific
+    from lagrotor.result_display import scientific as scientific
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -9,8 +9,8 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.catalogue import Equation
+from lagrotor.paper.plain_text import from_latex, readable
 from lagrotor.paper.premises import Premise, relation_text
-from lagrotor.paper.readable import from_latex, readable
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import LineVerdict, Relation, Verdict, point_text, verdict_table
 

@@ -26,6 +26,7 @@ from sympy.polys.orderings import grevlex
 from sympy.polys.rings import PolyElement, PolyRing
 
 from lagrotor.algebra import decide_zero
+from lagrotor.algebra.analytic_proofs import evaluated
 from lagrotor.algebra.enclosed_roots import enclosed_root
 from lagrotor.algebra.enclosures import Bounds, are_apart, enclosure, enclosures
 from lagrotor.algebra.evidence import points
@@ -33,12 +34,11 @@ from lagrotor.algebra.feasibility import has_principal_values, is_infeasible
 from lagrotor.algebra.generators import survey
 from lagrotor.algebra.inverses import INVERSES, argument, solved_for
 from lagrotor.algebra.numbering import Numbering, letters_in_order, without_number
-from lagrotor.algebra.proving import evaluated
 from lagrotor.algebra.reading import find_roots, reader
 from lagrotor.algebra.signs import Region, conditions, region, signs
 from lagrotor.errors import InputError, NotExactError
+from lagrotor.paper.plain_text import readable
 from lagrotor.paper.premises import Premise, relation_text
-from lagrotor.paper.readable import readable
 
 _KINDS = ("positive", "negative", "nonnegative", "nonpositive", "nonzero")
 

@@ -23,8 +23,8 @@ from lagrotor.errors import InputError, LagrotorError, NotExactError
 from lagrotor.mechanics.glossary import Glossary
 from lagrotor.paper.grammar import read
 from lagrotor.paper.hypotheses import Hypotheses, contradicted, hypotheses, vanishes_on, witness
+from lagrotor.paper.plain_text import readable
 from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
-from lagrotor.paper.readable import readable
 from lagrotor.paper.units import Dimensions, dimensions
 from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict, check_premises
 

@@ -16,9 +16,9 @@ from lagrotor.paper import record
 from lagrotor.paper.audit import Audit
 from lagrotor.paper.catalogue import Catalogue
 from lagrotor.paper.claim_tests import ClaimTest, Result
+from lagrotor.paper.equation_statements import Stated, statement
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.scripts import Scripts
-from lagrotor.paper.stating import Stated, statement
 from lagrotor.paper.theorems import can_prove
 from lagrotor.paper.verdicts import AGREES, LineVerdict, Statement, Verdict
 

@@ -10,7 +10,7 @@ from sympy.core.relational import Relational
 from lagrotor.algebra.scalar import sympified
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
-from lagrotor.paper.readable import readable
+from lagrotor.paper.plain_text import readable
 
 _LONGEST = 160  # characters of a formula beyond which it is shown as data only
 _SIGNS = {sp.Eq: "=", sp.Ne: "≠", sp.Ge: "≥", sp.Gt: ">", sp.Le: "≤", sp.Lt: "<"}

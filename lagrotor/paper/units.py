@@ -17,7 +17,7 @@ from sympy.core.function import AppliedUndef
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import Glossary
 from lagrotor.paper.grammar import parsed
-from lagrotor.paper.readable import readable
+from lagrotor.paper.plain_text import readable
 
 _BASES = {name: sp.Symbol(name, positive=True) for name in ("kg", "m", "s", "A", "K", "mol", "cd")}
 _KG, _M, _S, _A = (_BASES[name] for name in ("kg", "m", "s", "A"))

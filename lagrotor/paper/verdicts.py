@@ -9,12 +9,12 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from lagrotor.algebra import check_names
-from lagrotor.algebra.names import symbols_in
+from lagrotor.algebra.name_clashes import symbols_in
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.hypotheses import hypotheses
+from lagrotor.paper.plain_text import from_latex, readable
 from lagrotor.paper.premises import Premise, relation_text
-from lagrotor.paper.readable import from_latex, readable
 from lagrotor.paper.tables import Table
 from lagrotor.paper.theorems import Theorem
 from lagrotor.paper.units import Dimensions

@@ -20,18 +20,18 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import Coordinates, coordinates, t
 from lagrotor.mechanics.running.programs import constrained_motion, depends_on_time
 from lagrotor.models.programs.minimal_program import FORCE, observation, program
-from lagrotor.numerics import recorded_numbers
+from lagrotor.numerics import operation_recorder
 from lagrotor.numerics.codegen import Program, Stage
-from lagrotor.numerics.recorded_numbers import Recorded, Term
+from lagrotor.numerics.operation_recorder import Recorded, Term
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, J, K, M, R, a, b, ell, k, m
 from lagrotor.pair.scene import Scene
 from lagrotor.proofs.balls import ZERO, Ball, Balls, arb, arb_mat, arb_poly, exact, fmpq, rational
 from lagrotor.proofs.matrices import identity, inside, times
 from lagrotor.proofs.statements import as_upright
-from lagrotor.proofs.stepping import Motion
-from lagrotor.proofs.tails import Evaluation, Tailed, series_values
 from lagrotor.proofs.tape import Tape, tape_of
+from lagrotor.proofs.taylor_step import Motion
+from lagrotor.proofs.truncated_series import Evaluation, Tailed, series_values
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Coefficients, coefficients_in
 from lagrotor.structures.exact.compiled_motion import structure_accelerations
@@ -368,7 +368,7 @@ def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
         [[Recorded(tape, str(x)) for x in part[3 * i : 3 * i + 3]] for i in range(N)] for part in (letters.q, letters.v)
     )
     G = [Recorded(tape, f"G_{i}") if f"G_{i}" in of_time else G for i, G in enumerate(c.G)]
-    accelerations = structure_accelerations(c, r, v, G, recorded_numbers)
+    accelerations = structure_accelerations(c, r, v, G, operation_recorder)
     leaves = {str(x): x for x in (*letters.q, *letters.v)} | of_time
     stages, rates = _stages(tape, leaves, accelerations)
     arguments = (*letters.q, *letters.v, *((t,) if timed else ()))

@@ -15,7 +15,7 @@ from math import hypot
 from typing import Any, Protocol
 
 from lagrotor.proofs.balls import Ball, arb, of_text, precision, printed
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 
 Certificate = dict[str, Any]
 VERSION = 1

@@ -2,7 +2,7 @@
 
 The data pass through these modules in this order:
 
-- `job.steps`: a `JobStep` is one derivation, claim or figure; `job.reach` gives the digest of all that it is made from.
+- `job.steps`: a `JobStep` is one derivation, claim or figure; `job.dependencies` gives the digest of all that it is made from.
 - `job.processes` runs the steps on all cores; `job.cache` keeps numbers and figures for later runs.
 - `content.Report` holds all results of one run. `facts` gives its sentences, `errata` its refuted equations.
 - `page` writes the report as HTML, `text_forms` as Markdown and as LaTeX, with `formulas` and `latex` for the formulas.

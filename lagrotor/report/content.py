@@ -13,7 +13,7 @@ from lagrotor.paper.audit import NOT_YET
 from lagrotor.paper.catalogue import Equation, is_claim
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
-from lagrotor.paper.readable import from_latex
+from lagrotor.paper.plain_text import from_latex
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import Relation, Verdict
 from lagrotor.pictures.figures import Picture

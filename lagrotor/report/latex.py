@@ -9,7 +9,7 @@ import sympy as sp
 from lagrotor.mechanics.glossary import GREEK, latex
 from lagrotor.paper.latex.headings import ACCENTS
 from lagrotor.paper.latex.tokens import tokenize
-from lagrotor.paper.readable import readable
+from lagrotor.paper.plain_text import readable
 
 _HEAD = r"""\documentclass[11pt]{article}
 \usepackage[a4paper,margin=22mm]{geometry}

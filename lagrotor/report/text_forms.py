@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.readable import readable
+from lagrotor.paper.plain_text import readable
 from lagrotor.paper.tables import Cell, FigureLink
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture

@@ -17,13 +17,13 @@ A new load is a field of `Assembly`, a number in `Coefficients`, and a term in `
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.structures.critical_spins import sign_patterns as sign_patterns
+    from lagrotor.structures.exact.exact_comparison import bounded_motion as bounded_motion
+    from lagrotor.structures.exact.exact_comparison import measured_growth as measured_growth
     from lagrotor.structures.exact.exact_motion import exact_motion as exact_motion
-    from lagrotor.structures.exact.held_to_exact import bounded_motion as bounded_motion
-    from lagrotor.structures.exact.held_to_exact import measured_growth as measured_growth
     from lagrotor.structures.exact.structure_run import StructureRun as StructureRun
     from lagrotor.structures.gallery import GALLERY as GALLERY
     from lagrotor.structures.gallery import example as example

@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.linear_modes import LinearSystem
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.small_motion import bar_rows, check_upright, matrices

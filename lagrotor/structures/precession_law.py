@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, linear_form
 from lagrotor.pair.quantities import finite_number
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.resonances import MOST_DOF, normal_form_of, signed_rates

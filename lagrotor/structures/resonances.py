@@ -30,7 +30,7 @@ from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics.canonical.normal_forms import NormalForm, normal_form_of_series
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, polynomial, variable
 from lagrotor.numerics.arrays import finite_array
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.critical_spins import spin_threshold

@@ -14,14 +14,13 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError, IntegrationError, SingularError
 from lagrotor.numerics.arrays import finite_array
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Complex, coefficients
 from lagrotor.structures.critical_spins import critical_spin, friction_undoes, spin_threshold, stiffness_in_masses
-from lagrotor.structures.exact.closing import start_state
+from lagrotor.structures.exact.bar_closure import start_state
 from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.exact.exact_motion import exact_motion
-from lagrotor.structures.holding import hold_time
 from lagrotor.structures.resonances import (
     MOST_DOF,
     Resonance,
@@ -32,6 +31,7 @@ from lagrotor.structures.resonances import (
     trusted_push,
 )
 from lagrotor.structures.small_motion import SmallMotion, check_rates, modes, small_motion
+from lagrotor.structures.stability_time import hold_time
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
 PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
@@ -179,7 +179,7 @@ class Standing(Shown):
 
     def hold_time(self, push: float) -> float:
         """Estimate the time (s) before which no push of that size grows to sqrt(2) times its size in the normal modes: see
-        `structures.holding`.
+        `structures.stability_time`.
 
         inf without bars and braces, where each rotor is a free top, and for staying near where the energy is least upright, of
         more than 8 degrees of freedom for pushes that are small enough; 0 where it does not stand or the push is beyond what the

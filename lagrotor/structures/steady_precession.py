@@ -23,14 +23,14 @@ from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_mult
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
 from lagrotor.numerics.segment import RightHandSide
 from lagrotor.pair.quantities import finite_number
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
-from lagrotor.structures.exact.closing import close_bars
+from lagrotor.structures.exact.bar_closure import close_bars
 from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.leaning import constraint_tangents
 from lagrotor.structures.small_motion import check_upright, first_largest, modes
+from lagrotor.structures.tilted_equilibria import constraint_tangents
 
 _STEP = 1e-3  # of the monodromy's differences, of fourth order; half of it for Newton's steps, of second
 _CLOSED = 1e-11  # of axes and of rates over the structure's rate: an orbit is closed

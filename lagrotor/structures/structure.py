@@ -12,17 +12,17 @@ from lagrotor.pair.scene_document import check_fields, part_of, read_document, t
 from lagrotor.structures import (
     characteristic,
     critical_spins,
-    leaning,
     precession_law,
     resonances,
     response,
     small_motion,
     standing,
     steady_precession,
+    tilted_equilibria,
 )
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.exact import structure_run
-from lagrotor.structures.exact.closing import check_closure
+from lagrotor.structures.exact.bar_closure import check_closure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -67,8 +67,8 @@ class Structure(Assembly):
 
     simulate = structure_run.simulate_structure
     modes = small_motion.modes
-    rest_near = leaning.rest_near
-    modes_about = leaning.modes_about
+    rest_near = tilted_equilibria.rest_near
+    modes_about = tilted_equilibria.modes_about
     steady_precession = steady_precession.steady_precession
     precession_law = precession_law.precession_law
     stands = standing.stands

@@ -13,7 +13,7 @@ functions. The scripts in `derivations/t….py` derive each formula; a new one c
 
 from typing import TYPE_CHECKING
 
-from lagrotor.faces import face
+from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.theory.averaged_motion import SlowMotion as SlowMotion

@@ -17,7 +17,7 @@ import numpy as np
 from lagrotor.errors import DomainError, InputError
 from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
-from lagrotor.theory.calibrated_factors import LARGEST_SWING
+from lagrotor.theory.fitted_factors import LARGEST_SWING
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 from lagrotor.theory.shock_response import shock_response
 

@@ -30,9 +30,9 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.arrays import Array, check_times
-from lagrotor.numerics.generated import generated
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Scene
-from lagrotor.theory.calibrated_factors import LARGEST_SWING
+from lagrotor.theory.fitted_factors import LARGEST_SWING
 
 if TYPE_CHECKING:
     import sympy as sp

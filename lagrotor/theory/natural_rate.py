@@ -4,9 +4,9 @@ from dataclasses import dataclass, replace
 from math import hypot, pi, sqrt
 
 from lagrotor.errors import DomainError, InputError
-from lagrotor.numerics.generated import generated
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Link, Scene
-from lagrotor.theory.calibrated_factors import LARGEST_SHIFT, LARGEST_SWING, LIGHTEST_TWIST, MOST_GROWTH, NEXT_SHIFT
+from lagrotor.theory.fitted_factors import LARGEST_SHIFT, LARGEST_SWING, LIGHTEST_TWIST, MOST_GROWTH, NEXT_SHIFT
 from lagrotor.theory.rate_shift import frequency_shift, opposite_share, twist_coefficient
 
 # Limit → its formula and, where the bar is changed, what it makes of a and b.

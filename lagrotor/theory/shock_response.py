@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.arrays import Array
-from lagrotor.numerics.generated import generated
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Scene, Shock
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.theory.natural_rate import natural_frequency_value
 
 # A pulse that peaks later than this many widths after the start has lost less than 1e-8 of its impulse before it.

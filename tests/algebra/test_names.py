@@ -8,7 +8,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, System, coordinates
 from lagrotor.numerics import Program
 from lagrotor.paper import Premise, judge, prove, verdict
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 g, other_g = sp.Symbol("g", positive=True), sp.Symbol("g")
 x = sp.Symbol("x", real=True)

@@ -6,7 +6,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.algebra import decide_equal
-from lagrotor.algebra.work import at_most
+from lagrotor.algebra.work_budget import at_most
 from lagrotor.errors import WorkError
 
 A, B, X = sp.symbols("a b x", positive=True)

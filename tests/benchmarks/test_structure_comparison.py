@@ -9,7 +9,7 @@ import pytest
 from benchmarks import structure_comparison
 from benchmarks.structure_comparison import begun, staircase, tools
 from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, recorded_structures
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 
 def test_the_table_is_the_record() -> None:

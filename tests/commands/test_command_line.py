@@ -25,10 +25,10 @@ from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.notation import M, R
 from lagrotor.paper import Paper, Relation, Statement, claim_tests, decide
-from lagrotor.paper.readable import readable
+from lagrotor.paper.plain_text import readable
 from lagrotor.paper.record import OnRecord, record_text
-from lagrotor.paper.rotor_pair import own_paper
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair import rotor_pair_audit
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.formulas import mathml_latex
 from lagrotor.report.job import cache, folder, reproduce
 
@@ -74,7 +74,7 @@ def one_paper(tmp_path_factory: pytest.TempPathFactory) -> Paper:
 @pytest.fixture(autouse=True)
 def work(one_paper: Paper, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The small paper is the package's own; the working folder is empty."""
-    monkeypatch.setattr(own_paper, "PAPER", one_paper)
+    monkeypatch.setattr(rotor_pair_audit, "PAPER", one_paper)
     monkeypatch.setattr(cache, "cache_folder", lambda: tmp_path / "cache")
     folder = tmp_path / "work"
     folder.mkdir()
@@ -86,7 +86,7 @@ def work(one_paper: Paper, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> P
 def changed_paper(work: Path, monkeypatch: pytest.MonkeyPatch) -> Paper:
     """A small paper that the test may write to."""
     paper = paper_in(work.parent / "paper")
-    monkeypatch.setattr(own_paper, "PAPER", paper)
+    monkeypatch.setattr(rotor_pair_audit, "PAPER", paper)
     return paper
 
 
@@ -109,11 +109,11 @@ def last_report(made_once: Path, work: Path) -> Path:
 
 def record(verdicts: dict[str, str]) -> None:
     rows = {identifier: OnRecord(verdict) for identifier, verdict in verdicts.items()}
-    own_paper.PAPER.record_file.write_text(record_text(rows), encoding="utf-8")
+    rotor_pair_audit.PAPER.record_file.write_text(record_text(rows), encoding="utf-8")
 
 
 def found() -> dict[str, str]:
-    return {verdict.id: verdict.verdict for verdict in own_paper.PAPER.audit()}
+    return {verdict.id: verdict.verdict for verdict in rotor_pair_audit.PAPER.audit()}
 
 
 BAD: dict[str, tuple[list[str], str]] = {

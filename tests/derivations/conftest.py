@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from lagrotor.paper import Stated, Verdict, decide, scripts
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 Edit = tuple[str, str, str]  # script, text, what takes its place
 
@@ -20,7 +20,7 @@ def changed_physics(tmp_path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
     def verdicts(edits: list[Edit], *stems: str) -> dict[str, Verdict]:
         ran: dict[str, scripts.Script] = {}
         monkeypatch.setattr("lagrotor.paper.proof.prove", lambda *sides, **more: None)
-        monkeypatch.setattr("lagrotor.paper.stating.needs_premises", lambda *compared: False)
+        monkeypatch.setattr("lagrotor.paper.equation_statements.needs_premises", lambda *compared: False)
         for stem in stems:
             original = PAPER.scripts.path("derivations", stem)
             text = original.read_text(encoding="utf-8")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 # Every method at every tolerance; what measures them is tested on few in tests/benchmark.
 pytestmark = pytest.mark.slow

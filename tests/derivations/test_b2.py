@@ -7,7 +7,7 @@ import pytest
 from lagrotor.benchmark import records
 from lagrotor.benchmark.scenes_and_methods import OURS
 from lagrotor.errors import LagrotorError
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 
 @pytest.fixture(scope="module")

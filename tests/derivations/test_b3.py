@@ -3,7 +3,7 @@
 import pytest
 
 from benchmarks.bodies_and_lagrangians import CHAINS
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 
 @pytest.fixture(scope="module")

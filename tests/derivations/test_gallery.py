@@ -5,7 +5,7 @@ import sympy as sp
 
 from lagrotor.errors import ProofError
 from lagrotor.paper import Step, prove
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 GALLERY = PAPER.scripts.names("derivations", "g")
 # Seconds each; their means are tested on less in tests/mechanics (chains, loops, rolling, impacts, friction) and tests/pair.

@@ -7,7 +7,7 @@ import sympy as sp
 
 from lagrotor.paper import Premise, decide
 from lagrotor.paper.grammar import symmetric
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK = (
     "s3a_particles",

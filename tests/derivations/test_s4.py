@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 LINKS, ENERGY, SHOCK = "s4a_link_constants", "s4b_energy", "s4c_shock"
 

@@ -14,7 +14,7 @@ from lagrotor.pair import lagrangians
 from lagrotor.pair.notation import ell, k, sigma, theta_0
 from lagrotor.paper import Statement, Verdict, decide
 from lagrotor.paper.rotor_pair import premises
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 
 @pytest.fixture(scope="module")

@@ -13,13 +13,13 @@ from lagrotor.pair import lagrangians
 from lagrotor.pair.notation import J, K, R, ell, k, m, sigma
 from lagrotor.paper import Premise, Statement, decide
 from lagrotor.paper.rotor_pair.claims.natural_rates import coefficient
-from lagrotor.paper.rotor_pair.own_paper import PAPER
 from lagrotor.paper.rotor_pair.premises import (
     HEAVY_BAR,
     LIGHT_BAR_PREMISE,
     ONE_KILOGRAM_BAR,
     PAPERS_ROTOR,
 )
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 STEMS = ("s5_3a_equal_spins", "s5_3b_opposite_spins")
 

@@ -13,7 +13,7 @@ from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair import axes_pair
 from lagrotor.pair.notation import G_1, G_2, G, a, b
 from lagrotor.paper import Relation, Statement, decide
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 STEM = "s6_conclusion"
 BAR = Link(mass=1, inertia=1)

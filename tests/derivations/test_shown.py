@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 ENOUGH = 2
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from lagrotor.drawing import paper_style
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.pictures import figures
 
 

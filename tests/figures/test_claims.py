@@ -11,7 +11,7 @@ import pytest
 
 from lagrotor import Rotor, natural_rate
 from lagrotor.models import RigidBodySystem
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.pictures import figures
 
 

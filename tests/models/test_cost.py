@@ -9,7 +9,7 @@ from lagrotor import Link, Scene, Trajectory, consistent_scene, simulate
 from lagrotor.errors import LagrotorError
 from lagrotor.models import simulate as simulating
 from lagrotor.models.model import natural_units, problem_of
-from lagrotor.numerics import estimated_run
+from lagrotor.numerics import error_estimate
 from lagrotor.numerics.integrate import integrate
 from lagrotor.numerics.solvers import dop853
 from tests.models.test_wide_scenes import RECORDED, SHORT, TRIALS
@@ -65,7 +65,7 @@ def test_no_run_takes_ten_times_as_long_as_the_best_rung(monkeypatch: pytest.Mon
     ratios = [over_cheapest(i) for i in (*REGULAR, *BESIDE_THE_DEAD_POINT)]
     assert max(ratios) < 10 and sum(ratio > 0 for ratio in ratios) > len(ratios) / 2
     # Twin: an estimate that is far too large is paid in evaluations.
-    monkeypatch.setattr(estimated_run, "SAFETY", estimated_run.SAFETY._replace(value=1e4))
+    monkeypatch.setattr(error_estimate, "SAFETY", error_estimate.SAFETY._replace(value=1e4))
     assert np.mean([over_cheapest(i) for i in (*REGULAR, *BESIDE_THE_DEAD_POINT)]) > 1.3 * np.mean(ratios)
 
 

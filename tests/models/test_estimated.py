@@ -10,7 +10,7 @@ from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.models import euler, minimal
 from lagrotor.models import simulate as simulating
 from lagrotor.models.model import natural_units
-from lagrotor.numerics import estimated_run
+from lagrotor.numerics import error_estimate
 from tests.models.one_integration import observed
 
 SHOCKED = Scene(
@@ -20,7 +20,7 @@ T = np.linspace(0, 3, 31)
 
 
 def set_to(monkeypatch: pytest.MonkeyPatch, constant: str, value: float) -> None:
-    monkeypatch.setattr(estimated_run, constant, getattr(estimated_run, constant)._replace(value=value))
+    monkeypatch.setattr(error_estimate, constant, getattr(error_estimate, constant)._replace(value=value))
 
 
 def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -39,7 +39,7 @@ def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch
     with pytest.warns(LagrotorWarning, match="minimal does not keep tol"):
         assert simulate(SHOCKED, T, "minimal", 1e-9).error > 1e-3
     monkeypatch.setattr(
-        estimated_run, "_alikeness", lambda *_: 1.0
+        error_estimate, "_alikeness", lambda *_: 1.0
     )  # twin: unheard, it passes with a small error estimate
     assert simulate(SHOCKED, T, "minimal", 1e-9).error < 1e-9
 

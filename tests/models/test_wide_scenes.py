@@ -17,7 +17,7 @@ from lagrotor import Link, Rotor, Scene, Trajectory, sweep
 from lagrotor.errors import DomainError, IntegrationError, LagrotorWarning, SingularError
 from lagrotor.models import simulate as simulating
 from lagrotor.models import spheres
-from lagrotor.numerics import estimated_run, taylor
+from lagrotor.numerics import error_estimate, taylor
 from lagrotor.numerics.solvers import lsoda
 from lagrotor.numerics.taylor import taylor_order
 from tests.models.wide_scenes import COUNT, IN_128_BITS, SEED, Array, Wide, reference, turns, wide_scenes
@@ -109,13 +109,13 @@ def test_an_estimate_that_says_too_little_would_be_seen(monkeypatch: pytest.Monk
 
     def trusting(evolution, times, tol):  # type: ignore[no-untyped-def]
         once = evolution.integrate(evolution.start, times, tol, False, 1e7)
-        return estimated_run.EstimatedRun(
+        return error_estimate.EstimatedRun(
             times,
             once.states,
             np.full(len(times), tol),
             np.inf,
             0,
-            estimated_run.Ending("end", times[-1]),
+            error_estimate.Ending("end", times[-1]),
             tol,
         )
 
@@ -195,7 +195,7 @@ def test_two_runs_that_are_off_alike_are_seen_by_what_they_conserve(monkeypatch:
 
     tolerances = 10.0 ** -np.arange(5, 8, 0.125)
     assert all(map(bounded, tolerances))
-    monkeypatch.setattr(estimated_run, "_alikeness", lambda *_: 1.0)  # twin
+    monkeypatch.setattr(error_estimate, "_alikeness", lambda *_: 1.0)  # twin
     assert not all(map(bounded, tolerances))
 
 
@@ -221,7 +221,7 @@ def test_each_run_of_a_sweep_says_its_error(every: int) -> None:
 
 def test_a_sweep_that_says_too_little_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     for constant in ("SAFETY", "LEAST", "ROUNDING"):
-        monkeypatch.setattr(estimated_run, constant, getattr(estimated_run, constant)._replace(value=1e-18))
+        monkeypatch.setattr(error_estimate, constant, getattr(error_estimate, constant)._replace(value=1e-18))
     assert under_estimated(SHORT[::16])
 
 
@@ -242,7 +242,7 @@ def test_taylor_steps_that_the_states_set_and_not_the_tolerance_hide_no_error(mo
 
 def test_two_runs_at_local_errors_too_near_each_other_are_off_alike(monkeypatch: pytest.MonkeyPatch) -> None:
     assert all(one.run and one.error <= one.run.error <= one.trial.tol for one in outcomes(ALIKE, "core"))
-    monkeypatch.setattr(estimated_run, "APART", estimated_run.APART._replace(value=5.0))  # twin
+    monkeypatch.setattr(error_estimate, "APART", error_estimate.APART._replace(value=5.0))  # twin
     assert any(one.missed and not one.warned for one in outcomes(ALIKE, "core"))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from sympy import __version__
 
 from lagrotor.files import write_text
-from lagrotor.numerics.generated import GeneratedFunction
+from lagrotor.numerics.source_cache import GeneratedFunction
 
 
 def kept_functions() -> list[GeneratedFunction]:

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 from lagrotor.errors import IntegrationError, LagrotorWarning
-from lagrotor.numerics import estimated_run
-from lagrotor.numerics.estimated_run import UNKNOWN, EstimatedRun, Evolution, Patience, errors_up_to, estimate_run
+from lagrotor.numerics import error_estimate
+from lagrotor.numerics.error_estimate import UNKNOWN, EstimatedRun, Evolution, Patience, errors_up_to, estimate_run
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import Array, StopError, Stretch
 
 T = np.linspace(0.0, 10.0, 11)
 ENOUGH = Patience(1e6, 1e6)
 SAFETY, APART, FIRST, ROUNDING, START, LEAST, RESOLVED, LOST, SWING = (
-    getattr(estimated_run, name).value
+    getattr(error_estimate, name).value
     for name in ("SAFETY", "APART", "FIRST", "ROUNDING", "START", "LEAST", "RESOLVED", "LOST", "SWING")
 )
 
@@ -84,7 +84,7 @@ def test_two_runs_that_swing_through_each_other_are_no_better_known_where_they_m
 
     def errors(swing: float) -> Array:
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(estimated_run, "SWING", estimated_run.SWING._replace(value=swing))
+            patch.setattr(error_estimate, "SWING", error_estimate.SWING._replace(value=swing))
             distance = lambda one, other: np.abs(one - other)[:, 0]  # noqa: E731
             run = estimate_run(Evolution(np.ones(1), integrate, distance, turn, ENOUGH), times, 1e-6)
             return run.errors / (SAFETY * APART * run.local)
@@ -116,11 +116,11 @@ def test_errors_that_grow_as_those_of_a_motion_are_told_as_they_are(power: float
 def test_the_shorter_a_run_the_looser_it_begins() -> None:
     long, short, shortest = Made(share=0.0), Made(share=0.0), Made(share=0.0)
     long.run(1e-8, 10 * T), short.run(1e-8, 0.1 * T), shortest.run(1e-8, 1e-6 * T)
-    limit = estimated_run.SHORTEST.value
+    limit = error_estimate.SHORTEST.value
     assert [made.locals[0] * 1e8 / FIRST for made in (long, short, shortest)] == pytest.approx([1, 10, limit])
     loosest = Made(share=0.0)
     loosest.run(0.1, 1e-6 * T)
-    assert loosest.locals[0] == estimated_run.LOOSEST.value
+    assert loosest.locals[0] == error_estimate.LOOSEST.value
 
 
 def test_what_no_tolerance_keeps_is_the_best_there_is_and_is_said() -> None:
@@ -137,7 +137,7 @@ def test_what_no_tolerance_keeps_is_the_best_there_is_and_is_said() -> None:
 
 @pytest.mark.parametrize(("share", "integrations"), [(1.01, 4), (0.99, 2)])
 def test_what_rounding_leaves_is_the_limit(monkeypatch: pytest.MonkeyPatch, share: float, integrations: int) -> None:
-    monkeypatch.setattr(estimated_run, "ROUNDING", estimated_run.ROUNDING._replace(value=1e-9))
+    monkeypatch.setattr(error_estimate, "ROUNDING", error_estimate.ROUNDING._replace(value=1e-9))
     times = np.array([0.0, 60.0])
     made = Made(share=100.0)
     made.run(share * 1e-9 * (START + 60), times)
@@ -224,7 +224,7 @@ def test_of_two_pairs_that_stop_at_one_time_the_better_known_is_kept() -> None:
 
 
 def test_what_is_conserved_is_held_to_the_error() -> None:
-    kept = estimated_run.KEPT.value
+    kept = error_estimate.KEPT.value
     error = Made(share=0.1).run(1e-6).errors[-1]
     assert Made(share=0.1).run(1e-6, defect=lambda t, y: np.array([0.99 * kept * error])).ending.kind == "end"
     with pytest.raises(IntegrationError, match="followed another motion") as refusal:
@@ -311,7 +311,7 @@ def test_the_budget_grows_with_the_turns() -> None:
     made.run(1e-6, patience=Patience(1_000, 10))
     assert made.budgets == [1_100, 1_100]
     made.run(1e-6, patience=Patience(1e9, 10))
-    assert made.budgets[2:] == [estimated_run.MOST_EVALUATIONS] * 2
+    assert made.budgets[2:] == [error_estimate.MOST_EVALUATIONS] * 2
 
 
 def test_what_does_not_conserve_is_compared_with_a_looser_one() -> None:

@@ -9,8 +9,8 @@ import pytest
 import sympy as sp
 
 from lagrotor.numerics import Program
-from lagrotor.numerics.generated import GeneratedFunction
 from lagrotor.numerics.printers import program_source
+from lagrotor.numerics.source_cache import GeneratedFunction
 from tests.numerics.renew_generated import derived_files, kept_functions
 
 x, y = sp.symbols("x y", real=True)

@@ -9,10 +9,10 @@ import pytest
 from lagrotor.errors import InputError, IntegrationError
 from lagrotor.numerics import integrate as module
 from lagrotor.numerics import solvers
-from lagrotor.numerics.calibrated import DETOUR
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
 from lagrotor.numerics.pulse import pulse_windows
 from lagrotor.numerics.segment import Array, RightHandSide, Segment, StopError, Stretch
+from lagrotor.numerics.solver_constants import DETOUR
 
 ENOUGH = 1e6
 START = np.array([1.0, 0.0])

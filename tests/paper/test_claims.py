@@ -12,7 +12,7 @@ import pytest
 from lagrotor.paper import claim_tests, papers
 from lagrotor.paper.claim_tests import claim_data
 from lagrotor.paper.grammar import read_line
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 TESTS = PAPER.claim_tests
 
@@ -163,7 +163,7 @@ def test_importing_the_scripts_runs_nothing():
 import lagrotor.models.simulate, lagrotor.models.spring_link.run as springs
 def refuse(*_, **__): raise AssertionError("a run")
 lagrotor.models.simulate._run = springs.run_steps = springs.run_solver = refuse
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 found = PAPER.claim_tests
 assert not any("result" in vars(test) for test in found.values())
 try: found["C09"].result

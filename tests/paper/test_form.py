@@ -7,7 +7,7 @@ from lagrotor.errors import InputError, ProofError
 from lagrotor.paper import verdict
 from lagrotor.paper.grammar import cross, vector
 from lagrotor.paper.proof import form
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 DECLARED = PAPER.letters("3")
 

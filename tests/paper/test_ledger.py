@@ -9,7 +9,7 @@ from lagrotor.errors import InputError
 from lagrotor.pair.notation import r0
 from lagrotor.paper import Premise, Relation, Statement, chain, decide, grammar, judge, verdict
 from lagrotor.paper.record import changes, reaches_result, record_text, recorded
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)

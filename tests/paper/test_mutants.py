@@ -13,7 +13,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.paper import Audit, Relation, Statement, Verdict, decide
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 MOST, FEW = 6, 2  # twins of one relation that are judged, in the fast suite
 
@@ -170,7 +170,7 @@ import lagrotor.pair.lagrangians as physics
 from lagrotor.pair.notation import I1, I3, J, K, M, R, a, b, ell, m, ROTOR
 import lagrotor.paper.proof as proof
 proof.prove = lambda *sides, **more: None
-import lagrotor.paper.stating as stating
+import lagrotor.paper.equation_statements as stating
 stating.needs_premises = lambda *compared: False
 from lagrotor.paper import decide
 changes, stems = json.load(sys.stdin)
@@ -180,7 +180,7 @@ for change in changes:
         os.waitpid(copy, 0)
         continue
     exec(change)
-    from lagrotor.paper.rotor_pair.own_paper import PAPER
+    from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
     found = {}
     for stem in stems:
         try:

@@ -74,7 +74,7 @@ def test_claims_figures_and_letters_may_be_left_out(folder: Path) -> None:
     about = (folder / "paper.toml").read_text(encoding="utf-8")
     (folder / "paper.toml").write_text(about[: about.index("[unused]")], encoding="utf-8")
     edit(folder / "equations.toml", 'title = "equation of motion"', 'title = "a"\nletters = { g = "9.81" }')
-    script = "from lagrotor.paper.stating import verdict\nimport sympy as sp\n"
+    script = "from lagrotor.paper.equation_statements import verdict\nimport sympy as sp\n"
     (folder / "derivations" / "s1_motion.py").write_text(script, encoding="utf-8")
     paper = Paper(folder)
     assert (paper.claims, paper.figures, paper.evaluate(), paper.recorded) == ({}, {}, [], {})

@@ -3,7 +3,7 @@
 import pytest
 
 from lagrotor.paper import scientific
-from lagrotor.paper.readable import readable
+from lagrotor.paper.plain_text import readable
 
 
 @pytest.mark.parametrize(

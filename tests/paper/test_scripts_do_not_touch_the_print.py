@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 STEMS = PAPER.scripts.names("derivations", "s")
 PUT_IN = ("subs", "xreplace", "replace", "limit", "evalf", "series")

@@ -24,8 +24,8 @@ from lagrotor.paper import (
     Statement,
     Theorem,
     decide,
+    equation_statements,
     papers,
-    stating,
     verdict,
 )
 from lagrotor.paper import claim_tests as tests_of_claims
@@ -179,7 +179,7 @@ def test_an_equation_is_proved_recorded_and_stands_without_flint(folder: Path, m
     assert found.verdict == "proved" and found.theorems == (swing(),)
     assert "proved" in in_words(found, paper) and verdict_data(found, paper)["proved"][0]["says"] == swing().says
     paper.renew_record([found])
-    for module in (stating, papers):
+    for module in (equation_statements, papers):
         monkeypatch.setattr(module, "can_prove", lambda: False)
     again = Paper(folder)
     standing = again.audit("1.2")

@@ -28,7 +28,7 @@ from lagrotor.paper.grammar import read
 from lagrotor.paper.latex.formula import read_formula
 from lagrotor.paper.latex.notation import Notation, propose, with_proposals
 from lagrotor.paper.latex.tree import text_of
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 READ = (
     *("5.01", "5.02", "5.03", "5.04", "5.05", "5.07", "5.08", "5.10", "5.11", "5.12", "5.13", "5.15"),

@@ -6,7 +6,7 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics import coordinates
 from lagrotor.paper import Glossary, Paper, Premise, Statement, chain, decide
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.units import Dimensions, dimension_of, dimensions, unit_text
 

@@ -4,8 +4,8 @@ import pytest
 
 from lagrotor import audit
 from lagrotor.paper.audit import in_words
-from lagrotor.paper.readable import from_latex
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.plain_text import from_latex
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 
 @pytest.mark.parametrize(

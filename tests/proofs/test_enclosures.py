@@ -20,11 +20,11 @@ from lagrotor.errors import ConstraintError, InputError
 from lagrotor.mechanics import System, coordinates
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
-from lagrotor.proofs import NotProved, carried_sets, enclose, stepping
+from lagrotor.proofs import NotProved, enclose, lohner_frames, taylor_step
 from lagrotor.proofs.balls import ZERO, as_text, of_text, precision
 from lagrotor.proofs.fields import ball
-from lagrotor.proofs.tails import Tailed
 from lagrotor.proofs.tape import tape_of
+from lagrotor.proofs.truncated_series import Tailed
 
 x, y, u, v = sp.symbols("x y u v")
 OSCILLATOR = Program((x, v), (), (v, -x))
@@ -186,7 +186,7 @@ def test_what_a_series_leaves_out_is_bounded(name: str) -> None:
             terms = [2 + rng.random(), *(rng.uniform(-1, 1) * 0.5**k for k in range(1, n))]
             beyond = [rng.uniform(-1, 1) * 1e-5 / 40 for _ in range(40)]
             a = Tailed(arb_poly([arb(c) for c in terms]), arb(1e-5), n)
-            series = stepping.arb_series([arb(c) for c in terms + beyond], 80)
+            series = taylor_step.arb_series([arb(c) for c in terms + beyond], 80)
             if name in ("sin", "cos"):
                 found = a.sin_cos()[name == "cos"]
             elif name == "log":
@@ -203,7 +203,7 @@ def test_what_a_series_leaves_out_is_bounded(name: str) -> None:
 
 
 def without_rest(*arguments: Any) -> Any:
-    rests, evaluation = stepping.with_rest(*arguments)
+    rests, evaluation = taylor_step.with_rest(*arguments)
     return [ZERO for _ in rests], evaluation
 
 
@@ -218,7 +218,7 @@ def rounded_to_nothing(motion: Any, start: Any, n: int) -> Any:
         return [[c.mid() for c in row] for row in rows]
 
 
-CARRIED, TAYLOR = carried_sets.carried, stepping.taylor
+CARRIED, TAYLOR = lohner_frames.carried, taylor_step.taylor
 SPOILED = {
     "the rest of the series": ("with_rest", without_rest),
     "the error in the frame": ("carried", without_error),
@@ -232,7 +232,7 @@ def test_mutated_arithmetic_loses_the_truth(what: str, monkeypatch: pytest.Monke
     truth = truth_of((v, -sp.sin(x)), (x, v), [1, "0.2"], 3)
     program = Program((x, v), (), (v, -sp.sin(x)))
     assert all(holds(c, w) for c, w in zip(enclose(program, {}, [1, "0.2"], t=3, tol=1e-9).states, truth, strict=True))
-    monkeypatch.setattr(carried_sets, *SPOILED[what])
+    monkeypatch.setattr(lohner_frames, *SPOILED[what])
     found = enclose(program, {}, [1, "0.2"], t=3, tol=1e-9)
     assert not all(holds(c, w) for c, w in zip(found.states, truth, strict=True))
 
@@ -272,10 +272,10 @@ def test_a_step_that_fails_leaves_the_length_of_series_as_it_was() -> None:
     """Shorter series would drop terms that no bound holds; a twin of the guard."""
     from flint import ctx
 
-    motion = stepping.Motion(tape_of(Program((x, v), (), (v, 1 / x))), ())
+    motion = taylor_step.Motion(tape_of(Program((x, v), (), (v, 1 / x))), ())
     with precision(64, 12):
         with pytest.raises(NotProved, match="a denominator, or a root's"):
-            stepping.taylor(motion, [arb(0, 1), arb(1)], 9)
+            taylor_step.taylor(motion, [arb(0, 1), arb(1)], 9)
         assert ctx.cap == 12
         with pytest.raises(NotProved, match="series of 20 terms"):
             Tailed(arb_poly([1, 1]), ZERO, 20).inverse()

@@ -22,12 +22,12 @@ from lagrotor.models.orbits.shooting import QuarterPeriod
 from lagrotor.numerics import Program
 from lagrotor.proofs import NotProved, check, enclose, equilibrium, means, no_crossing, periodic_orbit, precession
 from lagrotor.proofs.balls import as_text, ball_data, exact, precision
-from lagrotor.proofs.carried_sets import Accuracy, Start, steps_of
 from lagrotor.proofs.checker.checking import second_derivatives
+from lagrotor.proofs.checker.expression_tapes import tape_of_words
 from lagrotor.proofs.checker.reversals import check_reversal
 from lagrotor.proofs.checker.tapes import demand_paced, read_tape
-from lagrotor.proofs.checker.written import tape_of_words
 from lagrotor.proofs.fields import ball, scene_field, values_at
+from lagrotor.proofs.lohner_frames import Accuracy, Start, steps_of
 from lagrotor.proofs.orbits.closed_orbits import closing, orbit_of, refined
 from lagrotor.proofs.orbits.paired_orbits import A, B, guess, problem_of_pair
 from lagrotor.proofs.tape import paced, tape_of

@@ -16,8 +16,8 @@ from lagrotor.mechanics import System, coordinates, t
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proofs import NotProved, check, crossing, enclose, equilibrium, precession
+from lagrotor.proofs.checker.expression_tapes import Words
 from lagrotor.proofs.checker.reversals import points_of
-from lagrotor.proofs.checker.written import Words
 from tests.proofs.gallery import PLANE, RATE, THETA, C, U, V, X, Y, plain, spoiled
 
 M, G, ELL, K = sp.symbols("m g ell k", positive=True)

@@ -17,11 +17,11 @@ from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proofs import (
     NotProved,
-    carried_sets,
     check,
     crossing,
     enclose,
     equilibrium,
+    lohner_frames,
     means,
     no_crossing,
     periodic_orbit,
@@ -300,7 +300,7 @@ WRITTEN = (
 def test_what_is_written_is_what_is_evaluated(expression: sp.Expr) -> None:
     """The search's operations of an expression against those of its words, at a point."""
     from lagrotor.proofs.checker.bounded_series import Dual, Rest, evaluated
-    from lagrotor.proofs.checker.written import tape_of_words
+    from lagrotor.proofs.checker.expression_tapes import tape_of_words
     from lagrotor.proofs.fields import system_field, values_at
 
     made, at = system_field(PENDULUM, {}, [1], [0]), [arb("0.3"), arb("-0.7")]
@@ -316,7 +316,7 @@ def test_a_pulse_that_begins_within_a_step_leaves_the_set_narrow(monkeypatch: py
     (x,), (v,) = c.q, c.v
     pushed = System(c, (v**2 - x**2) / 2, forces=(sp.exp(-(((t - 1) * 10) ** 2)),))
     assert float(enclose(pushed, {}, [0], [0], 2, 1e-14).states[0].rad()) < 1e-11
-    monkeypatch.setattr(carried_sets, "_REST", 1e300)
+    monkeypatch.setattr(lohner_frames, "_REST", 1e300)
     assert float(enclose(pushed, {}, [0], [0], 2, 1e-14).states[0].rad()) > 1e-9
 
 
@@ -346,13 +346,13 @@ def test_a_check_that_skips_a_node_is_found(monkeypatch: pytest.MonkeyPatch) -> 
 def test_mutated_arithmetic_of_the_search_is_found_by_the_check(monkeypatch: pytest.MonkeyPatch) -> None:
     found = enclose(PENDULUM, {}, [1], [0], 2)
     assert verified(found)
-    from lagrotor.proofs import stepping
+    from lagrotor.proofs import taylor_step
     from lagrotor.proofs.balls import ZERO
 
     def without_rest(*arguments: Any) -> Any:
-        rests, evaluation = stepping.with_rest(*arguments)
+        rests, evaluation = taylor_step.with_rest(*arguments)
         return [ZERO for _ in rests], evaluation
 
-    monkeypatch.setattr(carried_sets, "with_rest", without_rest)
+    monkeypatch.setattr(lohner_frames, "with_rest", without_rest)
     with pytest.raises(NotProved, match="node 1 does not hold the motion of the middle"):
         verified(enclose(PENDULUM, {}, [1], [0], 2))

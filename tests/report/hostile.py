@@ -10,7 +10,7 @@ import sympy as sp
 
 from lagrotor.pair.notation import M, r0
 from lagrotor.paper import FigureLink, Finding, Part, Relation, Result, Statement, Table, chain, claim_tests, decide
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ShownPart
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from lagrotor.paper import Audit, Verdict
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.errata import errata, latex_document
 
 

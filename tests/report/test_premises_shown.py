@@ -4,13 +4,13 @@ import pytest
 
 from lagrotor.paper import Audit, Premise, Verdict
 from lagrotor.paper.audit import in_words, verdict_data
-from lagrotor.paper.readable import readable
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.plain_text import readable
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report
 from lagrotor.report.errata import errata, latex_document
 from lagrotor.report.facts import facts
 from lagrotor.report.latex import latex_prose
-from lagrotor.report.page.pieces import prose
+from lagrotor.report.page.html_elements import prose
 from lagrotor.report.page.sections import equation_entry, erratum_entry
 from lagrotor.report.text_forms import errata_sheet
 

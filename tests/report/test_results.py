@@ -7,7 +7,7 @@ import pytest
 
 from lagrotor.pair.notation import M, R
 from lagrotor.paper import ClaimTest, Finding, Result, Statement, chain, decide
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report
 from lagrotor.report.facts import balance, headlines

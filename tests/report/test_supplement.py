@@ -10,7 +10,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.pair.notation import M
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report, contents
 from lagrotor.report.latex import END, displayed_expression, displayed_formula, head, latex_prose
 from lagrotor.report.text_forms import supplement

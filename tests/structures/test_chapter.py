@@ -4,7 +4,7 @@ import pytest
 
 from lagrotor.errors import ProofError
 from lagrotor.paper import Remark, Step, scripts
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 AFTER_RUNS = pytest.mark.slow  # the step stands after exact runs of the script
 # Their numbers are held in test_standing, test_chern, test_resonances, test_nonlinear_waves and test_precession_law.

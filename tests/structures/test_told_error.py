@@ -8,7 +8,7 @@ import pytest
 
 from lagrotor import Link, Rotor, Structure
 from lagrotor.errors import LagrotorError, LagrotorWarning
-from lagrotor.numerics import estimated_run
+from lagrotor.numerics import error_estimate
 from tests.structures.extended import exact
 
 PLANS = (
@@ -93,7 +93,7 @@ def test_no_error_is_larger_than_it_is_said_to_be(count: int) -> None:
 
 def test_an_estimate_that_is_too_small_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     for constant in ("SAFETY", "LEAST"):
-        monkeypatch.setattr(estimated_run, constant, getattr(estimated_run, constant)._replace(value=1e-3))
+        monkeypatch.setattr(error_estimate, constant, getattr(error_estimate, constant)._replace(value=1e-3))
     with pytest.raises(AssertionError):
         judge(outcomes(FEW, FEW))
 

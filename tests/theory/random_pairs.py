@@ -14,7 +14,7 @@ from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import natural_units
 from lagrotor.models.sweeps.batch_dop853 import march_swarm
 from lagrotor.models.sweeps.ensemble import _swarm
-from lagrotor.numerics.estimated_run import Leg
+from lagrotor.numerics.error_estimate import Leg
 from lagrotor.numerics.segment import StopError
 
 COUNTS = [8, pytest.param(10_000, marks=pytest.mark.slow)]

@@ -6,7 +6,7 @@ import pytest
 
 from lagrotor.errors import ProofError
 from lagrotor.paper import Remark, Step, scripts
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 STEMS = [stem for stem in PAPER.scripts.names("derivations") if stem.startswith("t")]
 # Stem → the least number of steps; t13 is of numbers.

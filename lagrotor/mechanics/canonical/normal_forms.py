@@ -34,7 +34,7 @@ from lagrotor.mechanics.canonical.polynomials import (
     total,
 )
 from lagrotor.mechanics.canonical.taylor_series import LocalSeries
-from lagrotor.shown import Shown, scientific
+from lagrotor.result_display import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
 _STEADY = "of a steady motion take the equilibrium that System.routh leaves, of another periodic orbit name its period"

@@ -7,15 +7,15 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
+from lagrotor.mechanics.running.narrow_features import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import depends_on_time, motion_program, parameter_values, projection_program
-from lagrotor.mechanics.running.singular import singular_position
+from lagrotor.mechanics.running.singular_positions import singular_position
 from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.arrays import real_array
-from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.integrate import Engine, Problem, by_fastest, check_engine, integrate
 from lagrotor.numerics.pulse import Window, windows_since
 from lagrotor.numerics.segment import Cause, Integrate, Segment, SegmentSolver, StopError, Stretch, by_units, reporting
+from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Values = Mapping[Any, Any]

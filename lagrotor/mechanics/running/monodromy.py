@@ -22,16 +22,16 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array, Values, projection_of
+from lagrotor.mechanics.running.initial_state import check_values
 from lagrotor.mechanics.running.motion import SampledMotion
 from lagrotor.mechanics.running.programs import motion_program, parameter_values, tangent_motion
 from lagrotor.mechanics.running.scales import clock_windows
-from lagrotor.mechanics.running.start import check_values
 from lagrotor.mechanics.running.state_space import check_smooth, local_slope, motion_slope, point_state, tangent_space
 from lagrotor.mechanics.steady_motions import small_states
 from lagrotor.numerics.floquet_multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import windows_since
-from lagrotor.shown import Shown, scientific
+from lagrotor.result_display import Shown, scientific
 
 _LOCAL = (1e-10, 1e-12)  # errors of a step, of the integration that is read last and of the one it is compared with
 _CUTS = (1, 4, 32)  # pieces of the period, more where a multiplier is not resolved

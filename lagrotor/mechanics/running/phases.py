@@ -16,7 +16,7 @@ import sympy as sp
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import total_derivative
 from lagrotor.mechanics.running.flow import Array, projection_of
-from lagrotor.mechanics.running.narrow import NarrowPart, with_followed
+from lagrotor.mechanics.running.narrow_features import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import (
     Generated,
     depends_on_time,
@@ -24,13 +24,13 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.mechanics.running.singular import mass_at, rows_at, unbounded_force
+from lagrotor.mechanics.running.singular_positions import mass_at, rows_at, unbounded_force
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
-from lagrotor.numerics.calibrated import MOST_EVENTS
-from lagrotor.numerics.estimated_run import start_beside
+from lagrotor.numerics.error_estimate import start_beside
 from lagrotor.numerics.pulse import Window, segments, windows_since
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import Segment, StopError, Stretch, in_units
+from lagrotor.numerics.solver_constants import MOST_EVENTS
 from lagrotor.numerics.solvers import dop853_steps
 from lagrotor.numerics.zeros import zeros_between
 

@@ -29,8 +29,8 @@ from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 from lagrotor.mechanics.running.function_values import Array, FunctionValue, jet_name
 from lagrotor.mechanics.running.sweeps import swept_energy, swept_equations
 from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_program
-from lagrotor.numerics.generated import function_of
 from lagrotor.numerics.printers import compile_program, rhs_source
+from lagrotor.numerics.source_cache import function_of
 
 LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
 _OWN = "s y t I Q rate bare make pulse width begin LOST OutsideError"  # names of generated code

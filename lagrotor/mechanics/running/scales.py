@@ -17,7 +17,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import longer, put_in
 from lagrotor.mechanics.running.flow import Array, Rhs, Values, smooth_motion
-from lagrotor.mechanics.running.narrow import NarrowPart
+from lagrotor.mechanics.running.narrow_features import NarrowPart
 from lagrotor.mechanics.running.programs import (
     Generated,
     clock_program,

@@ -22,11 +22,11 @@ from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
 from lagrotor.mechanics.running.motion import SampledMotion, integration_of
-from lagrotor.mechanics.running.narrow import narrow_parts
+from lagrotor.mechanics.running.narrow_features import narrow_parts
 from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
-from lagrotor.numerics.calibrated import CROSSOVER
 from lagrotor.numerics.segment import StopError
+from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
 
 Kind = TypeVar("Kind", bound=SampledMotion)

@@ -12,17 +12,10 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import t as time
-from lagrotor.mechanics.running import run_pictures, sections
+from lagrotor.mechanics.running import run_plots, sections
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
 from lagrotor.mechanics.running.function_values import FunctionValue, event_with, put_functions, with_values
-from lagrotor.mechanics.running.monodromy import lyapunov
-from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
-from lagrotor.mechanics.running.narrow import narrow_parts, narrowest_words
-from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
-from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
-from lagrotor.mechanics.running.scales import Scales, clock_windows, defect_of, motion_scales
-from lagrotor.mechanics.running.singular import independence
-from lagrotor.mechanics.running.start import (
+from lagrotor.mechanics.running.initial_state import (
     check_inertia,
     check_pole,
     check_values,
@@ -30,12 +23,19 @@ from lagrotor.mechanics.running.start import (
     rounding_of_start,
     state_vector,
 )
+from lagrotor.mechanics.running.monodromy import lyapunov
+from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
+from lagrotor.mechanics.running.narrow_features import narrow_parts, narrowest_words
+from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
+from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
+from lagrotor.mechanics.running.scales import Scales, clock_windows, defect_of, motion_scales
+from lagrotor.mechanics.running.singular_positions import independence
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.calibrated import DEPENDENT
-from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
+from lagrotor.numerics.error_estimate import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
 from lagrotor.numerics.run import read_run
+from lagrotor.numerics.solver_constants import DEPENDENT
 
 _BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
 _PATIENCE = Patience(20_000, 1_600)
@@ -51,9 +51,9 @@ class SystemRun(SampledMotion):
     crossings = sections.crossings
     poincare = sections.poincare
     lyapunov = lyapunov
-    plot = run_pictures.plot
-    animate = run_pictures.animate
-    view = run_pictures.view
+    plot = run_plots.plot
+    animate = run_plots.animate
+    view = run_plots.view
 
     @staticmethod
     def load(path: str | Path, system: Equations, events: Any = (), functions: Values | None = None) -> "SystemRun":

@@ -21,6 +21,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array, Values
+from lagrotor.mechanics.running.initial_state import check_pole, check_values, consistent, rounding_of_start
 from lagrotor.mechanics.running.programs import (
     Generated,
     depends_on_time,
@@ -28,7 +29,6 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.mechanics.running.start import check_pole, check_values, consistent, rounding_of_start
 from lagrotor.mechanics.steady_motions import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding

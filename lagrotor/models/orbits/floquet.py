@@ -22,7 +22,7 @@ from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import Array, close_arc, flow
 from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_multipliers
 from lagrotor.pair.scene import Scene
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.theory.averaged_motion import slow_frequency
 
 # Bound of the trace's error, relative to the size of the monodromy; held by tests/theory/test_paired_stability.py.

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from lagrotor.errors import DomainError
 from lagrotor.models.model import Array, ClosedMotion
-from lagrotor.numerics.estimated_run import UNKNOWN
+from lagrotor.numerics.error_estimate import UNKNOWN
 from lagrotor.pair.scene import Link, Rotor, Scene
-from lagrotor.shown import superscript
+from lagrotor.result_display import superscript
 from lagrotor.theory.natural_rate import natural_rate
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from lagrotor.models.minimal import scenes_from_states
 from lagrotor.models.orbits.variational import Array, close_arc, flow
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.pair.scene import Scene
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import shape_of
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of

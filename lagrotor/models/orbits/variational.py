@@ -10,8 +10,8 @@ import numpy as np
 
 from lagrotor.models.minimal import MODEL, RATIOS, program
 from lagrotor.numerics.arrays import Array as Array
-from lagrotor.numerics.generated import generated
 from lagrotor.numerics.integrate import TIGHTEST, Problem, integrate
+from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Scene
 
 if TYPE_CHECKING:

@@ -17,18 +17,18 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.models.spring_link.rigid_body import Array, finite_rotation, inertia_transform
 from lagrotor.models.spring_link.system import TIP, RigidBodySystem, link_force, step_limit
-from lagrotor.numerics import recorded_numbers
+from lagrotor.numerics import operation_recorder
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
-from lagrotor.numerics.generated import function_of
+from lagrotor.numerics.error_estimate import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
+from lagrotor.numerics.operation_recorder import Recorded
 from lagrotor.numerics.pulse import pulse_windows
-from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.rotations import skew_matrix
 from lagrotor.numerics.run import Ending, Quantity, Run, read_run
 from lagrotor.numerics.segment import LOST as OUT_OF_RANGE
 from lagrotor.numerics.segment import RightHandSide, Stretch
 from lagrotor.numerics.solvers import lsoda
+from lagrotor.numerics.source_cache import function_of
 from lagrotor.pair.scene import Shock
 
 _OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
@@ -315,7 +315,7 @@ def _recorded(
     tape: list[Recorded] = []
     names = [f"y{k}" for k in range(size * n)]
     outputs = evaluate([Recorded(tape, name) for name in names], Recorded(tape, "strength"))
-    lines, texts = recorded_numbers.lines(outputs, tape)
+    lines, texts = operation_recorder.lines(outputs, tape)
     body = [f"{', '.join(names)} = state", *lines, f"return [{', '.join(texts)}]"]
     return function_of("\n    ".join(["from math import *\ndef of_state(state, strength):", *body]))
 

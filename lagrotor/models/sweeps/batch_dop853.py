@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.estimated_run import Leg
+from lagrotor.numerics.error_estimate import Leg
 from lagrotor.numerics.pulse import COMPANION_STEP, PULSE_REACH
 from lagrotor.numerics.segment import Array, StopError, Stretch
 

@@ -21,14 +21,14 @@ from lagrotor.models.model import PACE, NaturalUnits, check_range, constant_mome
 from lagrotor.models.simulate import evolution_of, simulate, trajectory_of
 from lagrotor.models.sweeps.batch_dop853 import Index, Rates, Swarm, march_swarm
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.estimated_run import Evolution, Leg, Patience, estimate_runs, first_time
+from lagrotor.numerics.error_estimate import Evolution, Leg, Patience, estimate_runs, first_time
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import Array, StopError, Stretch
 from lagrotor.numerics.taylor import march_lanes
 from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
-from lagrotor.shown import Shown, scientific
+from lagrotor.result_display import Shown, scientific
 
 CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one evaluation needs stay in the cache
 MODELS = ("minimal", "spheres", "none")

@@ -8,7 +8,7 @@ import sympy as sp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.algebra.scalar import degree
-from lagrotor.algebra.work import Calls, at_most
+from lagrotor.algebra.work_budget import Calls, at_most
 from lagrotor.errors import LagrotorError, WorkError
 from lagrotor.paper.latex.tree import Node, Opaque, sympy_expression
 

@@ -3,7 +3,7 @@ r"""Titles, headings and names of authors as plain text: accents as letters, for
 import re
 import unicodedata
 
-from lagrotor.paper.readable import from_latex
+from lagrotor.paper.plain_text import from_latex
 
 _GROUP = r"\{(?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\})*\}"
 _NOTES = re.compile(

@@ -24,6 +24,7 @@ from lagrotor.proofs.checker.certified_sets import (
     number,
     read_ball,
 )
+from lagrotor.proofs.checker.expression_tapes import tape_of_words
 from lagrotor.proofs.checker.orbit_checking import check_orbit
 from lagrotor.proofs.checker.subject_checking import (
     LagrangianOfWords,
@@ -32,7 +33,6 @@ from lagrotor.proofs.checker.subject_checking import (
     second_derivatives,
 )
 from lagrotor.proofs.checker.tapes import ZERO, demand, is_place
-from lagrotor.proofs.checker.written import tape_of_words
 from lagrotor.proofs.statements import theorem_of
 
 Ball = Any

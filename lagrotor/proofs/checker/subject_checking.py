@@ -13,9 +13,9 @@ from flint import arb, arb_mat, fmpz_mod_ctx, fmpz_mod_mat
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.proofs.checker.bounded_series import Dual, Rest, evaluated
 from lagrotor.proofs.checker.certified_sets import balls, number, read_ball, term
+from lagrotor.proofs.checker.expression_tapes import Words
 from lagrotor.proofs.checker.reversals import points_of
 from lagrotor.proofs.checker.tapes import ZERO, demand, is_name, read_tape
-from lagrotor.proofs.checker.written import Words
 from lagrotor.proofs.fields import Field, field_of, structure_program
 from lagrotor.structures.assembly import Assembly, Brace
 

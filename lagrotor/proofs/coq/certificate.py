@@ -29,9 +29,9 @@ from lagrotor.proofs.coq.coq_terms import (
     conditions_of_value,
     declared_signs,
 )
+from lagrotor.proofs.coq.equality_steps import Sides, in_one
 from lagrotor.proofs.coq.points import points_of, rational_bounds, value_at_point
 from lagrotor.proofs.coq.remainders import SeriesRest, remainder, value_at_zero
-from lagrotor.proofs.coq.sides import Sides, in_one
 
 PREAMBLE = """From Coq Require Import Reals Lra.
 From Interval Require Import Tactic.

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrotor.errors import NotExactError
-from lagrotor.proofs.coq.sides import Sides
+from lagrotor.proofs.coq.equality_steps import Sides
 
 _MOST_TERMS = 4000
 

@@ -33,13 +33,13 @@ from lagrotor.proofs.balls import (
     printed,
     upper,
 )
-from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.fields import Field, Values, field_of
+from lagrotor.proofs.lohner_frames import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.matrices import diagonal, inside, inverse, krawczyk, middle_inverse, times
 from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened, time_ball
 from lagrotor.proofs.statements import Certificate, Proved
-from lagrotor.proofs.stepping import Motion
 from lagrotor.proofs.tape import paced
+from lagrotor.proofs.taylor_step import Motion
 
 Signs = tuple[int, ...]
 Kind = Literal["elliptic", "hyperbolic", "attracting", "parabolic", "undecided"]

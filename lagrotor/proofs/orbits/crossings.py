@@ -8,13 +8,13 @@ import sympy as sp
 
 from lagrotor.errors import InputError, NotProved
 from lagrotor.proofs.balls import Ball, Balls, arb, arb_poly, ball_data, exact, precision, printed, radius
-from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.fields import Field, Values, ball, field_of, in_rationals
+from lagrotor.proofs.lohner_frames import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.orbits.enclosure import TOL, accuracy_of, loosened, time_ball
 from lagrotor.proofs.statements import Certificate, Proved
-from lagrotor.proofs.stepping import Motion, scaled, taylor, with_rest
-from lagrotor.proofs.tails import Evaluation, Tailed
 from lagrotor.proofs.tape import Tape
+from lagrotor.proofs.taylor_step import Motion, scaled, taylor, with_rest
+from lagrotor.proofs.truncated_series import Evaluation, Tailed
 
 Asked = tuple[Field, Tape, Start]
 _DEPTH = 12  # halvings of a step

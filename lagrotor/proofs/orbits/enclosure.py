@@ -8,10 +8,10 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.proofs.balls import Ball, Matrix, arb, ball_data, balls_data, precision, printed, radius
-from lagrotor.proofs.carried_sets import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.fields import Field, Values, ball, field_of, values_at
+from lagrotor.proofs.lohner_frames import Accuracy, CarriedStep, Start, flow_data, steps_of
 from lagrotor.proofs.statements import Certificate
-from lagrotor.shown import Shown, scientific
+from lagrotor.result_display import Shown, scientific
 
 TOL = 1e-17
 

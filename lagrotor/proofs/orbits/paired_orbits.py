@@ -19,8 +19,8 @@ from lagrotor.proofs.fields import Field, ball, scene_field
 from lagrotor.proofs.orbits.closed_orbits import Kind, OrbitProblem, PeriodicOrbit, orbit_of, prove_orbit
 from lagrotor.proofs.orbits.enclosure import accuracy_of
 from lagrotor.proofs.statements import Certificate, Proved
-from lagrotor.proofs.stepping import Motion
 from lagrotor.proofs.tape import paced
+from lagrotor.proofs.taylor_step import Motion
 
 A, B = (1, -1, -1, -1, 1, 1), (-1, 1, -1, 1, -1, 1)
 FREE, CONDITIONS = (4, 5, 6), (0, 2, 4)

@@ -18,7 +18,7 @@ from lagrotor.errors import InputError
 from lagrotor.files import write_text
 from lagrotor.paper.papers import Paper
 from lagrotor.pictures.figures import Picture
-from lagrotor.report.job.reach import digest
+from lagrotor.report.job.dependencies import digest
 
 
 def cache_folder() -> Path:

@@ -10,7 +10,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
-from lagrotor.process import begin_process
+from lagrotor.process_settings import begin_process
 
 Task = TypeVar("Task")
 # Loaded once, before the processes part.

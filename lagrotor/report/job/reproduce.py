@@ -21,15 +21,15 @@ from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
 from lagrotor.pictures.figures import Picture
-from lagrotor.proofs.coq.checked_by_coq import certify
+from lagrotor.proofs.coq.coq_check import certify
 from lagrotor.report.content import Report, ShownPart
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter
-from lagrotor.report.job import reach
+from lagrotor.report.job import dependencies
 from lagrotor.report.job.cache import Cache, picture_as_json, picture_from_json
+from lagrotor.report.job.dependencies import digest
 from lagrotor.report.job.folder import CERTIFICATES, TIMES, check_target, replacement
 from lagrotor.report.job.processes import cores, results
-from lagrotor.report.job.reach import digest
 from lagrotor.report.job.steps import Derived, JobStep, derive, draw_step, steps
 from lagrotor.report.page.pages import FOLDER, pages, whole_page
 from lagrotor.report.text_forms import errata_sheet, markdown, supplement
@@ -65,9 +65,9 @@ def reproduce(
     """
     began, on_record, old = time.perf_counter(), paper.recorded, check_target(target)
     made_from = json.dumps(
-        [reach.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter(), certificates]
+        [dependencies.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter(), certificates]
     )
-    whole = digest(made_from, *map(str, reach.versions().items()), beside("CITATION.cff").read_bytes())
+    whole = digest(made_from, *map(str, dependencies.versions().items()), beside("CITATION.cff").read_bytes())
     cache = Cache(paper)
     last = cache.take("report", whole)
     if last and last["files"].items() <= _digests(old).items():
@@ -165,8 +165,8 @@ def _report(paper: Paper, products: dict[str, Any]) -> Report:
         parts=tuple(part for part in parts if part.tables or part.remarks or part.pictures),
         derivations=tuple((each.stem, each.title, each.html) for each in derived),
         model=products.get("model", ""),
-        versions=tuple(reach.versions().items()),
-        inputs=tuple(reach.inputs(paper).items()),
+        versions=tuple(dependencies.versions().items()),
+        inputs=tuple(dependencies.inputs(paper).items()),
     )
 
 

@@ -17,9 +17,9 @@ from lagrotor.paper.proof import Remark
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures import figures
+from lagrotor.report.job.dependencies import scripts_named, source_digest, values_taken
 from lagrotor.report.job.processes import cores, results, values
-from lagrotor.report.job.reach import scripts_named, source_digest, values_taken
-from lagrotor.report.page.pieces import derivation_html, title
+from lagrotor.report.page.html_elements import derivation_html, title
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,10 @@ from html import escape, unescape
 from pathlib import Path
 from posixpath import dirname, relpath
 
-from lagrotor.paper.readable import readable
+from lagrotor.paper.plain_text import readable
 from lagrotor.report.content import SUBTITLE, Report, ShownPart
 from lagrotor.report.formulas.font import font_face
-from lagrotor.report.page.pieces import data_address, prose, side_by_side
+from lagrotor.report.page.html_elements import data_address, prose, side_by_side
 from lagrotor.report.page.sections import Section, introduction, picture_entry, sections
 
 _HERE = Path(__file__).parent

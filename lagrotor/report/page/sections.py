@@ -28,7 +28,7 @@ from lagrotor.report.content import (
 )
 from lagrotor.report.errata import Erratum, errata, premise_formulas
 from lagrotor.report.facts import Headline, balance, facts, figure_facts, headlines, linked_facts, note, opening
-from lagrotor.report.page.pieces import (
+from lagrotor.report.page.html_elements import (
     badge,
     code,
     fact_list,

@@ -20,11 +20,11 @@ from typing import Any
 import numpy as np
 
 from lagrotor.errors import InputError
-from lagrotor.numerics import recorded_numbers
-from lagrotor.numerics.generated import function_of
+from lagrotor.numerics import operation_recorder
+from lagrotor.numerics.operation_recorder import Recorded
 from lagrotor.numerics.printers import rhs_text
-from lagrotor.numerics.recorded_numbers import Recorded
 from lagrotor.numerics.segment import RightHandSide, Stretch, states_on_constraints
+from lagrotor.numerics.source_cache import function_of
 from lagrotor.numerics.taylor import (
     compiled_solver,
     dummy_size,
@@ -153,8 +153,8 @@ def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
     r, v = y.reshape(2, N, 3)
     G = [Recorded(tape, f"({G}*exp({-k / rate}*s))") if k else G for G, k in zip(c.G, c.decay, strict=True)]
     more = c.R[:, None] * p.reshape(N, 3) * forced - c.S[:, None] * g * shaken
-    accelerations = structure_accelerations(c, r, rate * v, G, recorded_numbers, more=more)
-    lines, rates = recorded_numbers.lines((x / rate**2 for x in accelerations), tape)
+    accelerations = structure_accelerations(c, r, rate * v, G, operation_recorder, more=more)
+    lines, rates = operation_recorder.lines((x / rate**2 for x in accelerations), tape)
     body = [f"{', '.join(states)} = y.tolist()"]
     body += [f"{', '.join(pushes)} = force(s/{rate})"] if forced else []
     body += [f"{', '.join(shakes)} = ground(s/{rate})"] if shaken else []

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.arrays import check_times, finite_array
-from lagrotor.numerics.estimated_run import Evolution, Patience, estimate_run
+from lagrotor.numerics.error_estimate import Evolution, Patience, estimate_run
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
 from lagrotor.numerics.run import Quantity, Run, read_run
 from lagrotor.numerics.segment import Integrate, StopError, Stretch
@@ -18,7 +18,7 @@ from lagrotor.pair.scene import Link, Rotor
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact import compiled_motion
-from lagrotor.structures.exact.closing import start_state
+from lagrotor.structures.exact.bar_closure import start_state
 from lagrotor.structures.exact.compiled_motion import right_hand_side
 from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, LineWatch, bar_in_line, exact_motion
 

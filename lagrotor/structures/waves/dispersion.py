@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.arrays import finite_array
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.structures.assembly import Assembly, Brace
 from lagrotor.structures.coefficients import Array, Coefficients, Complex, coefficients
 from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, left_by, matrices, on_basis

@@ -24,7 +24,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, linear_form, total
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.pair.quantities import finite_number
-from lagrotor.shown import Shown
+from lagrotor.result_display import Shown
 from lagrotor.structures.coefficients import Array, Coefficients, Complex
 from lagrotor.structures.exact.structure_run import StructureRun
 from lagrotor.structures.upright_hamiltonian import Row, axis_of, combined, on_bars, over_length, potential_of, turned

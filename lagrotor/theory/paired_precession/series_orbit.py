@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import DomainError
 from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.scene import Scene
-from lagrotor.shown import Shown, superscript
+from lagrotor.result_display import Shown, superscript
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of, harmonic_momentum, start_of
 from lagrotor.theory.paired_precession.series import paired_series, shape_of

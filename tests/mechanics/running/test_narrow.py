@@ -13,7 +13,7 @@ from scipy.integrate import quad
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.mechanics import Event, System, SystemRun, coordinates
 from lagrotor.mechanics.running import simulation
-from lagrotor.mechanics.running.singular import unbounded_force
+from lagrotor.mechanics.running.singular_positions import unbounded_force
 
 A, W, C = 0.1, sp.Symbol("w", positive=True), 0.3
 LINE = coordinates("x")

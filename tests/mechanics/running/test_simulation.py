@@ -14,7 +14,7 @@ from scipy.special import ellipj, ellipk
 from lagrotor.errors import ConstraintError, InputError, IntegrationError, LagrotorWarning
 from lagrotor.mechanics import System, SystemRun, coordinates, t
 from lagrotor.mechanics.running import programs, simulation
-from lagrotor.mechanics.running.start import rounding_of_start
+from lagrotor.mechanics.running.initial_state import rounding_of_start
 from tests.systems import Omega, R, double_pendulum, g, henon_heiles, k, l, m, pendulum, values_of
 from tests.systems import rod_pendulum as rod
 

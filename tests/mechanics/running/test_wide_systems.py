@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lagrotor.errors import LagrotorWarning
-from lagrotor.numerics import estimated_run
+from lagrotor.numerics import error_estimate
 from tests.mechanics.running import references
 from tests.mechanics.running.references import EXTENDED, KINDS, drawn
 
@@ -71,7 +71,7 @@ def test_an_error_is_known_at_many_times_and_would_be_missed_if_it_were_not(monk
         references, "_times", lambda *args: np.union1d(t := sparse(*args), t[0] + (t[-1] - t[0]) * fine)
     )
     assert held([outcome(seed) for seed in (1202, 1203, 1204, 9132)]) == []
-    monkeypatch.setattr(estimated_run, "SAFETY", estimated_run.SAFETY._replace(value=0.05))  # twin
+    monkeypatch.setattr(error_estimate, "SAFETY", error_estimate.SAFETY._replace(value=0.05))  # twin
     assert held([outcome(seed) for seed in (1202, 1203, 1204)])
 
 

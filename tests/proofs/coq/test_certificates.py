@@ -15,7 +15,7 @@ from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError, NotExactError
 from lagrotor.paper import Paper, Premise, Relation, Statement, decide, judge
 from lagrotor.paper.catalogue import Equation
-from lagrotor.proofs.coq import checked_by_coq
+from lagrotor.proofs.coq import coq_check
 from lagrotor.proofs.coq.certificate import (
     PREAMBLE,
     CertifiedLine,
@@ -25,7 +25,8 @@ from lagrotor.proofs.coq.certificate import (
     certified_line,
     file_name,
 )
-from lagrotor.proofs.coq.checked_by_coq import (
+from lagrotor.proofs.coq.cofactors import cofactors_of
+from lagrotor.proofs.coq.coq_check import (
     CERTIFICATE_LIST,
     CertifiedEquation,
     certify,
@@ -33,7 +34,6 @@ from lagrotor.proofs.coq.checked_by_coq import (
     foreign_word,
     read_certificates,
 )
-from lagrotor.proofs.coq.cofactors import cofactors_of
 from lagrotor.proofs.coq.coq_terms import Terms, comment, conditions_of_value
 
 coq = pytest.mark.usefixtures("coq_is_here")
@@ -54,13 +54,13 @@ def of(
 
 @pytest.fixture(scope="session")
 def coq_is_here() -> None:
-    if why := checked_by_coq.missing_coq() if shutil.which("coqc") else "coqc is not installed":
+    if why := coq_check.missing_coq() if shutil.which("coqc") else "coqc is not installed":
         pytest.skip(why)
 
 
 def failures(text: str, lines: tuple[CertifiedLine, ...]) -> Mapping[str, str]:
     row = CertifiedEquation("1.1", "", "equation_1_1.v", lines)
-    return checked_by_coq._failures_of([(row, text)])[0]
+    return coq_check._failures_of([(row, text)])[0]
 
 
 IDENTITIES: list[tuple[Any, Any, Any]] = [
@@ -308,7 +308,7 @@ def test_a_proof_that_is_given_up_is_refused_wherever_that_stands(script: str) -
 @pytest.mark.slow
 @pytest.mark.parametrize("script", GIVEN_UP)
 def test_coq_itself_takes_a_proof_that_is_given_up(script: str, tmp_path: Path) -> None:
-    assert checked_by_coq._compiled(tmp_path, "twin.v", given_up(script)[0]) == ""
+    assert coq_check._compiled(tmp_path, "twin.v", given_up(script)[0]) == ""
 
 
 @coq
@@ -324,11 +324,11 @@ def test_files_that_are_checked_together_are_rejected_one_by_one(tmp_path: Path)
     texts[2] = texts[2].replace("= 3 * y + x", "= 4 * y + x").replace("= x + 3 * y", "= x + 4 * y")
     texts[4] = texts[4].replace("Qed.", "- Admitted.")
     texts[6] = texts[6].replace("line_1", "line_2")
-    found = checked_by_coq._failures_of(list(zip(rows, texts, strict=True)))
+    found = coq_check._failures_of(list(zip(rows, texts, strict=True)))
     assert [bool(each) for each in found] == [place in (3, 5, 7) for place in range(1, 11)]
     assert list(found[2]) == ["line_1"] and found[4][""].startswith("the file holds")
     assert "does not hold one" in found[6][""]
-    found = checked_by_coq._failures_of([pair for place, pair in enumerate(zip(rows, texts, strict=True)) if place < 2])
+    found = coq_check._failures_of([pair for place, pair in enumerate(zip(rows, texts, strict=True)) if place < 2])
     assert found == [{}, {}]
 
 
@@ -515,7 +515,7 @@ def test_without_coq_nothing_is_said_to_be_checked(
 @coq
 @pytest.mark.slow
 def test_every_exact_verdict_of_the_paper_has_a_certificate_that_coq_accepts(audit: Any, tmp_path: Path) -> None:
-    from lagrotor.paper.rotor_pair.own_paper import PAPER
+    from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
     certify(audit, PAPER, tmp_path / "certificates")
     found = check_certificates(tmp_path / "certificates")
@@ -530,7 +530,7 @@ EXACT = ("holds", "holds-if", "refuted")
 @pytest.mark.slow
 @pytest.mark.parametrize("identifier", ["2.12", "3.02", "5.01", "5.12", "5.15", "5.18"])
 def test_each_premise_of_a_line_of_the_paper_is_needed(identifier: str, audit: Any) -> None:
-    from lagrotor.paper.rotor_pair.own_paper import PAPER
+    from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
     text, lines = certificate(audit[identifier], PAPER.equation(identifier))
     first = text.split("Theorem line_1_has_a_case")[0]

@@ -10,7 +10,7 @@ import pytest
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.pair.notation import GLOSSARY
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.formulas.font import FILE, FONT_FAMILY, font_face
 from lagrotor.report.formulas.mathml_latex import mathml
 

@@ -9,7 +9,7 @@ import sympy as sp
 
 from lagrotor.mechanics.glossary import latex as tex
 from lagrotor.pair.notation import PAIR, ROTOR, Omega, ell, r0
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.formulas import mathml_latex
 
 THIN = '<mspace width="0.167em" />'

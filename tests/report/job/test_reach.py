@@ -7,9 +7,9 @@ import pytest
 
 import lagrotor
 from lagrotor.paper import Paper
-from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.job import reach
-from lagrotor.report.job.reach import scripts_named, source_digest, values_taken
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.report.job import dependencies
+from lagrotor.report.job.dependencies import scripts_named, source_digest, values_taken
 
 PACKAGE = Path(lagrotor.__file__).parent
 
@@ -22,7 +22,7 @@ def fresh():
 
 
 def clear() -> None:
-    for cached in (reach._text, reach._place, reach._shared, reach._stems, scripts_named):
+    for cached in (dependencies._text, dependencies._place, dependencies._shared, dependencies._stems, scripts_named):
         cached.cache_clear()
 
 
@@ -57,7 +57,7 @@ def test_a_product_is_made_from_its_script_those_it_runs_and_the_package(
     for kind in ("derivations", "figures"):
         shutil.copytree(PAPER.scripts.base / kind, copy / kind, ignore=shutil.ignore_patterns("__pycache__"))
     here = source_digest(PAPER.scripts.path("derivations", "p1_past_the_paper"), PAPER)
-    monkeypatch.setattr(reach, "_PACKAGE", copy)
+    monkeypatch.setattr(dependencies, "_PACKAGE", copy)
     installed = Paper(copy / "paper" / "rotor_pair", scripts_in=copy)
     clear()
     there = copy / "derivations" / "p1_past_the_paper.py"

@@ -30,7 +30,7 @@ with contextlib.suppress(ImportError):  # of the extra report
     import latex2mathml.converter, mdit_py_plugins.dollarmath
 from lagrotor.commands import terminal
 from lagrotor.paper import claim_tests, papers
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.paper.scripts import Scripts
 from lagrotor.pictures import figures
 from lagrotor.report import content, facts

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from lagrotor.paper import decide
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report, derived_lines
 from lagrotor.report.errata import correction_lines
 from lagrotor.report.formulas.font import FONT_FAMILY, font_face

@@ -5,8 +5,8 @@ from base64 import b64decode
 
 import pytest
 
-from lagrotor.paper.rotor_pair.own_paper import PAPER
-from lagrotor.report.page.pieces import derivation_html, markdown_html, prose, title
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.report.page.html_elements import derivation_html, markdown_html, prose, title
 
 PICTURE = r'<img src="data:image/png;base64,([^"]+)" alt="Over time: ([^"]+)">'
 

@@ -20,7 +20,7 @@ from lagrotor import Link, Rotor, Scene, Shock, natural_rate, simulate
 from lagrotor.models import exact_orbit
 from lagrotor.models.minimal import MODEL
 from lagrotor.pair.notation import Phi, r0, theta_0
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.page.interactive import (
     PAGE_ORDER,
     interactive,

@@ -16,7 +16,7 @@ from lagrotor.paper import (
     Audit,
     Remark,
 )
-from lagrotor.paper.rotor_pair.own_paper import PAPER
+from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report, ShownPart, contents
 from lagrotor.report.job.folder import CONTENTS
 from lagrotor.report.page.pages import pages, whole_page

@@ -14,7 +14,7 @@ from lagrotor.pair.examples import HEAVY_LINK, LIGHT, STEP
 from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part, PrintedNumber
-from lagrotor.paper.rotor_pair.claims.proved_parts import coupled_rates, not_followed, over_cosine, single_rate
+from lagrotor.paper.rotor_pair.claims.claim_theorems import coupled_rates, not_followed, over_cosine, single_rate
 from lagrotor.paper.rotor_pair.runs import (
     AMPLITUDES,
     EQUAL,

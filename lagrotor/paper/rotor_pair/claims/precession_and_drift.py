@@ -18,7 +18,7 @@ from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.proved_parts import rate_changes
+from lagrotor.paper.rotor_pair.claims.claim_theorems import rate_changes
 from lagrotor.paper.rotor_pair.premises import TWO_MODES
 from lagrotor.paper.rotor_pair.runs import (
     AMPLITUDES,
@@ -35,7 +35,7 @@ from lagrotor.paper.rotor_pair.runs import (
     shocked_scene,
     turned_about_joint_line,
 )
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.natural_rate import natural_rate
 

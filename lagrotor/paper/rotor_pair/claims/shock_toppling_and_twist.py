@@ -18,7 +18,7 @@ from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part
-from lagrotor.paper.rotor_pair.claims.proved_parts import (
+from lagrotor.paper.rotor_pair.claims.claim_theorems import (
     axes_part,
     lasting_displacement,
     mean_displacement,
@@ -36,7 +36,7 @@ from lagrotor.paper.rotor_pair.runs import (
     shocked_scene,
     turned_about_joint_line,
 )
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 from lagrotor.theory.natural_rate import natural_rate
 
 _EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"

@@ -30,9 +30,9 @@ from lagrotor.pair.quantities import Spins
 from lagrotor.pair.scene import Scene, Shock
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.paper.claim_tests import ClaimTest, Finding, Part, PrintedNumber
-from lagrotor.paper.rotor_pair.claims.proved_parts import energies
+from lagrotor.paper.rotor_pair.claims.claim_theorems import energies
 from lagrotor.paper.rotor_pair.runs import EQUAL, after_shock, shock_of, shocked_scene
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 
 _ROUNDING = 100 * float(np.finfo(float).eps)  # what a few products of 3 × 3 matrices may lose
 ENFORCED = 0.1  # a joint is kept where its gap, and the error of the axes, are below a tenth of the motion

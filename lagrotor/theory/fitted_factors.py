@@ -3,7 +3,7 @@
 The powers and the letters that they multiply are derived; the factors in front are empirical wherever they are used.
 """
 
-from lagrotor.numerics.calibrated import Calibrated
+from lagrotor.numerics.solver_constants import Calibrated
 
 _RATE = "test_natural_rate.py::"
 LARGEST_SWING = Calibrated(

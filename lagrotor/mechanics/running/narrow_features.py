@@ -20,10 +20,10 @@ from lagrotor.algebra import derivative
 from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.programs import FOLLOWED, function_program
-from lagrotor.numerics.estimated_run import EstimatedRun
+from lagrotor.numerics.error_estimate import EstimatedRun
 from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.segment import Array
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 
 MOST = 8.0  # of ψ over the swing of one component, beyond which solvers need to be led
 EDGE = 1e-6  # of the swing, within which two jumps of a Piecewise are seen as one

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 from lagrotor.paper.latex.tokens import NESTING, Token, tokenize
-from lagrotor.shown import superscript
+from lagrotor.result_display import superscript
 
 _LETTERS = greek_unicode | {"ell": "ℓ", "varepsilon": "ε", "vartheta": "ϑ", "varphi": "φ"}
 _SIGNS = {

@@ -27,7 +27,7 @@ from lagrotor.mechanics.running.programs import (
     tree_motion,
     velocities_along,
 )
-from lagrotor.mechanics.running.singular import mass_at, rows_at
+from lagrotor.mechanics.running.singular_positions import mass_at, rows_at
 from lagrotor.mechanics.steady_motions import no_turn
 from lagrotor.numerics.arrays import finite_array, real_array
 

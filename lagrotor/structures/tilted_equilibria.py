@@ -16,7 +16,7 @@ from lagrotor.errors import ConstraintError, InputError
 from lagrotor.numerics.arrays import finite_array
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
-from lagrotor.structures.exact.closing import close_bars
+from lagrotor.structures.exact.bar_closure import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion, off_constraints, pulls
 from lagrotor.structures.small_motion import Modes, SmallMotion, left_by, modes_of
 

@@ -27,8 +27,8 @@ from lagrotor.proofs.balls import (
     upper,
 )
 from lagrotor.proofs.matrices import identity, matrix_norm
-from lagrotor.proofs.tails import Evaluation, Tailed, TailError, series_values
 from lagrotor.proofs.tape import Tape
+from lagrotor.proofs.truncated_series import Evaluation, Tailed, TailError, series_values
 
 SLACK = 4  # on each bound of a rest, so that another program's bound of it is below, too
 SINGULAR = "a denominator, or a root's or logarithm's argument, in the equations is not shown to be other than zero"

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
+from lagrotor.paper.equation_statements import Stated
+from lagrotor.paper.plain_text import readable
 from lagrotor.paper.proof import Formula, Remark, Step
-from lagrotor.paper.readable import readable
 from lagrotor.paper.scripts import Script
-from lagrotor.paper.stating import Stated
 from lagrotor.paper.tables import Cell, FigureLink, Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, anchor, word
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
 
 
-# Left by `readable`: an index that is not a number, a power that is not whole, a name of the program.
+# Left by `plain_text`: an index that is not a number, a power that is not whole, a name of the program.
 _INDEX = re.compile(r"(?<![\w&])([A-Za-zͰ-Ͽ][\u0307\u0308]?)_([A-Za-z0-9]+(?:_[A-Za-z0-9]+)*)")
 _POWER = re.compile(r"\^(−?[\w.]+\w|−?\w|\([^()]*\))")
 _CODE = re.compile(r"(?<![\w&.])([A-Za-z][A-Za-z0-9]+(?:_\w+)+)")

@@ -8,7 +8,7 @@ import numpy as np
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.running.function_values import Array
 from lagrotor.mechanics.running.programs import Generated, energy_program, function_program, mass_program, rows_program
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 
 _SINGULAR = 1e-6  # least eigenvalue of the mass matrix over that at the start; least cosine of the constraints' normals
 _UNBOUNDED = 1e8

@@ -20,7 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrotor.errors import IntegrationError, LagrotorWarning
-from lagrotor.numerics.calibrated import (
+from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.run import Ending
+from lagrotor.numerics.segment import Array, Projection, StopError, Stretch
+from lagrotor.numerics.solver_constants import (
     APART,
     FIRST,
     GIVEN_UP,
@@ -35,10 +38,7 @@ from lagrotor.numerics.calibrated import (
     START,
     SWING,
 )
-from lagrotor.numerics.integrate import TIGHTEST
-from lagrotor.numerics.run import Ending
-from lagrotor.numerics.segment import Array, Projection, StopError, Stretch
-from lagrotor.shown import scientific
+from lagrotor.result_display import scientific
 
 MOST_EVALUATIONS = 1e8  # of a run: a right-hand side in Python takes minutes for them
 _LEAST_A_TURN = 100  # evaluations that two integrations take for a turn at least

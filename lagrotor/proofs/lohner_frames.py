@@ -37,8 +37,8 @@ from lagrotor.proofs.balls import (
 )
 from lagrotor.proofs.matrices import column, identity, middle_of, times
 from lagrotor.proofs.statements import VERSION, Certificate
-from lagrotor.proofs.stepping import SLACK, Motion, derivative_of_step, scaled, taylor, with_rest
-from lagrotor.proofs.tails import TailError
+from lagrotor.proofs.taylor_step import SLACK, Motion, derivative_of_step, scaled, taylor, with_rest
+from lagrotor.proofs.truncated_series import TailError
 
 SHORTEST = 1e-5  # of the whole time: a step below it ends the proof, as it means that the set has grown too wide
 MOST = 5_000  # steps
