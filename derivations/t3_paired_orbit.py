@@ -26,8 +26,8 @@ from lagrotor import (
     paired_momentum,
     precession_orbit,
 )
-from lagrotor.mechanics import FourierSeries, euler_lagrange
-from lagrotor.mechanics.fourier import constant_series
+from lagrotor.mechanics import euler_lagrange
+from lagrotor.mechanics.fourier import FourierSeries, constant_series
 from lagrotor.numerics import measured_order
 from lagrotor.pair import axes_pair, joint_line_momentum
 from lagrotor.pair.notation import AXES, G_1, G_2, G, Phi, a, b, k, r0, sigma

@@ -15,7 +15,8 @@ import sympy as sp
 from scipy.optimize import brentq
 
 from lagrotor import Link, Scene, floquet
-from lagrotor.mechanics import FourierSeries, euler_lagrange
+from lagrotor.mechanics import euler_lagrange
+from lagrotor.mechanics.fourier import FourierSeries
 from lagrotor.numerics import measured_order
 from lagrotor.pair import axes_pair
 from lagrotor.pair.notation import AXES, G_1, G_2, HALF, LEAN, SWING, G, P, Phi, a, b, k, r0, sigma

@@ -1,6 +1,6 @@
-"""The face of a room: the names that its `__init__.py` hands on, each imported when it is first used.
+"""Lazy imports: a package's `__init__.py` lists its public names, and each is imported when it is first used.
 
-A face lists them as imports under `if TYPE_CHECKING:`, where type checkers read them; `import lagrotor` needs neither sympy nor
+The names stand as imports under `if TYPE_CHECKING:`, where type checkers read them. So `import lagrotor` needs neither sympy nor
 matplotlib.
 """
 
@@ -12,16 +12,18 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from lagrotor.renamed import old_name
+
 
 def names_of_face(file: Path) -> dict[str, str]:
-    """Name → the module that defines it, of the names that an `__init__.py` hands on."""
+    """Return {name: module that defines it} for the public names of an `__init__.py`."""
     later = (node for node in ast.parse(file.read_text("utf-8")).body if isinstance(node, ast.If))
     imports = (node for block in later for node in block.body if isinstance(node, ast.ImportFrom))
     return {alias.name: str(node.module) for node in imports for alias in node.names}
 
 
 def face(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """`__getattr__`, `__dir__` and `__all__` of a package that hands names on."""
+    """Return `__getattr__`, `__dir__` and `__all__` of a package, for its `__init__.py`."""
     names = names_of_face(Path(str(sys.modules[package].__file__)))
     return partial(_import_name, package, names), partial(sorted, names), sorted(names)
 
@@ -29,4 +31,6 @@ def face(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], l
 def _import_name(package: str, names: dict[str, str], name: str) -> Any:
     if name in names:
         return getattr(import_module(names[name]), name)
+    if (renamed_object := old_name(package, name)) is not None:
+        return renamed_object
     raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])

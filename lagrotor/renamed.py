@@ -1,17 +1,61 @@
-"""Import paths of earlier releases: each still imports the module of its new name, with a DeprecationWarning that names it."""
+"""The table of public names of earlier releases. Each still works, with a DeprecationWarning that names the new one."""
 
 import sys
+from collections.abc import Callable
+from functools import wraps
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 from warnings import warn
 
 # Old module → new module. A row of a package also covers the modules in it.
 RENAMED = {
     "lagrotor.proved": "lagrotor.proofs",
 }
+
+# Old name of a package → where it is defined now.
+NAMES = {
+    "lagrotor.mechanics.FourierSeries": "lagrotor.mechanics.fourier.FourierSeries",
+    "lagrotor.mechanics.characteristic_exponents": "lagrotor.mechanics.weakly_nonlinear.characteristic_exponents",
+    "lagrotor.mechanics.map_normal_form": "lagrotor.mechanics.canonical.return_maps.map_normal_form",
+    "lagrotor.mechanics.project_position": "lagrotor.mechanics.constraints.project_position",
+    "lagrotor.mechanics.project_velocity": "lagrotor.mechanics.constraints.project_velocity",
+    "lagrotor.mechanics.solve_constrained": "lagrotor.mechanics.constraints.solve_constrained",
+}
+
+# Function or method, by its qualified name → {old keyword: new keyword}.
+KEYWORDS: dict[str, dict[str, str]] = {}
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def accept_old_keywords(function: Callable[P, R]) -> Callable[P, R]:
+    """Let a function take its keywords of earlier releases, the row of its qualified name in KEYWORDS."""
+    row = KEYWORDS[function.__qualname__]
+
+    @wraps(function)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        for old, new in row.items():
+            if old in kwargs:
+                if new in kwargs:
+                    raise TypeError(f"{function.__qualname__}: {old} is the old name of {new}: give {new} alone")
+                warn(f"{function.__qualname__}: {old} is now {new}", DeprecationWarning, stacklevel=2)
+                kwargs[new] = kwargs.pop(old)
+        return function(*args, **kwargs)
+
+    return call
+
+
+def old_name(package: str, name: str) -> Any:
+    """Return the object that a package had under an old name; None where it had none."""
+    if (new := NAMES.get(f"{package}.{name}")) is None:
+        return None
+    warn(f"{package}.{name} is now {new}: import that instead", DeprecationWarning, stacklevel=4)
+    module, attribute = new.rsplit(".", 1)
+    return getattr(import_module(module), attribute)
 
 
 def new_name(name: str) -> str | None:

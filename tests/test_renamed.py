@@ -1,4 +1,4 @@
-"""Import paths of earlier releases: the same module under its old name, with a warning that names the new one."""
+"""Names of earlier releases: the same object under its old name, with a warning that names the new one."""
 
 import sys
 import warnings
@@ -7,7 +7,8 @@ from importlib.util import find_spec
 
 import pytest
 
-from lagrotor.renamed import RENAMED, new_name
+from lagrotor.lazy_imports import face
+from lagrotor.renamed import KEYWORDS, NAMES, RENAMED, accept_old_keywords, new_name
 
 
 @pytest.fixture
@@ -53,3 +54,28 @@ def test_without_the_finder_the_old_name_is_none(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(sys, "meta_path", sys.meta_path[1:])
     with pytest.raises(ModuleNotFoundError):
         import_module(next(iter(RENAMED)))
+
+
+@pytest.mark.parametrize("old", NAMES)
+def test_an_old_name_of_a_package_is_the_object_and_warns(old: str) -> None:
+    (package, name), (module, attribute) = old.rsplit(".", 1), NAMES[old].rsplit(".", 1)
+    with pytest.warns(DeprecationWarning, match=f"{old} is now {NAMES[old]}") as warned:
+        assert getattr(import_module(package), name) is getattr(import_module(module), attribute)
+    assert len(warned) == 1 and name not in import_module(package).__all__ and name not in face(package)[1]()
+    with pytest.raises(AttributeError, match="no_such"):
+        import_module(package).no_such  # noqa: B018
+
+
+def test_an_old_keyword_is_the_new_one_and_warns(monkeypatch: pytest.MonkeyPatch) -> None:
+    def scaled(number: float, factor: float = 1) -> float:
+        return number * factor
+
+    monkeypatch.setitem(KEYWORDS, scaled.__qualname__, {"times": "factor"})
+    scale = accept_old_keywords(scaled)
+    with pytest.warns(DeprecationWarning, match="times is now factor") as warned:
+        assert scale(2, times=3) == 6  # type: ignore[call-arg]
+    assert warned[0].filename == __file__ and scale(2, factor=3) == 6
+    with pytest.raises(TypeError, match="times is the old name of factor"):
+        scale(2, times=3, factor=3)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="timez"):
+        scale(2, timez=3)  # type: ignore[call-arg]

@@ -31,15 +31,10 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.canonical.normal_forms import NormalForm as NormalForm
     from lagrotor.mechanics.canonical.normal_forms import birkhoff as birkhoff
     from lagrotor.mechanics.canonical.return_maps import ReturnMapForm as ReturnMapForm
-    from lagrotor.mechanics.canonical.return_maps import map_normal_form as map_normal_form
-    from lagrotor.mechanics.constraints import project_position as project_position
-    from lagrotor.mechanics.constraints import project_velocity as project_velocity
-    from lagrotor.mechanics.constraints import solve_constrained as solve_constrained
     from lagrotor.mechanics.equations import constrained_accelerations as constrained_accelerations
     from lagrotor.mechanics.equations import degrees_of_freedom as degrees_of_freedom
     from lagrotor.mechanics.equations import reaction as reaction
     from lagrotor.mechanics.equilibria import Equilibrium as Equilibrium
-    from lagrotor.mechanics.fourier import FourierSeries as FourierSeries
     from lagrotor.mechanics.lagrangian import Coordinates as Coordinates
     from lagrotor.mechanics.lagrangian import accelerations as accelerations
     from lagrotor.mechanics.lagrangian import bias as bias
@@ -66,7 +61,6 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.systems import System as System
     from lagrotor.mechanics.weakly_nonlinear import AveragedMotion as AveragedMotion
     from lagrotor.mechanics.weakly_nonlinear import Oscillation as Oscillation
-    from lagrotor.mechanics.weakly_nonlinear import characteristic_exponents as characteristic_exponents
     from lagrotor.mechanics.weakly_nonlinear import lindstedt_poincare as lindstedt_poincare
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -65,7 +65,7 @@ def consistent_scene(
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
         raise InputError("consistent_scene: axes and rates must be finite")
 
-    from lagrotor.mechanics import project_position, project_velocity
+    from lagrotor.mechanics.constraints import project_position, project_velocity
 
     def parts(state: Array) -> Array:
         return np.array(_constraint_equations()(*state.tolist(), *scene.inertias, scene.k), dtype=float)

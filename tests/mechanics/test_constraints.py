@@ -11,16 +11,8 @@ from hypothesis import strategies as st
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from lagrotor.errors import LagrotorError, LagrotorWarning
-from lagrotor.mechanics import (
-    Frame,
-    System,
-    constrained_accelerations,
-    coordinates,
-    degrees_of_freedom,
-    project_position,
-    project_velocity,
-    solve_constrained,
-)
+from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates, degrees_of_freedom
+from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
 from tests.systems import I1, I2, I3, VALUES, ball_top, g, heavy_top, l, m, rod_pendulum
 
 

@@ -7,7 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
-from lagrotor.mechanics import FourierSeries, characteristic_exponents, lindstedt_poincare
+from lagrotor.mechanics import lindstedt_poincare
+from lagrotor.mechanics.fourier import FourierSeries
+from lagrotor.mechanics.weakly_nonlinear import characteristic_exponents
 
 
 def value(series: FourierSeries, eps: float, phase: float) -> float:

@@ -34,12 +34,10 @@ from lagrotor.mechanics import (
     coordinates,
     degrees_of_freedom,
     legendre,
-    project_position,
-    project_velocity,
     reaction,
-    solve_constrained,
     t,
 )
+from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
 from tests.systems import ball_top, cart_and_pole, heavy_top, rolling_disc, sleigh, turning_top
 
 m, l, g, k, s = sp.symbols("m l g k s", positive=True)

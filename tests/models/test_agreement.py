@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
 from lagrotor.errors import LagrotorWarning
-from lagrotor.mechanics import project_position, project_velocity, solve_constrained
+from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
 from lagrotor.models import euler, minimal, spheres
 
 TIMES = np.linspace(0, 10, 41)

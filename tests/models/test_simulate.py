@@ -11,7 +11,7 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, Shock, paired_scene, simulate
 from lagrotor.errors import SingularError
-from lagrotor.mechanics import project_velocity
+from lagrotor.mechanics.constraints import project_velocity
 
 TILTED = ((sin(0.3), 0.0, cos(0.3)),) * 2
 TURNING = ((0.0, 2.4, 0.0), (0.0, -2.4, 0.0))

@@ -10,14 +10,8 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor.mechanics import (
-    Coordinates,
-    System,
-    project_position,
-    project_velocity,
-    solve_constrained,
-    total_derivative,
-)
+from lagrotor.mechanics import Coordinates, System, total_derivative
+from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
 from lagrotor.pair import (
     INERTIAS,
     J_OF,

@@ -9,7 +9,7 @@ import sympy as sp
 
 from lagrotor import Link, Scene, floquet
 from lagrotor.errors import DomainError, InputError
-from lagrotor.mechanics import characteristic_exponents
+from lagrotor.mechanics.weakly_nonlinear import characteristic_exponents
 from lagrotor.pair.notation import k, r0, sigma
 from lagrotor.theory import elliptic_edge, exponent_series, growth_squared, most_growth, paired_series
 from lagrotor.theory.paired_precession import stability

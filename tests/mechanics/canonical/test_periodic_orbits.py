@@ -9,9 +9,10 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.errors import DomainError, InputError, SingularError
-from lagrotor.mechanics import System, coordinates, map_normal_form, t
+from lagrotor.mechanics import System, coordinates, t
 from lagrotor.mechanics.canonical import return_maps
 from lagrotor.mechanics.canonical.polynomials import linear_form, poisson_bracket, polynomial, variable
+from lagrotor.mechanics.canonical.return_maps import map_normal_form
 from lagrotor.mechanics.canonical.taylor_series import jet_space
 from lagrotor.numerics import measured_order
 from tests.systems import henon_heiles
