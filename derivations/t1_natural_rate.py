@@ -64,7 +64,7 @@ prove(
 # %%
 x, x_v, x_a = sp.symbols("x x_dot x_ddot", real=True)
 small = sp.Symbol("epsilon")
-motion = euler_lagrange(pair.L, AXES) - pair.push
+motion = euler_lagrange(pair.L, AXES) - pair.generalised_forces
 still = {q: value + small * q for q, value in upright.items()} | {v: small * v for v in (*AXES.v, *AXES.a)}
 first = motion.xreplace(still).diff(small).subs(small, 0)
 common = {x1: x, x2: x, AXES.v[0]: x_v, AXES.v[3]: x_v, AXES.a[0]: x_a, AXES.a[3]: x_a}
@@ -167,7 +167,7 @@ prove(
 # %%
 rest = dict.fromkeys(AXES.v, 0)
 prove(
-    (pair.L.subs(rest), sum(e**2 for e in pair.push.subs(rest))),
+    (pair.L.subs(rest), sum(e**2 for e in pair.generalised_forces.subs(rest))),
     (0, 0),
     "at rest there is neither energy nor force",
     names=("L", "|Q|^2"),

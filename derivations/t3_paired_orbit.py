@@ -59,7 +59,7 @@ multipliers = sp.symbols("lambda_1 lambda_2 tau", real=True)
 opposite = {G_1: G, G_2: -G}
 slopes = sp.Matrix([pair.constraints]).jacobian(list(AXES.q))
 forces = slopes.T * sp.Matrix([*multipliers])
-motion = (euler_lagrange(pair.L, AXES) - sp.Matrix(pair.push) - forces).subs(opposite)
+motion = (euler_lagrange(pair.L, AXES) - sp.Matrix(pair.generalised_forces) - forces).subs(opposite)
 x1_v, y1_v, z1_v, x2_v, y2_v, z2_v = AXES.v
 x1_a, y1_a, z1_a, x2_a, y2_a, z2_a = AXES.a
 lambda_1, lambda_2, tau = multipliers

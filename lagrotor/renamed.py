@@ -18,11 +18,17 @@ RENAMED = {
 # Old name of a package → where it is defined now.
 NAMES = {
     "lagrotor.mechanics.FourierSeries": "lagrotor.mechanics.fourier.FourierSeries",
+    "lagrotor.mechanics.lindstedt_poincare": "lagrotor.mechanics.weakly_nonlinear.periodic_series",
     "lagrotor.mechanics.characteristic_exponents": "lagrotor.mechanics.weakly_nonlinear.characteristic_exponents",
     "lagrotor.mechanics.map_normal_form": "lagrotor.mechanics.canonical.return_maps.map_normal_form",
     "lagrotor.mechanics.project_position": "lagrotor.mechanics.constraints.project_position",
     "lagrotor.mechanics.project_velocity": "lagrotor.mechanics.constraints.project_velocity",
     "lagrotor.mechanics.solve_constrained": "lagrotor.mechanics.constraints.solve_constrained",
+}
+
+# Class → {old attribute: new attribute}. The class takes `old_attribute` as its `__getattr__`.
+ATTRIBUTES = {
+    "Equations": {"mass": "mass_matrix", "push": "generalised_forces"},
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
@@ -56,6 +62,15 @@ def old_name(package: str, name: str) -> Any:
     warn(f"{package}.{name} is now {new}: import that instead", DeprecationWarning, stacklevel=4)
     module, attribute = new.rsplit(".", 1)
     return getattr(import_module(module), attribute)
+
+
+def old_attribute(instance: Any, name: str) -> Any:
+    """Return the attribute that an object had under an old name; raise AttributeError where it had none."""
+    for kind in type(instance).__mro__:
+        if new := ATTRIBUTES.get(kind.__name__, {}).get(name):
+            warn(f"{kind.__name__}.{name} is now {new}: use that instead", DeprecationWarning, stacklevel=2)
+            return getattr(instance, new)
+    return object.__getattribute__(instance, name)
 
 
 def new_name(name: str) -> str | None:

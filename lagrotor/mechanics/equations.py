@@ -14,7 +14,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
@@ -35,6 +35,7 @@ from lagrotor.mechanics.lagrangian import (
     total_derivative,
 )
 from lagrotor.mechanics.quasi_velocities import Kinematics, Pairs, boltzmann_hamel, check_velocities, kinematics
+from lagrotor.renamed import old_attribute
 
 _FAST = 1000  # by which random velocities are multiplied where friction must have grown
 
@@ -62,6 +63,9 @@ class Equations:
     forces: tuple[sp.Expr, ...] = ()
     names: tuple[str, ...] = ()
     velocities: Mapping[sp.Symbol, sp.Expr] | Pairs = ()
+
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
 
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
@@ -262,19 +266,38 @@ class Equations:
         """The rigid bodies of which the Lagrangian is made, where it is."""
         return tuple(getattr(self.lagrangian, "bodies", ()))
 
+    @property
+    def momenta(self) -> sp.Matrix:
+        """The conjugate momenta p = ∂L/∂v, shape (n, 1)."""
+        return free.momenta(self.L, self.c)
+
     @cached_property
-    def mass(self) -> sp.Matrix:
-        """M = ∂²L/∂v∂v, shape (n, n)."""
+    def mass_matrix(self) -> sp.Matrix:
+        """The mass matrix M = ∂²L/∂v∂v, shape (n, n): M a = forcing, with constraints M a = forcing + Gᵀ λ."""
         return free.mass_matrix(self.L, self.c)
 
     @cached_property
     def bias(self) -> sp.Matrix:
-        """h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1)."""
+        """The bias h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1)."""
         return free.bias(self.L, self.c)
 
     @property
-    def push(self) -> sp.Matrix:
-        """Q: the given forces less ∂D/∂v, shape (n, 1)."""
+    def forcing(self) -> sp.Matrix:
+        """The column Q − h, shape (n, 1), without the multipliers: M a = forcing + Gᵀ λ along a motion."""
+        return self.generalised_forces - self.bias
+
+    @cached_property
+    def accelerations(self) -> sp.Matrix:
+        """The accelerations a in q, v and t, shape (n, 1); under constraints those of a state on them.
+
+        For small systems: the adjugate of M grows fast with n. `rhs` has them in numbers. SingularError is raised where
+        det M vanishes identically, or the constraints are dependent.
+        """
+        return constrained_accelerations(self)[0]
+
+    @property
+    def generalised_forces(self) -> sp.Matrix:
+        """The generalised forces Q, shape (n, 1): `forces` less ∂D/∂v."""
         return free.force_column(self.forces or None, self.c, "System") - gradient(self.dissipation, self.c.v)
 
     @cached_property
@@ -314,7 +337,7 @@ class Equations:
     def motion(self) -> sp.Matrix:
         """M a + h − Q − Gᵀ λ, shape (n, 1): zero along a motion."""
         lam = sp.Matrix(len(self.multipliers), 1, self.multipliers)
-        return free.euler_lagrange(self.L, self.c) - self.push - self.rows.T * lam
+        return free.euler_lagrange(self.L, self.c) - self.generalised_forces - self.rows.T * lam
 
     @cached_property
     def hamel(self) -> sp.Matrix:
@@ -331,7 +354,7 @@ class Equations:
         M, h = boltzmann_hamel(self.L, self.c, given, self.speeds)
         lam = sp.Matrix(len(given.left), 1, [self.multipliers[i] for i in given.left])
         reactions = rows_left(self)[0].T * lam
-        return M * sp.Matrix(self.speed_rates) + h - (given.B.T * self.push + reactions).xreplace(put)
+        return M * sp.Matrix(self.speed_rates) + h - (given.B.T * self.generalised_forces + reactions).xreplace(put)
 
     @property
     def energy(self) -> sp.Expr:
@@ -344,7 +367,7 @@ class Equations:
         moved = -self.residual.subs(dict.fromkeys(self.c.v, 0))
         work = sum((lam * b for lam, b in zip(self.multipliers, moved, strict=True)), sp.S.Zero)
         by_time = derivative(self.L, t)
-        return self.push.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
+        return self.generalised_forces.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
 
 
 def reaction(name: str | int) -> sp.Symbol:
@@ -396,8 +419,8 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     SingularError
         When det M or det S vanishes identically.
     """
-    M, G = system.mass, system.rows
-    push, by_reaction = push_left(replace(system, velocities=()), system.push)
+    M, G = system.mass_matrix, system.rows
+    push, by_reaction = push_left(replace(system, velocities=()), system.generalised_forces)
     # M⁻¹ (Q − h) and W = M⁻¹ Gᵀ side by side, so that M is inverted once.
     right = (push - system.bias).row_join(G.T + by_reaction)
     solved = linear_solve(M, right, singular_mass("accelerations", M, system.c))

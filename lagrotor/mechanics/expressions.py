@@ -9,7 +9,7 @@ from sympy.core.function import AppliedUndef
 from lagrotor.algebra import normal_form
 from lagrotor.algebra.enclosures import jet_of
 from lagrotor.algebra.subexpressions import length, subexpressions, with_shared_parts
-from lagrotor.errors import InputError, NotExactError
+from lagrotor.errors import InputError, NotExactError, near
 
 _PLAIN = (
     "coordinates and velocities are plain symbols here; use those of coordinates(…), c.q and c.v, and t for the time"
@@ -126,6 +126,21 @@ def by_symbol(where: str, values: Mapping[Any, Any], symbols: Iterable[sp.Symbol
         raise InputError(f"{where}: {text} is text: give a number or an expression")
     names = {str(s): s for s in symbols}
     return {names.get(str(key), key): value for key, value in values.items()}
+
+
+def in_order(where: str, numbers: Any, symbols: Sequence[sp.Symbol]) -> Any:
+    """Return a mapping {symbol or name: number} as a list in the order of the symbols; anything else unchanged."""
+    if not isinstance(numbers, Mapping):
+        return numbers
+    names, by_name = [str(s) for s in symbols], {str(key): number for key, number in numbers.items()}
+    if unknown := [name for name in by_name if name not in names]:
+        meant = near(unknown[0], names) or ": leave it out"
+        raise InputError(f"{where} names {unknown[0]}, which is none of {', '.join(names)}{meant}")
+    if missing := [name for name in names if name not in by_name]:
+        raise InputError(f"{where} lacks {', '.join(missing)}: give each of {', '.join(names)} a number")
+    if len(by_name) < len(numbers):
+        raise InputError(f"{where} = {numbers}: a symbol and its name have two numbers: give one")
+    return [by_name[name] for name in names]
 
 
 def no_letter(where: str, left: Iterable[sp.Symbol]) -> None:

@@ -166,7 +166,7 @@ def _in_own_velocities(system: Equations) -> list[sp.Expr]:
 
 
 def in_markdown(system: Equations) -> str:
-    """What a notebook shows."""
+    """Return the formulas as Markdown for a notebook."""
     return "\n\n".join(
         f"**{heading}**\n\n" + "\n\n".join(f"$${formula}$$" for formula in lines)
         for heading, lines in formulas(system).items()
@@ -174,7 +174,7 @@ def in_markdown(system: Equations) -> str:
 
 
 def in_latex(system: Equations) -> str:
-    """The equations of motion and the constraints as an `align` of LaTeX, with a number each."""
+    """Return the equations of motion and the constraints as an `align` of LaTeX: `System.latex`."""
     parts = formulas(system)
     lines = [*parts.get("Equations of motion", parts.get("Bodies", [])), *parts.get("Constraints", [])]
     rows = " \\\\\n".join(line.replace(" = ", " &= ", 1) for line in lines)

@@ -20,19 +20,37 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrotor.algebra import along, decide_zero, derivative
-from lagrotor.errors import InputError, SingularError
+from lagrotor.errors import InputError, SingularError, near
 
 t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a constraint depends on it explicitly
 
 
 @dataclass(frozen=True)
 class Coordinates:
-    """The names of one configuration: coordinates q, velocities v = q', accelerations a = q'', n of each.
+    """The coordinates of a system with their velocities and accelerations, n of each.
+
+    Every symbol is found by its name, too: c.theta, c["theta_dot"]. Of coordinates called q, v or a only c["q"] is the symbol,
+    because c.q are all of them.
+
+    Attributes
+    ----------
+    q : tuple of Symbol
+        The coordinates.
+    v : tuple of Symbol
+        The velocities q'.
+    a : tuple of Symbol
+        The accelerations q''.
 
     Raises
     ------
     InputError
         When the lengths differ or a symbol appears twice.
+
+    Examples
+    --------
+    >>> c = coordinates("theta")
+    >>> c.theta is c.q[0] and c["theta_dot"] is c.v[0]
+    True
     """
 
     q: tuple[sp.Symbol, ...]
@@ -48,6 +66,23 @@ class Coordinates:
         symbols = (*self.q, *self.v, *self.a, t)
         if repeated := sorted({str(s) for s in symbols if symbols.count(s) > 1}):
             raise InputError(f"Coordinates: {', '.join(repeated)} repeated: the symbols are independent; rename one")
+
+    def __getitem__(self, name: str) -> sp.Symbol:
+        """Return the coordinate, velocity or acceleration of a name."""
+        symbols = {str(s): s for s in (*self.q, *self.v, *self.a)}
+        if name not in symbols:
+            meant = near(name, symbols) or ": the symbols of a configuration are found by their names"
+            raise InputError(f"Coordinates: {name!r} is none of {', '.join(symbols)}{meant}")
+        return symbols[name]
+
+    def __getattr__(self, name: str) -> sp.Symbol:
+        """Return the symbol of a name that is no attribute."""
+        if name.startswith("_") or "a" not in vars(self):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except InputError as refusal:
+            raise AttributeError(str(refusal), name=name, obj=self) from None
 
 
 def coordinates(names: str | Sequence[str]) -> Coordinates:

@@ -110,7 +110,9 @@ def state_equations(
     units = [joint.unit_length for joint in system.ball_joints]
     held = [g for g in system.constraints if g not in units]
     residual = [system.residual[i].xreplace(put) for i in system.left]
-    letters = system.L.free_symbols.union(system.push.free_symbols, *(e.free_symbols for e in system.residual))
+    letters = system.L.free_symbols.union(
+        system.generalised_forces.free_symbols, *(e.free_symbols for e in system.residual)
+    )
     inputs = tuple({str(s): s for s in letters}.get(str(u), u) for u in inputs)
     here = _place(system, at, inputs, [*F, *V], residual)
     there = partial(_values, at, here)
@@ -152,11 +154,11 @@ def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearS
     dependent there; InputError when something depends on time.
     """
     c, point = system.c, at.at if isinstance(at, Equilibrium) else at
-    if system.push.free_symbols & {*system.multipliers}:
+    if system.generalised_forces.free_symbols & {*system.multipliers}:
         raise InputError(
             "linearise: a force has the reaction of a constraint: give outputs or a velocity, for A, B, C, D"
         )
-    motion = euler_lagrange(system.L, c) - system.push
+    motion = euler_lagrange(system.L, c) - system.generalised_forces
     here = _place(system, point, (), motion, list(system.residual))
     there = partial(_values, point, here)
     force, G = there(motion), there(system.rows)
@@ -187,7 +189,7 @@ def _place(
     equations of motion, or it is off the constraints."""
     c, speeds, parts = system.c, system.speeds, [*motion, *system.residual]
     used = set[sp.Basic]().union(*(e.free_symbols for e in parts))
-    letters = {*c.q, *speeds} | system.L.free_symbols | system.push.free_symbols | used
+    letters = {*c.q, *speeds} | system.L.free_symbols | system.generalised_forces.free_symbols | used
     if strangers := [str(u) for u in inputs if u not in letters or u in (*c.q, *c.v, *speeds, t)]:
         raise InputError(
             f"linearise: inputs {', '.join(strangers)} are no letters of the system's forces or constraints"

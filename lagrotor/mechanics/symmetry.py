@@ -50,46 +50,42 @@ class FirstIntegral:
 
 
 def cyclic_coordinates(system: Equations) -> tuple[sp.Symbol, ...]:
-    """Those q with a conserved momentum: ∂L/∂q, Q and the column of G decided to vanish identically. Goldstein §2.6."""
+    """Return the coordinates for which ∂L/∂q, Q and the column of G vanish identically. Goldstein §2.6."""
     return tuple(
         q
         for j, q in enumerate(system.c.q)
-        if _vanish([derivative(system.L, q), system.push[j], *(system.rows[i, j] for i in range(system.rows.rows))])
+        if _vanish(
+            [
+                derivative(system.L, q),
+                system.generalised_forces[j],
+                *(system.rows[i, j] for i in range(system.rows.rows)),
+            ]
+        )
     )
 
 
 def variation(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
-    """δL = ∂L/∂q · ξ + ∂L/∂v · ξ' under q → q + ε ξ(q, v, t): L along the prolonged vector field.
-
-    Raises InputError when ξ does not have n components or contains an acceleration.
-    """
+    """Differentiate L along the prolonged vector field of ξ: `System.variation`."""
     c, field = system.c, _field(system, xi)
     carried = (total_derivative(component, c) for component in field)
     return along(system.L, (*c.q, *c.v), (*field, *carried))
 
 
 def invariance(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> Decision:
-    """Whether δL + Q · ξ = dF/dt and G ξ = 0 identically, F the gauge function: then p · ξ − F is conserved.
-
-    Sufficient: a ξ that preserves the constraints only as a surface, or a δL that is dF/dt only on it, is not enough.
-    Raises InputError as `variation` does, and for a gauge function that contains an acceleration.
-    """
+    """Decide if δL + Q · ξ = dF/dt and G ξ = 0 identically: `System.invariance`."""
     gauge = expression("noether: gauge", gauge)
     if higher := gauge.free_symbols & {*system.c.a}:
         raise InputError(
             f"noether: gauge = {gauge} contains {', '.join(map(str, higher))}: F depends on q, v and t alone"
         )
     field = _field(system, xi)
-    left = variation(system, xi) + system.push.dot(field) - total_derivative(gauge, system.c)
+    left = variation(system, xi) + system.generalised_forces.dot(field) - total_derivative(gauge, system.c)
     entries = sp.Matrix([left, *(system.rows * field)])
     return decide_equal(entries, sp.zeros(len(entries), 1))
 
 
 def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> FirstIntegral:
-    """p · ξ − F, conserved along every motion, because ξ changes L by dF/dt alone. Arnold §20.
-
-    Raises NotASymmetryError when that is not decided, InputError as `variation` does.
-    """
+    """Return p · ξ − F where `invariance` holds: `System.noether`."""
     decision = invariance(system, xi, gauge)
     if decision.answer != "zero":
         raise NotASymmetryError(
@@ -102,18 +98,14 @@ def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero
 
 
 def noether_rate(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
-    """d/dt (p · ξ) = δL + Q · ξ + λ · (G ξ) along a motion, with the names of the system's multipliers."""
+    """Return d/dt (p · ξ) along a motion: `System.noether_rate`."""
     field = _field(system, xi)
     work = sum((lam * e for lam, e in zip(system.multipliers, system.rows * field, strict=True)), sp.S.Zero)
-    return variation(system, xi) + system.push.dot(field) + work
+    return variation(system, xi) + system.generalised_forces.dot(field) + work
 
 
 def conserved(system: Equations, f: sp.Expr) -> Decision:
-    """Whether f(q, v, t) is a first integral: df/dt with the accelerations put in, decided.
-
-    Under constraints the accelerations are those of a consistent state; what vanishes only by virtue of the constraints
-    is "undecided".
-    """
+    """Decide if df/dt vanishes with the accelerations put in: `System.conserved`."""
     f = expression("conserved: f", f)
     if f.free_symbols & {*system.c.a} or not f.free_symbols & {*system.c.q, *system.c.v, *system.speeds, t}:
         raise InputError(f"conserved: f = {f} must be an expression in q, v and t")
@@ -135,7 +127,7 @@ def _rate_along_speeds(system: Equations, f: sp.Expr) -> sp.Expr:
     put = dict(zip(c.v, given.velocity, strict=True))
     M, h = boltzmann_hamel(system.L, c, given, u)
     singular = f"conserved: the mass matrix is singular in {', '.join(map(str, u))}: use fewer coordinates"
-    rates = linear_solve(M, given.B.T * system.push.xreplace(put) - h, singular)
+    rates = linear_solve(M, given.B.T * system.generalised_forces.xreplace(put) - h, singular)
     moved = along(f.xreplace(put), (*c.q, t, *u), (*given.velocity, 1, *rates))
     unit = {q[0]: sp.sqrt(1 - sum(x**2 for x in q[1:])) for q in (joint.quaternion for joint in system.ball_joints)}
     return moved.xreplace(unit)
@@ -172,14 +164,7 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
 
 
 def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]) -> Kind:
-    """The system in the other coordinates, whose Lagrangian is the Routhian R = L − Σ p v at the momentum values p.
-
-    cyclic: names of cyclic coordinates, "phi psi", with momenta called p_phi, p_psi; or a mapping from them to momenta of
-    your own. Forces, friction and constraints go with it, their cyclic velocities eliminated too; v = −∂R/∂p gives those
-    back. Goldstein §8.3 (there with the opposite sign). Only the cyclic velocities have to enter L quadratically.
-
-    Raises NotASymmetryError when a coordinate is not cyclic, and DomainError, SingularError, InputError as `legendre`.
-    """
+    """Reduce a system by cyclic coordinates: `System.routh`."""
     c, L = system.c, system.L
     chosen = _momenta(c, cyclic)
     free = cyclic_coordinates(system)
@@ -199,7 +184,9 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
     velocities = _velocities("routh", L, u, p)
     rest = Coordinates(*(tuple(names[i] for i in kept) for names in (c.q, c.v, c.a)))
     put = dict(zip(u, velocities, strict=True))
-    forces = tuple(system.push[i].subs(put) for i in kept) if system.forces or system.dissipation != 0 else ()
+    forces = (
+        tuple(system.generalised_forces[i].subs(put) for i in kept) if system.forces or system.dissipation != 0 else ()
+    )
     rolling = tuple(f.subs(put) for f in system.rolling)
     if entering := {*chosen} & set().union(*(e.free_symbols for e in (*forces, *rolling, *system.constraints))):
         raise NotASymmetryError(
@@ -288,13 +275,7 @@ _POINTS = 3  # at which accelerations are compared before anything is derived
 
 
 def same_as(system: Equations, other: Equations) -> Decision:
-    """Whether both have the same accelerations in the same coordinates: zero, or nonzero with a witness, and the domain.
-
-    Lagrangians may differ by a factor and a total time derivative; parts that do not interact, each with another factor, are
-    "undecided". Forces and constraints are compared by what they do; what agrees only by virtue of constraints is "undecided".
-
-    Raises InputError when the coordinates are not the same: bring one into those of the other by `in_coordinates`.
-    """
+    """Decide if two systems have the same accelerations: `System.same_as`."""
     if not isinstance(other, Equations):
         raise InputError(f"same_as: {other!r} is no System to compare with")
     if system.c != other.c:
@@ -315,7 +296,9 @@ def same_as(system: Equations, other: Equations) -> Decision:
         left = factor * system.L - other.L
         with suppress(NotExactError):
             left = normal_form(left)
-        decision = decide_equal(euler_lagrange(left, system.c), factor * system.push - other.push)
+        decision = decide_equal(
+            euler_lagrange(left, system.c), factor * system.generalised_forces - other.generalised_forces
+        )
         reason = "Their Lagrangians differ by more than one factor and a total derivative."
     if decision.answer == "nonzero":
         return replace(decision, answer="undecided", reason=f"{reason} {decision.reason}")
@@ -324,7 +307,7 @@ def same_as(system: Equations, other: Equations) -> Decision:
 
 def _refutation(system: Equations, other: Equations) -> Decision | None:
     """Accelerations that differ at a point, where their enclosures are apart; None where none is seen or enclosed."""
-    given = [(each.mass, each.push - each.bias) for each in (system, other)]
+    given = [(each.mass_matrix, each.generalised_forces - each.bias) for each in (system, other)]
     symbols = set().union(*(part.free_symbols for pair in given for part in pair))
     for point in points(symbols, _POINTS):
         try:
@@ -341,7 +324,7 @@ def _refutation(system: Equations, other: Equations) -> Decision | None:
 
 def _factor(system: Equations, other: Equations) -> sp.Expr:
     """By what the other mass matrix is larger, where that is a number or a parameter: from its shortest entry; else 1."""
-    entries = [pair for pair in zip(system.mass, other.mass, strict=True) if 0 not in pair]
+    entries = [pair for pair in zip(system.mass_matrix, other.mass_matrix, strict=True) if 0 not in pair]
     mine, theirs = min(entries, key=lambda pair: sp.count_ops(pair), default=(sp.S.One, sp.S.One))
     try:
         ratio = normal_form(theirs / mine)
@@ -351,14 +334,7 @@ def _factor(system: Equations, other: Equations) -> sp.Expr:
 
 
 def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Expr]) -> Kind:
-    """The system in new coordinates: where = {old coordinate: expression in the new ones and t}, fewer where constraints
-    are solved by it; constraints that then vanish identically are left out.
-
-    L, D and the constraints are put in with q(Q, t) and v = dq/dt, forces by the virtual work Q' = (∂q/∂Q)ᵀ Q. Old
-    coordinates that are not named keep their names, and must be among the new ones.
-
-    Raises InputError when an old coordinate is neither given nor kept.
-    """
+    """Rewrite a system in new coordinates: `System.in_coordinates`."""
     old = system.c
     if not isinstance(c, Coordinates) or not isinstance(where, Mapping):
         raise InputError(

@@ -22,7 +22,7 @@ def _constraint_equations() -> str:
     from lagrotor.pair.notation import AXES, a, b, k
 
     system = axes_pair()
-    return program_source(Program((*AXES.q, a, b, k), (), (*system.constraints, *system.rows, *system.mass)))
+    return program_source(Program((*AXES.q, a, b, k), (), (*system.constraints, *system.rows, *system.mass_matrix)))
 
 
 def consistent_scene(

@@ -17,6 +17,7 @@ import sympy as sp
 
 from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import in_order
 from lagrotor.mechanics.lagrangian import Coordinates, coordinates, t
 from lagrotor.mechanics.running.programs import constrained_motion, depends_on_time
 from lagrotor.models.programs.minimal_program import FORCE, observation, program
@@ -248,6 +249,7 @@ def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
     used = set().union(*(e.free_symbols for e in (*outputs, *held)), *(e.free_symbols for _, e in stages))
     named = {s for s in {*system.L.free_symbols, *system.dissipation.free_symbols} if str(s) in {*map(str, values)}}
     parameters = tuple(sorted((used | named) - own, key=str))
+    q0, v0 = in_order("proved: q0", q0, system.c.q), in_order("proved: v0", v0, system.c.v)
     start = (*_numbers("q0", q0, n), *_numbers("v0", v0, n), *((ZERO,) if timed else ()))
     made = Program((*states, *parameters), tuple(stages), outputs, shared=len(stages) > 100)
     about = of_system(system, [*map(str, made.arguments)])

@@ -345,7 +345,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "the input theta moves": lambda: pendulum.linearise({q: 0}, VALUES, (q,)),
         "inputs theta are no letters": lambda: pendulum.linearise({q: 0}, inputs=(q,)),
         "inputs = m must be a tuple": lambda: pendulum.linearise({q: 0}, VALUES, m),
-        "must be different letters": lambda: CART.linearise({ct: 0}, {m: 1}, inputs=(F, "F")),
+        "must be different symbols": lambda: CART.linearise({ct: 0}, {m: 1}, inputs=(F, "F")),
         r"outputs\[0\] = 'theta' is no": lambda: pendulum.linearise({q: 0}, VALUES, (), ("theta",)),
         "linearise: k without a value": lambda: pendulum.linearise({q: 0}, VALUES, (), (k,)),
         "x moves there .* forces change": lambda: SPRING.linearise({x: 0, u: 1}, outputs=(x,)),
@@ -354,7 +354,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "the point is off the constraints: ": lambda: rolling_disc()[0].linearise(DISC | {"psi_dot": 1}),
         "theta moves there and enters": lambda: CART.linearise({ct: 0, cw: 1}, inputs=(F,)),
         r"write a letter for an input F\(t\)": lambda: cart_and_pole(F * t).linearise({ct: 0}, inputs=(F,)),
-        r"of a function F\(t\) write a letter F": lambda: System(A, UNIT + v * sp.Function("F")(t).diff(t)).linearise(
+        r"for a function F\(t\) write a symbol F": lambda: System(A, UNIT + v * sp.Function("F")(t).diff(t)).linearise(
             {q: 0}, inputs=(sp.Function("F")(t),)
         ),
         # Weakly nonlinear motion

@@ -108,7 +108,7 @@ def state_of_angles(seed: int) -> dict[sp.Symbol, float]:
 
 def accelerated(system: System, state: dict[sp.Symbol, float]) -> np.ndarray:
     """Constrained accelerations at one state."""
-    parts = (system.mass, system.bias, system.rows, system.gamma, system.push)
+    parts = (system.mass_matrix, system.bias, system.rows, system.gamma, system.generalised_forces)
     M_at, h, G, gamma, Q_at = (evaluate(e, state) for e in parts)
     return solve_constrained(M_at, h.ravel(), G, gamma.ravel(), Q_at.ravel())[0]
 

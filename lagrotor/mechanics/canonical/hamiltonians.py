@@ -207,11 +207,7 @@ class Hamiltonian:
 
 
 def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -> Hamiltonian:
-    """H = p·v − L with the momenta p = ∂L/∂v, named p_q unless given.
-
-    Raises DomainError for what no Hamiltonian has: forces, friction, constraints, or an L that is not quadratic in the
-    velocities; SingularError where det M vanishes.
-    """
+    """Return H = p·v − L: `System.hamiltonian`."""
     if system.forces or system.dissipation != 0 or system.rolling or system.constraints:
         raise DomainError(
             "hamiltonian: forces, friction and constraints have no Hamiltonian here: write what has a potential into L, and use "

@@ -31,7 +31,7 @@ def program(massive: bool, bar: bool, body: int) -> Program:
     system = axes_pair(bar)
     if body:
         push = sp.Matrix([*(_FORCE if body == 1 else (0, 0, 0)), *(_FORCE if body == 2 else (0, 0, 0))])
-        system = replace(system, forces=tuple(system.push + push))
+        system = replace(system, forces=tuple(system.generalised_forces + push))
     made = motion_program(system).program
     return Program((*AXES.q, *AXES.v, *parameters), made.stages, made.outputs)
 

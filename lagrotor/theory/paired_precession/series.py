@@ -23,7 +23,7 @@ from sympy.polys.domains.domain import Domain
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.fourier import FourierSeries, Series
-from lagrotor.mechanics.weakly_nonlinear import PeriodicSeries, Residual, lindstedt_poincare
+from lagrotor.mechanics.weakly_nonlinear import PeriodicSeries, Residual, periodic_series
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.notation import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
 from lagrotor.pair.scene import Scene
@@ -241,5 +241,5 @@ def _solve_series(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> Pa
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
     exactly, numeric = equations(shape, ratio, field), None if exact else equations(shape, ratio)
     rest = [field.zero, field.zero, field.one, field.zero, field.zero]  # x, Y, z and the two multipliers
-    solution = lindstedt_poincare(exactly, rest, mode, order, field, numeric=numeric)
+    solution = periodic_series(exactly, rest, mode, order, field, numeric=numeric)
     return PairedSeries(solution, order, shape, ratio, field)

@@ -33,7 +33,7 @@ def test_what_acts_along_a_line_is_what_sympy_has() -> None:
     line = Pathway.line(C, (0, 0, 0), C.q)
     mine = (
         -System(C, -line.spring(k, l)).bias,
-        System(C, m * C.v[0] ** 2, dissipation=line.damper(d)).push,
+        System(C, m * C.v[0] ** 2, dissipation=line.damper(d)).generalised_forces,
         line.actuator(F),
     )
     random = np.random.default_rng(1)
