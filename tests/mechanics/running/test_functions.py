@@ -163,7 +163,7 @@ def test_a_value_may_be_named_with_the_arguments_of_its_function() -> None:
     np.testing.assert_array_equal(run.q, WELL.simulate({m: 1, U: x**2}, (1,), (0,), T).q)
     z = sp.Symbol("z")
     np.testing.assert_array_equal(WELL.simulate({m: 1, U(z): z**2}, (1,), (0,), T).q, run.q)
-    assert WELL.equilibria(values={m: 1, U(x): x**2}, box={x: (-1, 1)})[0].at[x] == 0.0
+    assert float(WELL.equilibria(values={m: 1, U(x): x**2}, box={x: (-1, 1)})[0].at[x]) == 0
     for key, words in ((U(2 * x), r"values name U\(2\*x\), no function of different symbols: name U alone"),):
         with pytest.raises(InputError, match=words):
             WELL.simulate({m: 1, key: x}, (1,), (0,), T)
