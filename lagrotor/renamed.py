@@ -32,7 +32,11 @@ ATTRIBUTES = {
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
-KEYWORDS: dict[str, dict[str, str]] = {}
+KEYWORDS: dict[str, dict[str, str]] = {
+    "MovingFrame.place": {"seen": "frame"},
+    "MovingFrame.velocity": {"seen": "frame"},
+    "Pathway.spring": {"rest": "rest_length"},
+}
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -7,16 +7,14 @@ from pathlib import Path
 import pytest
 
 import lagrotor
-from lagrotor.lazy_imports import names_of_face
 
 PACKAGE = Path(lagrotor.__file__).parent
 DOCS = PACKAGE.parent / "docs"
 MODULES = sorted(
     {
-        module
-        for face in sorted(PACKAGE.rglob("__init__.py"))
-        for module in names_of_face(face).values()
-        if ">>>" in (PACKAGE.parent / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8")
+        ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts)
+        for path in PACKAGE.rglob("*.py")
+        if ">>> " in path.read_text(encoding="utf-8")
     }
 )
 PAGES = [page for page in sorted(DOCS.glob("*.md")) if ">>>" in page.read_text(encoding="utf-8")]

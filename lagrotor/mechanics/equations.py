@@ -110,14 +110,14 @@ class Equations:
                 raise InputError(
                     f"System: {min(map(str, used))} is a velocity of a ball joint and a letter of a body: rename one"
                 )
-        named = {u: e for joint in joints for u, e in joint.own_velocities.items()}
+        named = {u: e for joint in joints for u, e in joint.ball_velocities.items()}
         given = dict(check_velocities(self.c, self.velocities, named))
         turned = {q: joint for joint in joints for q in joint.quaternion}
         if joints and not given:
             for q, v in zip(self.c.q, self.c.v, strict=True):
-                given |= turned[q].own_velocities if q in turned else {v: v}
+                given |= turned[q].ball_velocities if q in turned else {v: v}
         for joint in joints:
-            given |= joint.own_velocities
+            given |= joint.ball_velocities
             if joint.unit_length not in self.constraints:
                 object.__setattr__(self, "constraints", (*self.constraints, joint.unit_length))
                 if self.names:

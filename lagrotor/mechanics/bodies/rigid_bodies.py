@@ -9,16 +9,16 @@ keeps the bodies, whose tree gives faster code and the picture.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
+from warnings import warn
 
 import sympy as sp
 from mpmath import mp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
-from lagrotor.mechanics.bodies import moving_frames
+from lagrotor.mechanics.bodies import force_elements, moving_frames
 from lagrotor.mechanics.bodies.contacts import Contact, contact
-from lagrotor.mechanics.bodies.force_elements import push, torque
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
@@ -87,11 +87,8 @@ class Body:
         return lines or [[[0, 0, 0], [0, 0, 0]]]
 
 
-def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: Vector = (0, 0, 0)) -> Body:
-    """A rigid body fixed to the frame: mass, inertia (3,) or (3, 3) about its centre of mass, in the frame's axes.
-
-    Raises InputError for a shape that is neither, or an inertia that is not symmetric.
-    """
+def make_body(frame: MovingFrame, mass: Any, inertia: Any, centre: Vector) -> Body:
+    """Fix a rigid body to a frame: `Frame.body`."""
     try:
         I = sp.diag(*inertia) if sp.Matrix(inertia).shape in ((3, 1), (1, 3)) else sp.Matrix(inertia)
         place = sp.Matrix(list(centre))
@@ -137,22 +134,411 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Frame(MovingFrame):
-    """Frame(c) is the ground; `turned` and `moved` lead to others; `body` fixes a rigid body to one; `push` and `torque` give the
-    generalised forces of a force at one of its points, and of a torque on it. Joints by name lead to others, too, and close
-    loops: see `moving_frames`.
+    """A frame of a mechanism; Frame(c) is the ground.
 
-    c = coordinates("phi theta psi")
-    top = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
-    System(c, top.kinetic - top.potential((0, 0, -g)))
+    `turned`, `moved` and the joints lead to other frames. Vectors, points and axes that a method takes are in the axes of
+    the frame that it belongs to. Angles and lengths are expressions, or names of coordinates; an axis is "x", "y" or "z", or
+    a direction (x, y, z).
+
+    Attributes
+    ----------
+    c : Coordinates
+        The coordinates of the system.
+    parent, axis, amount, quaternion, omega
+        The step from the frame before: see `MovingFrame`.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> m, g, l, I1, I3 = symbols("m g l I1 I3", positive=True)
+    >>> c = coordinates("phi theta psi")
+    >>> top = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+    >>> System(c, top.kinetic - top.potential((0, 0, -g))).cyclic
+    (phi, psi)
     """
 
-    body = make_body
-    push = push
-    torque = torque
-    weld, pin, prismatic, screw = moving_frames.weld, moving_frames.pin, moving_frames.prismatic, moving_frames.screw
-    cylindrical, universal, planar = moving_frames.cylindrical, moving_frames.universal, moving_frames.planar
-    ball, free = moving_frames.ball_joint, moving_frames.free
-    coincides, keeps_axis = moving_frames.coincides, moving_frames.keeps_axis
+    def body(self, mass: Any, inertia: Any = (0, 0, 0), centre: Vector = (0, 0, 0)) -> Body:
+        """Fix a rigid body to this frame.
+
+        Parameters
+        ----------
+        mass : Expr
+            The mass in kg.
+        inertia : sequence or Matrix, default (0, 0, 0)
+            The principal inertias (I1, I2, I3) or the inertia (3, 3) about the centre of mass, in kg m².
+        centre : sequence, default (0, 0, 0)
+            The centre of mass (x, y, z), in m.
+
+        Returns
+        -------
+        Body
+            The body with its energies.
+
+        Raises
+        ------
+        InputError
+            For any other shape, an inertia that no body has, or one that depends on a coordinate.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("theta")).pin("theta").body(mass=2, centre=(3, 0, 0)).kinetic.expression
+        9*theta_dot**2
+        """
+        return make_body(self, mass, inertia, centre)
+
+    def force(self, components: Vector, at: Vector = (0, 0, 0), axes: MovingFrame | None = None) -> sp.Matrix:
+        """Return the generalised forces of a force that acts at a point of this frame.
+
+        Parameters
+        ----------
+        components : sequence
+            The force (x, y, z), in N.
+        at : sequence, default (0, 0, 0)
+            The point in this frame, in m.
+        axes : Frame or None, optional
+            The frame in whose axes the force is given; by default this one, Frame(c) for the ground.
+
+        Returns
+        -------
+        Matrix
+            Q for `forces`, shape (n, 1).
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> rod = Frame(coordinates("theta")).pin("theta")
+        >>> rod.force((0, 5, 0), at=(2, 0, 0)), rod.force((0, 5, 0), at=(2, 0, 0), axes=Frame(rod.c))
+        (Matrix([[10]]), Matrix([[10*cos(theta)]]))
+        """
+        return force_elements.force(self, components, at, axes)
+
+    def push(self, force: Vector, at: Vector = (0, 0, 0)) -> sp.Matrix:
+        """Return the generalised forces of a force in the ground's axes: the old form of `force` with axes=Frame(c).
+
+        Parameters
+        ----------
+        force, at : sequence
+            The force in the ground's axes and the point in this frame.
+
+        Returns
+        -------
+        Matrix
+            Q, shape (n, 1).
+        """
+        warn("Frame.push(F, at) is now Frame.force(F, at, axes=Frame(c))", DeprecationWarning, stacklevel=2)
+        return force_elements.force(self, force, at, self.to_the_ground[-1])
+
+    def torque(self, moment: Vector, against: MovingFrame | None = None, axes: MovingFrame | None = None) -> sp.Matrix:
+        """Return the generalised forces of a torque on this frame.
+
+        Parameters
+        ----------
+        moment : sequence
+            The torque (x, y, z), in N m.
+        against : Frame or None, optional
+            The frame on which the reaction acts; by default the ground.
+        axes : Frame or None, optional
+            The frame in whose axes the torque is given; by default this one, Frame(c) for the ground.
+
+        Returns
+        -------
+        Matrix
+            Q for `forces`, shape (n, 1).
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> arm = Frame(coordinates("phi theta")).pin("phi")
+        >>> arm.pin("theta").torque((0, 0, 3), against=arm).T
+        Matrix([[0, 3]])
+        """
+        return force_elements.torque(self, moment, against, axes)
+
+    def weld(self, at: Vector = (0, 0, 0), axes: str = "", angles: Any = ()) -> Self:
+        """Return a frame fixed to this one.
+
+        Parameters
+        ----------
+        at : sequence, default (0, 0, 0)
+            The origin, in m.
+        axes : str, default ""
+            Axes of turns, one after another.
+        angles : Expr or sequence, default ()
+            A fixed angle in rad for each.
+
+        Returns
+        -------
+        Frame
+            The fixed frame.
+
+        Raises
+        ------
+        InputError
+            If a coordinate moves it.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("theta")).pin("theta").weld((0, 2, 0)).place().T
+        Matrix([[-2*sin(theta), 2*cos(theta), 0]])
+        """
+        return moving_frames.weld(self, at, axes, angles)
+
+    def pin(self, angle: Any, axis: Any = "z") -> Self:
+        """Return a frame turned by an angle about an axis.
+
+        Parameters
+        ----------
+        angle : Expr or str
+            The angle in rad.
+        axis : str or sequence, default "z"
+            The axis.
+
+        Returns
+        -------
+        Frame
+            The turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("theta")).pin("theta", "x").angular_velocity.T
+        Matrix([[theta_dot, 0, 0]])
+        """
+        return moving_frames.pin(self, angle, axis)
+
+    def prismatic(self, length: Any, axis: Any = "z") -> Self:
+        """Return a frame shifted along an axis.
+
+        Parameters
+        ----------
+        length : Expr or str
+            The length in m.
+        axis : str or sequence, default "z"
+            The axis.
+
+        Returns
+        -------
+        Frame
+            The shifted frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("s")).prismatic("s", (3, 4, 0)).place().T
+        Matrix([[3*s/5, 4*s/5, 0]])
+        """
+        return moving_frames.prismatic(self, length, axis)
+
+    def screw(self, angle: Any, pitch: Any, axis: Any = "z") -> Self:
+        """Return a frame that advances along an axis as it turns about it.
+
+        Parameters
+        ----------
+        angle : Expr or str
+            The angle in rad.
+        pitch : Expr
+            The advance in m for each turn of 2 π.
+        axis : str or sequence, default "z"
+            The axis.
+
+        Returns
+        -------
+        Frame
+            The turned and shifted frame.
+
+        Examples
+        --------
+        >>> from sympy import pi
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("theta")).screw("theta", 2 * pi).place().T
+        Matrix([[0, 0, theta]])
+        """
+        return moving_frames.screw(self, angle, pitch, axis)
+
+    def cylindrical(self, length: Any, angle: Any, axis: Any = "z") -> Self:
+        """Return a frame shifted along an axis and turned about it.
+
+        Parameters
+        ----------
+        length, angle : Expr or str
+            The length in m and the angle in rad.
+        axis : str or sequence, default "z"
+            The axis.
+
+        Returns
+        -------
+        Frame
+            The shifted and turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("s theta")).cylindrical("s", "theta").place((1, 0, 0)).T
+        Matrix([[cos(theta), sin(theta), s]])
+        """
+        return moving_frames.cylindrical(self, length, angle, axis)
+
+    def universal(self, first: Any, second: Any, axes: str = "xy") -> Self:
+        """Return a frame turned about one axis and then about another, by a Cardan or Hooke joint.
+
+        Parameters
+        ----------
+        first, second : Expr or str
+            The angles in rad.
+        axes : str, default "xy"
+            Two different axes.
+
+        Returns
+        -------
+        Frame
+            The turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("alpha beta")).universal("alpha", "beta").angular_velocity.T
+        Matrix([[alpha_dot*cos(beta), beta_dot, alpha_dot*sin(beta)]])
+        """
+        return moving_frames.universal(self, first, second, axes)
+
+    def planar(self, x: Any, y: Any, angle: Any, normal: Any = "z") -> Self:
+        """Return a frame shifted in a plane and turned about its normal.
+
+        Parameters
+        ----------
+        x, y, angle : Expr or str
+            The shifts in m and the angle in rad.
+        normal : str or sequence, default "z"
+            The normal of the plane.
+
+        Returns
+        -------
+        Frame
+            The shifted and turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("x y theta")).planar("x", "y", "theta").place((1, 0, 0)).T
+        Matrix([[x + cos(theta), y + sin(theta), 0]])
+        """
+        return moving_frames.planar(self, x, y, angle, normal)
+
+    def ball(self, quaternion: Any, omega: Any) -> Self:
+        """Return a frame turned by a unit quaternion, which has no pole.
+
+        Parameters
+        ----------
+        quaternion : str or sequence
+            Four coordinates or their names, scalar first.
+        omega : str or sequence
+            Three new symbols or their names: the angular velocities about the axes of the turned frame, which are
+            velocities of the system in place of those of the four.
+
+        Returns
+        -------
+        Frame
+            The turned frame.
+
+        Raises
+        ------
+        InputError
+            For other coordinates, or names in use.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("a b c d")
+        >>> gyro = Frame(c).ball("a b c d", "u v w").body(mass=1, inertia=(2, 2, 3))
+        >>> System(c, gyro.kinetic).speeds
+        (u, v, w)
+        """
+        return moving_frames.ball_joint(self, quaternion, omega)
+
+    def free(self, place: Any, quaternion: Any, omega: Any) -> Self:
+        """Return a frame shifted along the axes and turned as by `ball`: six degrees of freedom.
+
+        Parameters
+        ----------
+        place : str or sequence
+            Three coordinates or their names.
+        quaternion, omega : str or sequence
+            As of `ball`.
+
+        Returns
+        -------
+        Frame
+            The shifted and turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("x y z a b c d")).free("x y z", "a b c d", "u v w").place().T
+        Matrix([[x, y, z]])
+        """
+        return moving_frames.free(self, place, quaternion, omega)
+
+    def coincides(self, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0)) -> tuple[sp.Expr, ...]:
+        """Return the constraints that hold a point of this frame on a point of another: a ball joint that closes a loop.
+
+        Parameters
+        ----------
+        other : Frame
+            The other frame.
+        at : sequence, default (0, 0, 0)
+            The point in this frame, in m.
+        point : sequence, default (0, 0, 0)
+            The point in the other frame, in m.
+
+        Returns
+        -------
+        tuple of Expr
+            Expressions that stay zero, without those that vanish identically.
+
+        Raises
+        ------
+        InputError
+            If no coordinate is bound.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> ground = Frame(coordinates("theta s"))
+        >>> ground.pin("theta").coincides(ground.prismatic("s", "x"), at=(2, 0, 0))
+        (-s + 2*cos(theta), 2*sin(theta))
+        """
+        return moving_frames.coincides(self, other, at, point)
+
+    def keeps_axis(self, other: MovingFrame, axis: Any = "z", other_axis: Any = None) -> tuple[sp.Expr, ...]:
+        """Return the constraints that hold an axis of this frame parallel to one of another.
+
+        With `coincides` they are a pin that closes a loop. The axes may be opposite to each other.
+
+        Parameters
+        ----------
+        other : Frame
+            The other frame.
+        axis : str or sequence, default "z"
+            The axis of this frame.
+        other_axis : str or sequence, optional
+            The axis of the other frame; the same by default.
+
+        Returns
+        -------
+        tuple of Expr
+            Expressions that stay zero, without those that vanish identically.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> ground = Frame(coordinates("alpha"))
+        >>> ground.pin("alpha", "x").keeps_axis(ground)
+        (-sin(alpha),)
+        """
+        return moving_frames.keeps_axis(self, other, axis, other_axis)
 
 
 @dataclass(frozen=True)
