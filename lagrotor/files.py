@@ -97,11 +97,11 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
     Sizes and types are checked in the headers before any array is read.
     """
     try:
-        with ZipFile(path) as held:
-            entries = {entry.filename.removesuffix(".npy"): entry for entry in held.infolist()}
+        with ZipFile(path) as archive:
+            entries = {entry.filename.removesuffix(".npy"): entry for entry in archive.infolist()}
             if "about" not in entries:
                 raise InputError(f"{path}: it has no description: give a file that lagrotor wrote")
-            arrays = {name: _read_array(held, path, name, entry) for name, entry in entries.items()}
+            arrays = {name: _read_array(archive, path, name, entry) for name, entry in entries.items()}
         about = json.loads(str(arrays.pop("about")))
         if not isinstance(about, dict) or about.pop("digest", None) != _digest(about, arrays):
             raise InputError(f"{path}: its contents do not have the digest that it was written with: make it anew")
@@ -114,13 +114,13 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
     return about, arrays
 
 
-def _read_array(held: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArray[Any]":
+def _read_array(archive: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArray[Any]":
     """One array, read once its header has been found to agree with its size."""
     import numpy as np
 
     if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
         raise InputError(f"{path}: {name} is compressed in an unknown way: make it anew")
-    with held.open(entry) as file:
+    with archive.open(entry) as file:
         version = np.lib.format.read_magic(file)
         if version != (1, 0):
             raise InputError(f"{path}: the header of {name} has format {version}, not (1, 0): make it anew")

@@ -17,6 +17,7 @@ RENAMED = {
 
 # Old name of a package → where it is defined now.
 NAMES = {
+    "lagrotor.mechanics.bias": "lagrotor.mechanics.lagrangian.bias",
     "lagrotor.mechanics.FourierSeries": "lagrotor.mechanics.fourier.FourierSeries",
     "lagrotor.mechanics.lindstedt_poincare": "lagrotor.mechanics.weakly_nonlinear.periodic_series",
     "lagrotor.mechanics.characteristic_exponents": "lagrotor.mechanics.weakly_nonlinear.characteristic_exponents",

@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.equilibria import Equilibrium as Equilibrium
     from lagrotor.mechanics.lagrangian import Coordinates as Coordinates
     from lagrotor.mechanics.lagrangian import accelerations as accelerations
-    from lagrotor.mechanics.lagrangian import bias as bias
     from lagrotor.mechanics.lagrangian import coordinates as coordinates
     from lagrotor.mechanics.lagrangian import energy as energy
     from lagrotor.mechanics.lagrangian import euler_lagrange as euler_lagrange

@@ -35,9 +35,29 @@ Kind = TypeVar("Kind", bound=Equations)
 
 @dataclass(frozen=True)
 class System(Equations):
-    """System(c, L, constraints=(), rolling=(), dissipation=0, forces=()): a Lagrangian L(q, v, t), and what acts on it.
+    """A mechanical system: a Lagrangian L(q, v, t) with constraints, friction and forces.
 
-    The arguments are those of `Equations`, to which this class adds what is derived from them.
+    Unknown functions, as sympy's Function("U")(r), may stand in every expression; a run takes values for them. InputError is
+    raised for expressions that are no mechanical system.
+
+    Attributes
+    ----------
+    c : Coordinates
+        The coordinates.
+    lagrangian : Expr or Energy
+        L, or a sum of energies of bodies.
+    constraints : sequence or mapping
+        Expressions g(q, t) that stay zero; {name: expression} names their reactions.
+    rolling : sequence or mapping
+        Expressions f(q, v, t) that stay zero, affine in the velocities.
+    dissipation : Expr
+        Rayleigh's function D(q, v, t), in W, with the force −∂D/∂v.
+    forces : sequence
+        The generalised forces Q(q, v, t), one for each coordinate, or none.
+    names : tuple of str
+        The names of the constraints and of rolling.
+    velocities : mapping
+        Quasi-velocities {u: expression affine in v}, as many as coordinates, or fewer if constraints give the others.
 
     Examples
     --------

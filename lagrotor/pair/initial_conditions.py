@@ -59,7 +59,7 @@ def consistent_scene(
     """
     scene = Scene(spins, rotor or Rotor(), link or Link(), shock)
     try:
-        q, v = (np.asarray(part, dtype=float).reshape(6) for part in (axes, rates))
+        q, v = (np.asarray(vectors, dtype=float).reshape(6) for vectors in (axes, rates))
     except (TypeError, ValueError):
         raise InputError(f"consistent_scene: axes {axes!r} and rates {rates!r} must be two vectors each") from None
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
@@ -83,4 +83,4 @@ def consistent_scene(
 
 
 def _pair(flat: Array) -> Any:
-    return tuple(tuple(float(x) for x in part) for part in flat.reshape(2, 3))
+    return tuple(tuple(float(x) for x in vector) for vector in flat.reshape(2, 3))

@@ -127,9 +127,9 @@ def mercator_lagrangian() -> sp.Expr:
     s1, s2, t1, t2 = 1 / sp.cosh(u1), 1 / sp.cosh(u2), sp.tanh(u1), sp.tanh(u2)
     c, s = sp.cos(al2 - al1), sp.sin(al2 - al1)
     single = a / 2 * (s1**2 * (u1_v**2 + al1_v**2) + s2**2 * (u2_v**2 + al2_v**2))
-    along = (s1 * s2 + t1 * t2 * c) * u1_v * u2_v + c * al1_v * al2_v
-    across = t1 * s * u1_v * al2_v - t2 * s * u2_v * al1_v
-    return single + b * s1 * s2 * (along + across) + G_1 * t1 * al1_v + G_2 * t2 * al2_v
+    parallel = (s1 * s2 + t1 * t2 * c) * u1_v * u2_v + c * al1_v * al2_v
+    transverse = t1 * s * u1_v * al2_v - t2 * s * u2_v * al1_v
+    return single + b * s1 * s2 * (parallel + transverse) + G_1 * t1 * al1_v + G_2 * t2 * al2_v
 
 
 @dataclass(frozen=True)
@@ -180,10 +180,10 @@ def leaning_frame() -> tuple[sp.Matrix, sp.Matrix]:
     beta, h, alpha = LEANING.q
     c, s = sp.cos(alpha), sp.sin(alpha)
     mean = sp.Matrix([sp.sin(beta), -sp.cos(beta) * s, sp.cos(beta) * c])
-    along = sp.Matrix([sp.cos(beta), sp.sin(beta) * s, -sp.sin(beta) * c])
-    across = sp.Matrix([0, -c, -s])
+    lean = sp.Matrix([sp.cos(beta), sp.sin(beta) * s, -sp.sin(beta) * c])
+    normal = sp.Matrix([0, -c, -s])
     tilt = -sp.sin(h) / (k * sp.cos(beta))
-    return mean, across * sp.sqrt(1 - tilt**2) + along * tilt
+    return mean, normal * sp.sqrt(1 - tilt**2) + lean * tilt
 
 
 def leaning_lagrangian() -> sp.Expr:

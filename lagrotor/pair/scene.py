@@ -177,10 +177,10 @@ class Scene:
             )
         # n_i: tangent part of the bar's pull on axis i. With both zero nothing the bar does can be felt.
         pulls = []
-        for r, other, sign in ((r1, r2, 1.0), (r2, r1, -1.0)):
-            n = (ell / R * sign + other[0], other[1], other[2])
-            along = _dot(n, r)
-            pulls.append(hypot(n[0] - along * r[0], n[1] - along * r[1], n[2] - along * r[2]))
+        for r, partner, sign in ((r1, r2, 1.0), (r2, r1, -1.0)):
+            n = (ell / R * sign + partner[0], partner[1], partner[2])
+            component = _dot(n, r)
+            pulls.append(hypot(n[0] - component * r[0], n[1] - component * r[1], n[2] - component * r[2]))
         if max(pulls) < 1e-6 * min(1.0, ell / R):
             raise InputError(
                 f"Scene: axes = {self.axes} both lie along the joint line, where the bar's constraint is singular; "
@@ -212,8 +212,8 @@ class Scene:
     @property
     def sigma(self) -> float:
         """(a + b)/(a − b): 1 without a bar, for a massless bar and for a dumbbell."""
-        own, shared = self.inertias
-        return (own + shared) / (own - shared)
+        self_inertia, shared = self.inertias
+        return (self_inertia + shared) / (self_inertia - shared)
 
     @property
     def k(self) -> float:

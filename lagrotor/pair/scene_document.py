@@ -35,7 +35,7 @@ def read_document(path: str | Path, make: Callable[[dict[str, Any]], Kind]) -> K
         raise InputError(f"{path}: {error}") from None
 
 
-def scene_of(given: Mapping[str, Any]) -> Scene:
+def scene_of(table: Mapping[str, Any]) -> Scene:
     """The scene of a table with the fields' names.
 
     Raises
@@ -43,30 +43,30 @@ def scene_of(given: Mapping[str, Any]) -> Scene:
     InputError
         For names that are none, or values that make no sense.
     """
-    check_fields(given, Scene, "a scene")
-    if "spins" not in given:
+    check_fields(table, Scene, "a scene")
+    if "spins" not in table:
         raise InputError("spins is missing: give the axial angular velocities in rad/s, spins = [10, -10]")
-    parts = {
-        name: None if (name, given[name]) == ("link", "none") else part_of(name, kind, given[name])
+    objects = {
+        name: None if (name, table[name]) == ("link", "none") else part_of(name, kind, table[name])
         for name, kind in _PARTS.items()
-        if name in given
+        if name in table
     }
-    return Scene(**dict(given) | parts)
+    return Scene(**dict(table) | objects)
 
 
-def check_fields(given: Mapping[str, Any], kind: type, what: str) -> None:
+def check_fields(table: Mapping[str, Any], kind: type, what: str) -> None:
     """Raises InputError for a name in a table that is no field of `kind`."""
     names = [field.name for field in fields(kind)]
-    if unknown := [name for name in given if name not in names]:
-        known = ", ".join(names)
-        raise InputError(f"{unknown[0]!r} is no field of {what}: they are {known}{near(unknown[0], names)}")
+    if unknown := [name for name in table if name not in names]:
+        listed = ", ".join(names)
+        raise InputError(f"{unknown[0]!r} is no field of {what}: they are {listed}{near(unknown[0], names)}")
 
 
 def part_of(name: str, kind: type, table: Any) -> Any:
     """A part of a kind from its table. Raises InputError where it is none."""
-    known = [field.name for field in fields(kind)]
-    if not isinstance(table, dict) or any(key not in known for key in table):
-        raise InputError(f"{name} = {table!r} must be a table of {', '.join(known)}")
+    names = [field.name for field in fields(kind)]
+    if not isinstance(table, dict) or any(key not in names for key in table):
+        raise InputError(f"{name} = {table!r} must be a table of {', '.join(names)}")
     needed = [field.name for field in fields(kind) if field.default is MISSING and field.default_factory is MISSING]
     if lacking := [key for key in needed if key not in table]:
         raise InputError(f"{name} = {table!r} lacks {', '.join(lacking)}")

@@ -172,8 +172,8 @@ class Trajectory(Run):
 
     def quantities(self) -> dict[str, Quantity]:
         """axes, rates, tips, energy, link_length, momenta, and P, the momentum about the joint line."""
-        held = {name: getattr(self, name) for name in UNITS if name != "P"} | {"P": self.joint_line_momentum}
-        return {name: Quantity(values, _AXES[values.ndim], UNITS[name]) for name, values in held.items()}
+        arrays = {name: getattr(self, name) for name in UNITS if name != "P"} | {"P": self.joint_line_momentum}
+        return {name: Quantity(values, _AXES[values.ndim], UNITS[name]) for name, values in arrays.items()}
 
     def about(self) -> dict[str, Any]:
         """The scene, the model and why it was chosen."""
@@ -189,32 +189,32 @@ class Trajectory(Run):
             Where that is not what the file is: not whole, or not a motion (times that decrease, axes that are
             no unit vectors, numbers that are not finite).
         """
-        about, held, known = read_run(path)
+        about, arrays, run_fields = read_run(path)
         try:
-            given = about["scene"]
-            parts = {"rotor": Rotor, "link": Link, "shock": Shock}
-            given |= {name: kind(**given[name]) for name, kind in parts.items() if given[name] is not None}
-            axes, rates, momenta = (held[name] for name in ("axes", "rates", "momenta"))
-            scene, model, why = Scene(**given), about["model"], about["why"]
+            fields = about["scene"]
+            kinds = {"rotor": Rotor, "link": Link, "shock": Shock}
+            fields |= {name: kind(**fields[name]) for name, kind in kinds.items() if fields[name] is not None}
+            axes, rates, momenta = (arrays[name] for name in ("axes", "rates", "momenta"))
+            scene, model, why = Scene(**fields), about["model"], about["why"]
         except (KeyError, TypeError, AttributeError, ValueError) as refusal:
             raise InputError(
                 f"load: {path} is no run saved as .npz ({refusal}): give a file that `save` wrote"
             ) from None
-        wrong = _wrong(known["t"], axes, rates, momenta)
+        wrong = _wrong(run_fields["t"], axes, rates, momenta)
         if not (isinstance(model, str) and isinstance(why, str)):
             wrong = "its model is none"
         if wrong:
             raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
-        return Trajectory(scene=scene, model=model, why=why, axes=axes, rates=rates, momenta=momenta, **known)
+        return Trajectory(scene=scene, model=model, why=why, axes=axes, rates=rates, momenta=momenta, **run_fields)
 
 
 def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:
     """What keeps these from being a motion, in words; None where nothing does."""
     n = len(t) if t.ndim == 1 else 0
-    wanted = ((t, (n,)), (axes, (2, n, 3)), (rates, (2, n, 3)), (momenta, (2, n)))
-    if not n or any(part.shape != shape for part, shape in wanted):
+    shapes = ((t, (n,)), (axes, (2, n, 3)), (rates, (2, n, 3)), (momenta, (2, n)))
+    if not n or any(array.shape != shape for array, shape in shapes):
         return f"t {t.shape}, axes {axes.shape}, rates {rates.shape}, momenta {momenta.shape} do not fit together"
-    if not all(np.isfinite(part).all() for part, _ in wanted):
+    if not all(np.isfinite(array).all() for array, _ in shapes):
         return "some of its numbers are not finite"
     if np.abs(np.linalg.norm(axes, axis=-1) - 1).max() > UNIT_ERROR:
         return "its axes are no unit vectors"

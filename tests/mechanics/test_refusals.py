@@ -195,7 +195,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "'q0 q1 q2 q2' .* different names": lambda: GROUND.ball("q0 q1 q2 q2", "p q r"),
         "another ball joint": lambda: GROUND.ball("q0 q1 q2 q3", "p q r").ball("q0 q1 q2 q3", "u v w"),
         "p is in two ball joints": lambda: jointed("p q r", "e0 e1 e2 e3", "p v w"),
-        "p is a velocity of a ball joint and a letter of": lambda: System(
+        "p is a velocity of a ball joint and a symbol of": lambda: System(
             Q, GROUND.ball("q0 q1 q2 q3", "p q r").body(p, (1, 2, 2.5)).kinetic
         ),
         "a weld is fixed": lambda: ground.weld((q, 0, 0)),

@@ -55,8 +55,8 @@ class Turn:
             return e
         i, j = (self.axis + 1) % 3, (self.axis + 2) % 3
         rows = [*e.rows]
-        turned = Small([[self.c, -self.s], [self.s, self.c]]) * Small([rows[i], rows[j]])
-        rows[i], rows[j] = keep.each(turned).rows
+        mixed = Small([[self.c, -self.s], [self.s, self.c]]) * Small([rows[i], rows[j]])
+        rows[i], rows[j] = keep.each(mixed).rows
         return Small(rows)
 
 
@@ -91,13 +91,13 @@ class Joint:
 
     def both(self, change: Callable[[Small, Stages], Small], e: Small, keep: Stages) -> Small:
         """The change of axes, inward or outward, of the angular and of the linear rows of e, (6, m)."""
-        return blocks([[change(part, keep)] for part in halves(e)])
+        return blocks([[change(half, keep)] for half in halves(e)])
 
     @property
     def lever(self) -> Small:
         """[[1, [d]×], [0, 1]] of the shift d: it takes (N, F) from the link's origin to that of the parent."""
-        one = Small.of(_EYE)
-        return blocks([[one, wedge(self.shift)], [zeros(3, 3), one]])
+        unit = Small.of(_EYE)
+        return blocks([[unit, wedge(self.shift)], [zeros(3, 3), unit]])
 
 
 def joints(tree: Tree, keep: Stages) -> list[Joint]:
@@ -105,7 +105,7 @@ def joints(tree: Tree, keep: Stages) -> list[Joint]:
     chain, carrying = list[Joint](), {link.parent for link in tree.links}
     for number, link in enumerate(tree.links):
         axis = link.axis if number in carrying or not link.is_round else None
-        before = chain[link.parent] if link.parent >= 0 else None
+        parent = chain[link.parent] if link.parent >= 0 else None
         joint = Joint(
             link,
             keep.each(Small.of(link.shift)),
@@ -114,18 +114,18 @@ def joints(tree: Tree, keep: Stages) -> list[Joint]:
             tuple(map(keep.each, link.columns)),
             keep.each(link.rate),
         )
-        chain.append(_with_motion(joint, before, -Small.of(tree.field), keep))
+        chain.append(_with_motion(joint, parent, -Small.of(tree.field), keep))
     return chain
 
 
-def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages) -> Joint:
+def _with_motion(joint: Joint, parent: Joint | None, ground: Small, keep: Stages) -> Joint:
     """The joint with its ω and (α, a): those of the parent, turned and shifted, and its own.
 
     α = α' + ω' × u + u',  a = a' + K' d + 2 ω × d' + d'', in turn.
     """
-    w, (b, a) = (before.spin, before.lift) if before else (_NONE, (_NONE, ground))
+    w, (b, a) = (parent.spin, parent.lift) if parent else (_NONE, (_NONE, ground))
     (u, d), (u_swing, d_swing) = halves(joint.rate), halves(joint.link.swing)
-    a = keep.each(a + before.bend * joint.shift) if before else a
+    a = keep.each(a + parent.bend * joint.shift) if parent else a
     w, b, a = (joint.inward(e, keep) for e in (w, b, a))
     b = keep.each(b + w.cross(u) + keep.each(u_swing))
     a = keep.each(a + w.cross(d) * 2 + keep.each(d_swing))
@@ -143,9 +143,9 @@ def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol],
     total, motions, fields, depths = -tree.rest.subs(still), list[Small](), list[Small](), list[sp.Expr]()
     for joint in chain:
         parent = joint.link.parent
-        before = motions[parent] if parent >= 0 else zeros(6, 2)
+        carried = motions[parent] if parent >= 0 else zeros(6, 2)
         rate = blocks([[joint.link.rate, joint.link.rate.each(lambda e: e.subs(still))]])
-        V = keep.each(joint.both(joint.inward, keep.each(joint.lever.T * before), keep) + rate)
+        V = keep.each(joint.both(joint.inward, keep.each(joint.lever.T * carried), keep) + rate)
         motions.append(V)
         products = V.T * keep.each(_rigid(joint, keep) * V)
         total += keep(products[0, 0] / 2 - products[0, 1])

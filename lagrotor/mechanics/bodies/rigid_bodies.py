@@ -1,9 +1,9 @@
-"""Rigid bodies, and the energies that keep the bodies they are made of.
+"""Rigid bodies, and energies that remember the bodies of which they are made.
 
     T = ½ m |v|² + ½ ω·I ω,        V = −m g·r      (g a uniform field, r the place of the centre).
 
-A sum of such energies and of plain expressions is a Lagrangian that any sympy function takes as an expression; System
-keeps the bodies, whose tree gives faster code and the picture.
+A sum of such energies and of expressions is a Lagrangian, and a sympy expression in every function of sympy. From the
+bodies System makes a tree, which gives faster code and the picture.
 """
 
 from collections.abc import Mapping
@@ -42,29 +42,31 @@ class Body:
 
     @property
     def velocity(self) -> sp.Matrix:
-        """v of the centre of mass, in the frame's axes, (3, 1)."""
+        """The velocity (3, 1) of the centre of mass, in the frame's axes, m/s."""
         return self.frame.velocity(self.centre)
 
     @property
     def kinetic(self) -> "Energy":
-        """½ m |v|² + ½ ω·I ω."""
+        """The kinetic energy ½ m |v|² + ½ ω·I ω, in J."""
         return Energy(((self, None, sp.S.One),))
 
     def potential(self, field: Vector) -> "Energy":
-        """−m g·r in a uniform field g (3,), in the ground's axes: (0, 0, −g) for gravity with z up."""
+        """Return −m g·r in a uniform field g, in the ground's axes: (0, 0, −g) for gravity with z up."""
         return Energy(((self, vector_of("potential: field", field, 3), sp.S.One),))
 
     def rolls_on(self, surface: Any, radius: Any, axis: Vector | None = None, centre: Vector | None = None) -> Contact:
-        """The contact, without slip, of a ball of that radius, or of a thin disc about an axis, with a Plane, a Sphere or a
-        Cylinder: see `contacts`. centre: of the ball or the disc, in the frame's axes; the centre of mass unless given."""
+        """Return the contact of a ball, or of a thin disc about an axis, with a Plane, a Sphere or a Cylinder.
+
+        `axis` and `centre`, by default the centre of mass, are in the frame's axes.
+        """
         return contact(self.frame, surface, radius, axis, list(self.centre) if centre is None else centre)
 
     @property
     def outline(self) -> Outline:
-        """Lines to draw: from the frame's origin to the centre, and a rim with the body's axial radius of gyration.
+        """The lines of a picture: from the frame's origin to the centre, and a rim with the axial radius of gyration.
 
-        Where there is neither, lines along its axes. A body that turns in a plane, with inertia about one axis alone, is a
-        uniform rod on the line through both points, where these are apart.
+        Without either they are lines along the axes. A body with inertia about one axis alone is a uniform rod on the line
+        through origin and centre.
         """
         lines: Outline = [[[0, 0, 0], list(self.centre)]] if any(self.centre) else []
         I = [self.inertia[i, i] for i in range(3)]
@@ -113,8 +115,8 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any, centre: Vector) -> Bo
 def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = None) -> None:
     """Raise InputError where no body has that mass and inertia: m ≥ 0, and ½ tr I − I = ∫ r rᵀ dm ≥ 0.
 
-    For principal inertias that is I1 ≤ I2 + I3 in turn. Inertia about one axis alone is that of motion in a plane. What has
-    no number is passed over.
+    For principal inertias that is I1 ≤ I2 + I3 in turn. Inertia about one axis alone belongs to motion in a plane. Symbols
+    without a number are not checked.
     """
     mass, I = (e.subs(values or {}) for e in (body.mass, body.inertia))
     if mass.is_negative:
@@ -125,9 +127,9 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
         return
     spread = mp.eigsy(mp.matrix((sp.eye(3) * I.trace() / 2 - I).tolist()), eigvals_only=True)
     if min(spread) < -_ROUNDING * max(map(abs, spread)):
-        shown = [[float(e) for e in row] for row in I.tolist()]
+        entries = [[float(e) for e in row] for row in I.tolist()]
         raise InputError(
-            f"{where}: no body has the inertia {shown}: of its principal inertias none is larger than the two others "
+            f"{where}: no body has the inertia {entries}: of its principal inertias none is larger than the two others "
             "together; correct it"
         )
 
@@ -543,7 +545,7 @@ class Frame(MovingFrame):
 
 @dataclass(frozen=True)
 class Energy:
-    """Σ factor × (kinetic energy, or potential in a field) of bodies, plus an expression; see `Body`."""
+    """A sum of factors times kinetic or potential energies of bodies, plus an expression."""
 
     terms: tuple[tuple[Body, tuple[sp.Expr, ...] | None, sp.Expr], ...]
     rest: sp.Expr = sp.S.Zero
@@ -565,7 +567,7 @@ class Energy:
 
     @cached_property
     def free_symbols(self) -> set[sp.Basic]:
-        """The symbols in it, velocities left aside."""
+        """The symbols of the energy without the velocities."""
         symbols = set(self.rest.free_symbols)
         for body, field, factor in self.terms:
             symbols |= (
@@ -581,9 +583,9 @@ class Energy:
     def _sympy_(self) -> sp.Expr:
         return self.expression
 
-    def xreplace(self, put: Mapping[sp.Basic, sp.Basic]) -> "Energy":
-        """The energy with letters put in beside the bodies."""
-        return replace(self, rest=self.rest.xreplace(put))
+    def xreplace(self, replacements: Mapping[sp.Basic, sp.Basic]) -> "Energy":
+        """Return the energy with symbols replaced in its expression, not in the bodies."""
+        return replace(self, rest=self.rest.xreplace(replacements))
 
     def __add__(self, other: Any) -> "Energy":
         if isinstance(other, Energy):

@@ -71,7 +71,7 @@ class Small:
 
     def cross(self, other: "Small") -> "Small":
         """The vector product of two columns of three."""
-        (a, b, c), (x, y, z) = ([row[0] for row in each.rows] for each in (self, other))
+        (a, b, c), (x, y, z) = ([row[0] for row in vector.rows] for vector in (self, other))
         return Small.column(_dot((b, -c), (z, y)), _dot((c, -a), (x, z)), _dot((a, -b), (y, x)))
 
 
@@ -80,9 +80,9 @@ def zeros(rows: int, columns: int) -> Small:
     return Small([[_0] * columns for _ in range(rows)])
 
 
-def blocks(parts: Sequence[Sequence[Small]]) -> Small:
+def blocks(grid: Sequence[Sequence[Small]]) -> Small:
     """The matrix made of blocks."""
-    return Small([[e for part in row for e in part.rows[i]] for row in parts for i in range(len(row[0].rows))])
+    return Small([[e for block in row for e in block.rows[i]] for row in grid for i in range(len(row[0].rows))])
 
 
 def halves(e: Small) -> tuple[Small, Small]:

@@ -155,7 +155,7 @@ class _Walk:
             raise _NoTreeError
         self.used |= moving - {t}
         self.turned += speeds
-        own = tuple(self.number[u] for u in speeds)
+        numbers = tuple(self.number[u] for u in speeds)
         if frame.omega:
             columns = [blocks([[unit(k, sp.S.One)], [_NONE]]) for k in range(3)]
             rate, swing = blocks([[Small.column(*speeds)], [_NONE]]), zeros(6, 1)
@@ -168,7 +168,9 @@ class _Walk:
             d = d + R * frame.amount
         elif frame.axis is None:
             R = R * frame.amount
-        self.links.append(TreeLink(parent, d, R, frame.axis, angle, own, tuple(columns[: len(own)]), rate, swing))
+        self.links.append(
+            TreeLink(parent, d, R, frame.axis, angle, numbers, tuple(columns[: len(numbers)]), rate, swing)
+        )
         self.masses.append([])
         return len(self.links) - 1, sp.zeros(3, 1), sp.eye(3)
 
@@ -177,10 +179,10 @@ def _slope(frame: MovingFrame, s: sp.Symbol) -> Small:
     """The derivative of a step by one coordinate, or the time, in the axes that it leads to, (6, 1)."""
     if frame.axis is not None:
         return blocks([[unit(frame.axis, derivative(frame.amount, s))], [_NONE]])
-    moved = _derivative(Small.of(frame.amount), s)
+    slope = _derivative(Small.of(frame.amount), s)
     if frame.amount.cols == 1:
-        return blocks([[_NONE], [moved]])
-    spin = Small.of(frame.amount).T * moved
+        return blocks([[_NONE], [slope]])
+    spin = Small.of(frame.amount).T * slope
     return blocks([[Small.column(spin[2, 1], spin[0, 2], spin[1, 0])], [_NONE]])
 
 

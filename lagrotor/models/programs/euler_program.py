@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from lagrotor.mechanics import bias, mass_matrix, total_derivative
+from lagrotor.mechanics.lagrangian import bias, mass_matrix, total_derivative
 from lagrotor.numerics.codegen import Program, solve_symmetric
 from lagrotor.pair.lagrangians import axis, pair_with_bar
 from lagrotor.pair.notation import I3, PAIR, a, b, k
