@@ -18,6 +18,11 @@ RENAMED = {
 # Old name of a package → where it is defined now.
 NAMES = {
     "lagrotor.mechanics.bias": "lagrotor.mechanics.lagrangian.bias",
+    "lagrotor.pair.JOINT_LINE": "lagrotor.pair.lagrangians.JOINT_LINE",
+    "lagrotor.pair.UNITS": "lagrotor.pair.trajectory.UNITS",
+    "lagrotor.pair.ansatz_lagrangian": "lagrotor.pair.lagrangians.ansatz_lagrangian",
+    "lagrotor.pair.scene_of": "lagrotor.pair.scene_document.scene_of",
+    "lagrotor.pair.scene_toml": "lagrotor.pair.scene_document.scene_toml",
     "lagrotor.mechanics.FourierSeries": "lagrotor.mechanics.fourier.FourierSeries",
     "lagrotor.mechanics.lindstedt_poincare": "lagrotor.mechanics.weakly_nonlinear.periodic_series",
     "lagrotor.mechanics.characteristic_exponents": "lagrotor.mechanics.weakly_nonlinear.characteristic_exponents",

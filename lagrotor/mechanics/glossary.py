@@ -31,7 +31,20 @@ class Glossary(dict[sp.Symbol, Entry]):
     """The entries of symbols, in the order in which these are declared."""
 
     def letter(self, name: str, meaning: str, unit: str, **assumptions: bool) -> sp.Symbol:
-        """Declare a symbol with a meaning in words, a unit ("kg m^2", "1" for a number) and sympy's assumptions."""
+        """Declare a symbol.
+
+        Parameters
+        ----------
+        name, meaning, unit : str
+            The name, the meaning in words, and the unit: "kg m^2", "1" for a number.
+        assumptions : bool
+            The assumptions of sympy, such as positive=True.
+
+        Returns
+        -------
+        Symbol
+            The symbol.
+        """
         symbol = sp.Symbol(name, **assumptions)
         self[symbol] = Entry(symbol, meaning, unit)
         return symbol

@@ -1,4 +1,4 @@
-"""Numbers and vectors that are given, checked: what makes no sense is refused with its value, the reason and the way out."""
+"""Numbers and vectors of users are checked, and refused with the value, the reason and the remedy."""
 
 from collections.abc import Iterable
 from math import isfinite, nan
@@ -11,7 +11,7 @@ SMALLEST, _LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doub
 
 
 def finite_number(value: object, where: str, unit: str) -> float:
-    """A finite number, no larger than LARGEST."""
+    """Return a finite number of a size at most _LARGEST."""
     try:
         number = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
@@ -26,7 +26,7 @@ def finite_number(value: object, where: str, unit: str) -> float:
 
 
 def not_vanishing(value: object, where: str, unit: str) -> float:
-    """Zero, or a number no smaller than SMALLEST."""
+    """Return zero or a number of a size at least SMALLEST."""
     number = finite_number(value, where, unit)
     if 0 < abs(number) < SMALLEST:
         raise InputError(f"{where} = {number:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
@@ -34,7 +34,7 @@ def not_vanishing(value: object, where: str, unit: str) -> float:
 
 
 def positive(value: object, where: str, unit: str) -> float:
-    """A number above zero, no smaller than SMALLEST."""
+    """Return a positive number, at least SMALLEST."""
     number = finite_number(value, where, unit)
     if number <= 0:
         raise InputError(f"{where} = {number:g} {unit} must be greater than zero")
@@ -42,7 +42,6 @@ def positive(value: object, where: str, unit: str) -> float:
 
 
 def not_negative(value: object, where: str, unit: str) -> float:
-    """Zero, or a number above it."""
     number = finite_number(value, where, unit)
     if number < 0:
         raise InputError(f"{where} = {number:g} {unit} must not be negative: give 0 or more")
@@ -50,7 +49,7 @@ def not_negative(value: object, where: str, unit: str) -> float:
 
 
 def numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ...]:
-    """`count` numbers in a row."""
+    """Return `count` finite numbers."""
     items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else None
     if items is None or len(items) != count:
         raise InputError(f"{where} = {value!r} must be {count} numbers in {unit}")
@@ -58,13 +57,12 @@ def numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ..
 
 
 def finite_vector(value: object, where: str, unit: str) -> Vector:
-    """Three numbers in a row."""
     x, y, z = numbers(value, 3, where, unit)
     return x, y, z
 
 
 def two_vectors(value: object, where: str, unit: str) -> tuple[Vector, Vector]:
-    """A vector for each rotor."""
+    """Return a vector for each rotor."""
     items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else []
     if len(items) != 2:
         raise InputError(f"{where} = {value!r} must be two vectors, one a rotor")

@@ -438,7 +438,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "off the constraints by 1; .* v0 = .0, 0, 0.": lambda: run(knife, {}, (0, 0, 0), (0, 1, 0)),
         "off the constraints": lambda: run(ball_top(), BODY, (1, 0.2, 0, 0), (0, 0, 1)),
         "the point is off the constraints; the nearest": lambda: circle.linearise({x: 1, y: 1}, VALUES),
-        r"\|g\| = .* left after 20 steps": lambda: project_position(
+        r"\|g\| = .* after 20 steps": lambda: project_position(
             lambda q: np.array([q @ q + 1]), lambda q: 2 * q[None, :], np.array([0.3, 0.4])
         ),
     },

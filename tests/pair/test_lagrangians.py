@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from lagrotor.mechanics import Coordinates, System, total_derivative
 from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
-from lagrotor.pair import (
+from lagrotor.pair.lagrangians import (
     INERTIAS,
     J_OF,
     JOINT_LINE,

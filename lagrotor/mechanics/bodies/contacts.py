@@ -81,7 +81,9 @@ class Cylinder(Sphere):
 
     Attributes
     ----------
-    frame, radius, hollow
+    frame : Frame
+    radius : Expr
+    hollow : bool
         As of `Sphere`.
     """
 

@@ -146,7 +146,11 @@ class Frame(MovingFrame):
     ----------
     c : Coordinates
         The coordinates of the system.
-    parent, axis, amount, quaternion, omega
+    parent : Frame or None
+    axis : int or None
+    amount : Expr or Matrix
+    quaternion : tuple of Symbol
+    omega : tuple of Symbol
         The step from the frame before: see `MovingFrame`.
 
     Examples

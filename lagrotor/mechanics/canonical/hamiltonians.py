@@ -41,7 +41,8 @@ class Hamiltonian:
     ----------
     H : Expr
         The Hamiltonian.
-    q, p : tuple of Symbol
+    q : tuple of Symbol
+    p : tuple of Symbol
         The coordinates and momenta.
     v : tuple of Symbol
         The velocities of the Lagrangian.
@@ -299,9 +300,11 @@ class GeneratedTransformation:
 
     Attributes
     ----------
-    new, old : tuple of Symbol
+    new : tuple of Symbol
+    old : tuple of Symbol
         The momenta P and p.
-    p_of, Q_of : tuple of Expr
+    p_of : tuple of Expr
+    Q_of : tuple of Expr
         The old momenta and the new coordinates in (q, P, t).
     K : Expr
         The new Hamiltonian in (q, P, t).
