@@ -162,10 +162,8 @@ def momenta(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
     Parameters
     ----------
-    L : Expr
-        The Lagrangian.
-    c : Coordinates
-        The coordinates.
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
 
     Returns
     -------
@@ -180,10 +178,8 @@ def mass_matrix(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
     Parameters
     ----------
-    L : Expr
-        The Lagrangian.
-    c : Coordinates
-        The coordinates.
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
 
     Returns
     -------
@@ -204,10 +200,8 @@ def energy(L: sp.Expr, c: Coordinates) -> sp.Expr:
 
     Parameters
     ----------
-    L : Expr
-        The Lagrangian.
-    c : Coordinates
-        The coordinates.
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
 
     Returns
     -------
@@ -222,10 +216,8 @@ def euler_lagrange(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
     Parameters
     ----------
-    L : Expr
-        The Lagrangian.
-    c : Coordinates
-        The coordinates.
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
 
     Returns
     -------
@@ -246,10 +238,8 @@ def accelerations(L: sp.Expr, c: Coordinates, forces: Sequence[sp.Expr] | None =
 
     Parameters
     ----------
-    L : Expr
-        The Lagrangian.
-    c : Coordinates
-        The coordinates.
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
     forces : sequence or None, optional
         Q, one component for each coordinate; zero by default.
 

@@ -148,10 +148,8 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
 
     Parameters
     ----------
-    L : Expr
-        The Lagrangian.
-    c : Coordinates
-        The coordinates.
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
     p : sequence
         n new symbols of the momenta.
 

@@ -90,11 +90,6 @@ class System(Equations):
         System
             The system in plain symbols.
 
-        Raises
-        ------
-        InputError
-            For any other object, or coordinates that are no functions of time.
-
         Examples
         --------
         >>> from sympy.physics.mechanics import dynamicsymbols
@@ -130,11 +125,6 @@ class System(Equations):
         Expr
             δL in q, v, a and t.
 
-        Raises
-        ------
-        InputError
-            If ξ does not have n components or contains an acceleration.
-
         Examples
         --------
         >>> from lagrotor.mechanics import coordinates
@@ -162,11 +152,6 @@ class System(Equations):
         Decision
             The answer "zero" if the condition holds, with its domain.
 
-        Raises
-        ------
-        InputError
-            As `variation`, or if F contains an acceleration.
-
         Examples
         --------
         >>> from lagrotor.mechanics import coordinates
@@ -178,7 +163,7 @@ class System(Equations):
         return symmetry.invariance(self, xi, gauge)
 
     def noether(self, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> symmetry.FirstIntegral:
-        """Return the Noether integral p · ξ − F of a symmetry ξ.
+        """Return the Noether integral p · ξ − F of a symmetry ξ (Arnold §20).
 
         Parameters
         ----------
@@ -196,12 +181,6 @@ class System(Equations):
         ------
         NotASymmetryError
             If `invariance` does not answer "zero".
-        InputError
-            As `invariance`.
-
-        References
-        ----------
-        Arnold, Mathematical Methods of Classical Mechanics, §20.
 
         Examples
         --------
@@ -249,11 +228,6 @@ class System(Equations):
             "zero" if df/dt vanishes with the accelerations put in. Under constraints "undecided" if it does not vanish
             identically, since it may vanish on the constraints.
 
-        Raises
-        ------
-        InputError
-            For any other expression.
-
         Examples
         --------
         >>> from lagrotor.mechanics import coordinates
@@ -267,7 +241,8 @@ class System(Equations):
     def routh(self: Kind, cyclic: "str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]") -> Kind:
         """Return the system in the other coordinates, with the Routhian R = L − Σ p v as its Lagrangian.
 
-        Forces, friction and constraints are carried over. The velocities that leave are v = −∂R/∂p.
+        Forces, friction and constraints are carried over. The eliminated velocities are v = −∂R/∂p.
+        Goldstein §8.3 has the opposite sign of R.
 
         Parameters
         ----------
@@ -288,12 +263,6 @@ class System(Equations):
             If L is not quadratic in a cyclic velocity.
         SingularError
             If the momenta do not determine the cyclic velocities.
-        InputError
-            If no coordinate remains, or a name is unknown or in use.
-
-        References
-        ----------
-        Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., §8.3 (with the opposite sign of R).
 
         Examples
         --------
@@ -324,8 +293,6 @@ class System(Equations):
             If forces, friction or constraints act, or L is not quadratic in the velocities.
         SingularError
             If det M vanishes identically.
-        InputError
-            If the momenta are not n new symbols.
 
         Examples
         --------
@@ -433,11 +400,6 @@ class System(Equations):
         -------
         System
             The same system.
-
-        Raises
-        ------
-        InputError
-            If an old coordinate is neither given nor among the new ones.
 
         Examples
         --------
@@ -677,11 +639,6 @@ class System(Equations):
         RootLocus
             The rates in 1/s, and the values at which the motion becomes stable or unstable.
 
-        Raises
-        ------
-        InputError
-            If the symbol has a value already, and as `linearise`.
-
         Examples
         --------
         >>> from sympy import Symbol
@@ -718,11 +675,6 @@ class System(Equations):
         -------
         StabilityChart
             The growth rates in 1/s, and the points of the boundary.
-
-        Raises
-        ------
-        InputError
-            As `root_locus`.
 
         Examples
         --------
@@ -858,8 +810,6 @@ class System(Equations):
 
         Raises
         ------
-        InputError
-            For a value that is missing or makes no sense.
         ConstraintError
             For a start off the constraints.
         SingularError

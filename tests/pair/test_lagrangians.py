@@ -12,12 +12,10 @@ from hypothesis import strategies as st
 
 from lagrotor.mechanics import Coordinates, System, total_derivative
 from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
-from lagrotor.pair.lagrangians import (
+from lagrotor.pair import (
     INERTIAS,
     J_OF,
-    JOINT_LINE,
     ansatz_integrals,
-    ansatz_lagrangian,
     axes_pair,
     axis,
     bar_curve,
@@ -29,6 +27,7 @@ from lagrotor.pair.lagrangians import (
     pair_lagrangian,
     pair_with_bar,
 )
+from lagrotor.pair.lagrangians import JOINT_LINE, ansatz_lagrangian
 from lagrotor.pair.notation import (
     ANSATZ,
     AXES,
