@@ -1,4 +1,4 @@
-"""Files: written whole or not at all, and arrays that are checked before they are used."""
+"""Files, which are written atomically, and arrays, which are checked before they are used."""
 
 import json
 import os
@@ -24,10 +24,7 @@ Arrays: TypeAlias = "dict[str, NDArray[Any]]"
 
 
 def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
-    """Let `write` fill a file beside `target`, then rename it: readers see the old file or the new, never half of one.
-
-    Raises InputError when the folder is missing or cannot be written to.
-    """
+    """Let `write` fill a file in the folder of `target`, then rename it, so that no reader sees half a file."""
     try:
         handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     except OSError as error:
@@ -47,7 +44,7 @@ def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
 
 
 def path_of(where: str, path: str | Path) -> Path:
-    """Return the path of a file or a folder. Raises InputError for what is neither a text nor a Path."""
+    """Return the path of a file or a folder; raise InputError unless it is a text or a Path."""
     try:
         return Path(path)
     except TypeError:
@@ -55,7 +52,7 @@ def path_of(where: str, path: str | Path) -> Path:
 
 
 def read_text(path: str | Path, otherwise: str = "") -> str:
-    """The UTF-8 text of a file; otherwise: the encoding of one that is not. Raises InputError where there is none."""
+    """Read the text of a file in UTF-8, or in the encoding `otherwise`; raise InputError if it cannot be read."""
     try:
         with path_of("path", path).open("rb") as file:
             wide = file.read(2) in (b"\xff\xfe", b"\xfe\xff")
@@ -69,7 +66,7 @@ def read_text(path: str | Path, otherwise: str = "") -> str:
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
-    """Return the content of a TOML file. Raises InputError where it cannot be read."""
+    """Read a TOML file; raise InputError if it cannot be read."""
     try:
         return tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
@@ -77,7 +74,7 @@ def read_toml(path: str | Path) -> dict[str, Any]:
 
 
 def write_text(target: Path, text: str) -> Path:
-    """Write UTF-8 text whole or not at all."""
+    """Write UTF-8 text atomically."""
     return write_beside(target, lambda file: file.write(text.encode()))
 
 
@@ -92,7 +89,7 @@ def write_arrays(target: Path, about: Mapping[str, Any], arrays: Mapping[str, An
 
 
 def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
-    """The description and the arrays that `write_arrays` wrote; raise InputError where the file is not whole.
+    """Read the description and the arrays of `write_arrays`; raise InputError if the file is damaged.
 
     Sizes and types are checked in the headers before any array is read.
     """
@@ -115,7 +112,7 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
 
 
 def _read_array(archive: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArray[Any]":
-    """One array, read once its header has been found to agree with its size."""
+    """Read one array after its header agrees with its size."""
     import numpy as np
 
     if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):

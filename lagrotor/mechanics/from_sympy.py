@@ -75,24 +75,24 @@ def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Ex
     return Q
 
 
-def _of_speeds(given: Any) -> dict[str, Any]:
+def _of_speeds(kane: Any) -> dict[str, Any]:
     """Return the fields of a KanesMethod, whose velocities are linear in the speeds u."""
     from sympy.physics.mechanics import KanesMethod, dynamicsymbols
 
-    frame, q, u, bodies = given._inertial, given.q, given.u, given.bodies
-    kinematic = given._k_kqdot_implicit * given._qdot + given._k_ku_implicit * u + given._f_k_implicit
-    velocity = given._k_nh * u + given._f_nh if len(given._k_nh) else []
+    frame, q, u, bodies = kane._inertial, kane.q, kane.u, kane.bodies
+    kinematic = kane._k_kqdot_implicit * kane._qdot + kane._k_ku_implicit * u + kane._f_k_implicit
+    velocity = kane._k_nh * u + kane._f_nh if len(kane._k_nh) else []
     clock = dynamicsymbols._t
     if len(kinematic) != len(q):
         raise InputError(f"from_sympy: {len(kinematic)} kinematic equations for {len(q)} coordinates: give as many")
     q, kinematic = _with_own_coordinates(list(q), list(u), list(kinematic))
     c, functions = _coordinates(q, clock)
-    still = dict.fromkeys(given._uaux, 0)
+    still = dict.fromkeys(kane._uaux, 0)
     equations = sp.Matrix([*kinematic, *velocity]).xreplace(still)
     speeds, remainder = _solved(equations, list(u))
     substitution = dict(zip(u, speeds, strict=True)) | still
     substitution |= {s.diff(clock): e.diff(clock) for s, e in zip(u, speeds, strict=True)} | {
-        s.diff(clock): 0 for s in given._uaux
+        s.diff(clock): 0 for s in kane._uaux
     }
 
     def plain(e: Any) -> sp.Expr:
@@ -100,7 +100,7 @@ def _of_speeds(given: Any) -> dict[str, Any]:
 
     method = KanesMethod(frame, q, list(u), kd_eqs=list(equations[: len(q), :]))
     loads = [
-        (place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in given.forcelist or ()
+        (place, load.xreplace(still) if hasattr(load, "xreplace") else load) for place, load in kane.forcelist or ()
     ]
     method.kanes_equations(list(bodies), loads or None)
     energy = sp.Add(*(body.kinetic_energy(frame) for body in bodies))
@@ -114,7 +114,7 @@ def _of_speeds(given: Any) -> dict[str, Any]:
     active = list(W.T * sp.Matrix(acting))
     missing = [a - b for a, b in zip(whole, active, strict=True)]
     forces = [b if _vanishes(e) else b + e for b, e in zip(active, missing, strict=True)]
-    constraints = tuple(plain(e) for e in given._f_h)
+    constraints = tuple(plain(e) for e in kane._f_h)
     return {
         "c": c,
         "lagrangian": L,

@@ -81,8 +81,8 @@ def scene_toml(scene: Scene) -> str:
     lines = [f"{name} = {toml_value(getattr(scene, name))}" for name in ("spins", "axes", "rates")]
     lines += [] if scene.link else ['link = "none"']
     for name in _PARTS:
-        if part := getattr(scene, name):
-            lines += ["", f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in asdict(part).items())]
+        if item := getattr(scene, name):
+            lines += ["", f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in asdict(item).items())]
     return "\n".join([*lines, ""])
 
 

@@ -134,7 +134,7 @@ def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol],
     V = (ω, v), and V* at v = 0, T₂ − T₀ is ½ V·I V − V·I V*. Goldstein §2.7.
     """
     still = dict.fromkeys(speeds, 0)
-    total, motions, fields, depths = -tree.rest.subs(still), list[Small](), list[Small](), list[sp.Expr]()
+    total, motions, fields, depths = -tree.remainder.subs(still), list[Small](), list[Small](), list[sp.Expr]()
     for joint in chain:
         parent = joint.link.parent
         carried = motions[parent] if parent >= 0 else zeros(6, 2)

@@ -392,8 +392,8 @@ def keeps_axis(first: MovingFrame, second: MovingFrame, axis: Any, second_axis: 
     _check_frame("keeps_axis", second)
     theirs = _direction("keeps_axis", axis if second_axis is None else second_axis)
     e = first.place(list(_direction("keeps_axis", axis))) - first.place()
-    across = [second.place(list(v)) - second.place() for v in _axes_to(theirs)[:2]]
-    return _constraints("keeps_axis", [e.dot(v) for v in across], first)
+    transverse = [second.place(list(v)) - second.place() for v in _axes_to(theirs)[:2]]
+    return _constraints("keeps_axis", [e.dot(v) for v in transverse], first)
 
 
 def _check_frame(where: str, frame: Any) -> None:

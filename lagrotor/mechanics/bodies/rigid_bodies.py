@@ -552,12 +552,12 @@ class Energy:
     """A sum of factors times kinetic or potential energies of bodies, plus an expression."""
 
     terms: tuple[tuple[Body, tuple[sp.Expr, ...] | None, sp.Expr], ...]
-    rest: sp.Expr = sp.S.Zero
+    remainder: sp.Expr = sp.S.Zero
 
     _op_priority = 100.0  # sympy hands + and − over
 
     def __repr__(self) -> str:
-        return f"Energy(bodies={len(self.bodies)}, rest={self.rest})"
+        return f"Energy(bodies={len(self.bodies)}, remainder={self.remainder})"
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -567,12 +567,12 @@ class Energy:
     @cached_property
     def expression(self) -> sp.Expr:
         """The energy in q, v and t."""
-        return sp.Add(self.rest, *(factor * _value(body, field) for body, field, factor in self.terms))
+        return sp.Add(self.remainder, *(factor * _value(body, field) for body, field, factor in self.terms))
 
     @cached_property
     def free_symbols(self) -> set[sp.Basic]:
         """The symbols of the energy without the velocities."""
-        symbols = set(self.rest.free_symbols)
+        symbols = set(self.remainder.free_symbols)
         for body, field, factor in self.terms:
             symbols |= (
                 body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols | factor.free_symbols
@@ -589,16 +589,16 @@ class Energy:
 
     def xreplace(self, replacements: Mapping[sp.Basic, sp.Basic]) -> "Energy":
         """Return the energy with symbols replaced in its expression, not in the bodies."""
-        return replace(self, rest=self.rest.xreplace(replacements))
+        return replace(self, remainder=self.remainder.xreplace(replacements))
 
     def __add__(self, other: Any) -> "Energy":
         if isinstance(other, Energy):
-            return Energy(self.terms + other.terms, self.rest + other.rest)
-        return Energy(self.terms, self.rest + expression("Energy: a summand", other))
+            return Energy(self.terms + other.terms, self.remainder + other.remainder)
+        return Energy(self.terms, self.remainder + expression("Energy: a summand", other))
 
     def __mul__(self, factor: Any) -> "Energy":
         number = expression("Energy: a factor", factor)
-        return Energy(tuple((body, field, number * f) for body, field, f in self.terms), number * self.rest)
+        return Energy(tuple((body, field, number * f) for body, field, f in self.terms), number * self.remainder)
 
     def __neg__(self) -> "Energy":
         return self * -1

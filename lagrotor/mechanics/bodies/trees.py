@@ -72,7 +72,7 @@ class Tree:
 
     links: tuple[TreeLink, ...]
     field: sp.Matrix
-    rest: sp.Expr
+    remainder: sp.Expr
 
 
 def tree_of(system: Equations) -> Tree | None:
@@ -80,7 +80,7 @@ def tree_of(system: Equations) -> Tree | None:
     L = system.lagrangian
     if not isinstance(L, Energy):
         return None
-    if L.rest.free_symbols & {*system.c.v} and mass_matrix(L.rest, system.c).is_zero_matrix is not True:
+    if L.remainder.free_symbols & {*system.c.v} and mass_matrix(L.remainder, system.c).is_zero_matrix is not True:
         return None
     kinetic = [body for body, field, factor in L.terms if field is None and factor == 1]
     fallen = [(body, field) for body, field, factor in L.terms if field is not None and factor == -1]
@@ -92,12 +92,12 @@ def tree_of(system: Equations) -> Tree | None:
     if links is None:
         return None
     field = sp.Matrix(next(iter(fields))) if fields else sp.zeros(3, 1)
-    return None if field.free_symbols & {*system.c.q, *system.c.v} else Tree(links, field, L.rest)
+    return None if field.free_symbols & {*system.c.q, *system.c.v} else Tree(links, field, L.remainder)
 
 
 def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
     """Return the generalised forces (n, 1) of the other terms of the Lagrangian, which add nothing to the mass matrix."""
-    return -bias(tree.rest, c)
+    return -bias(tree.remainder, c)
 
 
 class _NoTreeError(Exception):

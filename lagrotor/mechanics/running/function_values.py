@@ -152,10 +152,10 @@ def _with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
     lagrangian: Any = system.lagrangian
     if not system.bodies:
         lagrangian = put(lagrangian)
-    elif unknown_functions(system.L - sp.sympify(lagrangian.rest, strict=True)):  # in the place of a frame
+    elif unknown_functions(system.L - sp.sympify(lagrangian.remainder, strict=True)):  # in the place of a frame
         lagrangian = put(system.L)
     else:
-        lagrangian = replace(lagrangian, rest=put(lagrangian.rest))
+        lagrangian = replace(lagrangian, remainder=put(lagrangian.remainder))
     return replace(
         system,
         lagrangian=lagrangian,
