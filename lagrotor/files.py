@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 PICTURES, FILMS = (".png", ".svg", ".pdf"), (".gif",)
-# Bytes of one array and of the description; larger ones are not read.
+# The largest array and description that are read, in bytes.
 _LARGEST, _LARGEST_ABOUT = 2**31, 2**20
 
 Arrays: TypeAlias = "dict[str, NDArray[Any]]"
@@ -106,7 +106,7 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
         raise
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}: give a file that can be read") from None
-    except Exception as error:  # which one a damaged archive raises depends on the byte that was changed
+    except Exception as error:  # the type depends on the damaged byte
         raise InputError(f"{path}: it is damaged or no .npz file ({type(error).__name__}): make it anew") from None
     return about, arrays
 
@@ -126,7 +126,7 @@ def _read_array(archive: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDA
             raise InputError(f"{path}: {name} holds {dtype}, not plain numbers: make it anew")
         size = int(np.prod(shape, dtype=object)) * dtype.itemsize
         if size > (_LARGEST_ABOUT if name == "about" else _LARGEST) or size != entry.file_size - file.tell():
-            raise InputError(f"{path}: {name} declares {size} bytes, which is too many or not what it holds")
+            raise InputError(f"{path}: {name} declares {size} bytes, which is too many or not its size")
         data = file.read(size)
     return np.frombuffer(data, dtype).reshape(shape).copy()
 

@@ -38,7 +38,7 @@ from lagrotor.mechanics.lagrangian import (
 from lagrotor.mechanics.quasi_velocities import Kinematics, Pairs, boltzmann_hamel, check_velocities, kinematics
 from lagrotor.renamed import old_attribute
 
-_FAST = 1000  # by which random velocities are multiplied where friction must have grown
+_FAST = 1000  # the factor on random velocities at which friction must have increased
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class Equations:
         self._check_symbols()
         self._check_reactions()
         if not self.bodies:
-            object.__setattr__(self, "lagrangian", self.L)  # now; an energy of bodies is written out when it is needed
+            object.__setattr__(self, "lagrangian", self.L)  # energies of bodies are multiplied out only when needed
         _ = self.kinematics
 
     def _take_velocities(self) -> None:
@@ -135,7 +135,7 @@ class Equations:
         """Store the names of the constraints or of rolling. Those of the other field are numbers unless it is named, too."""
         if wrong := [name for name in named if not isinstance(name, str) or not name.strip() or name in self.names]:
             raise InputError(
-                f"System: {wrong[0]!r} in {field} is no name of its own: give {{name: expression}}, each name once"
+                f"System: {wrong[0]!r} in {field} is no name, or is in use: give {{name: expression}}, each name once"
             )
         labels, first = tuple(named), len(self.constraints)
         numbers = tuple(str(i + 1) for i in range(first + len(self.rolling)))
@@ -479,9 +479,9 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
 
 
 def check_friction(where: str, dissipation: sp.Expr, c: Coordinates) -> None:
-    """Raise InputError where D(q, v, t) falls below D(q, 0, t) at great velocities: −∂D/∂v would feed the motion.
+    """Raise InputError if D(q, v, t) is below D(q, 0, t) at great velocities: −∂D/∂v would drive the motion.
 
-    It is evaluated at random states for random parameters, and refused if none of these makes it a dissipation.
+    D is evaluated at random states for random parameters, and refused if none of these makes it a dissipation.
     """
     moving = dissipation.free_symbols & {*c.q, *c.v, t}
     falls = [
@@ -491,7 +491,7 @@ def check_friction(where: str, dissipation: sp.Expr, c: Coordinates) -> None:
     if None not in falls:
         raise InputError(
             f"{where}: dissipation = {dissipation} falls as the velocities grow, as at {falls[0]}: its force −∂D/∂v would "
-            "feed the motion; k v**2/2 with a positive k is linear friction, and what drives is among the forces"
+            "feed the motion; k v**2/2 with a positive k is linear friction, and driving forces belong into forces"
         )
 
 

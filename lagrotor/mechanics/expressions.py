@@ -14,7 +14,7 @@ from lagrotor.errors import InputError, NotExactError, near
 _PLAIN = (
     "coordinates and velocities are plain symbols here; use those of coordinates(…), c.q and c.v, and t for the time"
 )
-_MOST_OPERATIONS = 600  # of an expression that a shorter form is sought of: one that is still read
+_MOST_OPERATIONS = 600  # of an expression for which a shorter form is sought
 
 
 def expression(where: str, value: Any) -> sp.Expr:
@@ -39,7 +39,7 @@ def expression(where: str, value: Any) -> sp.Expr:
     if {sp.nan, sp.zoo, sp.oo, -sp.oo} & {*inside}:
         raise InputError(f"{where} = {e} is not finite: correct it")
     if sp.I in inside:
-        raise InputError(f"{where} = {e} is complex: what a system moves by is real; write its real part")
+        raise InputError(f"{where} = {e} is complex, and a system needs real functions: write its real part")
     return e
 
 

@@ -69,7 +69,7 @@ def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Ex
 
     Q = [sp.S.Zero] * len(speeds)
     for place, load in loads:
-        turning = getattr(place, "frame", place)  # a body's, or the frame itself
+        turning = getattr(place, "frame", place)  # the frame of a body, or the frame itself
         velocity = place.vel(frame) if isinstance(place, Point) else turning.ang_vel_in(frame)
         Q = [total + velocity.diff(u, frame, var_in_dcm=False).dot(load) for total, u in zip(Q, speeds, strict=True)]
     return Q

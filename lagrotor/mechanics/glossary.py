@@ -68,7 +68,7 @@ def latex(expression: Any, names: Mapping[sp.Symbol, str] | None = None) -> str:
     return light(sp.latex(expression, symbol_names={s: letter_latex(s) for s in free} | dict(names or {})))
 
 
-# sin, cos or tan, perhaps to a power, of one letter in brackets.
+# sin, cos or tan, perhaps to a power, of a single symbol in brackets.
 _OF_A_LETTER = re.compile(r"(\\(?:sin|cos|tan)(?:\^\{\d+\})?)\{\\left\((\\?[A-Za-z]+(?:_(?:\{\w+\}|\w))?) ?\\right\)\}")
 
 
@@ -85,7 +85,7 @@ GREEK = {letter: tex_greek_dictionary.get(name, rf"\{name}") for name, letter in
 _GREEK = re.compile(f"[{''.join(GREEK)}](?=([A-Za-z{''.join(GREEK)}])?)")
 _MARKS = {"\\": r"\backslash ", "^": r"\wedge ", "~": r"\sim ", " ": r"\ "} | {c: rf"\{c}" for c in "&%#$_{}"}
 _MARKS |= {letter: f"{command} " for letter, command in GREEK.items()}
-_FOREIGN = re.compile(r"[^\x00-\x7f]+")  # letters that have no place in a formula: é
+_FOREIGN = re.compile(r"[^\x00-\x7f]+")  # characters without a command of LaTeX: é
 
 
 @cache
@@ -110,7 +110,7 @@ def multiplier_latex(letter: str, name: str) -> str:
     return rf"\{letter}_{{{name}}}" if name.isdigit() else rf"\{letter}_{{\mathrm{{{upright}}}}}"
 
 
-_MOST_COORDINATES, _MOST_OPERATIONS = 6, 400  # up to which energies of bodies are written out, and a formula is shown
+_MOST_COORDINATES, _MOST_OPERATIONS = 6, 400  # the largest system and formula that are printed
 
 
 def formulas(system: Equations) -> dict[str, list[str]]:
@@ -143,7 +143,7 @@ def formulas(system: Equations) -> dict[str, list[str]]:
         sections["Equations of motion"][:0] = [line(latex(v), e) for v, e in velocities.items() if v != e]
     if system.multipliers:
         rolling = enumerate(system.rolling, len(system.constraints))
-        # Where q' = B u + b is written, without the rows that it keeps.
+        # Rows that q' = B u + b satisfies are not repeated.
         rows = [e for i, e in rolling if not (relation and velocities) or i in relation.left]
         sections["Constraints"] = [line(e) for e in (*system.constraints, *rows)]
     closed = not (system.forces or system.dissipation != 0 or t in system.L.free_symbols)

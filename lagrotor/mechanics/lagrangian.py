@@ -305,7 +305,7 @@ def clock_parts(
     clocks, maximal = list[tuple[sp.Symbol, sp.Expr]](), dict[sp.Expr, None]()
     for name, whole in (*stages, *((None, e) for e in outputs)):
         if name is not None and not whole.free_symbols & moving:
-            clocks.append((name, whole))  # of parameters alone, too: another may be made of it
+            clocks.append((name, whole))  # also one of parameters alone: later stages may use it
             if whole.free_symbols & by_time:
                 by_time.add(name)
                 maximal[name] = None

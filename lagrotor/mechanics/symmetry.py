@@ -38,7 +38,7 @@ from lagrotor.mechanics.lagrangian import (
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 
 Kind = TypeVar("Kind", bound=Equations)
-_MULTIPLIED_OUT = 100  # operations of L up to which the determinants of the Legendre transform are multiplied out
+_MULTIPLIED_OUT = 100  # operations of L up to which determinants are expanded in the Legendre transform
 
 
 @dataclass(frozen=True)
@@ -168,7 +168,7 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
     if not all(isinstance(s, sp.Symbol) for s in p) or len({*p}) != len(p):
         raise InputError(f"legendre: momenta {tuple(p)}: each must be a symbol of its own; rename them")
     _check_momenta("legendre", c.v, p, {*c.q, *c.v, *c.a} | L.free_symbols)
-    # sympy multiplies out determinants of up to three rows: of a short L H is shorter so, of a long one longer, and late.
+    # sympy expands determinants of up to three rows. That shortens H for a short L, and takes too long for a long one.
     with dotprodsimp(False if longer(L, _MULTIPLIED_OUT) else None):
         velocities = _velocities("legendre", L, c.v, p)
     return -_legendre(L, c.v, p, velocities)
@@ -191,7 +191,7 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
     _check_momenta("routh", u, p, used)
     remaining = [i for i in range(len(c.q)) if i not in places]
     if not remaining:
-        raise InputError("routh: every coordinate is cyclic: no coordinate is left to move; keep one")
+        raise InputError("routh: every coordinate is cyclic: no coordinate remains; keep one")
     velocities = _velocities("routh", L, u, p)
     reduced = Coordinates(*(tuple(names[i] for i in remaining) for names in (c.q, c.v, c.a)))
     substitution = dict(zip(u, velocities, strict=True))
@@ -284,7 +284,7 @@ def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
     return field
 
 
-_POINTS = 3  # at which accelerations are compared before anything is derived
+_POINTS = 3  # random points at which accelerations are compared first
 
 
 def same_as(system: Equations, other: Equations) -> Decision:

@@ -296,7 +296,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "gauge = theta_ddot contains theta_ddot": lambda: pendulum.noether((1,), a),
         "conserved: f = 'E' is no": lambda: pendulum.conserved("E"),
         "conserved: f = g must be": lambda: pendulum.conserved(g),
-        "no coordinate is left to move": lambda: point.routh("x y"),
+        "no coordinate remains": lambda: point.routh("x y"),
         "routh: phi not among": lambda: pendulum.routh("phi"),
         "routh: 3 must name": lambda: pendulum.routh(3),
         "each once": lambda: heavy_top().routh("phi phi"),

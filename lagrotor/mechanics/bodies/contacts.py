@@ -168,7 +168,7 @@ def contact(
         below, gap = (n - a * n.dot(a)) * r / lean, surface._height(p) - r * lean
     point = at - axes * below
     spin = in_ground(frame)[1] - drift
-    # Relative to the surface: of the body's centre, and of the point about it.
+    # Velocities relative to the surface: that of the body's centre, and of the point of contact about it.
     carried = drift.cross(at - ground.place())
     centre_moves = (at - ground.place()).applyfunc(lambda e: total_derivative(e, frame.c)) - carried
     slip = axes.T * centre_moves - (axes.T * spin).cross(below)

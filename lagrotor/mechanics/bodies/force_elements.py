@@ -127,7 +127,7 @@ class Pathway:
                 raise InputError(
                     f"around: an end is {sp.sqrt(square)} from the axis, inside the cylinder of radius {R}"
                 )
-            if decide_zero(square - R**2).answer != "zero":  # else the end is on the surface
+            if decide_zero(square - R**2).answer != "zero":  # otherwise the end is on the surface
                 turn -= sp.acos(R / sp.sqrt(square))
                 tangents += sp.sqrt(square - R**2)
         wrapped = sp.sqrt((tangents + R * turn) ** 2 + rise**2) if rise != 0 else tangents + R * turn
@@ -196,7 +196,9 @@ class Pathway:
             The function for `dissipation`, in W.
         """
         self._check_moves("dry_friction")
-        factors = [f for f in sp.Mul.make_args(self.rate) if not isinstance(f, sp.sign)]  # of a length along one axis
+        factors = [
+            f for f in sp.Mul.make_args(self.rate) if not isinstance(f, sp.sign)
+        ]  # of a length along a coordinate axis
         return expression("dry_friction: force", force) * sp.Abs(sp.Mul(*factors))
 
     def actuator(self, force: Any) -> sp.Matrix:

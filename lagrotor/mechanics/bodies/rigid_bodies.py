@@ -25,7 +25,7 @@ from lagrotor.mechanics.lagrangian import t
 
 Outline = list[list[Any]]  # points (x, y, z) of lines, in the body's frame
 _ARCS = 32  # chords of a drawn rim
-_ROUNDING = 1e-9  # of an inertia
+_ROUNDING = 1e-9  # relative, of an inertia
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +84,7 @@ class Body:
             lines.append([list(self.centre), *rim])
         if not lines and any(I):
             for k in range(3):
-                reach = sp.sqrt(sp.Abs(sum(I) / 2 - I[k]) / self.mass)  # the body's mean square along its axis k
+                reach = sp.sqrt(sp.Abs(sum(I) / 2 - I[k]) / self.mass)  # root mean square of the body along axis k
                 lines.append([[sign * reach * int(i == k) for i in range(3)] for sign in (-1, 1)])
         return lines or [[[0, 0, 0], [0, 0, 0]]]
 
@@ -100,12 +100,12 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any, centre: Vector) -> Bo
         raise InputError(
             f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), the centre (x, y, z)"
         )
-    I = sp.Matrix(3, 3, lambda i, j: I[min(i, j), max(i, j)])  # symmetric as written, too
+    I = sp.Matrix(3, 3, lambda i, j: I[min(i, j), max(i, j)])  # symmetric also as expressions
     m = expression("body: mass", mass)
     if used := (m.free_symbols | I.free_symbols | place.free_symbols) & {*frame.c.q, *frame.c.v, t}:
         raise InputError(
             f"body: {', '.join(sorted(map(str, used)))} in a rigid body: its mass, inertia and centre are fixed; move its "
-            "frame, and give what mass that is lost or gained does to the forces"
+            "frame, and describe a changing mass by forces"
         )
     body = Body(frame, m, I, place)
     check_body("body", body)
@@ -554,7 +554,7 @@ class Energy:
     terms: tuple[tuple[Body, tuple[sp.Expr, ...] | None, sp.Expr], ...]
     remainder: sp.Expr = sp.S.Zero
 
-    _op_priority = 100.0  # sympy hands + and − over
+    _op_priority = 100.0  # sympy leaves + and − to this class
 
     def __repr__(self) -> str:
         return f"Energy(bodies={len(self.bodies)}, remainder={self.remainder})"
