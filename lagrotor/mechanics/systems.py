@@ -142,10 +142,8 @@ class System(Equations):
 
         Parameters
         ----------
-        xi : sequence
-            The n components of ξ(q, v, t).
-        gauge : Expr, default 0
-            The gauge function F(q, v, t).
+        xi, gauge : sequence, Expr
+            The n components of ξ(q, v, t) and the gauge function F(q, v, t).
 
         Returns
         -------
@@ -167,10 +165,8 @@ class System(Equations):
 
         Parameters
         ----------
-        xi : sequence
-            The n components of ξ(q, v, t).
-        gauge : Expr, default 0
-            The gauge function F with δL = dF/dt.
+        xi, gauge : sequence, Expr
+            The n components of ξ(q, v, t) and the gauge function F with δL = dF/dt.
 
         Returns
         -------
@@ -536,7 +532,7 @@ class System(Equations):
         -------
         LinearSystem, StateEquations or StateSpace
             Without values M a + C v + K q = 0 in symbols, a `LinearSystem`. With inputs or outputs, or about a motion that
-            rolls or is written in velocities of one's own, x' = A x + B u, y = C x + D u in symbols, a `StateEquations`.
+            rolls or is written in quasi-velocities, x' = A x + B u, y = C x + D u in symbols, a `StateEquations`.
             With values the same in numbers with the eigenvalues of A in 1/s, a `StateSpace`.
 
         Raises
@@ -698,10 +694,8 @@ class System(Equations):
         ----------
         values : mapping
             {symbol: number} for all parameters.
-        q0 : array_like or mapping
-            Coordinates, shape (n,), or {symbol or name: number} for each.
-        v0 : array_like or mapping
-            Velocities, the same.
+        q0, v0 : array_like or mapping
+            Coordinates and velocities, shape (n,), or {symbol or name: number} for each.
         t : float, default 0.0
             The time in s.
 
@@ -787,10 +781,8 @@ class System(Equations):
             {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,
             callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy. The run
             ends where the motion leaves a table.
-        q0 : array_like or mapping
-            Coordinates at t[0], shape (n,), or {symbol or name: number} for each.
-        v0 : array_like or mapping
-            Velocities at t[0], the same; u (m,) for velocities of one's own.
+        q0, v0 : array_like or mapping
+            Coordinates and velocities, or quasi-velocities, at t[0]: arrays, or {symbol or name: number} for each.
         t : array_like
             Increasing times in s, shape (k,).
         tol : float, default 1e-09

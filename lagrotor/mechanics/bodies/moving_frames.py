@@ -37,23 +37,7 @@ Kind = TypeVar("Kind", bound="MovingFrame")
 
 @dataclass(frozen=True, eq=False)
 class MovingFrame:
-    """The ground, or a frame reached from its parent by one step.
-
-    Attributes
-    ----------
-    c : Coordinates
-        The coordinates of the system.
-    parent : MovingFrame or None
-        The frame before the step; None for the ground.
-    axis : int or None
-        The axis 0, 1 or 2 of a turn; None for a shift or a rotation matrix.
-    amount : Expr or Matrix
-        The angle, the shift (3, 1) or the rotation (3, 3).
-    quaternion : tuple of Symbol
-        The four coordinates of a ball joint, scalar first.
-    omega : tuple of Symbol
-        The three angular velocities of a ball joint.
-    """
+    """The ground, or a frame reached from its parent by one step; `Frame` describes the fields."""
 
     c: Coordinates
     parent: "MovingFrame | None" = None

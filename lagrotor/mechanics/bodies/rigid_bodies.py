@@ -147,11 +147,13 @@ class Frame(MovingFrame):
     c : Coordinates
         The coordinates of the system.
     parent : Frame or None
+        The frame before the step; None for the ground.
     axis : int or None
     amount : Expr or Matrix
+        A turn about axis 0, 1 or 2 by an angle; or a shift (3, 1) or a rotation (3, 3) with axis None.
     quaternion : tuple of Symbol
     omega : tuple of Symbol
-        The step from the frame before: see `MovingFrame`.
+        The coordinates, scalar first, and the angular velocities of a ball joint.
 
     Examples
     --------
@@ -269,10 +271,8 @@ class Frame(MovingFrame):
         ----------
         at : sequence, default (0, 0, 0)
             The origin, in m.
-        axes : str, default ""
-            Axes of turns, one after another.
-        angles : Expr or sequence, default ()
-            A fixed angle in rad for each.
+        axes, angles : str and sequence
+            Axes of turns, one after another, and fixed angles in rad.
 
         Returns
         -------
@@ -297,10 +297,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        angle : Expr or str
-            The angle in rad.
-        axis : str or sequence, default "z"
-            The axis.
+        angle, axis : Expr or str
+            The angle in rad and the axis.
 
         Returns
         -------
@@ -320,10 +318,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        length : Expr or str
-            The length in m.
-        axis : str or sequence, default "z"
-            The axis.
+        length, axis : Expr or str
+            The length in m and the axis.
 
         Returns
         -------
@@ -343,12 +339,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        angle : Expr or str
-            The angle in rad.
-        pitch : Expr
-            The advance in m for each turn of 2 π.
-        axis : str or sequence, default "z"
-            The axis.
+        angle, pitch, axis : Expr or str
+            The angle in rad, the advance in m for each turn of 2 π, and the axis.
 
         Returns
         -------
@@ -369,10 +361,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        length, angle : Expr or str
-            The length in m and the angle in rad.
-        axis : str or sequence, default "z"
-            The axis.
+        length, angle, axis : Expr or str
+            The length in m, the angle in rad and the axis.
 
         Returns
         -------
@@ -392,10 +382,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        first, second : Expr or str
-            The angles in rad.
-        axes : str, default "xy"
-            Two different axes.
+        first, second, axes : Expr or str
+            The angles in rad and two different axes.
 
         Returns
         -------
@@ -415,10 +403,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        x, y, angle : Expr or str
-            The shifts in m and the angle in rad.
-        normal : str or sequence, default "z"
-            The normal of the plane.
+        x, y, angle, normal : Expr or str
+            The shifts in m, the angle in rad and the axis normal to the plane.
 
         Returns
         -------
@@ -494,10 +480,8 @@ class Frame(MovingFrame):
         ----------
         other : Frame
             The other frame.
-        at : sequence, default (0, 0, 0)
-            The point in this frame, in m.
-        point : sequence, default (0, 0, 0)
-            The point in the other frame, in m.
+        at, point : sequence, default (0, 0, 0)
+            The points in this frame and in the other, in m.
 
         Returns
         -------
@@ -527,10 +511,8 @@ class Frame(MovingFrame):
         ----------
         other : Frame
             The other frame.
-        axis : str or sequence, default "z"
-            The axis of this frame.
-        other_axis : str or sequence, optional
-            The axis of the other frame; the same by default.
+        axis, other_axis : str or sequence
+            The axes of this frame and of the other, by default "z" and the same.
 
         Returns
         -------

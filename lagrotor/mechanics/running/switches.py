@@ -120,7 +120,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     """
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
     L = getattr(
-        system.lagrangian, "rest", system.lagrangian
+        system.lagrangian, "remainder", system.lagrangian
     )  # of an energy of bodies the expression that is added to them
     places = [*system.forces, system.dissipation, L]
     put: dict[sp.Expr, sp.Expr] = {}
