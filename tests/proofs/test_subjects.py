@@ -12,12 +12,14 @@ import sympy as sp
 pytest.importorskip("flint", reason="the extra `proof` is not installed")
 
 from lagrotor import Link, Scene, Shock, Structure
+from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates, t
 from lagrotor.numerics import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proofs import NotProved, check, crossing, enclose, equilibrium, precession
 from lagrotor.proofs.checker.expression_tapes import Words
 from lagrotor.proofs.checker.reversals import points_of
+from lagrotor.proofs.fields import field_of
 from tests.proofs.gallery import PLANE, RATE, THETA, C, U, V, X, Y, plain, spoiled
 
 M, G, ELL, K = sp.symbols("m g ell k", positive=True)
@@ -283,3 +285,10 @@ def test_a_system_that_cannot_be_read_again_is_named_by_its_program() -> None:
     found = enclose(Program((x, v), stages, (v, -stages[0][0])), {}, [1], [0], "0.1", 1e-12)
     assert "the motion whose program has the SHA-256 digest" in check(plain(found))
     assert np.isfinite(float(found.states[0]))
+
+
+def test_a_start_may_be_given_by_names() -> None:
+    by_name = field_of(SLEIGH, {}, {str(Y): 1, X: 2}, {V: 6, str(U): 3})
+    assert by_name.start == field_of(SLEIGH, {}, (2, 1), (3, 6)).start
+    with pytest.raises(InputError, match="q0 lacks"):
+        field_of(SLEIGH, {}, {X: 1}, (0, 0))
