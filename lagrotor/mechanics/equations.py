@@ -460,11 +460,6 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
     -------
     int
         n less the number of singular values of G above rounding.
-
-    Raises
-    ------
-    InputError
-        If a symbol has no value.
     """
     G = system.rows.subs(dict(at))
     if G.free_symbols:

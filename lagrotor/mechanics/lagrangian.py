@@ -41,11 +41,6 @@ class Coordinates:
     a : tuple of Symbol
         The accelerations q''.
 
-    Raises
-    ------
-    InputError
-        When the lengths differ or a symbol appears twice.
-
     Examples
     --------
     >>> c = coordinates("theta")
@@ -97,11 +92,6 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     -------
     Coordinates
         The symbols.
-
-    Raises
-    ------
-    InputError
-        If there is no name, one is repeated, or one does not begin with a letter.
 
     Examples
     --------

@@ -471,7 +471,7 @@ class System(Equations):
         Raises
         ------
         InputError
-            For several coordinates, constraints, any other order, or a system that is not q'' = −ν² q at small = 0.
+            For several coordinates, constraints, another order, or a system that is not q'' = −ν² q at small = 0.
         DomainError
             If the equation is no polynomial in q, q' and such functions of time.
 
@@ -542,7 +542,7 @@ class System(Equations):
         ConstraintError
             If the point is off the constraints.
         InputError
-            If the coefficients change with time, or an argument is no such thing.
+            If the coefficients change with time.
 
         Examples
         --------
@@ -767,13 +767,13 @@ class System(Equations):
     ) -> "SystemRun":
         """Integrate the equations of motion. Forces that jump with sign(w) or |w| stick and slip.
 
-        A run that cannot reach its last time ends where it came to; `run.ending` says why, with a LagrotorWarning. Another
-        one names the time at which it passed a position where its constraints are dependent.
+        A run that cannot reach its last time ends earlier; `run.ending` gives the reason, with a LagrotorWarning. Another
+        warning names the time of a position at which the constraints are dependent.
 
-        Steps are short where a function of t alone changes fast: in pulses and at steps that are longer than a ten-thousandth
-        of the run. A briefer pulse may be missed. They are short, too, where an expression of coordinates or velocities changes
-        within less than an eighth of their range, however narrow it is: exp(−((q − c)/w)²), tanh((q − c)/w). Narrow features of
-        a callable, a table or a spline are not known: give an expression.
+        Integration steps are short where a function of t alone changes fast, if the change lasts a ten-thousandth of the run;
+        a briefer pulse may be missed. They are short, too, where an expression of coordinates or velocities changes within an
+        eighth of their range, however narrow it is: exp(−((q − c)/w)²), tanh((q − c)/w). Narrow features of a callable, a table
+        or a spline are not recognised: give an expression.
 
         Parameters
         ----------

@@ -182,11 +182,6 @@ class Scene:
     rates : tuple of vectors
         The unit vectors r_i and r_i' (1/s) at the start, with |ell e_x + R (r_2 − r_1)| = ell and rates tangent to it.
 
-    Raises
-    ------
-    InputError
-        If axes, rates or sizes do not fit together.
-
     Examples
     --------
     >>> scene = Scene(spins=(10, -10), link=Link(mass=1.0, inertia=0.5))

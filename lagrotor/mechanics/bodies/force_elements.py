@@ -100,11 +100,6 @@ class Pathway:
         -------
         Pathway
             The path.
-
-        Raises
-        ------
-        InputError
-            If the axis is zero, `side` is not ±1, or an end stays inside.
         """
         p, q = _points(P, Q)
         o, a = (

@@ -80,11 +80,6 @@ class MovingFrame:
         Frame
             The turned frame.
 
-        Raises
-        ------
-        InputError
-            If axes and angles do not fit, or R Rᵀ is not 1.
-
         Examples
         --------
         >>> from lagrotor.mechanics import Frame, coordinates

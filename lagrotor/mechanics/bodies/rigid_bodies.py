@@ -183,11 +183,6 @@ class Frame(MovingFrame):
         Body
             The body with its energies.
 
-        Raises
-        ------
-        InputError
-            For any other shape, an inertia that no body has, or one that depends on a coordinate.
-
         Examples
         --------
         >>> from lagrotor.mechanics import coordinates
@@ -278,11 +273,6 @@ class Frame(MovingFrame):
         -------
         Frame
             The fixed frame.
-
-        Raises
-        ------
-        InputError
-            If a coordinate moves it.
 
         Examples
         --------
@@ -435,11 +425,6 @@ class Frame(MovingFrame):
         Frame
             The turned frame.
 
-        Raises
-        ------
-        InputError
-            For other coordinates, or names in use.
-
         Examples
         --------
         >>> from lagrotor.mechanics import System, coordinates
@@ -487,11 +472,6 @@ class Frame(MovingFrame):
         -------
         tuple of Expr
             Expressions that stay zero, without those that vanish identically.
-
-        Raises
-        ------
-        InputError
-            If no coordinate is bound.
 
         Examples
         --------
