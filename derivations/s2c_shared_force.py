@@ -225,7 +225,8 @@ verdict(
     uses=["2.11", "2.04", "2.05"],
     evidence=[
         f"From rest the axes stay parallel only if {sp.factor(pair['twisting'])} = 0, because the bar exerts a "
-        "force only along itself. A force along the bar leaves them parallel if omega_1 = omega_2, a force across it on one tip, from rest, never: for "
+        "force only along itself. A force along the bar leaves them parallel if omega_1 = omega_2, a force across it "
+        "on one tip, from rest, never: for "
         "equal spins the mean axis still follows (7), while the axes twist apart.",
         f"Mean drift under a steady force along a massless bar, over the paper's, by omega_2/omega_1: {pair['table']}. The "
         f"bar shares the force as {pair['shares']}, squares of the spins, not as the spins.",

@@ -218,7 +218,8 @@ verdict(
     uses=["3.05", "3.06"],
     evidence=[
         "The paper requires f_ij = -f_ji only. Two particles 1 m apart that push each other with 1 N "
-        f"perpendicularly to the line between them obey that and start to rotate: dL/dt = {tuple(spin_up)} N m without any torque from outside."
+        f"perpendicularly to the line between them obey that and start to rotate: dL/dt = {tuple(spin_up)} N m "
+        "without any torque from outside."
     ],
     written=form("sum_i(m_i*cross(X_i - X_cm, A_i))", X_cm=X_cm),
 )

@@ -52,7 +52,8 @@ verdict(
     uses=["3.09"],
     evidence=[
         "The sign is opposite to that of 3.09; storing rows instead of columns does not change it. The next "
-        "sentence, (1 + dt Omega_x) X_r, and 3.15 have the right sign. That sentence is also true: 1 + dt Omega_x is not a rotation, it "
+        "sentence, (1 + dt Omega_x) X_r, and 3.15 have the right sign. That sentence is also true: 1 + dt Omega_x is "
+        "not a rotation, it "
         f"stretches by the square root of {stretched} across a spin of {SPIN} rad/s."
     ],
     written=turning_vertex,

@@ -204,7 +204,8 @@ Remark(
 # %%
 Remark(
     "An impulse along x separates the two centres in y",
-    "D = y₁ − y₂ swings about RP/G: the centres of precession are separated across the joint line. The shock of 5.2.1 leaves y₁ − "
+    "D = y₁ − y₂ swings about RP/G: the centres of precession are separated across the joint line. The shock of 5.2.1 "
+    "leaves y₁ − "
     "y₂ = "
     f"{skew_twist:.4f} and X = {skew_x:.4f} on average, a skewness such as figure 23 shows.",
 )
