@@ -182,7 +182,8 @@ rows = (
         "unequal spins",
         "none",
         (
-            "the relative shift of the rate is c r_0², one formula from equal (ζ = 0) to opposite spins (ζ = 1); a twist grows by "
+            "the relative shift of the rate is c r_0², one formula from equal (ζ = 0) to opposite spins (ζ = 1); a "
+            "twist grows by "
             "lambda per radian, leading term:",
             t12["law"],
             equal(power**2, t12["growth"]),
@@ -205,7 +206,8 @@ rows = (
         "the guiding centre",
         "none",
         (
-            "unequal spins move like a charged particle in three dimensions; for small oscillations the centre stays on a line of "
+            "unequal spins move like a charged particle in three dimensions; for small oscillations the centre stays "
+            "on a line of "
             "constant flux, with h half the angle between the axes,",
             t14["flux"],
         ),
@@ -217,7 +219,8 @@ rows = (
         "about a periodic orbit",
         "none",
         (
-            "the angle of a return is a series in the action, α + τI + …, for any Hamiltonian system (known: Birkhoff 1927, Moser "
+            "the angle of a return is a series in the action, α + τI + …, for any Hamiltonian system (known: Birkhoff "
+            "1927, Moser "
             "1973); for Hénon's map, with c = cot α/2,",
             equal(turned, t15["twist"]),
         ),
@@ -246,7 +249,8 @@ rows = (
         ),
         "orders of the remaining error: "
         + ", ".join(f"{order:.2f} ({name})" for name, order in n7["orders"].items())
-        + f"; with a wave of amplitude {n7['pumped'][0]:g} two others grow {100 * n7['short'][0]:.1f} % more slowly than predicted; "
+        + f"; with a wave of amplitude {n7['pumped'][0]:g} two others grow {100 * n7['short'][0]:.1f} % more slowly "
+        "than predicted; "
         "new for rotors and bars, the method is Whitham's (1965)",
         FigureLink("n7"),
     ),
@@ -254,7 +258,8 @@ rows = (
         "fast spins",
         "none",
         (
-            "only slow precessions remain, in equations of first order; with springs those of Nash et al. (2015). For one axis with "
+            "only slow precessions remain, in equations of first order; with springs those of Nash et al. (2015). For "
+            "one axis with "
             "the stiffness κ and ε = aκ/G²,",
             equal(n8["omega"], n8["in_limit"]),
             "with the relative error ε",
@@ -268,7 +273,8 @@ rows = (
         "precessions of structures",
         "none",
         (
-            "each mode with a simple rate continues at finite tilt τ as a periodic motion (known: Lyapunov 1907). Its rate, with p "
+            "each mode with a simple rate continues at finite tilt τ as a periodic motion (known: Lyapunov 1907). Its "
+            "rate, with p "
             "the tilt of the axis over √I and b the forced response:",
             equal(Omega, n9["law"]),
             "and its multipliers, up to the resonance of two modes whose rates nearly add up to it; new for rotors and bars",
