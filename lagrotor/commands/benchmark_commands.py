@@ -37,29 +37,29 @@ def add_benchmark_commands(command: Command) -> None:
     add_json(added)
 
 
-def chart_command(given: argparse.Namespace) -> int:
+def chart_command(options: argparse.Namespace) -> int:
     """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
     from lagrotor.benchmark.scenes_and_methods import benchmarks
     from lagrotor.drawing.style import paper_style
     from lagrotor.files import write_beside, write_text
     from lagrotor.pictures.benchmark_figures import speed_chart
 
-    check_folder(given.out)
+    check_folder(options.out)
     with progress(4) as step:
-        charts = benchmarks(given.quick, step)
+        charts = benchmarks(options.quick, step)
     data = chart_data(charts)
     text = json.dumps(data, indent=1, ensure_ascii=False)
-    written = [write_text(given.out / "chart.json", text)]
-    for one in charts:
+    files = [write_text(options.out / "chart.json", text)]
+    for chart in charts:
         with paper_style():
-            figure = speed_chart(one)
+            figure = speed_chart(chart)
             for form in ("svg", "png"):
-                target = given.out / f"chart-{one.scene}.{form}"
-                written.append(write_beside(target, partial(figure.savefig, format=form)))
-    if given.json:
+                target = options.out / f"chart-{chart.scene}.{form}"
+                files.append(write_beside(target, partial(figure.savefig, format=form)))
+    if options.json:
         print(text)
     else:
-        print(chart_tables(charts), *written, sep="\n")
+        print(chart_tables(charts), *files, sep="\n")
     return 0
 
 
@@ -67,7 +67,7 @@ def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
     """Return the benchmarks and the ratios of the displaced scene, for JSON."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
-    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])}
+    return {"charts": [asdict(chart) for chart in charts], "ratios": ratios(charts[0])}
 
 
 def chart_tables(charts: "list[Benchmark]") -> str:
@@ -75,39 +75,39 @@ def chart_tables(charts: "list[Benchmark]") -> str:
     from lagrotor.benchmark.runner import failure_sentences, front
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
-    parts = []
-    for one in charts:
+    blocks = []
+    for chart in charts:
         rows = [
             (p.method, f"{p.setting:g}", f"{p.error:.1e}", f"{p.nfev}", f"{1e3 * p.seconds:.3g}")
-            for p in front(one.points)
+            for p in front(chart.points)
         ]
-        parts += [f"{one.scene}: {one.says}; the reference's two formulations agree to {one.floor:.1e} m"]
-        parts += [table(("front", "tol or step", "error (m)", "nfev", "ms"), rows)]
-        slow = sorted(((s, name) for name, s in one.setup.items() if s > 0.2), reverse=True)
-        parts += [f"  set-up: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
-        parts += [f"  left out: {failure}" for failure in failure_sentences(one.failures)]
-        parts += [""]
+        blocks += [f"{chart.scene}: {chart.says}; the reference's two formulations agree to {chart.floor:.1e} m"]
+        blocks += [table(("front", "tol or step", "error (m)", "nfev", "ms"), rows)]
+        slow = sorted(((s, name) for name, s in chart.setup.items() if s > 0.2), reverse=True)
+        blocks += [f"  set-up: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
+        blocks += [f"  left out: {failure}" for failure in failure_sentences(chart.failures)]
+        blocks += [""]
     compared = [
         (error, name, f"{1e3 * value:.3g} ms" if name in OURS else f"{value:.3g}")
         for error, row in ratios(charts[0]).items()
         for name, value in row.items()
         if value is not None
     ]
-    parts += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared)]
-    return "\n".join(parts)
+    blocks += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared)]
+    return "\n".join(blocks)
 
 
-def stability_command(given: argparse.Namespace) -> int:
+def stability_command(options: argparse.Namespace) -> int:
     from lagrotor.benchmark.limits.step_size import LIMITS, limits
     from lagrotor.benchmark.throughput import throughput
 
     with progress(len(LIMITS) + 1) as step:
-        thresholds = limits(given.quick, step)
+        thresholds = limits(options.quick, step)
         step("throughput")
-        rates = _throughput(throughput, given.quick)
-    if given.json:
-        shown = [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds]
-        print_json({"quick": given.quick, "limits": shown, "throughput": [asdict(rate) for rate in rates]})
+        rates = _throughput(throughput, options.quick)
+    if options.json:
+        data = [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds]
+        print_json({"quick": options.quick, "limits": data, "throughput": [asdict(rate) for rate in rates]})
     else:
         limit_rows = [
             (x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in thresholds

@@ -42,19 +42,19 @@ def main(argv: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a pipe's encoding may lack a letter: ? for it, no traceback
     try:
-        parser, given = _parser(), sys.argv[1:] if argv is None else argv
-        if not given:
+        parser, words = _parser(), sys.argv[1:] if argv is None else argv
+        if not words:
             parser.print_help()
             return 0
-        arguments = parser.parse_args(given)
+        arguments = parser.parse_args(words)
         with warnings.catch_warnings(record=True) as caught:
             status = int(arguments.run(arguments))
         for warning in caught:
             say(f"warning: {warning.message}", 0)
         sys.stdout.flush()
         return status
-    except SystemExit as done:  # --help, --version
-        return _flush(int(done.code or 0))
+    except SystemExit as stop:  # --help, --version
+        return _flush(int(stop.code or 0))
     except BrokenPipeError:
         return _close_pipe()
     except _Terminated:
@@ -66,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except LagrotorError as error:
         return say(str(error), 2)
     except OSError as error:
-        return say(": ".join(str(part) for part in (error.filename, error.strerror) if part) or str(error), 2)
+        return say(": ".join(str(text) for text in (error.filename, error.strerror) if text) or str(error), 2)
 
 
 def _flush(status: int) -> int:

@@ -32,10 +32,10 @@ class _OnePaper(pytest.Collector):
 
         try:
             paper = opened(self.path)
-            known, recorded = {*paper.scripts.stating, *paper.claim_tests}, paper.recorded
+            judged, recorded = {*paper.scripts.stating, *paper.claim_tests}, paper.recorded
         except LagrotorError as error:
             raise pytest.UsageError(str(error)) from None
-        ids = [i for i in (*paper.equations, *paper.claims) if i in known or i in recorded]
+        ids = [i for i in (*paper.equations, *paper.claims) if i in judged or i in recorded]
         for identifier in (*ids, *(i for i in recorded if i not in ids)):
             yield RecordedAnswer.from_parent(self, name=identifier, paper=paper)
 
@@ -43,20 +43,20 @@ class _OnePaper(pytest.Collector):
 class RecordedAnswer(pytest.Item):
     """One verdict, or the outcome of one claim, against the record."""
 
-    def __init__(self, *, paper: "Paper", **rest: Any) -> None:
-        super().__init__(**rest)
+    def __init__(self, *, paper: "Paper", **settings: Any) -> None:
+        super().__init__(**settings)
         self.paper = paper
 
     def runtest(self) -> None:
         """Judge the equation, or test the claim."""
-        found, why = self._found()
-        changes = self.paper.changes([found] if found else [], [self.name])
+        answer, why = self._answer()
+        changes = self.paper.changes([answer] if answer else [], [self.name])
         if not self.paper.recorded:
             changes = [f"{self.name}: nothing is on record: lagrotor audit --record and lagrotor claims --record"]
         if changes:
             raise ChangedError("\n".join([*changes, why]))
 
-    def _found(self) -> "tuple[Verdict | Result | None, str]":
+    def _answer(self) -> "tuple[Verdict | Result | None, str]":
         """Return the present answer and its reason."""
         from lagrotor.paper.audit import in_words
 

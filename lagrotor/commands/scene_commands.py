@@ -35,31 +35,35 @@ def add_shock(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--shock-width", type=float, metavar="S", help="width of the pulse, s")
 
 
-def scene_from_options(given: argparse.Namespace) -> Scene:
+def scene_from_options(options: argparse.Namespace) -> Scene:
     """Return the scene that the options describe, or that of the file. Raises InputError for one that makes no sense."""
-    shock = _shock(given) if "shock" in given else None  # rate takes none
-    link = {name: value for name in ("mass", "inertia") if (value := vars(given)[f"link_{name}"]) is not None}
-    if given.scene:
+    shock = _shock(options) if "shock" in options else None  # rate takes none
+    link = {name: value for name in ("mass", "inertia") if (value := vars(options)[f"link_{name}"]) is not None}
+    if options.scene:
         from lagrotor.pair.scene_document import read_scene
 
-        named = {"--spins": given.spins, "--shock": shock, **{f"--link-{name}": value for name, value in link.items()}}
+        named = {
+            "--spins": options.spins,
+            "--shock": shock,
+            **{f"--link-{name}": value for name, value in link.items()},
+        }
         if both := [name for name, value in named.items() if value is not None]:
             raise InputError(f"--scene and {both[0]}: the file has the whole scene; change it there")
-        return read_scene(given.scene)
-    if given.spins is None:
+        return read_scene(options.scene)
+    if options.spins is None:
         raise InputError("--spins W1 W2 is missing: give the axial angular velocities in rad/s, or --scene FILE")
-    return Scene(spins=tuple(given.spins), link=Link(**link), shock=shock)
+    return Scene(spins=tuple(options.spins), link=Link(**link), shock=shock)
 
 
-def _shock(given: argparse.Namespace) -> Shock | None:
+def _shock(options: argparse.Namespace) -> Shock | None:
     """Return the shock that the options describe, if any. Raises InputError when a part of it is missing."""
-    parts = {"--shock": given.shock, "--shock-time": given.shock_time, "--shock-width": given.shock_width}
-    missing = [name for name, value in parts.items() if value is None]
-    if len(missing) == len(parts):
+    values = {"--shock": options.shock, "--shock-time": options.shock_time, "--shock-width": options.shock_width}
+    missing = [name for name, value in values.items() if value is None]
+    if len(missing) == len(values):
         return None
     if missing:
         raise InputError(f"a shock needs {' and '.join(missing)}")
-    return Shock(tuple(given.shock), given.shock_time, given.shock_width)
+    return Shock(tuple(options.shock), options.shock_time, options.shock_width)
 
 
 def check_file(path: Path) -> None:
@@ -117,21 +121,21 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
     add_json(added, "a JSON list, one object a run")
 
 
-def _values(given: argparse.Namespace) -> list[float]:
+def _values(options: argparse.Namespace) -> list[float]:
     try:
-        first, last, count = float(given.between[0]), float(given.between[1]), int(given.between[2])
+        first, last, count = float(options.between[0]), float(options.between[1]), int(options.between[2])
     except ValueError:
-        raise InputError(f"--between {' '.join(given.between)}: give two numbers and a count") from None
+        raise InputError(f"--between {' '.join(options.between)}: give two numbers and a count") from None
     if not (math.isfinite(first) and math.isfinite(last) and 1 <= count <= _MOST):
-        raise InputError(f"--between {' '.join(given.between)}: two finite numbers and a count from 1 to {_MOST}")
+        raise InputError(f"--between {' '.join(options.between)}: two finite numbers and a count from 1 to {_MOST}")
     return [first + (last - first) * i / max(count - 1, 1) for i in range(count)]
 
 
-def sweep_command(given: argparse.Namespace) -> int:
+def sweep_command(options: argparse.Namespace) -> int:
     """Run the family; a line a run."""
-    if not (math.isfinite(given.t_end) and given.t_end > 0):
-        raise InputError(f"--t-end {given.t_end:g} must be above zero")
-    values, scene, change = _values(given), scene_from_options(given), _VARIED[given.vary][1]
+    if not (math.isfinite(options.t_end) and options.t_end > 0):
+        raise InputError(f"--t-end {options.t_end:g} must be above zero")
+    values, scene, change = _values(options), scene_from_options(options), _VARIED[options.vary][1]
     family = [change(scene, value) for value in values]
 
     import numpy as np
@@ -140,21 +144,21 @@ def sweep_command(given: argparse.Namespace) -> int:
 
     with progress(1) as step:
         step(f"{len(family)} runs")
-        ensemble = sweep(family, np.linspace(0.0, given.t_end, 3), tol=given.tol)
+        ensemble = sweep(family, np.linspace(0.0, options.t_end, 3), tol=options.tol)
     runs = [ensemble.trajectory(i) for i in range(len(family))]
     rows = [
-        {given.vary: value, "model": run.model, "evaluations": run.evaluations,
+        {options.vary: value, "model": run.model, "evaluations": run.evaluations,
          "tip_1": run.tips[0, -1].tolist(), "tip_2": run.tips[1, -1].tolist()}
         for value, run in zip(values, runs, strict=True)
     ]  # fmt: skip
-    if given.json:
+    if options.json:
         print_json(rows)
     else:
         cells = [
-            (f"{r[given.vary]:.6g}", r["model"], str(r["evaluations"]), "  ".join(f"{x:.6f}" for x in r["tip_1"]))
+            (f"{r[options.vary]:.6g}", r["model"], str(r["evaluations"]), "  ".join(f"{x:.6f}" for x in r["tip_1"]))
             for r in rows
         ]
-        print(table((given.vary, "model", "evaluations", f"tip 1 at {given.t_end:g} s [m]"), cells))
+        print(table((options.vary, "model", "evaluations", f"tip 1 at {options.t_end:g} s [m]"), cells))
     return 1 if len(ensemble.failed) else 0
 
 
@@ -220,11 +224,11 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
     add_json(added, "the summary as a JSON object")
 
 
-def animate_command(given: argparse.Namespace) -> int:
+def animate_command(options: argparse.Namespace) -> int:
     from lagrotor.drawing.film import check_film
 
-    ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
-    t_end = ready.duration if given.t_end is None else given.t_end
+    ready, target = SCENES[options.scene], options.out or Path(f"{options.scene}.gif")
+    t_end = ready.duration if options.t_end is None else options.t_end
     check_film(target, t_end, _FPS)
     check_folder(target.parent)
 
@@ -236,38 +240,38 @@ def animate_command(given: argparse.Namespace) -> int:
         step("motion")
         run = simulate(ready.scene, np.linspace(0.0, t_end, math.ceil(100 * t_end) + 1))
         run.animate(target, _FPS, step)
-    print_json({"file": str(target)}) if given.json else print(target)
+    print_json({"file": str(target)}) if options.json else print(target)
     return 0
 
 
-def simulate_command(given: argparse.Namespace) -> int:
-    if not (math.isfinite(given.t_end) and given.t_end > 0):
-        raise InputError(f"--t-end {given.t_end:g} must be greater than zero and finite, in s")
-    if not 2 <= given.samples <= _MOST_SAMPLES:
-        raise InputError(f"--samples {given.samples} must lie between 2 and {_MOST_SAMPLES}")
-    if given.write_scene and given.write_scene.suffix != ".toml":
-        raise InputError(f"--write-scene {given.write_scene}: the name must end in .toml")
-    if given.out:
-        check_file(given.out)
-    if given.out and given.out.suffix in FILMS:
+def simulate_command(options: argparse.Namespace) -> int:
+    if not (math.isfinite(options.t_end) and options.t_end > 0):
+        raise InputError(f"--t-end {options.t_end:g} must be greater than zero and finite, in s")
+    if not 2 <= options.samples <= _MOST_SAMPLES:
+        raise InputError(f"--samples {options.samples} must lie between 2 and {_MOST_SAMPLES}")
+    if options.write_scene and options.write_scene.suffix != ".toml":
+        raise InputError(f"--write-scene {options.write_scene}: the name must end in .toml")
+    if options.out:
+        check_file(options.out)
+    if options.out and options.out.suffix in FILMS:
         from lagrotor.drawing.film import check_film
 
-        check_film(given.out, given.t_end, _FPS)
-    scene = _scene_with_start(scene_from_options(given), given)
+        check_film(options.out, options.t_end, _FPS)
+    scene = _scene_with_start(scene_from_options(options), options)
 
     import numpy as np
 
     from lagrotor.models.simulate import simulate
 
-    times = np.linspace(0.0, given.t_end, given.samples)
-    run = simulate(scene, times, given.model, given.tol)
-    if given.out:
-        run.save(given.out)
+    times = np.linspace(0.0, options.t_end, options.samples)
+    run = simulate(scene, times, options.model, options.tol)
+    if options.out:
+        run.save(options.out)
     summary = {
         "model": run.model,
         "why": run.why,
-        "samples": given.samples,
-        "t_end": given.t_end,
+        "samples": options.samples,
+        "t_end": options.t_end,
         "evaluations": run.evaluations,
         "energy_first": float(run.energy[0]),
         "energy_last": float(run.energy[-1]),
@@ -275,25 +279,25 @@ def simulate_command(given: argparse.Namespace) -> int:
         "tip_1": run.tips[0, -1].tolist(),
         "tip_2": run.tips[1, -1].tolist(),
     }
-    if given.json:
+    if options.json:
         print_json(summary)
-    elif given.out:
-        print(f"{given.out}: {given.samples} times by the model {run.model} ({run.why})")
+    elif options.out:
+        print(f"{options.out}: {options.samples} times by the model {run.model} ({run.why})")
     else:
         print(_run_table(summary))
     return 0
 
 
-def _scene_with_start(scene: Scene, given: argparse.Namespace) -> Scene:
+def _scene_with_start(scene: Scene, options: argparse.Namespace) -> Scene:
     """Return the scene, on its paired precession with `--paired`, written with `--write-scene`."""
-    if given.paired is not None:
+    if options.paired is not None:
         from lagrotor.models.orbits.precession import paired_scene
 
-        scene = paired_scene(scene, given.paired)
-    if given.write_scene:
+        scene = paired_scene(scene, options.paired)
+    if options.write_scene:
         from lagrotor.pair.scene_document import write_scene
 
-        write_scene(scene, given.write_scene)
+        write_scene(scene, options.write_scene)
     return scene
 
 
@@ -313,14 +317,14 @@ def _run_table(run: dict[str, Any]) -> str:
     return table((f"{run['t_end']:g} s", f"{run['samples']} times"), rows)
 
 
-def rate_command(given: argparse.Namespace) -> int:
-    scene = scene_from_options(given)
+def rate_command(options: argparse.Namespace) -> int:
+    scene = scene_from_options(options)
 
     from lagrotor.theory.natural_rate import natural_rate, natural_rate_limits
 
     rate, limits = natural_rate(scene), natural_rate_limits(scene) if scene.link else {}
     period = 2 * math.pi / abs(rate) if rate else None
-    if given.json:
+    if options.json:
         rates = {name: limit.rate for name, limit in limits.items()}
         print_json({"rate": rate, "period": period, "limits": rates})
     else:
@@ -351,26 +355,26 @@ def add_structure_commands(command: Command) -> None:
     add_json(added)
 
 
-def structure_command(given: argparse.Namespace) -> int:
+def structure_command(options: argparse.Namespace) -> int:
     from lagrotor.structures.gallery import GALLERY, example
     from lagrotor.structures.structure import read_structure
 
-    if given.structure == "list":
-        listed = {name: each.says for name, each in GALLERY.items()}
-        print_json(listed) if given.json else print(table(("name", "what it shows"), list(listed.items())))
+    if options.structure == "list":
+        listed = {name: entry.says for name, entry in GALLERY.items()}
+        print_json(listed) if options.json else print(table(("name", "what it shows"), list(listed.items())))
         return 0
-    if given.out and given.out.suffix not in _ENDINGS:
-        raise InputError(f"--out {given.out}: the name must end in {', '.join(_ENDINGS)}")
-    if given.out:
-        check_folder(given.out.parent)
-    s = read_structure(given.structure) if given.structure.endswith(".toml") else example(given.structure)
-    if given.out:
-        ready = GALLERY.get(given.structure)
-        _write(s, given.out, ready.duration if ready else 5.0)
+    if options.out and options.out.suffix not in _ENDINGS:
+        raise InputError(f"--out {options.out}: the name must end in {', '.join(_ENDINGS)}")
+    if options.out:
+        check_folder(options.out.parent)
+    s = read_structure(options.structure) if options.structure.endswith(".toml") else example(options.structure)
+    if options.out:
+        ready = GALLERY.get(options.structure)
+        _write(s, options.out, ready.duration if ready else 5.0)
     summary = _summary(s)
-    print_json(summary) if given.json else print(_table(summary))
-    if given.out and not given.json:
-        print(given.out)
+    print_json(summary) if options.json else print(_table(summary))
+    if options.out and not options.json:
+        print(options.out)
     return 0
 
 

@@ -63,8 +63,8 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     lines = []
     for row in (head, *rows):
         first = "".join(f"{cell:<{width}}  " for cell, width in zip(row, widths, strict=False))
-        for i, part in enumerate(textwrap.wrap(row[-1], room) or [""]):
-            lines.append(((first if i == 0 else " " * indent) + part).rstrip())
+        for i, text in enumerate(textwrap.wrap(row[-1], room) or [""]):
+            lines.append(((first if i == 0 else " " * indent) + text).rstrip())
     return "\n".join(lines)
 
 
@@ -90,17 +90,17 @@ def progress(total: int) -> Iterator[Callable[[str], None]]:
 
     A terminal shows the step in one line that is written over; elsewhere each step is a line on stderr.
     """
-    done, began, live = 0, time.perf_counter(), sys.stderr.isatty()
+    count, start, live = 0, time.perf_counter(), sys.stderr.isatty()
 
     def step(name: str) -> None:
-        nonlocal done
-        done += 1
-        line = f"[{done}/{total}] {time.perf_counter() - began:4.0f} s  {name}"
+        nonlocal count
+        count += 1
+        line = f"[{count}/{total}] {time.perf_counter() - start:4.0f} s  {name}"
         width = shutil.get_terminal_size().columns - 1
         print(f"\r{line[:width]:<{width}}" if live else line, end="" if live else "\n", file=sys.stderr, flush=True)
 
     try:
         yield step
     finally:
-        if live and done:
+        if live and count:
             _clear_line()

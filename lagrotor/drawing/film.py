@@ -186,18 +186,20 @@ def animate_lines(
     """
     target, flat = Path(path), _flat(lines)
     check_film(target, float(t[-1] - t[0]), fps)
-    seen = [Camera()(line) if flat is None else np.delete(line, flat, axis=-1) for line in lines]
+    projected = [Camera()(line) if flat is None else np.delete(line, flat, axis=-1) for line in lines]
 
     def stage(figure: Figure) -> tuple[Axes, Callable[[int], list[Artist]]]:
         axes = figure.subplots()
-        _limits(axes, np.concatenate([line.reshape(-1, 2) for line in seen]))
-        drawn = [_line(axes, inks[i % len(inks)], 2.0) for i in range(len(seen))]
-        traces = [(_line(axes, GROUND, 1.0), seen[i]) for i in (range(len(seen)) if traced is None else traced)]
+        _limits(axes, np.concatenate([line.reshape(-1, 2) for line in projected]))
+        drawn = [_line(axes, inks[i % len(inks)], 2.0) for i in range(len(projected))]
+        traces = [
+            (_line(axes, GROUND, 1.0), projected[i]) for i in (range(len(projected)) if traced is None else traced)
+        ]
         clock = axes.text(0.02, 0.98, "", transform=axes.transAxes, va="top", animated=True, fontsize=11)
 
         def update(i: int) -> list[Artist]:
             clock.set_text(f"t = {t[i]:5.2f} s")
-            for artist, line in zip(drawn, seen, strict=True):
+            for artist, line in zip(drawn, projected, strict=True):
                 artist.set_data(*line[i].T)
             for trace, line in traces:
                 trace.set_data(*line[: i + 1, -1].T)
@@ -215,8 +217,8 @@ def _flat(lines: Sequence[Array]) -> int | None:
     return next((i for i in (1, 2, 0) if extent[i] <= 1e-9 * extent.max()), None)
 
 
-def _limits(axes: Axes, seen: Array) -> None:
-    low, high = seen.min(0), seen.max(0)
+def _limits(axes: Axes, points: Array) -> None:
+    low, high = points.min(0), points.max(0)
     room = 0.08 * (high - low).max() or 1.0
     axes.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + room), aspect="equal")
     axes.axis("off")

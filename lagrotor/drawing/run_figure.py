@@ -88,11 +88,11 @@ def rates_figure(letter: str, numbers: Array, rates: NDArray[np.complex128], mar
     with paper_style():
         figure = RunFigure(figsize=(7.0, 5.0))
         above, below = figure.subplots(2, 1, sharex=True)
-        for panel, parts, label in (
+        for panel, values, label in (
             (above, rates.real, "real part [1/s]"),
             (below, rates.imag, "imaginary part [1/s]"),
         ):
-            panel.plot(numbers, parts, color=ROTORS[0])
+            panel.plot(numbers, values, color=ROTORS[0])
             panel.axhline(0, color=GROUND, linewidth=1)
             panel.set_ylabel(label)
             for mark in marks:
@@ -106,8 +106,8 @@ def chart_figure(names: tuple[str, str], numbers: tuple[Array, Array], growth: A
     with paper_style():
         figure = RunFigure(figsize=(7.0, 5.0))
         panel = figure.subplots()
-        shown = np.where(growth > 1e-6 * max(float(growth.max()), 1e-300), growth, np.nan)
-        mesh = panel.pcolormesh(*numbers, shown, cmap="Blues", vmin=0, shading="nearest")
+        visible = np.where(growth > 1e-6 * max(float(growth.max()), 1e-300), growth, np.nan)
+        mesh = panel.pcolormesh(*numbers, visible, cmap="Blues", vmin=0, shading="nearest")
         figure.colorbar(mesh, label="growth rate [1/s]")
         panel.plot(*edges.T, ".", color=ROTORS[1], markersize=4)
         panel.set_xlabel(names[0])

@@ -31,14 +31,14 @@ class View:
     @property
     def html(self) -> str:
         """The page, which needs no network."""
-        parts = {
+        replacements = {
             "/* style */": _text("view.css"),
             "/* script */": canvas_script() + _text("view.js"),
             "/* data */": json.dumps(self.motion),
             "<!-- motion -->": self._parts(),
         }
         page = _text("view.html")
-        for place, content in parts.items():
+        for place, content in replacements.items():
             page = page.replace(place, content)
         return page
 
@@ -110,24 +110,26 @@ def view_lines(
     InputError
         A motion that is empty or not finite.
     """
-    held = [np.asarray(line, float) for line in lines]
-    if not held or len(t) < 2 or not all(line.size and np.isfinite(line).all() for line in held):
-        raise InputError(f"view: {len(held)} lines at {len(t)} times: there is nothing that moves, or it is not finite")
-    corners = np.array([[line.reshape(-1, 3).min(0), line.reshape(-1, 3).max(0)] for line in held])
+    arrays = [np.asarray(line, float) for line in lines]
+    if not arrays or len(t) < 2 or not all(line.size and np.isfinite(line).all() for line in arrays):
+        raise InputError(
+            f"view: {len(arrays)} lines at {len(t)} times: there is nothing that moves, or it is not finite"
+        )
+    corners = np.array([[line.reshape(-1, 3).min(0), line.reshape(-1, 3).max(0)] for line in arrays])
     low, high = corners[:, 0].min(0), corners[:, 1].max(0)
     middle, unit = (low + high) / 2, float((high - low).max() or 1.0) / 2 / _LARGEST
     paths = range(len(lines)) if traced is None else traced
 
-    def written(place: int, line: Array) -> dict[str, Any]:
+    def encoded(place: int, line: Array) -> dict[str, Any]:
         steps = np.rint((line - middle) / unit).astype("<i2")
         data = b64encode(steps.tobytes()).decode("ascii")
         return {"data": data, "points": line.shape[1], "ink": inks[place % len(inks)], "traced": place in paths}
 
     motion = {
-        "t": [float(f"{each:.6g}") for each in t],
+        "t": [float(f"{item:.6g}") for item in t],
         "unit": unit,
         "middle": middle.tolist(),
-        "lines": [written(*each) for each in enumerate(held)],
+        "lines": [encoded(*item) for item in enumerate(arrays)],
     }
     return View(motion, title)
 

@@ -41,8 +41,8 @@ def wheel(radius: float, axle: float, n: int, arcs: int = 1) -> tuple[Array, NDA
 
 def place_points(points: Array, rotation: Array, centre: Array) -> Array:
     """Xn = X Rᵀ + X_cm (the paper's listing): points (p, 3) with R (…, 3, 3), X_cm (…, 3) → (…, p, 3), in m."""
-    moved: Array = points @ np.swapaxes(rotation, -1, -2) + centre[..., None, :]
-    return moved
+    placed: Array = points @ np.swapaxes(rotation, -1, -2) + centre[..., None, :]
+    return placed
 
 
 @dataclass(frozen=True)
@@ -61,10 +61,10 @@ class Camera:
 
     def __call__(self, points: Array) -> Array:
         """Points (…, 3) on the picture (…, 2), in m."""
-        seen: Array = points @ self.frame[:2].T
-        return seen
+        picture: Array = points @ self.frame[:2].T
+        return picture
 
     def depth(self, points: Array) -> Array:
         """How far towards the viewer points (…, 3) are, (…), in m."""
-        seen: Array = points @ self.frame[2]
-        return seen
+        depths: Array = points @ self.frame[2]
+        return depths

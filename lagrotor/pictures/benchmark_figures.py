@@ -88,8 +88,8 @@ def _panel(axes: Axes, chart: Benchmark, work: Work) -> list[tuple[Line2D, bool]
 
 def _curve(axes: Axes, points: list[ChartPoint], work: Work, number: int, look: dict[str, Any]) -> Line2D:
     """One method's curve, with its number at its most accurate point."""
-    across, errors = [getattr(p, work) for p in points], [p.error for p in points]
-    (line,) = axes.loglog(across, errors, markersize=4, linewidth=0.9, **look)
+    costs, errors = [getattr(p, work) for p in points], [p.error for p in points]
+    (line,) = axes.loglog(costs, errors, markersize=4, linewidth=0.9, **look)
     if points:
         end = min(points, key=lambda p: p.error)
         at = getattr(end, work), end.error
@@ -103,8 +103,8 @@ def stability_figure(useful: Usefulness) -> Figure:
     panels = figure.subplots(1, len(useful.orders), sharey=True, squeeze=False)[0]
     levels = np.arange(-8, 1)
     for panel, order, errors in zip(panels, useful.orders, useful.errors, strict=True):
-        shown = np.clip(np.log10(errors), levels[0], levels[-1])
-        filled = panel.contourf(useful.amplitudes, useful.departures, shown, levels, cmap="cividis")
+        clipped = np.clip(np.log10(errors), levels[0], levels[-1])
+        filled = panel.contourf(useful.amplitudes, useful.departures, clipped, levels, cmap="cividis")
         panel.contour(
             useful.amplitudes,
             useful.departures,

@@ -51,12 +51,12 @@ def stems(scripts: Scripts) -> dict[str, str]:
 def check_keys(keys: Iterable[str], scripts: Scripts) -> list[str]:
     """The keys, each once, 07 read as 7; raises InputError for one that no script draws."""
     drawn = stems(scripts)
-    wanted = list(dict.fromkeys(key.lstrip("0") or key for key in keys))
-    for key in wanted:
+    unique = list(dict.fromkeys(key.lstrip("0") or key for key in keys))
+    for key in unique:
         if key not in drawn:
             listed = ", ".join(drawn) or "none"
             raise InputError(f"figure {key!r} has no script: those drawn are {listed}{near(key, drawn)}")
-    return wanted
+    return unique
 
 
 def draw_figure(key: str, folder: Path, scripts: Scripts) -> Picture:
@@ -137,17 +137,17 @@ def _short(value: float) -> str:
 
 def _relative(path: str) -> str:
     """A path of M, L, Q, C and z with each point relative to the one before, rounding errors not carried along."""
-    written, at, start, last = [], (0.0, 0.0), (0.0, 0.0), ""
-    for letter, rest in re.findall(r"([MLQCz])([^MLQCz]*)", path):
-        numbers = [float(number) for number in rest.split()]
+    pieces, at, start, last = [], (0.0, 0.0), (0.0, 0.0), ""
+    for letter, coordinates in re.findall(r"([MLQCz])([^MLQCz]*)", path):
+        numbers = [float(number) for number in coordinates.split()]
         if letter == "z":
-            written.append("z")
+            pieces.append("z")
             at, last = start, letter
             continue
         points = list(zip(numbers[::2], numbers[1::2], strict=True))
         steps = [(round(x - at[0], _DECIMALS), round(y - at[1], _DECIMALS)) for x, y in points]
         again = letter == last and letter != "M"
-        written.append((" " if again else letter.lower()) + " ".join(f"{_short(x)} {_short(y)}" for x, y in steps))
+        pieces.append((" " if again else letter.lower()) + " ".join(f"{_short(x)} {_short(y)}" for x, y in steps))
         at = (at[0] + steps[-1][0], at[1] + steps[-1][1])
         start, last = at if letter == "M" else start, letter
-    return "".join(written).replace(" -", "-")
+    return "".join(pieces).replace(" -", "-")

@@ -20,16 +20,16 @@ from lagrotor.pair.scene import Scene
 from lagrotor.paper.rotor_pair.runs import SPECTRUM_FROM, centre_numbers, centre_off, centre_runs
 
 
-def canvas(figure: Figure, seen: Array, room: float = 0.12) -> Axes:
+def canvas(figure: Figure, points: Array, room: float = 0.12) -> Axes:
     """The figure's one panel, without axes, of equal scales, around the points seen (…, 2) with `room` (m) about them."""
     axes = figure.subplots()
-    bare(axes, seen, room)
+    bare(axes, points, room)
     return axes
 
 
-def bare(axes: Axes, seen: Array, room: float = 0.12) -> None:
+def bare(axes: Axes, points: Array, room: float = 0.12) -> None:
     """Take the frame off a panel and fit it around the points seen (…, 2), with `room` (m) about them."""
-    low, high = seen.reshape(-1, 2).min(0) - room, seen.reshape(-1, 2).max(0) + room
+    low, high = points.reshape(-1, 2).min(0) - room, points.reshape(-1, 2).max(0) + room
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     axes.axis("off")
 
@@ -52,11 +52,11 @@ def path_arrow(axes: Axes, points: Array, colour: str = INK, width: float = 1.6)
 
 
 def label(
-    axes: Axes, at: ArrayLike, text: str, colour: str = INK, shift: tuple[float, float] = (0, 0), **more: Any
+    axes: Axes, at: ArrayLike, text: str, colour: str = INK, shift: tuple[float, float] = (0, 0), **settings: Any
 ) -> None:
     """Text near `at` (2,), moved by `shift` points, with a white rim so that no line runs through it."""
     x, y = np.asarray(at, dtype=float)
-    style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 11, "color": colour, "zorder": 6} | more
+    style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 11, "color": colour, "zorder": 6} | settings
     axes.annotate(text, (x, y), xytext=shift, textcoords="offset points", path_effects=HALO, **style)
 
 
@@ -69,8 +69,8 @@ def arc(centre: ArrayLike, u: Array, v: Array, radius: float, begin: float, end:
 def arc_between(u: Array, v: Array, radius: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
     """Points (31, 3) of the arc of `radius` (m) about `centre` from the direction u to the direction v, unit vectors."""
     angle = float(np.arccos(np.clip(u @ v, -1, 1)))
-    across = v - (u @ v) * u
-    return arc(centre, u, across / np.linalg.norm(across), radius, 0.0, angle, 31)
+    normal = v - (u @ v) * u
+    return arc(centre, u, normal / np.linalg.norm(normal), radius, 0.0, angle, 31)
 
 
 def draw_wheel(
@@ -138,14 +138,14 @@ def shock_script(scene: Scene, letter: str) -> tuple[Callable[[], Any], Callable
     def measure() -> dict[str, float]:
         return centre_numbers(data()) | {"centre at 10 s, off the exact model (m)": centre_off(data())}
 
-    energy, exact, x, y, z, off = measure().values()
+    energy, exact, x, y, z, distance = measure().values()
     caption = (
         f"Spring-link model by the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
         "omega_s = 10 rad/s in 4.01, as in figure 10), bar of 1 kg and 1 kg m², spins 10 and −10 rad/s, "
         f"shock 50 exp(−(50 (t − 2))²) N in {letter} on the tip of rotor 1. "
         f"Energy 100 to {energy:.3f} J (exact: {exact:.3f} J); "
         f"in 10 s x keeps within {x:.2f} m, y moves by {y:.2f} m, z by {z:.2f} m. "
-        f"Dashed: the exact model, {1000 * off:.1f} mm away at 10 s. The paper's z is 0.5 m less."
+        f"Dashed: the exact model, {1000 * distance:.1f} mm away at 10 s. The paper's z is 0.5 m less."
     )
     return data, measure, caption, lambda: shock_figure(data(), letter)
 
@@ -209,8 +209,8 @@ def over_one_turn(panel: Axes) -> None:
     panel.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
 
 
-def distance_over_one_turn(panel: Axes, least: float, most: float) -> None:
-    """The frame of a panel for the distance of tip 1 from the exact one, from `least` to `most` (m), over the phase."""
+def distance_over_one_turn(panel: Axes, least: float, greatest: float) -> None:
+    """The frame of a panel for the distance of tip 1 from the exact one, from `least` to `greatest` (m), over the phase."""
     panel.set(xlabel="phase [rad]", ylabel="distance [m]", title="Residual: distance of tip 1 from the exact one")
-    panel.set_ylim(least, most)
+    panel.set_ylim(least, greatest)
     over_one_turn(panel)

@@ -103,13 +103,13 @@ class Check:
     @property
     def counts(self) -> dict[str, int]:
         """The number of steps that hold, are refuted, and are not judged."""
-        counts = Counter(each.verdict for each in self.findings)
+        counts = Counter(finding.verdict for finding in self.findings)
         return {verdict: counts[verdict] for verdict in (HOLDS, REFUTED, NOT_JUDGED)}
 
     @property
     def reasons(self) -> dict[str, int]:
         """The three commonest reasons for which steps are not judged, with their numbers."""
-        reasons = Counter(each.why.partition(": ")[0] for each in self.findings if each.verdict == NOT_JUDGED)
+        reasons = Counter(finding.why.partition(": ")[0] for finding in self.findings if finding.verdict == NOT_JUDGED)
         return dict(reasons.most_common(3))
 
 
@@ -128,10 +128,11 @@ def check_source(source: Source, declared: Notation = ALL_REAL) -> Check:
     Check
         The findings in the order of the source.
     """
-    notation = with_proposals(declared, propose([*(each.latex for each in source.equations), *source.inline]))
-    readings = [(each, read_formula(each.latex, notation, each.lead)) for each in source.equations]
+    notation = with_proposals(declared, propose([*(equation.latex for equation in source.equations), *source.inline]))
+    readings = [(equation, read_formula(equation.latex, notation, equation.lead)) for equation in source.equations]
     faults = [
-        StepFinding("", 0, n, FAULT, said, file=file if file != source.file else "") for file, n, said in source.faults
+        StepFinding("", 0, n, FAULT, sentence, file=file if file != source.file else "")
+        for file, n, sentence in source.faults
     ]
     return Check((*faults, *_Checker(source, readings, notation).findings()))
 
@@ -146,55 +147,57 @@ class _Checker:
 
     def findings(self) -> Iterator[StepFinding]:
         """Yield every finding."""
-        for place, (each, reading) in enumerate(self.readings):
+        for place, (equation, reading) in enumerate(self.readings):
             self.place = place
             if not reading.whole:
                 what, helps = reading.stop or ("", "")
-                yield self._finding(each, 0, None, NOT_JUDGED, f"{NOT_READ}: {what}: {helps}")
+                yield self._finding(equation, 0, None, NOT_JUDGED, f"{NOT_READ}: {what}: {helps}")
             for nth, statement in enumerate(reading.statements):
-                yield from (self._finding(each, 0, None, INDEX, why) for why in _open_indices(statement))
-                yield from self._steps(each, statement, statement if nth else self._continued(each, statement))
+                yield from (self._finding(equation, 0, None, INDEX, why) for why in _open_indices(statement))
+                yield from self._steps(equation, statement, statement if nth else self._continued(equation, statement))
 
     def _finding(
-        self, each: Displayed, step: int, sides: tuple[Side, Side] | None, verdict: str, why: str
+        self, equation: Displayed, step: int, sides: tuple[Side, Side] | None, verdict: str, why: str
     ) -> StepFinding:
-        file, line = each.place
-        if sides is not None and len(each.rows) > 1:
-            line = each.rows[min(each.latex[: sides[1].at].count(r"\\"), len(each.rows) - 1)]
+        file, line = equation.place
+        if sides is not None and len(equation.rows) > 1:
+            line = equation.rows[min(equation.latex[: sides[1].at].count(r"\\"), len(equation.rows) - 1)]
         members = tuple(text_of(side.node) for side in sides or ())
-        return StepFinding(each.id, step, line, verdict, why, members, file if file != self.source.file else "")
+        return StepFinding(equation.id, step, line, verdict, why, members, file if file != self.source.file else "")
 
-    def _steps(self, each: Displayed, printed: PrintedStatement, statement: PrintedStatement) -> Iterator[StepFinding]:
+    def _steps(
+        self, equation: Displayed, printed: PrintedStatement, statement: PrintedStatement
+    ) -> Iterator[StepFinding]:
         """Yield the steps of a chain, the first only if it is an identity; printed: without the row before."""
         order_before = None if statement is printed else self.readings[self.place - 1][1].statements[-1].order
         steps = enumerate(zip(statement.sides, statement.sides[1:], statement.relations, strict=False), 1)
-        for step, (left, right, relation) in steps:
-            claimed = (right is statement.sides[-1] and statement.order) or (step == 2 and order_before)
-            if step == 1 and (statement is not printed or not _may_be_identity(left.node, right.node)):
+        for step, (lhs, rhs, relation) in steps:
+            claimed = (rhs is statement.sides[-1] and statement.order) or (step == 2 and order_before)
+            if step == 1 and (statement is not printed or not _may_be_identity(lhs.node, rhs.node)):
                 continue
             decide: Callable[..., _VERDICT] = self._step
-            arguments: tuple[Any, ...] = (left.node, right.node)
+            arguments: tuple[Any, ...] = (lhs.node, rhs.node)
             if claimed and step > 1:
                 decide, arguments = self._order, (*arguments, claimed)
             elif relation not in ("=", ":="):
                 continue
             verdict, why = bounded(decide, *arguments, too_large=(NOT_JUDGED, TOO_LARGE))
             if step > 1 or verdict == HOLDS:
-                yield self._finding(each, step, (left, right), verdict, why)
+                yield self._finding(equation, step, (lhs, rhs), verdict, why)
 
-    def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
+    def _continued(self, equation: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """Return a row that continues the one before, with the last side of that row in its place."""
-        before = self.readings[self.place - 1][1] if each.lead and self.place else None
-        if before is None or not before.whole or before.statements[-1].kind != "equation":
+        previous = self.readings[self.place - 1][1] if equation.lead and self.place else None
+        if previous is None or not previous.whole or previous.statements[-1].kind != "equation":
             return statement
-        last = replace(before.statements[-1].sides[-1], at=0)
+        last = replace(previous.statements[-1].sides[-1], at=0)
         first = replace(statement.sides[0], at=0)
-        shifted = [replace(side, at=max(side.at - len(each.lead) - 1, 0)) for side in statement.sides[1:]]
+        shifted = [replace(side, at=max(side.at - len(equation.lead) - 1, 0)) for side in statement.sides[1:]]
         return replace(statement, sides=(first, last, *shifted), relations=("=", *statement.relations))
 
-    def _step(self, left: Node, right: Node) -> _VERDICT:
+    def _step(self, lhs: Node, rhs: Node) -> _VERDICT:
         """Return the verdict on a step, and the reason."""
-        a, b = self._value(left), self._value(right)
+        a, b = self._value(lhs), self._value(rhs)
         if a is None or b is None:
             return NOT_JUDGED, UNCOMPARABLE
         if a != b and is_large(a, b):
@@ -206,30 +209,30 @@ class _Checker:
             return HOLDS, "for positive letters"
         if answer == "undecided":
             return NOT_JUDGED, OUTSIDE
-        if said := self._with_derivatives_taken(left, right, (a, b)):
-            return HOLDS, said
-        reason, why = self._refuted(left, right, a, b)
+        if assumption := self._with_derivatives_taken(lhs, rhs, (a, b)):
+            return HOLDS, assumption
+        reason, why = self._refuted(lhs, rhs, a, b)
         if reason or decided(a, b) != "nonzero":
             return NOT_JUDGED, reason or OUTSIDE
         return REFUTED, why
 
-    def _with_derivatives_taken(self, left: Node, right: Node, before: tuple[Any, Any]) -> str:
+    def _with_derivatives_taken(self, lhs: Node, rhs: Node, values: tuple[Any, Any]) -> str:
         """Return the assumptions under which two members agree once derivatives and integrals are taken; "" if they do not."""
         self.moving.fixing = False
-        a, b = (expression_of(node, self.moving) for node in (left, right))
-        if a is None or b is None or (a, b) == before or is_large(a, b) or not agree(a, b):
+        a, b = (expression_of(node, self.moving) for node in (lhs, rhs))
+        if a is None or b is None or (a, b) == values or is_large(a, b) or not agree(a, b):
             return ""
         fixed = "the other letters fixed in derivatives and integrals"
         return f"with {fixed if self.moving.fixing else 'derivatives taken'}"
 
-    def _refuted(self, left: Node, right: Node, a: Any, b: Any) -> tuple[str, str]:
+    def _refuted(self, lhs: Node, rhs: Node, a: Any, b: Any) -> tuple[str, str]:
         """Return the reason for which a difference that is not zero refutes nothing, or "" and how the members differ."""
-        letters, others = set(letters_of(left)), set(letters_of(right))
+        letters, others = set(letters_of(lhs)), set(letters_of(rhs))
         if not _comparable(a, b):
             return FUNCTIONS, ""
         if others - letters:
             return LETTERS, ""
-        numbers = (each.value for side in (left, right) for each in walk(side) if isinstance(each, Number))
+        numbers = (node.value for side in (lhs, rhs) for node in walk(side) if isinstance(node, Number))
         if any(value.denominator not in (1, 2, 4) for value in numbers):
             return ROUNDED, ""
         if not others:  # a constant on the right is wrong only where the left member is another
@@ -237,7 +240,7 @@ class _Checker:
             return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its letters")
         if self._related(letters):
             return BEFORE, ""
-        slip = change_to_agree(a, right, self._value) or change_to_agree(b, left, self._value)
+        slip = change_to_agree(a, rhs, self._value) or change_to_agree(b, lhs, self._value)
         return ("", f"the members differ by {_difference(a, b)}; {slip}") if slip else (MAYBE, "")
 
     def _value(self, node: Node) -> Any:
@@ -246,7 +249,7 @@ class _Checker:
     def _related(self, letters: set[str]) -> bool:
         """Return whether an equation of these letters only stands in the text or before, so that two members may agree."""
         stems = {letter.split("_")[0] for letter in letters}
-        for latex, reading in (*((each.latex, r) for each, r in self.readings[: self.place]), *self._text):
+        for latex, reading in (*((equation.latex, r) for equation, r in self.readings[: self.place]), *self._text):
             if not reading.whole and (names := letters_printed(latex)) and names <= stems:
                 return True
             if any(self._explains(s, letters) for s in reading.statements):
@@ -267,12 +270,12 @@ class _Checker:
         formulas = (latex for latex in self.source.inline if _RELATION.search(latex))
         return [(latex, read_formula(latex, self.notation)) for latex in formulas]
 
-    def _order(self, left: Node, right: Node, order: tuple[str, int]) -> _VERDICT:
+    def _order(self, lhs: Node, rhs: Node, order: tuple[str, int]) -> _VERDICT:
         """Return the verdict on a step that is claimed through an order of a small letter."""
         name, power = order
         small = sp.Symbol(name, real=True)
         try:
-            a, b = sympy_expression(left, self.opaque), sympy_expression(right, self.opaque)
+            a, b = sympy_expression(lhs, self.opaque), sympy_expression(rhs, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
                 return NOT_JUDGED, LETTERS
             rates = re.compile(rf"{re.escape(name)}_d+ot")  # the rates of a small quantity are as small
@@ -289,10 +292,10 @@ class _Checker:
         return REFUTED, f"the members differ at order {term.order} in {name}; O({name}**{power}) is claimed"
 
 
-def _may_be_identity(left: Node, right: Node) -> bool:
+def _may_be_identity(lhs: Node, rhs: Node) -> bool:
     """Return whether the first step of a chain may be an identity, and no definition."""
-    numeric = isinstance(right, Number) and right.value != 0 and any(each.name in KNOWN for each in _calls(left))
-    return isinstance(left, Call) and (numeric or bool(letters_of(right) and not isinstance(right, Letter)))
+    numeric = isinstance(rhs, Number) and rhs.value != 0 and any(call.name in KNOWN for call in _calls(lhs))
+    return isinstance(lhs, Call) and (numeric or bool(letters_of(rhs) and not isinstance(rhs, Letter)))
 
 
 def _open_indices(statement: PrintedStatement) -> Iterator[str]:
@@ -311,13 +314,13 @@ def _open_indices(statement: PrintedStatement) -> Iterator[str]:
 
 
 def _calls(node: Node) -> Iterator[Call]:
-    return (each for each in walk(node) if isinstance(each, Call))
+    return (inner for inner in walk(node) if isinstance(inner, Call))
 
 
 def _without_bound(node: Node, index: str) -> Node:
     """Return a node with zero for its sums, products and integrals over an index."""
-    calls = (each for each in _calls(node) if each.name in BINDING)
-    return put_for(node, {each: number(0) for each in calls if any(index in letters_of(e) for e in each.args[1:])})
+    calls = (call for call in _calls(node) if call.name in BINDING)
+    return put_for(node, {call: number(0) for call in calls if any(index in letters_of(e) for e in call.args[1:])})
 
 
 def _difference(a: Any, b: Any) -> str:

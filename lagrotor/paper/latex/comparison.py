@@ -25,13 +25,13 @@ _step: Calls | None = None  # the calls that are left to the step that is being 
 def bounded(work: Callable[..., Any], *arguments: Any, too_large: Any = None) -> Any:
     """Return work(*arguments), or `too_large` beyond the bound on the work of a step."""
     global _step
-    before, _step = _step, Calls(MOST_CALLS)
+    previous, _step = _step, Calls(MOST_CALLS)
     try:
         return work(*arguments)
     except (WorkError, RecursionError):
         return too_large
     finally:
-        _step = before
+        _step = previous
 
 
 def counted(work: Callable[..., Any], *arguments: Any) -> Any:
@@ -104,16 +104,16 @@ def decided(a: Any, b: Any) -> str:
 
 def _all(matrix: sp.MatrixBase) -> str:
     answers = {_single(entry, sp.S.Zero) for entry in matrix}
-    return next(each for each in ("nonzero", "undecided", "zero") if each in answers)
+    return next(answer for answer in ("nonzero", "undecided", "zero") if answer in answers)
 
 
 def _single(a: Any, b: Any) -> str:
-    if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
+    if any(side.has(sp.oo, sp.nan, sp.zoo, sp.I) for side in (a, b)):
         return "undecided"
     if a == b and radicands(a):  # also where its roots are real nowhere
         return "zero"
     try:
-        decision = counted(decide_equal, a, b, [sp.Gt(each, 0) for each in radicands(a, b)])
+        decision = counted(decide_equal, a, b, [sp.Gt(radicand, 0) for radicand in radicands(a, b)])
     except WorkError:
         raise
     except (LagrotorError, TypeError, ValueError, ArithmeticError):
@@ -123,13 +123,13 @@ def _single(a: Any, b: Any) -> str:
 
 def radicands(*sides: Any) -> set[Any]:
     """Return the bases of roots. Sides are compared where these are positive: √(x/y) = 1/√(y/x) has i and −i at x = −1."""
-    roots = (each for side in sides for each in side.atoms(sp.Pow) if each.exp.is_Rational and not each.exp.is_Integer)
-    return {each.base for each in roots if each.free_symbols}
+    roots = (root for side in sides for root in side.atoms(sp.Pow) if root.exp.is_Rational and not root.exp.is_Integer)
+    return {root.base for root in roots if root.free_symbols}
 
 
 def agree_for_positive(a: Any, b: Any) -> bool:
     """Return whether two sides with roots or magnitudes, as √(x²) = x, agree where all letters are positive."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or not (radicands(a, b) or (a - b).has(sp.Abs)):
         return False
-    positive = {each: sp.Symbol(each.name, positive=True) for each in a.free_symbols | b.free_symbols}
+    positive = {symbol: sp.Symbol(symbol.name, positive=True) for symbol in a.free_symbols | b.free_symbols}
     return agree(a.subs(positive), b.subs(positive))

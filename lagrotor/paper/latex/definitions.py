@@ -40,11 +40,11 @@ def _document_command(expander: Expander, token: Token) -> None:
 def _def(expander: Expander, token: Token) -> None:
     target = _next_name(expander)
     marks: list[Token] = []
-    while (part := expander.next()) is not None and part.kind != "open":
-        marks.append(part)
+    while (delimiter := expander.next()) is not None and delimiter.kind != "open":
+        marks.append(delimiter)
     body, head = expander.group(token.at), tuple(Parameter("m") for mark in marks if mark.kind == "param")
     # \edef expands its body at once, and arguments with marks between them are not read: such a name has no meaning
-    if token.text in (r"\edef", r"\xdef") or len(head) < len([each for each in marks if each.text.strip()]):
+    if token.text in (r"\edef", r"\xdef") or len(head) < len([item for item in marks if item.text.strip()]):
         expander.define(target.text, None, everywhere=True)
     else:
         _define(expander, target.text, Macro(tuple(body), head), token)
@@ -78,8 +78,8 @@ def _operator(expander: Expander, token: Token) -> None:
 
 def _pair(expander: Expander, token: Token) -> None:
     r"""\DeclarePairedDelimiter{\abs}{|}{|}: * and [\big] may come before the argument."""
-    name, left, right = expander.name(), expander.name(), expander.name()
-    _define(expander, name, Macro.of(rf"\left{left}#3\right{right}", "som"), token)
+    name, opening, closing = expander.name(), expander.name(), expander.name()
+    _define(expander, name, Macro.of(rf"\left{opening}#3\right{closing}", "som"), token)
 
 
 def _new_environment(expander: Expander, token: Token) -> None:
@@ -164,9 +164,9 @@ def _use(expander: Expander, token: Token) -> None:
 
 def _input(expander: Expander, token: Token) -> None:
     expander.skip_spaces()
-    after = expander.peek()
-    if token.text == r"\input" and after is not None and after.kind == "text":
-        name = after.text.split()[0]
+    following = expander.peek()
+    if token.text == r"\input" and following is not None and following.kind == "text":
+        name = following.text.split()[0]
         expander.take(name)
     else:
         name = expander.name()

@@ -137,13 +137,13 @@ class _Walker:
                 break
             self._take(token)
         source, expander = self.source, self.expander
-        source.faults = [(*expander.line(at), said) for at, said in sorted(expander.faults)]
+        source.faults = [(*expander.line(at), sentence) for at, sentence in sorted(expander.faults)]
         source.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in expander.loaded)
         source.notes += dict.fromkeys(expander.notes)
         name, missing = self.aux_name, [label for label in source.labels if self.aux and label not in self.aux]
         if missing:
             source.notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
-        elif expander.doubt and name and not self.aux and any(each.number for each in source.equations):
+        elif expander.doubt and name and not self.aux and any(equation.number for equation in source.equations):
             helps = f"put {name}, which LaTeX writes, beside the source"
             source.notes.append(f"{expander.doubt}, and the numbers may be others: {helps}")
 
@@ -174,10 +174,10 @@ class _Walker:
                 alone = "alone: define the command that begins it"
                 self._pass_over(token.at, f"a formula stands {where if inside else alone}")
 
-    def _pass_over(self, at: int, said: str) -> None:
+    def _pass_over(self, at: int, sentence: str) -> None:
         """Note a formula that is not read, once for each sentence."""
-        if not any(said in note for note in self.expander.notes):
-            self.expander.notes.append(f"{self.expander.place(at)}: {said}")
+        if not any(sentence in note for note in self.expander.notes):
+            self.expander.notes.append(f"{self.expander.place(at)}: {sentence}")
             self.expander.doubt = self.expander.doubt or "a part of the source is left out"
 
     def _stray(self, token: Token, fault: str) -> None:
@@ -188,7 +188,7 @@ class _Walker:
 
     def _command(self, token: Token) -> None:
         name, expander = token.text[1:], self.expander
-        if token.text in HEADINGS and self.body and not ((after := expander.peek()) and after.kind == "close"):
+        if token.text in HEADINGS and self.body and not ((following := expander.peek()) and following.kind == "close"):
             star = expander.star()
             expander.optional()
             self._section(name, self._argument(), star)
@@ -284,19 +284,19 @@ class _Walker:
             self.counters.step("equation")
         depth = braces = 0
         self.expander.in_formula = True
-        for part in self._inside(token, end):
-            depth += _NESTING.get(part.kind, 0)
-            braces += BRACES.get(part.kind, 0)
+        for item in self._inside(token, end):
+            depth += _NESTING.get(item.kind, 0)
+            braces += BRACES.get(item.kind, 0)
             row = rows[-1]
-            if depth == braces == 0 and part.text in _ROW_ENDS:
-                self._pass_end(part)
+            if depth == braces == 0 and item.text in _ROW_ENDS:
+                self._pass_end(item)
                 if by_rows:
                     self._finish(row)
                     rows.append(_Row(numbered, False))
                 else:
-                    row.tokens.append(part)
-            elif part.kind != "command" or not self._sets_number(part, row):
-                row.tokens.append(part)
+                    row.tokens.append(item)
+            elif item.kind != "command" or not self._sets_number(item, row):
+                row.tokens.append(item)
         self.expander.in_formula = False
         self._finish(rows[-1])
         self._keep(rows, kind, token)
@@ -305,36 +305,36 @@ class _Walker:
         """Yield the tokens of a display. A display that is not ended where TeX would stop is ended there, with a fault."""
         depth = braces = 0
         may_nest = begin.text.startswith(r"\begin{gather")  # align within gather
-        for part in self.expander:
+        for token in self.expander:
             if depth == 0:
-                if part.text == end and part.kind != "text":
+                if token.text == end and token.kind != "text":
                     return
-                if part.kind == "end" and part.text != r"\end{document}":
-                    return self.expander.fault(part.at, f"{part.text} ends {begin.text}")
-                stops = part.kind == "end" or part.text in _NO_FORMULA
-                stops |= part.text in _BEGINS and not (braces or may_nest)
-                if stops or (braces == 0 and ends_paragraph(part)):
-                    line = EMPTY_LINE.search(part.text) if part.kind == "text" else None
-                    before = part.text[: line.start()] if line else ""
-                    yield Token("text", before, part.at)
-                    self.expander.push((Token(part.kind, part.text[len(before) :], part.at + len(before)),))
+                if token.kind == "end" and token.text != r"\end{document}":
+                    return self.expander.fault(token.at, f"{token.text} ends {begin.text}")
+                stops = token.kind == "end" or token.text in _NO_FORMULA
+                stops |= token.text in _BEGINS and not (braces or may_nest)
+                if stops or (braces == 0 and ends_paragraph(token)):
+                    line = EMPTY_LINE.search(token.text) if token.kind == "text" else None
+                    head = token.text[: line.start()] if line else ""
+                    yield Token("text", head, token.at)
+                    self.expander.push((Token(token.kind, token.text[len(head) :], token.at + len(head)),))
                     break
-            depth += _NESTING.get(part.kind, 0)
-            braces += BRACES.get(part.kind, 0)
-            yield part
+            depth += _NESTING.get(token.kind, 0)
+            braces += BRACES.get(token.kind, 0)
+            yield token
         self.ended = end
         return self.expander.fault(begin.at, f"{begin.text} is not {'ended' if begin.kind == 'begin' else 'closed'}")
 
-    def _pass_end(self, part: Token) -> None:
+    def _pass_end(self, token: Token) -> None:
         r"""Take the star and the space behind \\."""
         self.expander.star()
         space = latex_of(self.expander.optional() or ()) if self.expander.begins("[") else ""
         if space and not re.search(r"\d|\\", space):  # no length: the row begins with it
-            self.expander.push(plain(f"[{space}]", part.at))
+            self.expander.push(plain(f"[{space}]", token.at))
 
-    def _sets_number(self, part: Token, row: _Row) -> bool:
+    def _sets_number(self, token: Token, row: _Row) -> bool:
         """Take a command that says something of the number of a row only; return False for another one."""
-        name, expander = part.text, self.expander
+        name, expander = token.text, self.expander
         if name == r"\tag" or name in _NO_NUMBER:
             self.counters.values["equation"] -= row.stepped
             row.stepped = False
@@ -366,9 +366,9 @@ class _Walker:
     def _keep(self, rows: list[_Row], kind: str, token: Token) -> None:
         """Keep the equations of a display: rows that continue the one before are joined with it."""
         groups: list[list[_Row]] = []
-        for row, after in pairwise(rows):
+        for row, following in pairwise(rows):
             if kind in (*_PAIRS, "gather") and not row.number:  # amsmath keeps a label until a row has a number
-                row.labels, after.labels = [], row.labels + after.labels
+                row.labels, following.labels = [], row.labels + following.labels
         for row in rows:
             for label in row.labels if row.number else ():
                 self.source.labels[label] = row.number = self.aux.get(label, row.number)
@@ -407,7 +407,7 @@ class _Walker:
 
 
 def _is_empty(row: _Row) -> bool:
-    return not any(each.text.strip(" \n\t&") for each in row.tokens)
+    return not any(token.text.strip(" \n\t&") for token in row.tokens)
 
 
 def _body(latex: str) -> str:
@@ -416,13 +416,13 @@ def _body(latex: str) -> str:
 
 def _continues(group: list[_Row], row: _Row) -> bool:
     """Return True if a row continues the equation of the rows before."""
-    body, before = _body(row.latex), group[-1].latex.rstrip(" &~")
-    if re.search(r"(?:[+\-*/=<>(]|\\(?:times|cdot|pm|left|approx|equiv))\s*$", before):
+    body, last = _body(row.latex), group[-1].latex.rstrip(" &~")
+    if re.search(r"(?:[+\-*/=<>(]|\\(?:times|cdot|pm|left|approx|equiv))\s*$", last):
         return True
     if _OPERATORS.match(body):
-        return not before.endswith((",", ";", ".")) or not body.startswith("-")
+        return not last.endswith((",", ";", ".")) or not body.startswith("-")
     if _RELATIONS.match(body) and not body.startswith((r"\Rightarrow", r"\implies", r"\iff", r"\Leftrightarrow")):
-        return sum(bool(each.number) for each in (*group, row)) <= 1
+        return sum(bool(member.number) for member in (*group, row)) <= 1
     return False
 
 
@@ -440,8 +440,8 @@ def _without_columns(tokens: list[Token], kind: str) -> str:
         depth += _NESTING.get(token.kind, 0)
         if token.kind == "align" and depth == 0:
             columns += 1
-            parts = columns % 2 == 0 and kind in _PAIRS
-            token = Token("command", r"\quad", token.at) if parts else Token("text", " ", token.at)
+            separates = columns % 2 == 0 and kind in _PAIRS
+            token = Token("command", r"\quad", token.at) if separates else Token("text", " ", token.at)
         row.append(token)
     return " ".join(latex_of(row).split())
 

@@ -55,15 +55,15 @@ def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> R
 
 def _alone(row: Iterable[Box]) -> Iterator[str]:
     """Yield the letters that stand in no index, and a Δ that no letter follows."""
-    for box, after in pairwise([*row, None]):
+    for box, following in pairwise([*row, None]):
         if (
             box is not None
             and box.kind == "letter"
-            and not (after and after.kind == "letter" and box.name in ("Delta", "delta"))
+            and not (following and following.kind == "letter" and box.name in ("Delta", "delta"))
         ):
             yield stem_of(box)
-        for held in box.parts if box else ():
-            yield from _alone(held)
+        for inner in box.contents if box else ():
+            yield from _alone(inner)
 
 
 @lru_cache(maxsize=10_000)

@@ -107,13 +107,15 @@ class Grammar:
                 terms[-1][1].append(box)
         if not terms[-1][1]:
             raise FormulaError("nothing follows the sign" if row else "nothing stands here", "write what is meant")
-        made = [Call("negative", (self.term(part),)) if sign == "-" else self.term(part) for sign, part in terms]
-        if len(made) == 1:
-            return made[0]
-        _check_sums([part for _, part in terms])
-        if len({(is_vector(each), is_matrix(each)) for each in made if not _is_any_kind(each)}) > 1:
+        values = [
+            Call("negative", (self.term(content),)) if sign == "-" else self.term(content) for sign, content in terms
+        ]
+        if len(values) == 1:
+            return values[0]
+        _check_sums([content for _, content in terms])
+        if len({(is_vector(value), is_matrix(value)) for value in values if not _is_any_kind(value)}) > 1:
             raise FormulaError("a vector and a number are added", "declare the vectors in [notation]")
-        return Call("sum", tuple(made))
+        return Call("sum", tuple(values))
 
     def term(self, row: list[Box]) -> Node:
         """Return the product that a row of boxes is, its groups joined by signs."""
@@ -121,7 +123,7 @@ class Grammar:
         groups: list[tuple[str, list[Node], list[Box]]] = [("", [], [])]
         place = 0
         while place < len(row):
-            box, (sign, factors, part) = row[place], groups[-1]
+            box, (sign, factors, content) = row[place], groups[-1]
             if box.kind == "operator" and box.name in ("cdot", "times", "/", "*"):
                 if not factors:
                     raise FormulaError(f"nothing stands before {box.name}", "write the first factor")
@@ -130,55 +132,55 @@ class Grammar:
                 continue
             if factors and sign == "/":
                 raise FormulaError("what the slash divides by is open", r"write \frac or brackets")
-            _check_neighbours(row, place, part[-1] if part else None)
+            _check_neighbours(row, place, content[-1] if content else None)
             node, behind = self.factor(row, place)
             factors.append(node)
-            part += row[place:behind]
+            content += row[place:behind]
             place = behind
         if not groups[-1][1]:
             raise FormulaError("nothing follows the sign", "write the second factor")
-        made: Node | None = None
-        for sign, factors, part in groups:
-            if len(factors) > 1 and any(isinstance(each, Call) and each.name == "order" for each in factors):
+        product: Node | None = None
+        for sign, factors, content in groups:
+            if len(factors) > 1 and any(isinstance(factor, Call) and factor.name == "order" for factor in factors):
                 raise FormulaError("whether O(…) beside a factor is an order is open", r"write \cdot for a product")
             right = _product(factors)
-            made = right if made is None else self._joined(made, sign, right, part[0])
-        assert made is not None
-        return made
+            product = right if product is None else self._joined(product, sign, right, content[0])
+        assert product is not None
+        return product
 
-    def _joined(self, made: Node, sign: str, right: Node, first: Box) -> Node:
+    def _joined(self, product: Node, sign: str, right: Node, first: Box) -> Node:
         """Return two factors joined by a sign; first: the box behind the sign."""
-        before = self.source[: first.at].rstrip()
+        text = self.source[: first.at].rstrip()
         if sign == "/":
-            return self._divided(made, right, before)
-        vectors = is_vector(made), is_vector(right)
-        if all(vectors) and not (is_matrix(made) or is_matrix(right)):
+            return self._divided(product, right, text)
+        vectors = is_vector(product), is_vector(right)
+        if all(vectors) and not (is_matrix(product) or is_matrix(right)):
             if sign == "*":
                 raise FormulaError("two vectors are multiplied by *", r"write \cdot or \times")
-            chain = sign == "times" and isinstance(made, Call) and made.name == "cross"
-            if chain and not re.search(r"[)\]]\s*\\times$", before):
+            chain = sign == "times" and isinstance(product, Call) and product.name == "cross"
+            if chain and not re.search(r"[)\]]\s*\\times$", text):
                 raise FormulaError("which × comes first is open", "write brackets")
-            return Call("dot" if sign == "cdot" else "cross", (made, right))
+            return Call("dot" if sign == "cdot" else "cross", (product, right))
         if all(vectors):
             if sign == "times":
                 raise FormulaError("× stands between matrices", "write them side by side")
-            return _product([made, right])
-        other = right if vectors[0] else made if vectors[1] else None
-        if sign == "cdot" and isinstance(other, Call) and other.name not in (*_SCALARS, *FUNCTIONS.values()):
-            raise FormulaError(f"whether {other.name} is a vector is open", "write it without the dot")
-        if sign == "times" and not (_is_numeric(made) or _is_numeric(right)):
+            return _product([product, right])
+        cofactor = right if vectors[0] else product if vectors[1] else None
+        if sign == "cdot" and isinstance(cofactor, Call) and cofactor.name not in (*_SCALARS, *FUNCTIONS.values()):
+            raise FormulaError(f"whether {cofactor.name} is a vector is open", "write it without the dot")
+        if sign == "times" and not (_is_numeric(product) or _is_numeric(right)):
             way = r"declare the vectors in [notation], or write \cdot"
             raise FormulaError("whether × is of vectors or of numbers is open", way)
-        return product_of([made, right])
+        return product_of([product, right])
 
-    def _divided(self, made: Node, right: Node, before: str) -> Node:
-        if is_vector(right):
+    def _divided(self, dividend: Node, divisor: Node, text: str) -> Node:
+        if is_vector(divisor):
             raise FormulaError("a vector is divided by", "write its length")
-        last = made.args[-1] if isinstance(made, Call) and made.name == "product" else made
+        last = dividend.args[-1] if isinstance(dividend, Call) and dividend.name == "product" else dividend
         last = last.args[0] if isinstance(last, Call) and last.name == "power" else last
-        if isinstance(last, Call) and last.name in _OPEN_ENDED and before.rstrip(" /")[-1:] not in ")]}":
+        if isinstance(last, Call) and last.name in _OPEN_ENDED and text.rstrip(" /")[-1:] not in ")]}":
             raise FormulaError("whether the slash is within the function is open", "write brackets")
-        return Call("quotient", (made, right))
+        return Call("quotient", (dividend, divisor))
 
     def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
         """Return one factor and the place behind it."""
@@ -223,26 +225,31 @@ class Grammar:
         only = box.sup[0]
         if only.kind == "operator" and only.name in _LABELS:
             return [_LABELS[only.name]]
-        if only.kind == "bracket" and only.name == "(" and len(only.parts[0]) == 1 and not self._kind(box, "functions"):
-            inner = only.parts[0][0]
+        if (
+            only.kind == "bracket"
+            and only.name == "("
+            and len(only.contents[0]) == 1
+            and not self._kind(box, "functions")
+        ):
+            inner = only.contents[0][0]
             return [inner.name] if inner.kind in ("number", "letter") and not (inner.sup or inner.sub) else []
         upright = only.upright and (len(only.name) > 1 or only.name not in (*_TRANSPOSES, "d", "e", "i"))
         worded = only.kind == "text" and only.name.isalnum()
         return [only.name] if worded or (only.kind == "letter" and upright) else []
 
     def _letter(self, row: list[Box], place: int) -> tuple[Node, int]:
-        box, after = row[place], row[place + 1] if place + 1 < len(row) else None
-        kind = after.kind if after else ""
+        box, following = row[place], row[place + 1] if place + 1 < len(row) else None
+        kind = following.kind if following else ""
         if not (box.marks or box.style or box.sub or box.primes):
-            made = self._sign(row, place, after)
-            if made is not None:
-                return made
+            constant = self._sign(row, place, following)
+            if constant is not None:
+                return constant
         word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
         if word or (box.name == "d" and box.upright and box.primes):
             way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
             raise self._open(box, f"{box.name} acts on what follows", way=way)
-        if after is not None and kind == "bracket" and _plain(after.name) in _ROUND:
-            applied = self._applied(box, after)
+        if following is not None and kind == "bracket" and _plain(following.name) in _ROUND:
+            applied = self._applied(box, following)
             if applied is not None:
                 return applied, place + 2
         node: Node = self.letter(box)
@@ -256,10 +263,10 @@ class Grammar:
                 node = Call("prime", (node,))
         return self.power(node, box), place + 1
 
-    def _sign(self, row: list[Box], place: int, after: Box | None) -> tuple[Node, int] | None:
+    def _sign(self, row: list[Box], place: int, following: Box | None) -> tuple[Node, int] | None:
         """Return a letter that is a sign, e, i, π, d and Δ; None where it is a letter like others."""
         box, name, number_ = row[place], row[place].name, self._kind(row[place], "numbers")
-        settled, kind = self._kind(box, *_SETTLED), after.kind if after else ""
+        settled, kind = self._kind(box, *_SETTLED), following.kind if following else ""
         if name == "e" and (number_ or box.upright):
             return Call("exp", (self.expression(box.sup) if box.sup else number(1),)), place + 1
         if name == "e" and not settled and any(b.kind in ("letter", "infinity") for b in all_boxes(box.sup or ())):
@@ -274,7 +281,7 @@ class Grammar:
         if name == "pi" and not settled:
             return self.power(Letter("pi"), box), place + 1
         proposed = name in ("Delta", "delta") and self._kind(box, "proposed") and kind != "bracket"
-        if (settled and not proposed) or after is None or kind in ("operator", "comma", "dots", "percent"):
+        if (settled and not proposed) or following is None or kind in ("operator", "comma", "dots", "percent"):
             return None
         if name in ("Delta", "delta"):
             return None if box.sup else self._difference(row, place)
@@ -284,17 +291,17 @@ class Grammar:
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
         r"""Read \Delta x as one letter."""
-        box, after = row[place : place + 2]
-        if after.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
+        box, following = row[place : place + 2]
+        if following.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
             raise self._open(box, f"\\{box.name} is a factor or acts on what follows", "functions", "real")
-        letter = self.letter(after)
+        letter = self.letter(following)
         if place + 2 < len(row) and row[place + 2].kind == "bracket":
-            raise self._open(after, f"\\{box.name} {after.name} is a function or a factor", "functions")
-        return self.power(replace(letter, name=f"{box.name}_{letter.name}"), after), place + 2
+            raise self._open(following, f"\\{box.name} {following.name} is a function or a factor", "functions")
+        return self.power(replace(letter, name=f"{box.name}_{letter.name}"), following), place + 2
 
     def _applied(self, box: Box, bracket: Box) -> Node | None:
         """Return a letter as a function of the bracket behind it, x for x(t); None where it is a factor."""
-        content, name = bracket.parts[0], stem_of(box)
+        content, name = bracket.contents[0], stem_of(box)
         if name in ("O", "Ocal") and not (box.sub or box.sup):
             return Call("order", (self.expression(content),))
         if self._kind(box, "real", "positive"):
@@ -306,7 +313,7 @@ class Grammar:
             return self.power(self.power(self.letter(box), box), bracket)
         bars = bool(content) and content[0].name in ("|", "||")  # V(|x - y|)
         adds = not bars and any(b.kind == "operator" and b.name in ("+", "-") for b in content[1:])
-        late = any([b.name for b in part] == ["t"] for part in parted(content, "operator"))  # x(t - \tau)
+        late = any([b.name for b in piece] == ["t"] for piece in parted(content, "operator"))  # x(t - \tau)
         derived = [b.kind for b in content] == ["fraction"] and bool(bracket.sup or is_derivative(content[0]))
         listed = any(b.kind in ("comma", "relation") for b in content)
         doubtful = name in _NO_FACTORS or self._kind(box, "proposed")
@@ -320,24 +327,24 @@ class Grammar:
 
     def _call(self, box: Box, bracket: Box) -> Node:
         """Return a declared function of its arguments; of V'(r) the derivative."""
-        held, above = bracket.parts[0], box.sup or []
-        derived = any(b.kind == "partial" or is_derivative(b) for b in held) or any(map(self._moves, held[1:]))
-        itself = len(held) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in held)
-        if (derived or itself) and not any(b.kind == "comma" for b in held):
+        content, above = bracket.contents[0], box.sup or []
+        derived = any(b.kind == "partial" or is_derivative(b) for b in content) or any(map(self._moves, content[1:]))
+        itself = len(content) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in content)
+        if (derived or itself) and not any(b.kind == "comma" for b in content):
             raise self._open(box, f"{stem_of(box)} is a factor here")
         if [b.name for b in above] == ["-", "1"] or any(b.kind in ("bracket", "letter") for b in above):
             way = "write brackets around what is raised, or another letter"
             raise self._open(box, f"{self._text(box)} has a power", way=way)
         if bracket.sub:
             raise FormulaError("an index stands at a bracket", "write it on a letter")
-        named, arguments = self.letter(replace(box, primes=0)), self._each(held)
+        named, arguments = self.letter(replace(box, primes=0)), self._each(content)
         if named.vector and not named.name.split("_")[0].endswith(("bold", "vec")):
             raise FormulaError(f"{named.name} is a vector and a function", "print it in bold")
         if box.primes and len(arguments) == 1 and isinstance(arguments[0], Letter):
-            made = _derived(Call(named.name, arguments), arguments[0], box.primes)
+            value = _derived(Call(named.name, arguments), arguments[0], box.primes)
         else:
-            made = Call(name_of(box, index_of(box)) if box.primes else named.name, arguments)
-        return self.power(self.power(made, box), bracket)
+            value = Call(name_of(box, index_of(box)) if box.primes else named.name, arguments)
+        return self.power(self.power(value, box), bracket)
 
     # ---- powers
 
@@ -390,10 +397,12 @@ class Grammar:
     def _number(self, row: list[Box], place: int) -> tuple[Node, int]:
         box, behind = row[place], place + 1
         node: Node = Number(self._value(box.name))
-        after = row[behind] if behind < len(row) else box
+        following = row[behind] if behind < len(row) else box
         degrees = box.sup is not None and [b.name for b in box.sup] in (["circ"], ["o"])
-        if (after.upright and after.name not in (*FUNCTIONS, "d", "e", "i")) or (degrees and after.name in ("C", "F")):
-            raise FormulaError(f"upright {after.name} behind a number is a unit", "write the number without it")
+        if (following.upright and following.name not in (*FUNCTIONS, "d", "e", "i")) or (
+            degrees and following.name in ("C", "F")
+        ):
+            raise FormulaError(f"upright {following.name} behind a number is a unit", "write the number without it")
         if degrees:
             return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
         return self.power(node, box), behind
@@ -402,7 +411,7 @@ class Grammar:
         if len(text) > _MOST_DIGITS:
             raise FormulaError(f"{text[:12]}…: a number has more than {_MOST_DIGITS} digits", "give it a letter")
         whole, *groups = text.split("{,}")
-        thousands = whole != "0" and all(len(each.partition(".")[0]) == 3 for each in groups)
+        thousands = whole != "0" and all(len(group.partition(".")[0]) == 3 for group in groups)
         if not groups or (thousands and not self.notation.decimal_comma):
             return Fraction(whole + "".join(groups))
         if len(groups) > 1 or "." in text:
@@ -414,7 +423,7 @@ class Grammar:
     def _function(self, row: list[Box], place: int) -> tuple[Node, int]:
         box, name = row[place], FUNCTIONS.get(row[place].name, row[place].name)
         inner, behind = self._argument(row, place)
-        if behind < len(row) and row[behind].kind == "bracket" and [b.name for b in row[behind].parts[0]] == ["t"]:
+        if behind < len(row) and row[behind].kind == "bracket" and [b.name for b in row[behind].contents[0]] == ["t"]:
             raise FormulaError(f"where the argument of {box.name} ends is open", "write it in brackets")
         above = [b.name for b in box.sup or ()]
         if box.sub is not None and name != "log":
@@ -423,11 +432,11 @@ class Grammar:
             return Call(_INVERSE[name], inner), behind
         if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
             raise self._open(box, f"{box.name} has a mark or a power", way="write brackets around what is raised")
-        made = Call(name.lower() if name == "Tr" else name, inner)
+        value = Call(name.lower() if name == "Tr" else name, inner)
         if name == "log10" or (name == "log" and box.sub):
             base = self.expression(box.sub) if box.sub else number(10)
-            made = Call("quotient", (Call("log", inner), Call("log", (base,))))
-        return Call("power", (made, self.expression(box.sup))) if box.sup else made, behind
+            value = Call("quotient", (Call("log", inner), Call("log", (base,))))
+        return Call("power", (value, self.expression(box.sup))) if box.sup else value, behind
 
     def _argument(self, row: list[Box], place: int) -> tuple[tuple[Node, ...], int]:
         """Return the arguments of a function and the place behind them."""
@@ -439,7 +448,7 @@ class Grammar:
         if first.kind == "bracket" and _plain(first.name) in _ROUND:
             if first.sub or first.sup:
                 raise raised
-            return self._each(first.parts[0]), start + 1
+            return self._each(first.contents[0]), start + 1
         alone = first.kind == "letter" and all(b.kind == "operator" for b in row[start + 1 : start + 2])
         if (first.kind == "matrix" and not first.sup) or (box.name in _BRACKETED and alone):
             return (self.expression([first]),), start + 1
@@ -449,7 +458,7 @@ class Grammar:
             node, behind = self.factor(row, start)
             return (node,), behind
         end = self._reach(row, start)
-        if any(each.sup is not None and not self._label(each) and each.name != "e" for each in row[start:end]):
+        if any(item.sup is not None and not self._label(item) and item.name != "e" for item in row[start:end]):
             raise raised
         return (self.term(row[start:end]),), end
 
@@ -460,15 +469,20 @@ class Grammar:
             end += 1
             if end < len(row) and row[end].spaced:
                 break
-        run, after = row[start:end], row[end] if end < len(row) else None
-        names, letters = [each.name for each in run], [each for each in run if each.kind == "letter"]
-        ends = after is None or after.spaced or after.kind in ("operator", "function", "big") or self._moves(after)
+        run, following = row[start:end], row[end] if end < len(row) else None
+        names, letters = [item.name for item in run], [item for item in run if item.kind == "letter"]
+        ends = (
+            following is None
+            or following.spaced
+            or following.kind in ("operator", "function", "big")
+            or self._moves(following)
+        )
         angle = bool(run) and names[0] in _ANGLES and not run[0].sub
-        if len(run) == 1 and (ends or (angle and after is not None and after.kind == "bracket")):
+        if len(run) == 1 and (ends or (angle and following is not None and following.kind == "bracket")):
             return end
         plain = run and len(letters) + (run[0].kind == "number") == len(run) > 1 and names[0] not in _LAST
-        known = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
-        if ends and plain and known and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
+        is_clear = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
+        if ends and plain and is_clear and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
             return end
         raise FormulaError(f"where the argument of {row[start - 1].name} ends is open", "write it in brackets")
 
@@ -480,7 +494,7 @@ class Grammar:
     # ---- brackets, roots, matrices
 
     def _bracket(self, box: Box) -> Node:
-        pair, content = (_plain(box.name), _plain(box.closing)), box.parts[0]
+        pair, content = (_plain(box.name), _plain(box.closing)), box.contents[0]
         if pair == (".", "|"):
             return self._at(box, content)
         if pair in (("|", "|"), (r"\|", r"\|")):
@@ -493,11 +507,11 @@ class Grammar:
             return Call("norm" if is_vector(inner) else "Abs", (inner,))
         if any(b.kind == "relation" for b in content):
             raise FormulaError("a relation stands in brackets", "write it by itself")
-        parts = parted(content, "comma")
-        if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(parts) > 1 and box.name != "("):
+        pieces = parted(content, "comma")
+        if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(pieces) > 1 and box.name != "("):
             way = "means, kets, commutators, Poisson brackets and intervals are not read"
             raise FormulaError(f"{box.name} … {box.closing} is not read", way)
-        return self.expression(content) if len(parts) == 1 else Call("column", self._each(content))
+        return self.expression(content) if len(pieces) == 1 else Call("column", self._each(content))
 
     def _at(self, box: Box, content: list[Box]) -> Node:
         """Read an expression at a place, |_{x = 0}."""
@@ -508,22 +522,22 @@ class Grammar:
 
     def _group(self, box: Box) -> Node:
         """Read what stands in braces that have a script, or above a brace."""
-        if any(b.kind == "operator" and b.name in ("+", "-") for b in box.parts[0][1:]):
+        if any(b.kind == "operator" and b.name in ("+", "-") for b in box.contents[0][1:]):
             raise FormulaError("whether brackets stand around a sum is open", "write brackets")
-        return self.expression(box.parts[0])
+        return self.expression(box.contents[0])
 
     def _root(self, box: Box) -> Node:
-        inner, *degree = map(self.expression, box.parts)
+        inner, *degree = map(self.expression, box.contents)
         return Call("power", (inner, Call("quotient", (number(1), degree[0])))) if degree else Call("sqrt", (inner,))
 
     def _matrix(self, box: Box) -> Node:
-        lines = [tuple(map(self.expression, line.parts)) for line in box.parts[0]]
+        lines = [tuple(map(self.expression, line.contents)) for line in box.contents[0]]
         if len({len(line) for line in lines}) != 1:
             raise FormulaError("the rows of a matrix have different lengths", "write every entry")
         if len(lines[0]) == 1 and box.name != "vmatrix":
             return Call("column", tuple(line[0] for line in lines))
-        made = Call("matrix", tuple(Call("row", line) for line in lines))
-        return Call("det", (made,)) if box.name == "vmatrix" else made
+        matrix = Call("matrix", tuple(Call("row", line) for line in lines))
+        return Call("det", (matrix,)) if box.name == "vmatrix" else matrix
 
     # ---- fractions and derivatives
 
@@ -531,17 +545,17 @@ class Grammar:
         box = row[place]
         if mark := is_derivative(box):
             return self._derivative(row, place, mark)
-        first, second = (part[0].name if part else "" for part in box.parts)
-        if first == second and first in ("d", "D", "partial", "delta") and len(box.parts[1]) > 1:
+        first, second = (content[0].name if content else "" for content in box.contents)
+        if first == second and first in ("d", "D", "partial", "delta") and len(box.contents[1]) > 1:
             way = r"write \frac{\mathrm{d} f}{\mathrm{d} x}"
             raise FormulaError(f"whether the fraction with {first} is a derivative is open", way)
-        over, under = map(self.expression, box.parts)
+        over, under = map(self.expression, box.contents)
         if is_vector(under):
             raise FormulaError("a vector is divided by", "write its length")
         return self.power(Call("quotient", (over, under)), box), place + 1
 
     def _derivative(self, row: list[Box], place: int, mark: str) -> tuple[Node, int]:
-        box, (over, under) = row[place], row[place].parts
+        box, (over, under) = row[place], row[place].contents
         order, behind, variables = _order(over[0]), place + 1, list[tuple[Letter, int]]()
         for sign, target in zip(under[::2], under[1::2], strict=False):
             if not is_mark(sign, mark) or sign.sup or target.kind != "letter" or len(under) % 2:
@@ -553,16 +567,16 @@ class Grammar:
         if not over[1:]:
             node, behind = self._operand(row, behind)
         else:
-            node, after = self.expression(over[1:]), row[behind] if behind < len(row) else box
-            held = after.parts[0] if after.kind == "bracket" and after.name == "(" else []
-            if in_time and [(b.name, b.sub) for b in held] == [("t", None)]:
+            node, following = self.expression(over[1:]), row[behind] if behind < len(row) else box
+            content = following.contents[0] if following.kind == "bracket" and following.name == "(" else []
+            if in_time and [(b.name, b.sub) for b in content] == [("t", None)]:
                 behind += 1  # \frac{dx}{dt}(t)
-            elif held and not any(b.kind == "operator" for b in held[1:]):
+            elif content and not any(b.kind == "operator" for b in content[1:]):
                 raise self._open(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
-        made = _rate(node, order) if in_time else node
+        value = _rate(node, order) if in_time else node
         for variable, times in variables if not in_time else ():
-            made = _derived(made, variable, times)
-        return (self.power(made, box) if over[1:] else made), behind
+            value = _derived(value, variable, times)
+        return (self.power(value, box) if over[1:] else value), behind
 
     def _operand(self, row: list[Box], place: int) -> tuple[Node, int]:
         """Return what a derivative acts on: the last factor of a term, or a bracket."""
@@ -576,12 +590,12 @@ class Grammar:
     # ---- sums, integrals, limits
 
     def _big(self, row: list[Box], place: int) -> tuple[Node, int]:
-        box, rest, below = row[place], row[place + 1 :], row[place].sub or []
+        box, terms, below = row[place], row[place + 1 :], row[place].sub or []
         if BIG[box.name] == "Integral":
             return self._integral(row, place)
         if BIG[box.name] == "limit":
             raise FormulaError("\\lim is not read", "limits are not decided")
-        if not rest:
+        if not terms:
             raise FormulaError(f"\\{box.name} has no terms", "write them")
         ends = [*map(self.expression, (below[2:], box.sup))] if below[2:] and box.sup else []
         signs = [b.name for b in below[1:2]]
@@ -589,7 +603,7 @@ class Grammar:
             raise FormulaError("what the sum runs over is not clear", r"write \sum_{i=1}^{n}")
         self.bound.append(below[0].name)
         try:
-            return Call(BIG[box.name], (self.term(rest), self.letter(below[0]), *ends)), len(row)
+            return Call(BIG[box.name], (self.term(terms), self.letter(below[0]), *ends)), len(row)
         finally:
             self.bound.pop()
 
@@ -604,19 +618,19 @@ class Grammar:
         variables, end, inner = list[Letter](), at, row[place + 1 : at]
         if row[at].kind == "fraction":  # \int \frac{dx}{x} f
             end = next((k for k in range(at, len(row)) if row[k].kind == "operator"), len(row))
-            over = row[at].parts[0]
+            over = row[at].contents[0]
             start = next(k for k, b in enumerate(over) if is_mark(b, "d"))
             variables.append(self._variable(over[start:]))
-            rest = over[:start] or [Box("number", "1", row[at].at, row[at].at)]
+            numerator = over[:start] or [Box("number", "1", row[at].at, row[at].at)]
             if any(b.kind == "operator" for b in inner):
                 raise FormulaError("a differential stands in one term only", "write it at the end")
-            inner = [*inner, replace(row[at], parts=[rest, row[at].parts[1]]), *row[at + 1 : end]]
+            inner = [*inner, replace(row[at], contents=[numerator, row[at].contents[1]]), *row[at + 1 : end]]
         else:
             variables.append(self._variable(row[end : end + 2]))
             end += 2
             if end < len(row) and (row[end].kind != "operator" or not inner):
                 raise self._open(box, "what follows the differential is integrated", way="write the differential last")
-        limits = [self.expression(each) for each in (box.sub, box.sup) if each]
+        limits = [self.expression(limit) for limit in (box.sub, box.sup) if limit]
         if len(limits) == 1 or box.name != "int" or (inner and inner[-1].kind == "operator"):
             raise FormulaError("the integral is over a line or a region", "write one variable and two limits")
         return Call("Integral", (self.expression(inner) if inner else number(1), variables[0], *limits)), end
@@ -635,7 +649,7 @@ class Grammar:
 _SIMPLE: dict[str, Callable[[Grammar, Box], Node]] = {
     "bracket": Grammar._bracket, "group": Grammar._group, "root": Grammar._root, "matrix": Grammar._matrix,
     "infinity": lambda reader, box: Letter("oo"), "dots": lambda reader, box: Call("dots", ()),
-    "binomial": lambda reader, box: Call("binomial", tuple(map(reader.expression, box.parts))),
+    "binomial": lambda reader, box: Call("binomial", tuple(map(reader.expression, box.contents))),
 }  # fmt: skip
 _FACTORS: dict[str, Callable[[Grammar, list[Box], int], tuple[Node, int]]] = {
     "number": Grammar._number, "letter": Grammar._letter, "fraction": Grammar._fraction, "function": Grammar._function,
@@ -652,39 +666,39 @@ def _plain(bracket: str) -> str:
 
 def _product(factors: list[Node]) -> Node:
     """Return the product of factors side by side. Raises FormulaError for vectors among them."""
-    vectors = [each for each in factors if is_vector(each)]
+    vectors = [factor for factor in factors if is_vector(factor)]
     if len(vectors) > 1 and not all(map(is_matrix, vectors[:-1])):
         way = 'write \\cdot or \\times, or declare matrices = "…" in [notation]'
         raise FormulaError("two vectors stand side by side", way)
     return Call("matmul", tuple(factors)) if len(vectors) > 1 else product_of(factors)
 
 
-def _check_sums(parts: list[list[Box]]) -> None:
+def _check_sums(terms: list[list[Box]]) -> None:
     """Raise FormulaError where a term behind a sum holds the index of that sum."""
     indices: set[str] = set()
-    for part in parts:
-        held = {each.name for box in part for each in all_boxes(box.sub or ()) if each.kind == "letter"}
-        sums = [box for box in part if box.kind == "big"]
-        if held & indices and not sums:
+    for term in terms:
+        letters = {inner.name for box in term for inner in all_boxes(box.sub or ()) if inner.kind == "letter"}
+        sums = [box for box in term if box.kind == "big"]
+        if letters & indices and not sums:
             raise FormulaError("whether the sum ends here is open", "write brackets around what is summed")
         indices |= {b.name for box in sums if box.name in ("sum", "prod") for b in box.sub or () if b.kind == "letter"}
 
 
-def _check_neighbours(row: list[Box], place: int, before: Box | None) -> None:
+def _check_neighbours(row: list[Box], place: int, previous: Box | None) -> None:
     """Raise FormulaError for a digit behind a factor, a mixed number, dots, and letters that are a word."""
     box = row[place]
     if box.kind == "dots" and len(row) > 1:
         raise FormulaError("dots stand for factors", "write them, or as a product")
-    if before is not None and box.kind == "number" and (before.kind == "number" or not box.spaced):
+    if previous is not None and box.kind == "number" and (previous.kind == "number" or not box.spaced):
         raise FormulaError(f"the number {box.name} stands behind a factor", r"write \cdot, or braces around the power")
-    numeric = box.kind == "fraction" and all(b.kind == "number" for part in box.parts for b in part)
-    if before is not None and before.kind == "number" and numeric:
+    numeric = box.kind == "fraction" and all(b.kind == "number" for content in box.contents for b in content)
+    if previous is not None and previous.kind == "number" and numeric:
         raise FormulaError("whether a mixed number or a product is meant is open", r"write \cdot")
     run = ""
-    for each in row[place:]:
-        plain = each.kind == "letter" and len(each.name) == 1 and not (each.style or each.marks or each.upright)
-        run += each.name if plain else ""
-        if not plain or run in _WORDS or len(run) > 4 or each.sub or each.sup or each.primes:
+    for item in row[place:]:
+        plain = item.kind == "letter" and len(item.name) == 1 and not (item.style or item.marks or item.upright)
+        run += item.name if plain else ""
+        if not plain or run in _WORDS or len(run) > 4 or item.sub or item.sup or item.primes:
             break
     if run in _WORDS or len(run) > 4:
         raise FormulaError(f"{run} is a word", r"write \text{…} for words, and \sin for functions")
@@ -692,7 +706,7 @@ def _check_neighbours(row: list[Box], place: int, before: Box | None) -> None:
 
 def _is_numeric(node: Node) -> bool:
     """Return whether a node has no letters."""
-    return not any(isinstance(each, Letter) for each in walk(node))
+    return not any(isinstance(inner, Letter) for inner in walk(node))
 
 
 def _is_any_kind(node: Node) -> bool:
@@ -732,7 +746,7 @@ def _closes_integral(row: list[Box], place: int) -> bool:
     """Return whether a differential begins here: d before a letter, or above a fraction bar."""
     box = row[place]
     if box.kind == "fraction":
-        return any(is_mark(b, "d") for b in box.parts[0]) and not is_derivative(box)
+        return any(is_mark(b, "d") for b in box.contents[0]) and not is_derivative(box)
     target = row[place + 1] if place + 1 < len(row) else None
     return is_mark(box, "d") and target is not None and target.kind == "letter" and not is_mark(target, "d")
 

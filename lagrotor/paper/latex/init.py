@@ -86,8 +86,8 @@ def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
         whole = Path(near) / "paper"  # so that an interrupt leaves nothing
         paper = _example(whole, folder.resolve().name) if source is None else _from_source(whole, source, again)
         if folder.is_dir():
-            for each in whole.iterdir():
-                each.rename(folder / each.name)
+            for path in whole.iterdir():
+                path.rename(folder / path.name)
         else:
             whole.rename(folder)
     return replace(paper, folder=folder)
@@ -103,28 +103,28 @@ def _example(folder: Path, title: str) -> NewPaper:
 
 def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     source = read_source(path)
-    faults = [f"{file or path.name}:{line}: {said}" for file, line, said in source.faults]
+    faults = [f"{file or path.name}:{line}: {sentence}" for file, line, sentence in source.faults]
     if not source.equations:
         why = "; ".join([f"--from {path}: it has no displayed equation", *(*faults, *source.notes)[:3]])
         raise InputError(f"{why}: lagrotor init alone makes a folder to begin with")
     old = toml(folder / "equations.toml") if again else {}
     table = toml(folder / "paper.toml").get("notation", {}) if again else {}
-    formulas = [*(each.latex for each in source.equations), *source.inline]
+    formulas = [*(equation.latex for equation in source.equations), *source.inline]
     notation = paper_notation(formulas, table, str(folder / "paper.toml"))
-    prints = [read_print(each.latex, notation, each.lead) for each in source.equations]
+    prints = [read_print(equation.latex, notation, equation.lead) for equation in source.equations]
     rows, changed, gone = _merged(source.equations, prints, old.get("equation", []), _derived(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
     _write_about(folder, source, again)
     _write_symbols(folder, prints)
     vectors = _vectors(source.equations, prints, old.get("letters", {}))
-    before = _comments(read_text(folder / "equations.toml")) if again else {}
-    text = _catalogue(rows, vectors, before | {"": [_HEAD.format(name=path.name)]})
+    comments = _comments(read_text(folder / "equations.toml")) if again else {}
+    text = _catalogue(rows, vectors, comments | {"": [_HEAD.format(name=path.name)]})
     write_text(folder / "equations.toml", text)  # last: the other files are about these equations
     if not again:
         about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=path.name))
         write_text(folder / "README.md", about)
     notes = (*faults, *source.notes)
-    read = sum(each.stop is None for each in prints)
+    read = sum(equation.stop is None for equation in prints)
     return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone))
 
 
@@ -141,60 +141,66 @@ def _merged(
     equations: list[Displayed], prints: list[Print], old: list[dict[str, Any]], derived: set[str]
 ) -> tuple[list[dict[str, Any]], list[str], list[str]]:
     """Return the rows of equations.toml with the entries of the old ones, the ids changed, and the ids gone."""
-    before, ids = _known(equations, old), {row["id"] for row in old}
-    taken: set[str] = set()
+    matches, ids = _matches(equations, old), {row["id"] for row in old}
+    new_ids: set[str] = set()
     rows: list[dict[str, Any]] = []
     changed: list[str] = []
-    for place, (each, print_) in enumerate(zip(equations, prints, strict=True)):
-        row = _row(each, print_, old[before[place]] if place in before else None, changed)
-        while place not in before and (row["id"] in taken or row["id"] in ids):
+    for place, (equation, print_) in enumerate(zip(equations, prints, strict=True)):
+        row = _row(equation, print_, old[matches[place]] if place in matches else None, changed)
+        while place not in matches and (row["id"] in new_ids or row["id"] in ids):
             row["id"] += "'"
-        taken.add(row["id"])
+        new_ids.add(row["id"])
         rows.append(row)
-    gone = [row for row in old if row["id"] not in taken]
+    gone = [row for row in old if row["id"] not in new_ids]
     stay = [row | {"read": "gone"} for row in gone if row["id"] in derived or row.get("read") == "confirmed"]
     return [*rows, *stay], changed, [row["id"] for row in gone]
 
 
-def _known(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
+def _matches(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
     """Return place of an equation → place of its old row: alike in label and LaTeX, in label, in LaTeX with a new label."""
-    known: dict[int, int] = {}
+    matches: dict[int, int] = {}
     rows = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]
-    labels = {each.label for each in equations} & {label for label, _ in rows} - {""}
+    labels = {equation.label for equation in equations} & {label for label, _ in rows} - {""}
     keys = (
         lambda label, latex: (label, latex),
         lambda label, latex: label,
         lambda label, latex: "" if label in labels else latex,
     )
     for key in keys:
-        for place, each in enumerate(equations):
-            name = key(each.label, each.latex)
-            free = (row for row, names in enumerate(rows) if row not in known.values() and key(*names) == name)
-            if place not in known and name and (row := next(free, None)) is not None:
-                known[place] = row
-    return known
+        for place, equation in enumerate(equations):
+            name = key(equation.label, equation.latex)
+            free = (row for row, names in enumerate(rows) if row not in matches.values() and key(*names) == name)
+            if place not in matches and name and (row := next(free, None)) is not None:
+                matches[place] = row
+    return matches
 
 
-def _row(each: Displayed, print_: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
+def _row(equation: Displayed, print_: Print, previous: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
     """Return the row of an equation, with the entries of the old row; its id is added to `changed` if its print has changed."""
-    row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section}
-    row |= {"title": each.label or f"displayed equation {each.id}", "label": each.label, "latex": each.latex}
-    row |= {"lead": each.lead, "aside": list(print_.aside), "read": "unconfirmed" if print_.lines else ""}
+    row: dict[str, Any] = {"id": equation.id, "number": equation.number, "section": equation.section}
+    row |= {
+        "title": equation.label or f"displayed equation {equation.id}",
+        "label": equation.label,
+        "latex": equation.latex,
+    }
+    row |= {"lead": equation.lead, "aside": list(print_.aside), "read": "unconfirmed" if print_.lines else ""}
     row["line"] = [dict(line) for line in print_.lines]
-    if known is not None:
-        stay = ("id",) if known.get("title") == known.get("label") else ("id", "title")
+    if previous is not None:
+        stay = ("id",) if previous.get("title") == previous.get("label") else ("id", "title")
         skip = (*row, "changed", "print")
-        row |= {key: value for key, value in known.items() if key not in skip or key in stay}
-        old = known.get("line", ())  # the author's additions to a line, such as an order, stay if it is read alike
+        row |= {key: value for key, value in previous.items() if key not in skip or key in stay}
+        old = previous.get("line", ())  # the author's additions to a line, such as an order, stay if it is read alike
         row["line"] = [next((dict(line) for line in old if line | new == line), new) for new in row["line"]]
-        if known.get("latex") != each.latex:
-            row["changed"] = str(known.get("latex"))
+        if previous.get("latex") != equation.latex:
+            row["changed"] = str(previous.get("latex"))
             changed.append(row["id"])
-        elif old and known.get("read") != "unconfirmed":
+        elif old and previous.get("read") != "unconfirmed":
             row["read"] = ""
-            row |= {key: value for key, value in known.items() if key in ("read", "print", "aside", "reading", "line")}
+            row |= {
+                key: value for key, value in previous.items() if key in ("read", "print", "aside", "reading", "line")
+            }
         else:
-            row["changed"] = known.get("changed")
+            row["changed"] = previous.get("changed")
     return {key: value for key, value in row.items() if value not in ("", [], None)}
 
 
@@ -203,9 +209,9 @@ def _vectors(
 ) -> dict[str, dict[str, str]]:
     """Return the tables [letters.SECTION] with the letters that are vectors."""
     letters = {section: dict(rows) for section, rows in old.items()}
-    for each, print_ in zip(equations, prints, strict=True):
+    for equation, print_ in zip(equations, prints, strict=True):
         if print_.vectors:
-            rows = letters.setdefault(each.section, {})
+            rows = letters.setdefault(equation.section, {})
             rows["vector"] = " ".join(dict.fromkeys([*rows.get("vector", "").split(), *print_.vectors]))
     return letters
 
@@ -254,7 +260,7 @@ def _value(key: str, value: Any) -> str:
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_text(str(k))} = {_value('', v)}" for k, v in value.items()) + " }"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_value("", each) for each in value) + "]"
+        return "[" + ", ".join(_value("", item) for item in value) + "]"
     return _latex(value) if key in ("latex", "quantity", "lead", "changed") else _text(value)
 
 
@@ -264,10 +270,10 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
     Raises InputError for one without a reading.
     """
     file = folder / "equations.toml"
-    given = toml(file)
-    rows = {row["id"]: row for row in given.get("equation", [])}
-    wanted = list(ids)
-    for identifier in wanted:
+    data = toml(file)
+    rows = {row["id"]: row for row in data.get("equation", [])}
+    identifiers = list(ids)
+    for identifier in identifiers:
         row = rows.get(identifier)
         if row is None:
             raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
@@ -276,11 +282,11 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
         if not row.get("line"):
             why = f"`lagrotor readings {folder}` says where its reading stopped, or what was kept aside"
             raise InputError(f"equation {identifier} has no line to confirm: {why}")
-    for row in (rows[identifier] for identifier in wanted):
+    for row in (rows[identifier] for identifier in identifiers):
         row.pop("changed", None)
         row |= {"read": "confirmed", "print": reading_digest(row["latex"], row["line"])}
-    write_text(file, _catalogue(list(rows.values()), given.get("letters", {}), _comments(read_text(file))))
-    return wanted
+    write_text(file, _catalogue(list(rows.values()), data.get("letters", {}), _comments(read_text(file))))
+    return identifiers
 
 
 # ---- paper.toml and symbols.py
@@ -332,7 +338,7 @@ def _write_symbols(folder: Path, prints: Iterable[Print]) -> None:
     file = folder / "symbols.py"
     text = read_text(file) if file.is_file() else _SYMBOLS
     names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", text) for name in call.split()}
-    letters = dict.fromkeys(letter for each in prints for letter in each.letters)
+    letters = dict.fromkeys(letter for print_ in prints for letter in print_.letters)
     new = [_letter(name) for name in letters if re.sub(r"_d?dot$", "", name) not in names]
     write_text(file, "\n".join([text.rstrip("\n"), *new]) + "\n")
 

@@ -125,8 +125,8 @@ class Expander(TokenStream):
             self._expansions[token.at] += 1
             self._made += len(body)
             if self._expansions[token.at] > _MOST_EXPANSIONS or self._made > _MOST_TOKENS + 10 * self.length:
-                said = f"{name} expands without end: a macro that calls itself cannot be taken in"
-                raise InputError(f"{self.place(token.at)}: {said}")
+                sentence = f"{name} expands without end: a macro that calls itself cannot be taken in"
+                raise InputError(f"{self.place(token.at)}: {sentence}")
             self.push(body)
             return True
         if (primitive := self.primitives.get(name)) is not None:
@@ -152,15 +152,15 @@ class Expander(TokenStream):
             elif kind == "m" or self.begins("{"):
                 value = self.argument()
             values.append(default if value is None else value)
-        made: list[Token] = []
-        for part in macro.body:
-            if part.kind != "param":
-                made.append(Token(part.kind, part.text, token.at))
-            elif part.text[1:].isdigit():
-                made += values[int(part.text[1:]) - 1] if int(part.text[1:]) <= len(values) else ()
-            elif part.text.startswith("##"):
-                made.append(Token("param", part.text[1:], token.at))
-        return made
+        expansion: list[Token] = []
+        for item in macro.body:
+            if item.kind != "param":
+                expansion.append(Token(item.kind, item.text, token.at))
+            elif item.text[1:].isdigit():
+                expansion += values[int(item.text[1:]) - 1] if int(item.text[1:]) <= len(values) else ()
+            elif item.text.startswith("##"):
+                expansion.append(Token("param", item.text[1:], token.at))
+        return expansion
 
     # ---- definitions
 
@@ -198,8 +198,8 @@ class Expander(TokenStream):
         """Define the commands of a package that are known here."""
         self.loaded.add(package)
         for line in packages.TABLE.get(package, "").splitlines():
-            names, _, rest = line.strip().partition(" ")
-            spec, _, body = rest.partition(" ")
+            names, _, definition = line.strip().partition(" ")
+            spec, _, body = definition.partition(" ")
             for name in filter(None, names.split(",")):
                 macro = Macro.of(body, spec)
                 same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
@@ -217,9 +217,9 @@ class Expander(TokenStream):
             self.skip((r"\fi",), condition, passed)
         while self.begins("{"):  # \ifthenelse{…}{…}{…}
             passed += self.argument()
-        for name, after in pairwise(token.text for token in passed if token.kind == "command"):
+        for name, following in pairwise(token.text for token in passed if token.kind == "command"):
             if name in (r"\let", r"\DeclareMathOperator") or "def" in name or "newcommand" in name:
-                self.define(after, None, everywhere=True)
+                self.define(following, None, everywhere=True)
         if any(token.text in _MATTER or token.text.endswith("counter") for token in passed):
             helps = r"both branches are left out; write \iftrue or \iffalse"
             self.notes.append(f"{self.place(condition.at)}: {condition.text} is not decided: {helps}")

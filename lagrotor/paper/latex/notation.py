@@ -35,7 +35,7 @@ class Notation:
 
 
 # Keys of the table that hold letters; kinds of which a letter can have one only.
-KINDS = tuple(each.name for each in fields(Notation) if each.name not in ("decimal_comma", "proposed"))
+KINDS = tuple(key.name for key in fields(Notation) if key.name not in ("decimal_comma", "proposed"))
 _EXCLUSIVE = (
     ("real", "functions", "vectors", "matrices", "operators", "indices", "numbers"),
     ("vectors", "matrices", "operators", "indices", "positive", "numbers"),
@@ -70,10 +70,12 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
     if not isinstance(comma, bool):
         raise InputError(f"{where}: notation: decimal_comma is {comma!r}: write true or false")
     for kinds in _EXCLUSIVE:
-        for one in kinds:
-            for other in kinds[: kinds.index(one)]:
-                if both := sorted(names[one] & names[other]):
-                    raise InputError(f"{where}: notation: {both[0]} stands in {other} and in {one}: keep one of them")
+        for second in kinds:
+            for first in kinds[: kinds.index(second)]:
+                if both := sorted(names[second] & names[first]):
+                    raise InputError(
+                        f"{where}: notation: {both[0]} stands in {first} and in {second}: keep one of them"
+                    )
     return Notation(**names, decimal_comma=comma)
 
 
@@ -94,11 +96,13 @@ class Proposal:
 
 def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notation:
     """Return the notation with the proposals for those letters that the author has not declared."""
-    known = {kind: getattr(notation, kind) for kind in KINDS}
-    settled = frozenset[str]().union(*known.values())
-    free = [each for each in proposals if each.letter not in settled]
-    more: dict[str, Any] = {kind: known[kind] | {each.letter for each in free if each.kind == kind} for kind in KINDS}
-    return replace(notation, proposed=more["functions"] - known["functions"], **more)
+    declared = {kind: getattr(notation, kind) for kind in KINDS}
+    settled = frozenset[str]().union(*declared.values())
+    free = [proposal for proposal in proposals if proposal.letter not in settled]
+    extended: dict[str, Any] = {
+        kind: declared[kind] | {proposal.letter for proposal in free if proposal.kind == kind} for kind in KINDS
+    }
+    return replace(notation, proposed=extended["functions"] - declared["functions"], **extended)
 
 
 def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
@@ -108,7 +112,7 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
     it multiplies another or is transposed; the letter below a sum is an index; e with letters in its power is Euler's number,
     and i beside it the imaginary unit, unless they stand elsewhere as letters.
     """
-    seen: dict[tuple[str, str], str] = {}
+    sources: dict[tuple[str, str], str] = {}
     for latex in formulas:
         try:
             row = boxes(latex)
@@ -119,14 +123,14 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
             hats = (box for box in all_boxes(row) if "hat" in box.marks and box.name.islower())
             evidence += [("vectors", stem_of(box)) for box in hats]
         for kind, letter in evidence:
-            seen.setdefault((kind, letter), latex)
+            sources.setdefault((kind, letter), latex)
     for letter in ("e", "i", "j"):  # a charge e beside an exponential, an index i beside an imaginary unit
-        if ("letters", letter) in seen:
-            seen.pop(("numbers", letter), None)
-    for kind, letter in [*seen]:
-        if kind == "vectors" and ("matrices", letter) in seen:
-            del seen[kind, letter]
-    return tuple(Proposal(kind, letter, latex) for (kind, letter), latex in seen.items() if kind in KINDS)
+        if ("letters", letter) in sources:
+            sources.pop(("numbers", letter), None)
+    for kind, letter in [*sources]:
+        if kind == "vectors" and ("matrices", letter) in sources:
+            del sources[kind, letter]
+    return tuple(Proposal(kind, letter, latex) for (kind, letter), latex in sources.items() if kind in KINDS)
 
 
 def has_kind(notation: Notation, kind: str, box: Box) -> bool:
@@ -137,48 +141,48 @@ def has_kind(notation: Notation, kind: str, box: Box) -> bool:
 
 def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
     """Kinds and letters that a row of boxes suggests, with those of all that it holds."""
-    for place, (box, after) in enumerate(pairwise([*row, Box("thin", "", 0, 0)])):
+    for place, (box, following) in enumerate(pairwise([*row, Box("thin", "", 0, 0)])):
         if box.kind == "letter":
-            yield from _of_letter(box, after)
+            yield from _of_letter(box, following)
             yield from _of_value(row, place)
         elif box.kind == "function" and box.name in ("det", "tr", "Tr"):
-            inside = after.parts[0] if after.kind == "bracket" else [after]
+            inside = following.contents[0] if following.kind == "bracket" else [following]
             yield from (("matrices", stem_of(b)) for b in inside if b.kind == "letter" and b.name.isupper())
         elif box.kind == "big" and box.name in ("sum", "prod"):
             below = box.sub or []
-            yield from (("indices", stem_of(each)) for each in below[:1] if each.kind == "letter")
-        for held in (*box.parts, box.sub or [], box.sup or []):
-            yield from _evidence(held)
+            yield from (("indices", stem_of(index)) for index in below[:1] if index.kind == "letter")
+        for inner in (*box.contents, box.sub or [], box.sup or []):
+            yield from _evidence(inner)
 
 
 def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
     """Kinds that a letter has as it is equal to a matrix or a column."""
-    after = [each for each in row[place + 1 : place + 3] if each.kind != "align"]
-    if len(after) == 2 and after[0].name in ("=", ":=") and row[place].kind == "letter":
-        closed = after[1].kind == "bracket" and after[1].closing != "."
-        inside = after[1].parts[0] if closed else after[1:]
+    following = [item for item in row[place + 1 : place + 3] if item.kind != "align"]
+    if len(following) == 2 and following[0].name in ("=", ":=") and row[place].kind == "letter":
+        closed = following[1].kind == "bracket" and following[1].closing != "."
+        inside = following[1].contents[0] if closed else following[1:]
         if len(inside) == 1 and inside[0].kind == "matrix" and inside[0].name != "vmatrix":
-            columns = max(len(line.parts) for line in inside[0].parts[0])
+            columns = max(len(line.contents) for line in inside[0].contents[0])
             yield "matrices" if columns > 1 else "vectors", stem_of(row[place])
 
 
-def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
+def _of_letter(box: Box, following: Box) -> Iterator[tuple[str, str]]:
     """Kinds that a letter and the box behind it suggest."""
     power = box.sup or []
     if box.name in ("e", "i", "j") and not (box.marks or box.style or box.primes or box.sub):
-        letters = {each.name for each in all_boxes(power) if each.kind == "letter"}
+        letters = {inner.name for inner in all_boxes(power) if inner.kind == "letter"}
         if box.name == "e" and letters:
             yield "numbers", "e"
             yield from (("numbers", unit) for unit in ("i", "j") if unit in letters and len(power) > 1)
         elif box.name == "e":
             yield "letters", "e"
-        elif after.name == "hbar":
+        elif following.name == "hbar":
             yield "numbers", box.name
     if is_printed_as_vector(box):
-        transposed = [each.name for each in power] in (["T"], ["top"], ["intercal"])
-        acts = box.name.isupper() and after.kind == "letter" and is_printed_as_vector(after)
+        transposed = [inner.name for inner in power] in (["T"], ["top"], ["intercal"])
+        acts = box.name.isupper() and following.kind == "letter" and is_printed_as_vector(following)
         yield ("matrices" if box.name.isupper() and (transposed or acts) else "vectors"), stem_of(box)
-    if box.name not in ("O", "d") and is_evident_argument(box, after):
+    if box.name not in ("O", "d") and is_evident_argument(box, following):
         yield "functions", stem_of(box)
 
 
@@ -189,8 +193,8 @@ def is_evident_argument(box: Box, bracket: Box) -> bool:
     """
     if bracket.kind != "bracket" or bracket.name != "(" or bracket.sup or (box.sup and box.sup[0].kind == "number"):
         return False
-    content = bracket.parts[0]
-    if any(each.kind == "relation" for each in content):
+    content = bracket.contents[0]
+    if any(item.kind == "relation" for item in content):
         return False
     single = len(content) == 1 and content[0].kind == "letter" and content[0].name != "t"
-    return single or any(each.kind == "comma" for each in content)
+    return single or any(item.kind == "comma" for item in content)

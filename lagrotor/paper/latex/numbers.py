@@ -59,7 +59,7 @@ class Counters:
     def step(self, name: str, by: int = 1) -> None:
         """Add one to a counter, and set those to zero that are numbered within it."""
         self.values[name] = self.values.get(name, 0) + by
-        for inner in [each for each, parent in self.parents.items() if parent == name]:
+        for inner in [counter for counter, parent in self.parents.items() if parent == name]:
             self.values[inner] = 0
             self.step(inner, by=0)
 
@@ -76,14 +76,14 @@ class Counters:
     def primitives(self) -> dict[str, Primitive]:
         """Return the commands that set and print counters."""
         setting = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\refstepcounter")
-        within = (r"\@addtoreset", r"\numberwithin", r"\counterwithin", r"\counterwithout")
-        shown = [rf"\{style}" for style in STYLES]
+        nesting = (r"\@addtoreset", r"\numberwithin", r"\counterwithin", r"\counterwithout")
+        printing = [rf"\{style}" for style in STYLES]
         return {
             r"\documentclass": self._class,
             r"\chapterdot": self._chapter,
             **dict.fromkeys(setting, self._set),
-            **dict.fromkeys(within, self._number_within),
-            **dict.fromkeys(shown, self._show),
+            **dict.fromkeys(nesting, self._number_within),
+            **dict.fromkeys(printing, self._show),
         }
 
     def _class(self, expander: Expander, token: Token) -> None:
@@ -97,10 +97,10 @@ class Counters:
         name, values = expander.name(), self.values
         if "step" in token.text:
             self.step(name)
-        elif re.fullmatch(r"[+-]?\d+", shown := latex_of(expander.expand(expander.argument())).strip()):
-            values[name] = int(shown) + (values.get(name, 0) if token.text == r"\addtocounter" else 0)
+        elif re.fullmatch(r"[+-]?\d+", text := latex_of(expander.expand(expander.argument())).strip()):
+            values[name] = int(text) + (values.get(name, 0) if token.text == r"\addtocounter" else 0)
         else:
-            expander.doubt = f"{expander.place(token.at)}: {token.text}{{{name}}}{{{shown}}} is not known"
+            expander.doubt = f"{expander.place(token.at)}: {token.text}{{{name}}}{{{text}}} is not known"
 
     def _number_within(self, expander: Expander, token: Token) -> None:
         star = expander.star()

@@ -39,28 +39,27 @@ def read_print(latex: str, notation: Notation, lead: str = "") -> Print:
     reading = read_formula(latex, notation, lead)
     if not reading.whole:
         return Print(stop=reading.stop)
-    rows = [(each, _line(each)) for each in reading.statements]
-    sides = (side.node for each, line in rows if line is not None for side in each.sides if in_catalogue(side.node))
-    letters = {
-        each: None for side in sides for each in walk(side) if isinstance(each, Letter) and not is_constant(each)
-    }
+    rows = [(statement, _line(statement)) for statement in reading.statements]
+    sides = (side.node for statement, line in rows if line is not None for side in statement.sides)
+    nodes = (node for side in sides if in_catalogue(side) for node in walk(side))
+    symbols = dict.fromkeys(node for node in nodes if isinstance(node, Letter) and not is_constant(node))
     return Print(
         tuple(line for _, line in rows if line is not None),
-        tuple(statement_text(each) for each, line in rows if line is None),
-        tuple(dict.fromkeys(each.name for each in letters if not each.vector)),
-        tuple(dict.fromkeys(each.name for each in letters if each.vector)),
+        tuple(statement_text(statement) for statement, line in rows if line is None),
+        tuple(dict.fromkeys(symbol.name for symbol in symbols if not symbol.vector)),
+        tuple(dict.fromkeys(symbol.name for symbol in symbols if symbol.vector)),
     )
 
 
 def _line(statement: PrintedStatement) -> dict[str, Any] | None:
     """Return the quantity, the members, and the order that is claimed; None for what no line of the catalogue can hold."""
     sides = statement.sides
-    known = [in_catalogue(side.node) for side in sides]
-    first = next((place for place, each in enumerate(known) if place and each), 0)
-    if statement.kind != "equation" or not first or not all(known[first:]):
+    allowed = [in_catalogue(side.node) for side in sides]
+    first = next((place for place, fits in enumerate(allowed) if place and fits), 0)
+    if statement.kind != "equation" or not first or not all(allowed[first:]):
         return None
     names, members = sides[:first], sides[first:]  # p = ∂L/∂q̇ before the members: the subject of the line
-    if isinstance(sides[0].node, Number) and all(known):
+    if isinstance(sides[0].node, Number) and all(allowed):
         names, members = sides[1:2], (sides[0], *sides[2:])
     line = {"quantity": " = ".join(map(_latex, names)), "members": [text_of(side.node) for side in members]}
     small, power = statement.order or ("", 0)
@@ -81,8 +80,8 @@ def statement_text(statement: PrintedStatement) -> str:
     """Return a statement as one line of text."""
     first, *others = (text_of(side.node) for side in statement.sides)
     order = "" if statement.order is None else f" + O({statement.order[0]}**{statement.order[1]})"
-    rest = (f" {relation} {text}" for relation, text in zip(statement.relations, others, strict=False))
-    return "".join([first, *rest, order])
+    tail = (f" {relation} {text}" for relation, text in zip(statement.relations, others, strict=False))
+    return "".join([first, *tail, order])
 
 
 @dataclass(frozen=True)
@@ -98,7 +97,7 @@ class EquationReading:
     title: str
     print: str
     status: str
-    said: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
     stopped: str = ""
     helps: str = ""
     number: str = ""
@@ -120,24 +119,24 @@ def readings(paper: Catalogue) -> Iterator[EquationReading]:
     equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
     for entry in equations:
-        moved = entry.number and entry.read != "gone" and str(entry.number) != entry.id
-        yield replace(_reading(entry, notation), number=str(entry.number) if moved else "")
+        renumbered = entry.number and entry.read != "gone" and str(entry.number) != entry.id
+        yield replace(_reading(entry, notation), number=str(entry.number) if renumbered else "")
 
 
 def _reading(entry: Equation, notation: Notation) -> EquationReading:
-    shown = EquationReading(entry.id, entry.title, entry.latex, "gone", _said(entry.line))
+    result = EquationReading(entry.id, entry.title, entry.latex, "gone", _line_texts(entry.line))
     if entry.read == "gone":
-        return shown
+        return result
     if entry.line:
         status = "by hand" if not entry.read else "confirmed" if entry.is_confirmed else "unconfirmed"
         status = "changed" if entry.changed and status == "unconfirmed" else status
-        return replace(shown, status=status, said=(*shown.said, *entry.aside))
+        return replace(result, status=status, lines=(*result.lines, *entry.aside))
     print_ = read_print(entry.latex, notation, entry.lead)
     if print_.stop is not None:
-        return replace(shown, status="not read", stopped=print_.stop[0], helps=print_.stop[1])
+        return replace(result, status="not read", stopped=print_.stop[0], helps=print_.stop[1])
     if print_.lines:  # [notation] has changed since init
-        return replace(shown, status="unread so far", said=_said(print_.lines))
-    return replace(shown, status="aside", said=print_.aside)
+        return replace(result, status="unread so far", lines=_line_texts(print_.lines))
+    return replace(result, status="aside", lines=print_.aside)
 
 
 @dataclass(frozen=True)
@@ -154,12 +153,12 @@ def letter_kinds(paper: Catalogue) -> list[LetterKind]:
     """Return the letters of a paper that are no plain real numbers, the declared ones first."""
     table = declared_notation(paper.about.notation, str(paper.folder / "paper.toml"))
     kinds = [LetterKind(letter, kind, True) for kind in KINDS for letter in sorted(getattr(table, kind))]
-    known = {each.letter for each in kinds}
+    letters = {kind.letter for kind in kinds}
     proposals = propose(entry.latex for entry in paper.equations.values())
-    return kinds + [LetterKind(p.letter, p.kind, False, p.evidence) for p in proposals if p.letter not in known]
+    return kinds + [LetterKind(p.letter, p.kind, False, p.evidence) for p in proposals if p.letter not in letters]
 
 
-def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
+def _line_texts(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
     """Printed lines as text, with the order that each claims."""
     claimed = (f" + O({row['small']}**{row.get('order', 0) + 1})" if row.get("small") else "" for row in lines)
     texts = (" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in lines)

@@ -40,45 +40,45 @@ def change_to_agree(fixed: Any, changing: Node, value: Callable[[Node], Any]) ->
     ratio = _ratio(number, value_at(expression, point))
     if ratio and not has_opaque(fixed) and decided(fixed, sp.Rational(str(ratio)) * expression) == "zero":
         return f"with the factor {ratio} of the whole they agree"
-    for other, said in islice(_slips(changing), _MOST_SLIPS):
-        slip = value(other)
+    for variant, change in islice(_slips(changing), _MOST_SLIPS):
+        slip = value(variant)
         if slip is not None and nearly_equal(number, value_at(slip, point)) and decided(fixed, slip) == "zero":
-            return f"with {said} they agree"
+            return f"with {change} they agree"
     return ""
 
 
-def _slips(node: Node, put: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, str]]:
+def _slips(node: Node, embed: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, str]]:
     """Yield a side with one part of `node` changed as authors do, and the change in words; put: puts a new node into the side."""
-    yield from ((put(changed), said) for changed, said in _changes(node))
+    yield from ((embed(changed), change) for changed, change in _changes(node))
     if isinstance(node, Call):
-        for place, part in enumerate(node.args):
-            yield from _slips(part, partial(_put_within, put, node, place))
+        for place, argument in enumerate(node.args):
+            yield from _slips(argument, partial(_embed_argument, embed, node, place))
 
 
-def _put_within(put: Callable[[Node], Node], node: Call, place: int, new: Node) -> Node:
-    return put(_with(node, place, new))
+def _embed_argument(embed: Callable[[Node], Node], node: Call, place: int, new: Node) -> Node:
+    return embed(_with_argument(node, place, new))
 
 
-def _with(node: Call, place: int, part: Node) -> Call:
-    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :]))
+def _with_argument(node: Call, place: int, argument: Node) -> Call:
+    return Call(node.name, (*node.args[:place], argument, *node.args[place + 1 :]))
 
 
 def _changes(node: Node) -> Iterator[tuple[Node, str]]:
     """Yield a node with another power, function or argument, or with another factor of a term."""
-    base, power, more = _powers(node)
-    for each in (power + difference for difference in more):
-        if each:  # cos² nπ is 1 for whole n
-            yield Call("power", (base, Number(each))), f"the power {each} of {text_of(base)}"
+    base, power, steps = _powers(node)
+    for exponent in (power + difference for difference in steps):
+        if exponent:  # cos² nπ is 1 for whole n
+            yield Call("power", (base, Number(exponent))), f"the power {exponent} of {text_of(base)}"
     if isinstance(node, Call) and node.name in KNOWN:
-        if other := _TAKEN_FOR.get(node.name):
-            yield Call(other, node.args), f"{other} for {node.name}"
-        for factor, said in _FACTORS:
-            changed = _with(node, 0, _times(factor, node.args[0]))
-            yield changed, said.format(f"the argument of {text_of(node)}")
+        if function := _TAKEN_FOR.get(node.name):
+            yield Call(function, node.args), f"{function} for {node.name}"
+        for factor, words in _FACTORS:
+            changed = _with_argument(node, 0, _times(factor, node.args[0]))
+            yield changed, words.format(f"the argument of {text_of(node)}")
     if isinstance(node, Call) and node.name == "sum":
         for place, term in enumerate(node.args):
-            for factor, said in _FACTORS:
-                yield _with(node, place, _times(factor, term)), said.format(text_of(term))
+            for factor, words in _FACTORS:
+                yield _with_argument(node, place, _times(factor, term)), words.format(text_of(term))
 
 
 def _powers(node: Node) -> tuple[Node, Fraction, tuple[Fraction | int, ...]]:
@@ -95,12 +95,12 @@ def _times(factor: Fraction, node: Node) -> Node:
     return Call("product", (Number(factor), node))
 
 
-def _ratio(value: Any, other: Any) -> Fraction | None:
+def _ratio(a: Any, b: Any) -> Fraction | None:
     """Return the quotient of two numbers as a fraction of small numbers; None where it is none."""
-    if not (value.is_real and other.is_real and other and abs(value / other) < LARGEST):
+    if not (a.is_real and b.is_real and b and abs(a / b) < LARGEST):
         return None
-    fraction = Fraction(float(value / other)).limit_denominator(_MOST_PARTS)
-    return fraction if nearly_equal(value, sp.Rational(str(fraction)) * other) else None
+    fraction = Fraction(float(a / b)).limit_denominator(_MOST_PARTS)
+    return fraction if nearly_equal(a, sp.Rational(str(fraction)) * b) else None
 
 
 def constant_value(a: Any) -> sp.Rational | None:

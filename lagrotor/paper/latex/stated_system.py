@@ -93,20 +93,20 @@ class StatedSystem:
         if role is None:
             raise self._error(f"{self.derives[identifier]!r} is not known: write {_ROLES}")
         self._check_letters(identifier)
-        said = role.groupdict(default="")
-        if said["form"]:
-            return self._frequency(said["form"], int(said["which"] or 1), said["at"])
-        if said["whole"] == "integral":
+        words = role.groupdict(default="")
+        if words["form"]:
+            return self._frequency(words["form"], int(words["which"] or 1), words["at"])
+        if words["whole"] == "integral":
             return self._conserved(identifier)
-        if said["whole"]:
-            return self.L if said["whole"] == "L" else shortest(energy(self.L, self.c))
+        if words["whole"]:
+            return self.L if words["whole"] == "L" else shortest(energy(self.L, self.c))
         names = [q.name for q in self.c.q]
-        if said["name"] not in names:
-            raise self._error(f"{said['kind']} {said['name'] or '?'}: the coordinates are {', '.join(names)}")
-        if said["kind"] == "motion":
+        if words["name"] not in names:
+            raise self._error(f"{words['kind']} {words['name'] or '?'}: the coordinates are {', '.join(names)}")
+        if words["kind"] == "motion":
             return shortest(self._as_printed(identifier))
-        rows = momenta(self.L, self.c) if said["kind"] == "momentum" else self.accelerations
-        return shortest(rows[names.index(said["name"])])
+        rows = momenta(self.L, self.c) if words["kind"] == "momentum" else self.accelerations
+        return shortest(rows[names.index(words["name"])])
 
     @cached_property
     def premises(self) -> tuple[Premise, ...]:
@@ -115,7 +115,7 @@ class StatedSystem:
         definitions = (sp.Eq(letter, value, evaluate=False) for letter, value in self.where.items())
         return (
             *([Premise("the constraints hold", where=tuple(rates))] if rates else []),
-            *(Premise("as the text says", where=(each,), defines=True) for each in definitions),
+            *(Premise("as the text says", where=(definition,), defines=True) for definition in definitions),
         )
 
     @cached_property
@@ -125,7 +125,7 @@ class StatedSystem:
         rows = euler_lagrange(self.L, self.c) - sp.Matrix(self.forces)
         for multiplier, constraint in zip(multipliers, self.constraints, strict=True):
             rows -= multiplier * gradient(constraint, self.c.q)
-        second = [total_derivative(total_derivative(each, self.c), self.c) for each in self.constraints]
+        second = [total_derivative(total_derivative(g, self.c), self.c) for g in self.constraints]
         equations, unknown = sp.Matrix([*rows, *second]), sp.Matrix([*self.c.a, *multipliers])
         singular = f"{self.place}: its equations of motion are singular"
         solution = linear_solve(equations.jacobian(unknown), -equations.subs(dict.fromkeys(unknown, 0)), singular)
@@ -156,8 +156,8 @@ class StatedSystem:
     def _point(self, text: str) -> dict[sp.Symbol, sp.Expr]:
         """Return the coordinates of `theta = 0, x = a`; those without a value are zero."""
         values = dict.fromkeys(self.c.q, sp.S.Zero)
-        for each in filter(None, (part.strip() for part in text.split(","))):
-            name, _, value = each.partition("=")
+        for assignment in filter(None, (piece.strip() for piece in text.split(","))):
+            name, _, value = assignment.partition("=")
             values[read(name.strip(), self.names, self.place)] = read(value.strip() or "0", self.names, self.place)
         return values
 
@@ -180,15 +180,15 @@ class StatedSystem:
 
     def _as_printed(self, identifier: str) -> sp.Expr:
         """Return the right side of a printed equation of motion, plus left − right along the motion."""
-        (line, *more), left = self.paper.lines(identifier), self._left_side(identifier)
-        moving = any(each.has(*self.c.a) for each in line.members)
-        if left is None or more or (moving and len(line.members) > 1):
+        (line, *further), lhs = self.paper.lines(identifier), self._left_side(identifier)
+        moving = any(member.has(*self.c.a) for member in line.members)
+        if lhs is None or further or (moving and len(line.members) > 1):
             says = (
                 "has no single left side in the coordinates and the letters of the system, or accelerations in a chain"
             )
             helps = "print one equation, define its letters in where, or leave it out here"
             raise self._error(f"equation {identifier} {says}: {helps}")
-        return line.members[0] + self._along(left - line.members[0]) if moving else self._along(left)
+        return line.members[0] + self._along(lhs - line.members[0]) if moving else self._along(lhs)
 
     def _left_side(self, identifier: str) -> sp.Expr | None:
         """Return what stands before the first member of a print; None where it has other letters, or sides that differ."""
@@ -206,11 +206,11 @@ class StatedSystem:
         names |= {name: symbol for name, symbol in self.names.items() if symbol in self._known}
         texts = [text_of(side.node) for statement in reading.statements for side in statement.sides]
         try:
-            left, *others = (read(text, names, self.place) for text in texts)
+            lhs, *others = (read(text, names, self.place) for text in texts)
         except (InputError, ValueError):
             return None
-        same = all(_is_zero(self._along(left - each)) for each in others)
-        return left if same and left.free_symbols <= self._known else None
+        same = all(_is_zero(self._along(lhs - value)) for value in others)
+        return lhs if same and lhs.free_symbols <= self._known else None
 
     def _frequency(self, form: str, which: int, point: str) -> sp.Expr:
         """Return ω of a small oscillation about an equilibrium, ω², or its period; the mode's rate is i ω."""
@@ -239,30 +239,30 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     InputError
         If none is stated, or a key, an expression or a definition cannot be read.
     """
-    given, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
-    if unknown := sorted(given.keys() - set(_KEYS)):
+    table, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
+    if unknown := sorted(table.keys() - set(_KEYS)):
         raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
-    if missing := [key for key in ("coordinates", "L") if not given.get(key)]:
+    if missing := [key for key in ("coordinates", "L") if not table.get(key)]:
         raise InputError(
             f"{where}: {missing[0]} is missing: state the coordinates and the Lagrangian L, as in "
             '[system] coordinates = "theta", L = "m*l**2*theta_dot**2/2 + m*g*l*cos(theta)"'
         )
-    known = {symbol.name: symbol for symbol in paper.glossary}
-    fresh = coordinates(given["coordinates"])
-    c = Coordinates(*(tuple(known.get(s.name, s) for s in row) for row in (fresh.q, fresh.v, fresh.a)))
-    names = known | {s.name: s for row in (c.q, c.v, c.a) for s in row}
-    for identifier in given.get("derives", {}):
+    symbols = {symbol.name: symbol for symbol in paper.glossary}
+    fresh = coordinates(table["coordinates"])
+    c = Coordinates(*(tuple(symbols.get(s.name, s) for s in row) for row in (fresh.q, fresh.v, fresh.a)))
+    names = symbols | {s.name: s for row in (c.q, c.v, c.a) for s in row}
+    for identifier in table.get("derives", {}):
         paper.equation(identifier)
-    forces = tuple(read(each, names, f"{where}: forces") for each in given.get("forces", ())) or (sp.S.Zero,) * len(c.q)
+    forces = tuple(read(text, names, f"{where}: forces") for text in table.get("forces", ())) or (sp.S.Zero,) * len(c.q)
     if len(forces) != len(c.q):
         raise InputError(
             f'{where}: forces: {len(forces)} for {len(c.q)} coordinates: write one each, "0" where none acts'
         )
-    L = read(given["L"], names, f"{where}: L")
-    constraints = tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ()))
+    L = read(table["L"], names, f"{where}: L")
+    constraints = tuple(read(text, names, f"{where}: constraints") for text in table.get("constraints", ()))
     fixed = set[sp.Basic]().union(*(e.free_symbols for e in (L, *constraints, *forces, *c.q, *c.v, *c.a)))
-    definitions = _definitions(given.get("where", ()), names, fixed, c, f"{where}: where")
-    return StatedSystem(c, L, constraints, forces, definitions, given.get("derives", {}), names, where, paper)
+    definitions = _definitions(table.get("where", ()), names, fixed, c, f"{where}: where")
+    return StatedSystem(c, L, constraints, forces, definitions, table.get("derives", {}), names, where, paper)
 
 
 def _definitions(
@@ -271,16 +271,22 @@ def _definitions(
     """Return letter → expression in constants; refuse another relation, a letter of L, and one that is defined twice."""
     definitions: dict[sp.Symbol, sp.Expr] = {}
     for row in rows:
-        left, equals, right = str(row).partition("=")
-        letter = names.get(left.strip())
-        if not equals or "=" in right or not isinstance(letter, sp.Symbol):
+        name, equals, text = str(row).partition("=")
+        letter = names.get(name.strip())
+        if not equals or "=" in text or not isinstance(letter, sp.Symbol):
             raise InputError(
                 f'{where}: {row!r} defines no letter of symbols.py: write one, as in "omega_0 = sqrt(g/l)"'
             )
-        value = read(right.strip(), names, where)
-        twice, own = letter in definitions, letter in fixed
-        if twice or own or value.free_symbols & {*c.q, *c.v, *c.a, t}:
-            says = "is defined twice" if twice else "is a letter of the system" if own else "is defined by coordinates"
+        value = read(text.strip(), names, where)
+        twice, in_system = letter in definitions, letter in fixed
+        if twice or in_system or value.free_symbols & {*c.q, *c.v, *c.a, t}:
+            says = (
+                "is defined twice"
+                if twice
+                else "is a letter of the system"
+                if in_system
+                else "is defined by coordinates"
+            )
             raise InputError(f"{where}: {row!r}: {letter} {says}: write it out in L or in the print")
         definitions[letter] = value
     return definitions

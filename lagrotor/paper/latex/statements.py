@@ -41,10 +41,10 @@ class PrintedStatement:
 
 def read_statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
     """Return the statements of a formula, its rows joined where one continues the other."""
-    found: list[PrintedStatement] = []
+    statements: list[PrintedStatement] = []
     for piece in _pieces(strip(row)):
-        found += _statements(reader, piece)
-    return found
+        statements += _statements(reader, piece)
+    return statements
 
 
 def _is_related(row: list[Box]) -> bool:
@@ -54,8 +54,8 @@ def _is_related(row: list[Box]) -> bool:
 def _pieces(row: list[Box]) -> list[list[Box]]:
     """Return the rows of a display, each with the rows that continue it; what stands beside them is a piece of its own."""
     lines = _system(row[0]) if row else None
-    beside = strip(row[1:])
-    if lines is None or (beside and row[1].kind not in ("wide", "comma", "text")):
+    remainder = strip(row[1:])
+    if lines is None or (remainder and row[1].kind not in ("wide", "comma", "text")):
         return [row]
     pieces: list[list[Box]] = []
     for line in lines:
@@ -68,8 +68,8 @@ def _pieces(row: list[Box]) -> list[list[Box]]:
             pieces[-1] = [*pieces[-1][: -1 if twice else None], *line]
         else:
             pieces.append(line)
-    held = [each for piece in pieces for each in (_pieces(strip(piece)) if len(strip(piece)) == 1 else [piece])]
-    return [*held, *([beside] if beside else [])]
+    split = [inner for piece in pieces for inner in (_pieces(strip(piece)) if len(strip(piece)) == 1 else [piece])]
+    return [*split, *([remainder] if remainder else [])]
 
 
 def _system(box: Box) -> list[list[Box]] | None:
@@ -77,13 +77,17 @@ def _system(box: Box) -> list[list[Box]] | None:
     if box.sub is not None or box.sup is not None:
         return None
     if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
-        inside = strip(box.parts[0])
+        inside = strip(box.contents[0])
         return _system(inside[0]) if len(inside) == 1 else None
-    return [[part for cell in line.parts for part in cell] for line in box.parts[0]] if box.kind == "rows" else None
+    return (
+        [[inner for cell in line.contents for inner in cell] for line in box.contents[0]]
+        if box.kind == "rows"
+        else None
+    )
 
 
-def _continues(before: list[Box], line: list[Box]) -> bool:
-    last, first = before[-1], line[0]
+def _continues(previous: list[Box], line: list[Box]) -> bool:
+    last, first = previous[-1], line[0]
     if last.kind in ("operator", "relation"):
         return True
     if last.kind == "comma" or first.kind in ("arrow", "text"):
@@ -91,16 +95,16 @@ def _continues(before: list[Box], line: list[Box]) -> bool:
     starts = first.kind == "relation" or (first.kind == "operator" and first.name in ("+", "-", "cdot", "times", "/"))
     if starts and _is_related(line) and first.kind != "relation":
         raise FormulaError("whether a row continues the row before is open", "write a comma between statements")
-    if starts and any(box.kind in ("text", "wide", "comma") for box in strip(before)):
+    if starts and any(box.kind in ("text", "wide", "comma") for box in strip(previous)):
         raise FormulaError("a row continues one of several statements", "write each statement in its rows")
     if not starts and not _is_related(line):
         raise FormulaError("a row has no relation", "begin it with the sign that joins it to the row before")
     return starts
 
 
-def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
+def _segments(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
     """Return a piece in parts between wide spaces, words, arrows and commas: the sign before each part, and its boxes."""
-    parts: list[tuple[str, list[Box]]] = [("", [])]
+    segments: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
         following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
         if box.kind in ("arrow", "text"):
@@ -112,41 +116,43 @@ def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
                     f"the words {box.name} are a unit or a side", "write a letter, or numbers without units"
                 )
             condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
-            parts.append(("condition" if condition else box.kind, []))
-        elif box.kind == "bracket" and box.name == "(" and _is_related(box.parts[0]) and not (box.sup or box.sub):
-            parts += [("condition", list(box.parts[0])), ("wide", [])]
+            segments.append(("condition" if condition else box.kind, []))
+        elif box.kind == "bracket" and box.name == "(" and _is_related(box.contents[0]) and not (box.sup or box.sub):
+            segments += [("condition", list(box.contents[0])), ("wide", [])]
         elif box.name == "." and box.kind == "comma" and following and row[place + 1].kind not in _PARTING:
             raise FormulaError("a full stop stands within the formula", r"write \cdot for a product")
         elif box.kind in ("wide", "comma"):
-            before, after = strip(parts[-1][1]), following or box
-            goes_on = before and before[-1].kind in ("operator", "relation")
-            signed = after.kind == "relation" or (box.kind == "wide" and after.kind == "operator" and after.name != "-")
-            if not (goes_on or (signed and before)):
-                waiting = not before and parts[-1][0] in ("text", "condition")
-                parts.append((parts[-1][0] if waiting else box.kind, []))
-        elif not (box.name == ":" and not parts[-1][1]):
-            parts[-1][1].append(box)
-    return parts
+            previous, next_box = strip(segments[-1][1]), following or box
+            goes_on = previous and previous[-1].kind in ("operator", "relation")
+            signed = next_box.kind == "relation" or (
+                box.kind == "wide" and next_box.kind == "operator" and next_box.name != "-"
+            )
+            if not (goes_on or (signed and previous)):
+                waiting = not previous and segments[-1][0] in ("text", "condition")
+                segments.append((segments[-1][0] if waiting else box.kind, []))
+        elif not (box.name == ":" and not segments[-1][1]):
+            segments[-1][1].append(box)
+    return segments
 
 
 def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
     """Return the statements of one piece."""
-    found: list[PrintedStatement] = []
-    parts = _parts(reader, row)
-    for sign, part in parts:
-        part = strip(part)
-        if not part:
+    statements: list[PrintedStatement] = []
+    segments = _segments(reader, row)
+    for sign, segment in segments:
+        segment = strip(segment)
+        if not segment:
             continue
-        if _is_related(part) and found and sign == "comma" and found[-1].kind == "expression":
+        if _is_related(segment) and statements and sign == "comma" and statements[-1].kind == "expression":
             raise FormulaError("what stands before the comma has no relation", "write it for each letter")
-        if not _is_related(part) and found and sign in ("comma", "wide"):
+        if not _is_related(segment) and statements and sign in ("comma", "wide"):
             raise FormulaError("what follows the comma has no relation", "write it as a statement of its own")
         elif sign == "condition":
-            stated = _statements(reader, part)
-            found += [replace(each, kind=sign) for each in stated]
+            conditions = _statements(reader, segment)
+            statements += [replace(condition, kind=sign) for condition in conditions]
         else:
-            found.append(read_statement(reader, part))
-    return found
+            statements.append(read_statement(reader, segment))
+    return statements
 
 
 def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
@@ -172,8 +178,8 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
             raise FormulaError(
                 f"whether {min(missing)} is summed over is open", r"write \sum, or give it another index"
             )
-    order, kept = without_order(read[-1].node)
-    read[-1] = replace(read[-1], node=kept)
+    order, value = without_order(read[-1].node)
+    read[-1] = replace(read[-1], node=value)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
 
 
@@ -182,9 +188,9 @@ def _indices(node: Node) -> set[str]:
     if isinstance(node, Call):
         bound = set(letters_of(Call("", node.args[1:]))) if node.name in ("Sum", "Product") else set[str]()
         return set[str]().union(*map(_indices, node.args)) - bound
-    parts = node.name.split("_")[1:] if isinstance(node, Letter) else []
+    words = node.name.split("_")[1:] if isinstance(node, Letter) else []
     return {
-        each for part in parts for each in ([part] if part in ("mu", "nu") else part if {*part} <= {*"ijk"} else "")
+        index for word in words for index in ([word] if word in ("mu", "nu") else word if {*word} <= {*"ijk"} else "")
     }
 
 
@@ -192,8 +198,8 @@ def _repeated(node: Node) -> set[str]:
     """Return the indices that two factors of a product share and no sum binds: they may stand for a sum."""
     if not isinstance(node, Call):
         return set()
-    shared = [_indices(each) for each in node.args] if node.name in ("product", "dot") else []
-    twice = {index for place, one in enumerate(shared) for other in shared[:place] for index in one & other}
+    shared = [_indices(argument) for argument in node.args] if node.name in ("product", "dot") else []
+    twice = {index for place, a in enumerate(shared) for b in shared[:place] for index in a & b}
     return twice.union(*map(_repeated, node.args)) & _indices(node)
 
 
@@ -204,7 +210,7 @@ def _check_side(side: list[Box]) -> None:
     if 2 < len(side) == len(name) and name.isupper():
         raise FormulaError(f"{name} is a word", r"write \mathrm for it, or \cdot")
     square = len(side) == 1 and side[0].name == "[" and not (side[0].sub or side[0].sup)
-    if square and [b.kind for b in side[0].parts[0]] != ["matrix"]:
+    if square and [b.kind for b in side[0].contents[0]] != ["matrix"]:
         raise FormulaError("what the square brackets mean is open", "leave them out, or write what it is")
 
 
@@ -227,5 +233,5 @@ def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:
         inner, power = inner.args
     if not (isinstance(inner, Letter) and isinstance(power, Number) and power.value.denominator == 1):
         return None, node
-    rest = node.args[:-1]
-    return (inner.name, int(power.value)), rest[0] if len(rest) == 1 else Call("sum", rest)
+    terms = node.args[:-1]
+    return (inner.name, int(power.value)), terms[0] if len(terms) == 1 else Call("sum", terms)

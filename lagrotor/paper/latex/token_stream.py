@@ -87,10 +87,10 @@ class TokenStream:
 
     def _open_files(self) -> list[tuple[Path, Iterator[Token]]]:
         """Return the files that are not read to their end, the innermost last."""
-        return [each for each in self._reading if each[1] in self.waiting]
+        return [row for row in self._reading if row[1] in self.waiting]
 
     def _file_of(self, at: int) -> int:
-        return max(bisect_right(self._starts, at, key=lambda each: each[0]) - 1, 0)
+        return max(bisect_right(self._starts, at, key=lambda start: start[0]) - 1, 0)
 
     def line(self, at: int) -> tuple[str, int]:
         """Return the file and the line of a place."""
@@ -132,11 +132,11 @@ class TokenStream:
         token = self.peek()
         return token is not None and token.text.startswith(sign)
 
-    def take(self, part: str) -> None:
+    def take(self, prefix: str) -> None:
         """Take the next token; of a run of characters, this part."""
         token = self.next()
-        if token is not None and token.kind == "text" and token.text.startswith(part):
-            self.push(plain(token.text[len(part) :], token.at + len(part)))
+        if token is not None and token.kind == "text" and token.text.startswith(prefix):
+            self.push(plain(token.text[len(prefix) :], token.at + len(prefix)))
 
     def skip_spaces(self) -> str:
         """Take the white space that comes next."""

@@ -51,14 +51,14 @@ def tokens_of(text: str, base: int = 0) -> Iterator[Token]:
 
 def latex_of(tokens: Iterable[Token]) -> str:
     """Return the tokens as LaTeX, with a space between a command and a letter that follows it."""
-    parts: list[str] = []
+    pieces: list[str] = []
     word = False
     for token in tokens:
         if word and token.text[:1].isalpha():
-            parts.append(" ")
-        parts.append(token.text)
+            pieces.append(" ")
+        pieces.append(token.text)
         word = token.kind == "command" and token.text[-1].isalpha()
-    return "".join(parts)
+    return "".join(pieces)
 
 
 def plain(text: str, at: int) -> list[Token]:

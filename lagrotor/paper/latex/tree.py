@@ -78,8 +78,8 @@ def rational_value(node: Node) -> Fraction | None:
     """Return the number that a node prints, such as 2, -1 or 3/2; None where it prints another thing."""
     if isinstance(node, Number):
         return node.value
-    parts = [rational_value(part) for part in node.args] if isinstance(node, Call) else []
-    match (node.name, *parts):
+    values = [rational_value(argument) for argument in node.args] if isinstance(node, Call) else []
+    match (node.name, *values):
         case ("negative", Fraction() as value):
             return -value
         case ("quotient", Fraction() as above, Fraction() as below) if below:
@@ -99,7 +99,9 @@ def walk(node: Node) -> Iterator[Node]:
 
 def letters_of(node: Node) -> list[str]:
     """The names of its letters, in the order in which they are printed; pi, e and i as numbers are none."""
-    return list(dict.fromkeys(each.name for each in walk(node) if isinstance(each, Letter) and not is_constant(each)))
+    return list(
+        dict.fromkeys(inner.name for inner in walk(node) if isinstance(inner, Letter) and not is_constant(inner))
+    )
 
 
 def is_constant(letter: Letter) -> bool:
@@ -124,8 +126,8 @@ def is_printed_zero(node: Node) -> bool:
 
 def product_of(factors: list[Node]) -> Node:
     flat: list[Node] = []
-    for each in factors:
-        flat += each.args if isinstance(each, Call) and each.name == "product" else (each,)
+    for factor in factors:
+        flat += factor.args if isinstance(factor, Call) and factor.name == "product" else (factor,)
     return flat[0] if len(flat) == 1 else Call("product", tuple(flat))
 
 
@@ -148,8 +150,8 @@ def divisors(node: Node) -> Iterator[Node]:
             yield node.args[1]
         elif node.name == "log" or (node.name == "power" and "-" in text_of(node.args[1])):
             yield node.args[0]
-        for each in node.args:
-            yield from divisors(each)
+        for argument in node.args:
+            yield from divisors(argument)
 
 
 def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
@@ -161,15 +163,15 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
     if node.name in BINDING and len(node.args) > 1:
         inner, variable, *ends = node.args
         free = {key: value for key, value in values.items() if key != variable}
-        return Call(node.name, (put_for(inner, free), variable, *(put_for(each, values) for each in ends)))
-    return Call(node.name, tuple(put_for(each, values) for each in node.args))
+        return Call(node.name, (put_for(inner, free), variable, *(put_for(argument, values) for argument in ends)))
+    return Call(node.name, tuple(put_for(argument, values) for argument in node.args))
 
 
 def in_catalogue(node: Node) -> bool:
     """Return whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
-    each = list(walk(node))
-    names = {part.name for part in each if isinstance(part, Call)}
-    return names <= {*_ARITHMETIC, *_CALLED} and Letter("imaginary_unit") not in each
+    nodes = list(walk(node))
+    names = {call.name for call in nodes if isinstance(call, Call)}
+    return names <= {*_ARITHMETIC, *_CALLED} and Letter("imaginary_unit") not in nodes
 
 
 def text_of(node: Node) -> str:
@@ -184,18 +186,18 @@ def _text(node: Node, above: int) -> str:
         text = str(node.value)
         return f"({text})" if above > 3 and ("/" in text or "-" in text) else text
     if node.name not in _PRECEDENCE:
-        return f"{node.name}({', '.join(_text(each, 0) for each in node.args)})"
+        return f"{node.name}({', '.join(_text(term, 0) for term in node.args)})"
     level = _PRECEDENCE[node.name]
     if node.name == "sum":
         text = _text(node.args[0], 1)
-        for each in node.args[1:]:
-            taken = isinstance(each, Call) and each.name == "negative"
-            inner = each.args[0] if isinstance(each, Call) and taken else each
-            text += (" - " if taken else " + ") + _text(inner, 2)
+        for term in node.args[1:]:
+            subtracted = isinstance(term, Call) and term.name == "negative"
+            inner = term.args[0] if isinstance(term, Call) and subtracted else term
+            text += (" - " if subtracted else " + ") + _text(inner, 2)
     elif node.name == "negative":
         text = "-" + _text(node.args[0], 3)
     elif node.name == "product":
-        text = "*".join([_text(node.args[0], 3), *(_text(each, 4) for each in node.args[1:])])
+        text = "*".join([_text(node.args[0], 3), *(_text(term, 4) for term in node.args[1:])])
     elif node.name == "quotient":
         text = f"{_text(node.args[0], 3)}/{_text(node.args[1], 4)}"
     else:
@@ -226,7 +228,7 @@ class Opaque:
             if isinstance(getattr(sp, node.name, None), sp.FunctionClass) and node.name not in _GREEK:
                 raise InputError(f"{text} is not decided: judge has no rules for the function {node.name}")
             if node.name not in _UNDECIDED and not any(map(is_vector, (node, *node.args))):
-                return sp.Function(node.name, real=True)(*(sympy_expression(each, self) for each in node.args))
+                return sp.Function(node.name, real=True)(*(sympy_expression(argument, self) for argument in node.args))
             raise InputError(f"{text} is not decided: {_UNDECIDED.get(node.name, 'write its components')}")
         if is_vector(node) and not is_matrix(node):
             return sp.Matrix(sp.symbols([f"[{text}]_{k}" for k in (1, 2, 3)], real=True))
@@ -269,18 +271,18 @@ def _value(node: Call, opaque: Opaque) -> Any:
     """Return the value of arithmetic, of a known function, of vectors and of matrices that are written out; else None."""
     if node.name == "matrix":
         rows = (row.args for row in node.args if isinstance(row, Call))
-        return sp.Matrix([[sympy_expression(each, opaque) for each in row] for row in rows])
+        return sp.Matrix([[sympy_expression(argument, opaque) for argument in row] for row in rows])
     if node.name not in _VALUES and node.name not in KNOWN:
         return None
-    if node.name in _OF_MATRICES and any(isinstance(each, Letter) and each.matrix for each in walk(node)):
+    if node.name in _OF_MATRICES and any(isinstance(argument, Letter) and argument.matrix for argument in walk(node)):
         return None  # a matrix whose entries are not known
-    parts = [sympy_expression(each, opaque) for each in node.args]
-    sizes = [part.shape if isinstance(part, sp.MatrixBase) else () for part in parts]
-    if _too_large(node, parts) or not _fits(node.name, sizes):
+    values = [sympy_expression(argument, opaque) for argument in node.args]
+    sizes = [value.shape if isinstance(value, sp.MatrixBase) else () for value in values]
+    if _too_large(node, values) or not _fits(node.name, sizes):
         return None
     if node.name in KNOWN:
-        return KNOWN[node.name](*parts, evaluate=not any(part.has(sp.Function) for part in parts))
-    return _VALUES[node.name](*parts)
+        return KNOWN[node.name](*values, evaluate=not any(value.has(sp.Function) for value in values))
+    return _VALUES[node.name](*values)
 
 
 def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
@@ -309,7 +311,7 @@ def has_opaque(*values: Any) -> bool:
 def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
     """Return the letters with dots, and the components of vectors, with their rates."""
     rates: dict[sp.Symbol, sp.Symbol] = {}
-    for letter in {each for node in nodes for each in walk(node)}:
+    for letter in {inner for node in nodes for inner in walk(node)}:
         if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
             names = [dotted[1], *(f"{dotted[1]}_{'d' * n}ot" for n in range(1, len(dotted[2]) + 2))]
             for end in ("_1", "_2", "_3") if letter.vector else ("",):
@@ -324,7 +326,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
         return None if isinstance(node.args[0], Letter) or opaque.rates is None else _rate(inner, opaque)
     if not isinstance(node.args[1], Letter) or node.args[1].vector or isinstance(inner, sp.MatrixBase):
         return None
-    name, ends = node.args[1].name, [sympy_expression(each, opaque) for each in node.args[2:]]
+    name, ends = node.args[1].name, [sympy_expression(limit, opaque) for limit in node.args[2:]]
     variable = opaque.letters.get(name, sp.Symbol(name, real=True))
     if has_opaque(inner):
         return None
@@ -363,9 +365,13 @@ def _indexed(node: Node, name: str, k: int) -> Node:
     """Return a term of a sum, the index and the letters that bear it replaced: x_i by x_2."""
     if isinstance(node, Letter):
         stem, *index = node.name.split("_")
-        named = replace(node, name="_".join((stem, *(str(k) if part == name else part for part in index))))
+        named = replace(node, name="_".join((stem, *(str(k) if word == name else word for word in index))))
         return number(k) if node.name == name else named
-    return Call(node.name, tuple(_indexed(each, name, k) for each in node.args)) if isinstance(node, Call) else node
+    return (
+        Call(node.name, tuple(_indexed(argument, name, k) for argument in node.args))
+        if isinstance(node, Call)
+        else node
+    )
 
 
 def _rate(inner: Any, opaque: Opaque) -> Any:
@@ -383,9 +389,9 @@ def _rate(inner: Any, opaque: Opaque) -> Any:
 BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
 _OF_MATRICES = ("matmul", "det", "inverse", "transpose", "tr", "power")
 _VALUES: dict[str, Any] = {
-    "sum": lambda *parts: reduce(operator.add, parts),
-    "product": lambda *parts: reduce(operator.mul, parts),
-    "matmul": lambda *parts: reduce(operator.mul, parts),
+    "sum": lambda *values: reduce(operator.add, values),
+    "product": lambda *values: reduce(operator.mul, values),
+    "matmul": lambda *values: reduce(operator.mul, values),
     "negative": operator.neg,
     "quotient": operator.truediv,
     "power": lambda base, exponent: _raised(base, exponent),
@@ -408,12 +414,12 @@ def _raised(base: Any, exponent: Any) -> Any:
     return base**exponent
 
 
-def _too_large(node: Call, parts: list[Any]) -> bool:
+def _too_large(node: Call, values: list[Any]) -> bool:
     """Return whether the value is a number that no one writes out: 9**9**9, 99999!."""
-    if node.name == "power" and all(isinstance(part, sp.Rational) for part in parts):
-        base, exponent = parts
+    if node.name == "power" and all(isinstance(value, sp.Rational) for value in values):
+        base, exponent = values
         return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)
-    if node.name == "power" and isinstance(parts[0], sp.MatrixBase):
-        return not (isinstance(parts[1], sp.Integer) and 0 < parts[1] < 10)
-    numbers = node.name in ("factorial", "binomial") and all(isinstance(part, sp.Rational) for part in parts)
-    return numbers and any(abs(part) > _MOST_BITS // 10 for part in parts)
+    if node.name == "power" and isinstance(values[0], sp.MatrixBase):
+        return not (isinstance(values[1], sp.Integer) and 0 < values[1] < 10)
+    numbers = node.name in ("factorial", "binomial") and all(isinstance(value, sp.Rational) for value in values)
+    return numbers and any(abs(value) > _MOST_BITS // 10 for value in values)
