@@ -114,7 +114,7 @@ def boxes(latex: str) -> list[Box]:
     reader = _Reader(latex)
     row = reader.sequence(())
     if reader.ahead:
-        raise FormulaError(f"{reader.ahead} is not opened", "write the bracket that it closes")
+        raise FormulaError(f"{reader.ahead} has no opening bracket", "write the bracket that it closes")
     return row
 
 
@@ -195,7 +195,7 @@ class _Reader:
         """Return the boxes until one of the ends comes next."""
         self.depth += 1
         if self.depth > _MOST:
-            raise FormulaError(f"{self.ahead} is too deep", "write fewer brackets within brackets")
+            raise FormulaError(f"{self.ahead} is nested too deeply", "write fewer brackets within brackets")
         row: list[Box] = []
         while self.ahead and self.ahead not in ends:
             item = self.items[self.place]
@@ -233,7 +233,7 @@ class _Reader:
     def comma_in_number(self, number: Box) -> None:
         self.place += 3
         if not self.ahead.isdecimal():
-            raise FormulaError("{,} is no part of a number", "write digits behind the comma")
+            raise FormulaError("{,} is not part of a number", "write digits behind the comma")
         number.name += "{,}"
         while self.ahead.isdecimal():
             number.name += self.take().text
@@ -241,14 +241,14 @@ class _Reader:
 
     def prime(self, row: list[Box], count: int) -> None:
         if not row or row[-1].kind != "letter":
-            raise FormulaError("' stands behind a sign that is no letter", "write the derivative, or give it a letter")
+            raise FormulaError("' follows a sign that is not a symbol", "write the derivative, or give it a symbol")
         row[-1].primes += count
         row[-1].end = self.end
 
     def script(self, row: list[Box]) -> None:
         item, target = self.take(), row[-1] if row else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
-            raise FormulaError(f"{item.text} has nothing before it", "write the letter that the script belongs to")
+            raise FormulaError(f"{item.text} has nothing before it", "write the symbol that the script belongs to")
         content = self.argument()
         if item.text == "^" and content and all(b.kind == "letter" and b.name == "prime" for b in content):
             self.prime(row, len(content))
@@ -315,7 +315,7 @@ class _Reader:
             return form(self, item, style)
         if name in STYLES:
             return self.styled(name, item)
-        raise FormulaError(f"{item.text} is not known", r"write what it stands for, or define it by \newcommand")
+        raise FormulaError(f"{item.text} is not known", r"write what it means, or define it by \newcommand")
 
     def accent(self, mark: str, item: Token, style: str) -> Box:
         content = self.argument(style)
@@ -335,7 +335,7 @@ class _Reader:
             return [self.box("function", word, item)]
         if worded and name in _TEXT and word != "d":
             if "$" in word:
-                raise FormulaError("a formula stands within words", "write it between the words")
+                raise FormulaError("words contain a formula", "write the formula between the words")
             return [self.box("text" if word else "thin", word, item)]
         if len(word) == 2 and word[0] == "d" and word.isalpha() and name == "mathrm":
             return [self.box("letter", letter, item, upright=letter == "d") for letter in word]
@@ -347,7 +347,7 @@ class _Reader:
         content = self.argument(style or "upright")
         for box in content:
             if box.kind == "number" and style and box.name != "0":
-                raise FormulaError(f"{item.text}{{{box.name}}} is not read", "give the unit matrix a letter")
+                raise FormulaError(f"{item.text}{{{box.name}}} is not read", "give the unit matrix a symbol")
             if box.kind == "letter":
                 box.style, box.upright = style or box.style, box.upright or not style
         if content:
@@ -386,7 +386,7 @@ class _Reader:
             arguments.append(self.argument(style))
         under, order = arguments[-1], boxes(degree) if degree else None
         if len(under) != 1 or under[0].sup is not None:
-            raise FormulaError(f"{item.text} is by more than a letter", r"write \frac{d f}{d x}")
+            raise FormulaError(f"{item.text} differentiates by more than one symbol", r"write \frac{d f}{d x}")
         kind, name = ("letter", "d") if item.text == r"\dv" else ("partial", "partial")
         above, below = (self.box(kind, name, item, upright=True, sup=sup) for sup in (order, None))
         over = [above, *(arguments[0] if arguments[1:] else [])]
@@ -402,7 +402,7 @@ class _Reader:
             raise FormulaError(rf"\begin{{{name}}} is not known", "write the formula without this environment")
         self.bracketed()
         if name in ("array", "alignedat") and "|" in self.plain():
-            raise FormulaError("a line stands in the matrix", "write its blocks by themselves")
+            raise FormulaError("the matrix contains a line", "write its blocks separately")
         rows: list[list[list[Box]]] = [[[]]]
         sign = ""
         while sign != r"\end":
@@ -599,7 +599,7 @@ def _index(entry: Box) -> list[str]:
         return [_INDEX_SIGNS[entry.name]]
     if entry.kind in ("group", "fraction") and plain:  # i + 1/2
         return ["over".join("".join(word for inner in row for word in _index(inner)) for row in entry.contents)]
-    raise FormulaError("an index is not letters and numbers", "give the letter another index")
+    raise FormulaError("an index has signs other than letters and numbers", "give the symbol another index")
 
 
 _INDEX_SIGNS = {"+": "plus", "-": "minus", "*": "star", "/": "over", "infty": "inf", "=": "eq", "->": "to"}

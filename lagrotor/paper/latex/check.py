@@ -64,8 +64,8 @@ NOT_READ = "the display is not read"
 UNCOMPARABLE = "a member has no value that could be compared"
 OUTSIDE = "the difference is outside what is decided exactly"
 FUNCTIONS = "derivatives, integrals or functions may be related"
-LETTERS = "the right member has letters that the left one has not"
-BEFORE = "an equation before relates its letters"
+LETTERS = "the right member has symbols that the left member lacks"
+BEFORE = "an earlier equation relates its symbols"
 MAYBE = "it may be a condition"
 ROUNDED = "a decimal number may be rounded"
 ALL_REAL = Notation()
@@ -206,7 +206,7 @@ class _Checker:
         if answer == "zero":
             return HOLDS, "an identity where its roots are real" if radicands(a, b) else "an identity"
         if agree_for_positive(a, b):
-            return HOLDS, "for positive letters"
+            return HOLDS, "for positive symbols"
         if answer == "undecided":
             return NOT_JUDGED, OUTSIDE
         if assumption := self._with_derivatives_taken(lhs, rhs, (a, b)):
@@ -222,7 +222,7 @@ class _Checker:
         a, b = (expression_of(node, self.moving) for node in (lhs, rhs))
         if a is None or b is None or (a, b) == values or is_large(a, b) or not agree(a, b):
             return ""
-        fixed = "the other letters fixed in derivatives and integrals"
+        fixed = "the other symbols constant in derivatives and integrals"
         return f"with {fixed if self.moving.fixing else 'derivatives taken'}"
 
     def _refuted(self, lhs: Node, rhs: Node, a: Any, b: Any) -> tuple[str, str]:
@@ -237,7 +237,7 @@ class _Checker:
             return ROUNDED, ""
         if not others:  # a constant on the right is wrong only where the left member is another
             value = constant_value(a)
-            return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its letters")
+            return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its symbols")
         if self._related(letters):
             return BEFORE, ""
         slip = change_to_agree(a, rhs, self._value) or change_to_agree(b, lhs, self._value)
@@ -310,7 +310,7 @@ def _open_indices(statement: PrintedStatement) -> Iterator[str]:
         names = {name for name in inside if index in name.split("_")[1:]} | {index}
         outside = [names & set(letters_of(_without_bound(side.node, index))) for side in statement.sides]
         if not all(outside) and (side := next((s for s, n in zip(statement.sides, outside, strict=True) if n), None)):
-            yield f"{index} stands outside the sum over it in {text_of(side.node)}"
+            yield f"{index} is outside the sum over it in {text_of(side.node)}"
 
 
 def _calls(node: Node) -> Iterator[Call]:

@@ -21,9 +21,9 @@ _PAIRS = ("align", "alignat", "flalign")  # in which every second & begins anoth
 _BEGINS = {rf"\begin{{{name}{star}}}": name + star for name in DISPLAYS for star in ("", "*")}
 _NESTING = {"begin": 1, "end": -1}
 _FAULTS = {
-    "verb": r"\verb is not closed in its line",
-    "]": r"\] ends nothing that has begun",
-    ")": r"\) ends nothing that has begun",
+    "verb": r"\verb is not closed on its line",
+    "]": r"\] has no matching opening",
+    ")": r"\) has no matching opening",
 }
 _ROW_ENDS = (r"\\", r"\cr")
 _NO_NUMBER = (r"\nonumber", r"\notag")
@@ -100,7 +100,7 @@ def read_source(file: Path) -> Source:
         raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts")
     text = read_text(file, "latin-1")
     if text.startswith("%PDF") or 20 * sum(map(text.count, _CONTROLS)) > len(text):
-        raise InputError(f"{file} is no text: give the source that it was made from")
+        raise InputError(f"{file} is not text: give its LaTeX source")
     return read_latex(text, file, file.stem)
 
 
@@ -144,8 +144,8 @@ class _Walker:
         if missing:
             source.notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
         elif expander.doubt and name and not self.aux and any(equation.number for equation in source.equations):
-            helps = f"put {name}, which LaTeX writes, beside the source"
-            source.notes.append(f"{expander.doubt}, and the numbers may be others: {helps}")
+            helps = f"put {name}, which LaTeX writes, next to the source"
+            source.notes.append(f"{expander.doubt}, and the equation numbers may differ: {helps}")
 
     def _take(self, token: Token) -> None:
         if token.text == r"\[":
@@ -166,13 +166,13 @@ class _Walker:
             self.counters.values["equation"], printed, _ = self.outer.pop()
             self.expander.define(r"\theequation", printed)
         elif token.text.replace(r"\end", r"\begin") in _BEGINS:
-            self._stray(token, f"{token.text} ends nothing that has begun")
+            self._stray(token, f"{token.text} has no matching opening")
         elif token.text == "^" and self.body:
             inside = next((name for name, _ in self.expander.scopes[::-1] if name != "{"), "")
-            where = rf"in \begin{{{inside}}}, which is not known: define it"
+            where = rf"in \begin{{{inside}}}, which is unknown: define it"
             if not inside.startswith("tikz"):  # a drawing
-                alone = "alone: define the command that begins it"
-                self._pass_over(token.at, f"a formula stands {where if inside else alone}")
+                alone = "outside any environment: define the command that begins it"
+                self._pass_over(token.at, f"a formula is {where if inside else alone}")
 
     def _pass_over(self, at: int, sentence: str) -> None:
         """Note a formula that is not read, once for each sentence."""
@@ -212,7 +212,7 @@ class _Walker:
         elif name in ("frontmatter", "mainmatter", "backmatter"):
             self.numbered_chapters = name == "mainmatter"
         elif name == "mathtoolsset" and "showonlyrefs" in expander.name():
-            expander.doubt = "showonlyrefs of mathtools withdraws numbers"
+            expander.doubt = "showonlyrefs of mathtools removes numbers"
 
     def _argument(self) -> str:
         return latex_of(self.expander.expand(self.expander.argument()))

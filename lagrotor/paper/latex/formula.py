@@ -49,7 +49,7 @@ def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> R
     except RecursionError:
         return Reading(stop=("the formula is nested too deeply", "write it in parts"))
     if not statements:
-        return Reading(stop=("there is no formula", "keep it aside"))
+        return Reading(stop=("there is no formula", "leave the display out"))
     return Reading(statements)
 
 

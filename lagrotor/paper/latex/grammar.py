@@ -75,7 +75,9 @@ class Grammar:
     def _open(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
         """Return the stop at a letter, with the entries of [notation] that would settle what it is."""
         entries = " or ".join(f'{kind} = "{stem_of(box)}"' for kind in kinds)
-        return FormulaError(f"whether {what} is open", f"write in paper.toml [notation] {entries}" if kinds else way)
+        return FormulaError(
+            f"it is unclear whether {what}", f"write in paper.toml [notation] {entries}" if kinds else way
+        )
 
     def _text(self, first: Box, last: Box | None = None) -> str:
         return self.source[first.at : (last or first).end]
@@ -98,7 +100,7 @@ class Grammar:
         for place, box in enumerate(row):
             integrals += _opens_integral(box) - (integrals > 0 and _closes_integral(row, place))
             if box.kind == "operator" and box.name in ("pm", "mp"):
-                raise FormulaError(f"\\{box.name} stands for two signs", "write two statements, one for each sign")
+                raise FormulaError(f"\\{box.name} means two signs", "write two statements, one for each sign")
             if box.kind == "operator" and box.name in ("+", "-") and not integrals:
                 if not terms[-1][1] and place:
                     raise FormulaError("two signs follow each other", "write brackets around the second")
@@ -106,7 +108,7 @@ class Grammar:
             else:
                 terms[-1][1].append(box)
         if not terms[-1][1]:
-            raise FormulaError("nothing follows the sign" if row else "nothing stands here", "write what is meant")
+            raise FormulaError("nothing follows the sign" if row else "the expression is empty", "write what is meant")
         values = [
             Call("negative", (self.term(content),)) if sign == "-" else self.term(content) for sign, content in terms
         ]
@@ -126,12 +128,12 @@ class Grammar:
             box, (sign, factors, content) = row[place], groups[-1]
             if box.kind == "operator" and box.name in ("cdot", "times", "/", "*"):
                 if not factors:
-                    raise FormulaError(f"nothing stands before {box.name}", "write the first factor")
+                    raise FormulaError(f"nothing precedes {box.name}", "write the first factor")
                 groups.append((box.name, [], []))
                 place += 1
                 continue
             if factors and sign == "/":
-                raise FormulaError("what the slash divides by is open", r"write \frac or brackets")
+                raise FormulaError("it is unclear what the slash divides by", r"write \frac or brackets")
             _check_neighbours(row, place, content[-1] if content else None)
             node, behind = self.factor(row, place)
             factors.append(node)
@@ -142,7 +144,9 @@ class Grammar:
         product: Node | None = None
         for sign, factors, content in groups:
             if len(factors) > 1 and any(isinstance(factor, Call) and factor.name == "order" for factor in factors):
-                raise FormulaError("whether O(…) beside a factor is an order is open", r"write \cdot for a product")
+                raise FormulaError(
+                    "it is unclear whether O(…) next to a factor is an order", r"write \cdot for a product"
+                )
             right = _product(factors)
             product = right if product is None else self._joined(product, sign, right, content[0])
         assert product is not None
@@ -159,27 +163,27 @@ class Grammar:
                 raise FormulaError("two vectors are multiplied by *", r"write \cdot or \times")
             chain = sign == "times" and isinstance(product, Call) and product.name == "cross"
             if chain and not re.search(r"[)\]]\s*\\times$", text):
-                raise FormulaError("which × comes first is open", "write brackets")
+                raise FormulaError("it is unclear which × comes first", "write brackets")
             return Call("dot" if sign == "cdot" else "cross", (product, right))
         if all(vectors):
             if sign == "times":
-                raise FormulaError("× stands between matrices", "write them side by side")
+                raise FormulaError("× is between matrices", "write the matrices side by side")
             return _product([product, right])
         cofactor = right if vectors[0] else product if vectors[1] else None
         if sign == "cdot" and isinstance(cofactor, Call) and cofactor.name not in (*_SCALARS, *FUNCTIONS.values()):
-            raise FormulaError(f"whether {cofactor.name} is a vector is open", "write it without the dot")
+            raise FormulaError(f"it is unclear whether {cofactor.name} is a vector", "write it without the dot")
         if sign == "times" and not (_is_numeric(product) or _is_numeric(right)):
             way = r"declare the vectors in [notation], or write \cdot"
-            raise FormulaError("whether × is of vectors or of numbers is open", way)
+            raise FormulaError("it is unclear whether × is of vectors or of numbers", way)
         return product_of([product, right])
 
     def _divided(self, dividend: Node, divisor: Node, text: str) -> Node:
         if is_vector(divisor):
-            raise FormulaError("a vector is divided by", "write its length")
+            raise FormulaError("the divisor is a vector", "divide by its length")
         last = dividend.args[-1] if isinstance(dividend, Call) and dividend.name == "product" else dividend
         last = last.args[0] if isinstance(last, Call) and last.name == "power" else last
         if isinstance(last, Call) and last.name in _OPEN_ENDED and text.rstrip(" /")[-1:] not in ")]}":
-            raise FormulaError("whether the slash is within the function is open", "write brackets")
+            raise FormulaError("it is unclear whether the slash is within the function", "write brackets")
         return Call("quotient", (dividend, divisor))
 
     def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -188,16 +192,18 @@ class Grammar:
         named = box.kind == "letter" and box.upright and len(box.name) > 1 and box.name in FUNCTIONS and not box.marks
         read = Grammar._function if named else _FACTORS.get(box.kind)
         if box.sub is not None and box.kind not in ("letter", "function", "big", "partial") and box.closing != "|":
-            raise FormulaError(f"an index stands at {self._text(box)}", "write it on a letter")
+            raise FormulaError(f"{self._text(box)} has an index", "write the index on a symbol")
         if box.kind in _SIMPLE:
             node, behind = self.power(_SIMPLE[box.kind](self, box), box), place + 1
         elif read is not None:
             node, behind = read(self, row, place)
         else:
-            raise FormulaError(f"{self._text(box)} is not read here", _HELPS.get(box.kind, "write what it stands for"))
+            raise FormulaError(
+                f"{self._text(box)} cannot be read in this place", _HELPS.get(box.kind, "write what it means")
+            )
         if behind < len(row) and row[behind].name == "!":
             if box.kind == "function" or [b.name for b in row[behind + 1 : behind + 2]] == ["!"]:
-                raise FormulaError("what ! belongs to is open", "write brackets, or the product")
+                raise FormulaError("it is unclear what ! belongs to", "write brackets, or the product")
             node, behind = Call("factorial", (node,)), behind + 1
         return node, behind
 
@@ -209,9 +215,9 @@ class Grammar:
             raise FormulaError(f"{stem_of(box)} is an operator", "products with operators are not read")
         dots = [mark.endswith("dot") for mark in box.marks]
         if dots != sorted(dots):
-            raise FormulaError(f"a mark stands over the dot of {box.name}", "give the rate a letter")
+            raise FormulaError(f"a mark is above the dot of {box.name}", "give the rate a symbol")
         if "hat" in box.marks and box.name.isupper() and not self._kind(box, *_SETTLED):
-            raise self._open(box, f"{stem_of(box)} is an operator or a letter", "operators", "vectors", "real")
+            raise self._open(box, f"{stem_of(box)} is an operator or a symbol", "operators", "vectors", "real")
         matrix = self._kind(box, "matrices")
         vector = matrix or self._kind(box, "vectors")
         if is_printed_as_vector(box) and not vector:
@@ -255,7 +261,7 @@ class Grammar:
         node: Node = self.letter(box)
         if box.primes and self._kind(box, "functions"):
             if self._kind(box, "proposed"):
-                raise self._open(box, f"{self._text(box)} is a derivative or another letter", "functions", "real")
+                raise self._open(box, f"{self._text(box)} is a derivative or another symbol", "functions", "real")
             node = self.letter(replace(box, primes=0))
             if is_vector(node):
                 raise self._open(box, f"{self._text(box)} is a derivative or another vector", "vectors")
@@ -286,7 +292,7 @@ class Grammar:
         if name in ("Delta", "delta"):
             return None if box.sup else self._difference(row, place)
         if name == "d" and kind in ("letter", "bracket", "group", "partial"):
-            raise FormulaError("d stands before a letter", r"write \cdot for a product, or a derivative or an integral")
+            raise FormulaError("d precedes a symbol", r"write \cdot for a product, or a derivative or an integral")
         return None
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -333,10 +339,10 @@ class Grammar:
         if (derived or itself) and not any(b.kind == "comma" for b in content):
             raise self._open(box, f"{stem_of(box)} is a factor here")
         if [b.name for b in above] == ["-", "1"] or any(b.kind in ("bracket", "letter") for b in above):
-            way = "write brackets around what is raised, or another letter"
+            way = "write brackets around the base, or use another symbol"
             raise self._open(box, f"{self._text(box)} has a power", way=way)
         if bracket.sub:
-            raise FormulaError("an index stands at a bracket", "write it on a letter")
+            raise FormulaError("a bracket has an index", "write the index on a symbol")
         named, arguments = self.letter(replace(box, primes=0)), self._each(content)
         if named.vector and not named.name.split("_")[0].endswith(("bold", "vec")):
             raise FormulaError(f"{named.name} is a vector and a function", "print it in bold")
@@ -365,7 +371,7 @@ class Grammar:
             if power == Call("negative", (number(1),)):
                 return Call("inverse", (node,))
             if not isinstance(power, Number):
-                raise FormulaError("a matrix has a power that is no number", "write the product")
+                raise FormulaError("the power of a matrix is not a number", "write the product")
         elif is_vector(node):
             if power != number(2):
                 raise FormulaError("a vector has a power", "write its length")
@@ -378,13 +384,13 @@ class Grammar:
         text, letters = self._text(row[0], row[-1]), [b for b in row if b.kind == "letter"]
         text = text[1:-1] if text[0] == "{" else text
         if any(b.kind in ("text", "relation", "comma") or b.primes or b.name in ("dagger", "prime", "*") for b in row):
-            raise FormulaError(f"{text} stands where a power does", "write it as an index")
+            raise FormulaError(f"{text} is in the place of a power", "write it as an index")
         if row[0].kind == "bracket" and len(row) == 1:
-            raise FormulaError("whether a number in brackets is a power is open", "write a power without them")
+            raise FormulaError("it is unclear whether a number in brackets is a power", "write a power without them")
         if box.kind != "letter":
             return
         if [b.name for b in row] in (["0"], ["e"]):
-            raise FormulaError(f"whether {text} is an upper index or a power is open", "write the index below")
+            raise FormulaError(f"it is unclear whether {text} is an upper index or a power", "write the index below")
         unsettled = [b for b in letters if not self._kind(b, "positive", "real")]
         lowered = {"mu", "nu", *(self.indices - self.alone)}
         upper = any(b.name in lowered or self._kind(b, "indices") for b in unsettled)
@@ -402,20 +408,20 @@ class Grammar:
         if (following.upright and following.name not in (*FUNCTIONS, "d", "e", "i")) or (
             degrees and following.name in ("C", "F")
         ):
-            raise FormulaError(f"upright {following.name} behind a number is a unit", "write the number without it")
+            raise FormulaError(f"upright {following.name} after a number is a unit", "write the number without it")
         if degrees:
             return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
         return self.power(node, box), behind
 
     def _value(self, text: str) -> Fraction:
         if len(text) > _MOST_DIGITS:
-            raise FormulaError(f"{text[:12]}…: a number has more than {_MOST_DIGITS} digits", "give it a letter")
+            raise FormulaError(f"{text[:12]}…: a number has more than {_MOST_DIGITS} digits", "give it a symbol")
         whole, *groups = text.split("{,}")
         thousands = whole != "0" and all(len(group.partition(".")[0]) == 3 for group in groups)
         if not groups or (thousands and not self.notation.decimal_comma):
             return Fraction(whole + "".join(groups))
         if len(groups) > 1 or "." in text:
-            raise FormulaError(f"{text} is no number", "write a decimal point")
+            raise FormulaError(f"{text} is not a number", "write a decimal point")
         return Fraction(f"{whole}.{groups[0]}")
 
     # ---- functions by name
@@ -424,14 +430,14 @@ class Grammar:
         box, name = row[place], FUNCTIONS.get(row[place].name, row[place].name)
         inner, behind = self._argument(row, place)
         if behind < len(row) and row[behind].kind == "bracket" and [b.name for b in row[behind].contents[0]] == ["t"]:
-            raise FormulaError(f"where the argument of {box.name} ends is open", "write it in brackets")
+            raise FormulaError(f"it is unclear where the argument of {box.name} ends", "write it in brackets")
         above = [b.name for b in box.sup or ()]
         if box.sub is not None and name != "log":
             raise FormulaError(f"{box.name} has an index", "write what it means")
         if above == ["-", "1"] and name in _INVERSE:
             return Call(_INVERSE[name], inner), behind
         if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
-            raise self._open(box, f"{box.name} has a mark or a power", way="write brackets around what is raised")
+            raise self._open(box, f"{box.name} has a mark or a power", way="write brackets around the base")
         value = Call(name.lower() if name == "Tr" else name, inner)
         if name == "log10" or (name == "log" and box.sub):
             base = self.expression(box.sub) if box.sub else number(10)
@@ -444,7 +450,7 @@ class Grammar:
         first = row[start] if start < len(row) else box
         if first is box or first.kind in ("operator", "comma", "big"):
             raise FormulaError(f"{box.name} has no argument", "write it in brackets")
-        raised = FormulaError("whether the power is of the argument or of the function is open", "write brackets")
+        raised = FormulaError("it is unclear whether the power is of the argument or of the function", "write brackets")
         if first.kind == "bracket" and _plain(first.name) in _ROUND:
             if first.sub or first.sup:
                 raise raised
@@ -453,7 +459,7 @@ class Grammar:
         if (first.kind == "matrix" and not first.sup) or (box.name in _BRACKETED and alone):
             return (self.expression([first]),), start + 1
         if box.name not in FUNCTIONS or box.name in _BRACKETED:
-            raise FormulaError(f"where the argument of {box.name} ends is open", "write it in brackets")
+            raise FormulaError(f"it is unclear where the argument of {box.name} ends", "write it in brackets")
         if first.kind in ("function", "bracket") and not first.sup:
             node, behind = self.factor(row, start)
             return (node,), behind
@@ -484,7 +490,7 @@ class Grammar:
         is_clear = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
         if ends and plain and is_clear and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
             return end
-        raise FormulaError(f"where the argument of {row[start - 1].name} ends is open", "write it in brackets")
+        raise FormulaError(f"it is unclear where the argument of {row[start - 1].name} ends", "write it in brackets")
 
     def _moves(self, box: Box) -> bool:
         """Return whether a box is a velocity or a vector, which ends the argument of a function."""
@@ -501,12 +507,12 @@ class Grammar:
             inner = self.expression(content)
             pairs = any(re.search(r"_(?:ij|ik|jk|kl|i_j|i_k|j_k)\b", name) for name in letters_of(inner))
             if is_matrix(inner) or (pairs and not is_vector(inner)):
-                raise FormulaError("whether the bars are a determinant or a length is open", r"write \det")
+                raise FormulaError("it is unclear whether the bars are a determinant or a length", r"write \det")
             if pair[0] != "|" and not is_vector(inner):
-                raise FormulaError("‖…‖ is of no vector", 'write in paper.toml [notation] vectors = "…"')
+                raise FormulaError("‖…‖ encloses no vector", 'write in paper.toml [notation] vectors = "…"')
             return Call("norm" if is_vector(inner) else "Abs", (inner,))
         if any(b.kind == "relation" for b in content):
-            raise FormulaError("a relation stands in brackets", "write it by itself")
+            raise FormulaError("a relation is inside brackets", "write it separately")
         pieces = parted(content, "comma")
         if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(pieces) > 1 and box.name != "("):
             way = "means, kets, commutators, Poisson brackets and intervals are not read"
@@ -517,13 +523,13 @@ class Grammar:
         """Read an expression at a place, |_{x = 0}."""
         where = parted(box.sub or [], "relation")
         if len(where) != 2 or not all(where) or box.sup:
-            raise FormulaError("where it is evaluated is not an equation", "write |_{x = 0}")
+            raise FormulaError("the point of evaluation is not an equation", "write |_{x = 0}")
         return Call("at", (self.expression(content), *map(self.expression, where)))
 
     def _group(self, box: Box) -> Node:
         """Read what stands in braces that have a script, or above a brace."""
         if any(b.kind == "operator" and b.name in ("+", "-") for b in box.contents[0][1:]):
-            raise FormulaError("whether brackets stand around a sum is open", "write brackets")
+            raise FormulaError("it is unclear whether brackets enclose the sum", "write brackets")
         return self.expression(box.contents[0])
 
     def _root(self, box: Box) -> Node:
@@ -548,10 +554,10 @@ class Grammar:
         first, second = (content[0].name if content else "" for content in box.contents)
         if first == second and first in ("d", "D", "partial", "delta") and len(box.contents[1]) > 1:
             way = r"write \frac{\mathrm{d} f}{\mathrm{d} x}"
-            raise FormulaError(f"whether the fraction with {first} is a derivative is open", way)
+            raise FormulaError(f"it is unclear whether the fraction with {first} is a derivative", way)
         over, under = map(self.expression, box.contents)
         if is_vector(under):
-            raise FormulaError("a vector is divided by", "write its length")
+            raise FormulaError("the divisor is a vector", "divide by its length")
         return self.power(Call("quotient", (over, under)), box), place + 1
 
     def _derivative(self, row: list[Box], place: int, mark: str) -> tuple[Node, int]:
@@ -559,7 +565,7 @@ class Grammar:
         order, behind, variables = _order(over[0]), place + 1, list[tuple[Letter, int]]()
         for sign, target in zip(under[::2], under[1::2], strict=False):
             if not is_mark(sign, mark) or sign.sup or target.kind != "letter" or len(under) % 2:
-                raise FormulaError("what is differentiated by is not clear", r"write \frac{d f}{d x}")
+                raise FormulaError("the variable of the derivative is not clear", r"write \frac{d f}{d x}")
             variables.append((self.letter(replace(target, sup=None)), _order(target)))
         if sum(times for _, times in variables) != order:
             raise FormulaError("the orders of the derivative differ", "write the same order above and below")
@@ -584,7 +590,9 @@ class Grammar:
             raise FormulaError("the derivative has nothing to act on", "operators by themselves are not read")
         node, behind = self.factor(row, place)
         if behind < len(row) and row[place].kind != "bracket":
-            raise FormulaError("how far the derivative reaches is open", "write brackets around what is differentiated")
+            raise FormulaError(
+                "it is unclear how far the derivative reaches", "write brackets around what is differentiated"
+            )
         return node, behind
 
     # ---- sums, integrals, limits
@@ -600,7 +608,7 @@ class Grammar:
         ends = [*map(self.expression, (below[2:], box.sup))] if below[2:] and box.sup else []
         signs = [b.name for b in below[1:2]]
         if not below or below[0].kind != "letter" or signs != ["="] * len(ends[:1]) or bool(box.sup) != bool(ends):
-            raise FormulaError("what the sum runs over is not clear", r"write \sum_{i=1}^{n}")
+            raise FormulaError("the range of the sum is not clear", r"write \sum_{i=1}^{n}")
         self.bound.append(below[0].name)
         try:
             return Call(BIG[box.name], (self.term(terms), self.letter(below[0]), *ends)), len(row)
@@ -613,7 +621,7 @@ class Grammar:
         while depth:
             at += 1
             if at >= len(row):
-                raise FormulaError("the differential of the integral is missing", "write d and its letter")
+                raise FormulaError("the differential of the integral is missing", "write d and the variable")
             depth += _opens_integral(row[at]) - _closes_integral(row, at)
         variables, end, inner = list[Letter](), at, row[place + 1 : at]
         if row[at].kind == "fraction":  # \int \frac{dx}{x} f
@@ -623,7 +631,7 @@ class Grammar:
             variables.append(self._variable(over[start:]))
             numerator = over[:start] or [Box("number", "1", row[at].at, row[at].at)]
             if any(b.kind == "operator" for b in inner):
-                raise FormulaError("a differential stands in one term only", "write it at the end")
+                raise FormulaError("only one term has a differential", "write it at the end")
             inner = [*inner, replace(row[at], contents=[numerator, row[at].contents[1]]), *row[at + 1 : end]]
         else:
             variables.append(self._variable(row[end : end + 2]))
@@ -638,7 +646,7 @@ class Grammar:
     def _variable(self, marks: list[Box]) -> Letter:
         """Return what an integral is over, from its d and the letter behind."""
         if len(marks) != 2 or marks[1].kind != "letter" or marks[1].sup or marks[0].sup:
-            raise FormulaError("the differential of the integral is not clear", "write d and its letter")
+            raise FormulaError("the differential of the integral is not clear", "write d and the variable")
         letter = self.letter(marks[1])
         if letter.vector:
             raise FormulaError("the integral is over a vector", "write one variable and two limits")
@@ -669,7 +677,7 @@ def _product(factors: list[Node]) -> Node:
     vectors = [factor for factor in factors if is_vector(factor)]
     if len(vectors) > 1 and not all(map(is_matrix, vectors[:-1])):
         way = 'write \\cdot or \\times, or declare matrices = "…" in [notation]'
-        raise FormulaError("two vectors stand side by side", way)
+        raise FormulaError("two vectors are side by side", way)
     return Call("matmul", tuple(factors)) if len(vectors) > 1 else product_of(factors)
 
 
@@ -680,7 +688,7 @@ def _check_sums(terms: list[list[Box]]) -> None:
         letters = {inner.name for box in term for inner in all_boxes(box.sub or ()) if inner.kind == "letter"}
         sums = [box for box in term if box.kind == "big"]
         if letters & indices and not sums:
-            raise FormulaError("whether the sum ends here is open", "write brackets around what is summed")
+            raise FormulaError("it is unclear whether the sum ends here", "write brackets around what is summed")
         indices |= {b.name for box in sums if box.name in ("sum", "prod") for b in box.sub or () if b.kind == "letter"}
 
 
@@ -688,12 +696,12 @@ def _check_neighbours(row: list[Box], place: int, previous: Box | None) -> None:
     """Raise FormulaError for a digit behind a factor, a mixed number, dots, and letters that are a word."""
     box = row[place]
     if box.kind == "dots" and len(row) > 1:
-        raise FormulaError("dots stand for factors", "write them, or as a product")
+        raise FormulaError("dots replace factors", "write the factors, or a product sign")
     if previous is not None and box.kind == "number" and (previous.kind == "number" or not box.spaced):
-        raise FormulaError(f"the number {box.name} stands behind a factor", r"write \cdot, or braces around the power")
+        raise FormulaError(f"the number {box.name} follows a factor", r"write \cdot, or braces around the power")
     numeric = box.kind == "fraction" and all(b.kind == "number" for content in box.contents for b in content)
     if previous is not None and previous.kind == "number" and numeric:
-        raise FormulaError("whether a mixed number or a product is meant is open", r"write \cdot")
+        raise FormulaError("it is unclear whether a mixed number or a product is meant", r"write \cdot")
     run = ""
     for item in row[place:]:
         plain = item.kind == "letter" and len(item.name) == 1 and not (item.style or item.marks or item.upright)
@@ -735,7 +743,7 @@ def _order(box: Box) -> int:
         return 1
     if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name in "123456789":
         return int(box.sup[0].name)
-    raise FormulaError("the order of the derivative is no number", "write a number")
+    raise FormulaError("the order of the derivative is not a number", "write a number")
 
 
 def _opens_integral(box: Box) -> bool:
@@ -763,7 +771,7 @@ def _paired(row: list[Box]) -> list[Box]:
         nested = last and between and all(x.kind not in ("operator", "relation") for x in between)
         odd = not inner or inner[-1].kind == "operator" or row[a].name != row[b].name
         if nested or odd or row[a].sup or row[a].sub:
-            raise FormulaError("how the bars belong together is open", r"write \left| and \right|")
+            raise FormulaError("it is unclear how the bars belong together", r"write \left| and \right|")
         sign, shut = r"\|" if row[a].name == "||" else "|", row[b]
         bars = Box("bracket", sign, row[a].at, shut.end, [inner], sub=shut.sub, sup=shut.sup, closing=sign)
         paired += [*between, bars]

@@ -77,9 +77,9 @@ def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
     if again and source is None:
         raise InputError(f"{folder} is a paper already: give its source, --from paper.tex, to read it again")
     if not again and folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise InputError(f"{folder} is there already and is no paper: choose a new or an empty folder")
+        raise InputError(f"{folder} already exists and is not a paper: choose a new or an empty folder")
     if not folder.resolve().parent.is_dir():
-        raise InputError(f"{folder}: the folder {folder.resolve().parent} is missing: make it first")
+        raise InputError(f"{folder}: the folder {folder.resolve().parent} does not exist: make it first")
     if again and source is not None:
         return _from_source(folder, source, again)
     with TemporaryDirectory(prefix=".made.", dir=folder if folder.is_dir() else folder.resolve().parent) as near:
@@ -106,7 +106,7 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     faults = [f"{file or path.name}:{line}: {sentence}" for file, line, sentence in source.faults]
     if not source.equations:
         why = "; ".join([f"--from {path}: it has no displayed equation", *(*faults, *source.notes)[:3]])
-        raise InputError(f"{why}: lagrotor init alone makes a folder to begin with")
+        raise InputError(f"{why}: lagrotor init without --from makes a folder with an example")
     old = toml(folder / "equations.toml") if again else {}
     table = toml(folder / "paper.toml").get("notation", {}) if again else {}
     formulas = [*(equation.latex for equation in source.equations), *source.inline]
@@ -278,9 +278,11 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
         if row is None:
             raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
         if row.get("read") == "gone":
-            raise InputError(f"equation {identifier} is no longer in the source: there is no print to confirm it by")
+            raise InputError(
+                f"equation {identifier} is no longer in the source: there is no printed equation to compare it with"
+            )
         if not row.get("line"):
-            why = f"`lagrotor readings {folder}` says where its reading stopped, or what was kept aside"
+            why = f"`lagrotor readings {folder}` shows where its reading stopped, or which statements are not compared"
             raise InputError(f"equation {identifier} has no line to confirm: {why}")
     for row in (rows[identifier] for identifier in identifiers):
         row.pop("changed", None)

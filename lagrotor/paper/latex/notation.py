@@ -59,12 +59,12 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
     """
     keys = (*KINDS, "decimal_comma")
     if unknown := sorted(table.keys() - set(keys)):
-        raise InputError(f"{where}: notation: {unknown[0]!r} is no key: the keys are {', '.join(keys)}")
+        raise InputError(f"{where}: notation: {unknown[0]!r} is not a key: the keys are {', '.join(keys)}")
     names: dict[str, frozenset[str]] = {}
     for kind in KINDS:
         value = table.get(kind, "")
         if not isinstance(value, str):
-            raise InputError(f'{where}: notation: {kind} is no text: write {kind} = "f V", names parted by spaces')
+            raise InputError(f'{where}: notation: {kind} is not text: write {kind} = "f V", names separated by spaces')
         names[kind] = frozenset(map(_name, value.replace(",", " ").split()))
     comma = table.get("decimal_comma", False)
     if not isinstance(comma, bool):
@@ -73,9 +73,7 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
         for second in kinds:
             for first in kinds[: kinds.index(second)]:
                 if both := sorted(names[second] & names[first]):
-                    raise InputError(
-                        f"{where}: notation: {both[0]} stands in {first} and in {second}: keep one of them"
-                    )
+                    raise InputError(f"{where}: notation: {both[0]} is in {first} and in {second}: keep one of them")
     return Notation(**names, decimal_comma=comma)
 
 

@@ -104,7 +104,7 @@ def _ratio(a: Any, b: Any) -> Fraction | None:
 
 
 def constant_value(a: Any) -> sp.Rational | None:
-    """Return the number that an expression is for all values of its letters; None where it is none."""
+    """Return the number that an expression is for all values of its symbols; None where it is none."""
     ratio = None if isinstance(a, sp.MatrixBase) else _ratio(value_at(a, point_of(a)), sp.S.One)
     constant = None if ratio is None else sp.Rational(str(ratio))
     return constant if constant is not None and decided(a, constant) == "zero" else None

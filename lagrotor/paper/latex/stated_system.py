@@ -143,15 +143,15 @@ class StatedSystem:
     def _check_letters(self, identifier: str) -> None:
         """Raise InputError if an equation has no line, or a printed member has a letter that the system does not have."""
         if not self.paper.equation(identifier).line:
-            says = "has no printed line: write it as an [[equation.line]] in equations.toml, or leave it out here"
+            says = "has no printed line: write it as an [[equation.line]] in equations.toml, or remove it here"
             raise self._error(f"equation {identifier} {says}")
         for line in self.paper.lines(identifier):
             letters = set[sp.Basic]().union(*(e.free_symbols for e in line.members))
             for name in sorted(str(s) for s in letters - self._known - {line.small}):
                 says = (
-                    f'is printed with {name}, of which the system says nothing: define it, as in where = ["{name} = …"]'
+                    f'is printed with {name}, which the system does not define: define it, as in where = ["{name} = …"]'
                 )
-                raise self._error(f"equation {identifier} {says}, or leave the equation out here")
+                raise self._error(f"equation {identifier} {says}, or remove the equation here")
 
     def _point(self, text: str) -> dict[sp.Symbol, sp.Expr]:
         """Return the coordinates of `theta = 0, x = a`; those without a value are zero."""
@@ -173,7 +173,7 @@ class StatedSystem:
         """Return a printed F less its change after a short time: F itself where dF/dt = 0 along every motion."""
         F = self.paper.lines(identifier)[0].members[0]
         if not F.has(*self.c.q, *self.c.v):
-            says = f"prints {F}, which depends on no coordinate or velocity: leave it out here"
+            says = f"prints {F}, which depends on no coordinate or velocity: remove it here"
             raise self._error(f"equation {identifier} {says}")
         time = next(name for name in ("tau", "short_time", "time_since") if name not in self.names)
         return F - sp.Symbol(time, positive=True) * self._rate(F)
@@ -184,9 +184,9 @@ class StatedSystem:
         moving = any(member.has(*self.c.a) for member in line.members)
         if lhs is None or further or (moving and len(line.members) > 1):
             says = (
-                "has no single left side in the coordinates and the letters of the system, or accelerations in a chain"
+                "has no single left side in the coordinates and the symbols of the system, or accelerations in a chain"
             )
-            helps = "print one equation, define its letters in where, or leave it out here"
+            helps = "print one equation, define its symbols in where, or remove it here"
             raise self._error(f"equation {identifier} {says}: {helps}")
         return line.members[0] + self._along(lhs - line.members[0]) if moving else self._along(lhs)
 
@@ -215,7 +215,7 @@ class StatedSystem:
     def _frequency(self, form: str, which: int, point: str) -> sp.Expr:
         """Return ω of a small oscillation about an equilibrium, ω², or its period; the mode's rate is i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
-            raise self._error("with friction small motion has no frequency: leave it out here")
+            raise self._error("with friction small motion has no frequency: remove it here")
         system = System(self.c, self.L, constraints=self.constraints, forces=self.forces)
         modes = system.linearise(self._point(point)).modes()
         squares = sorted({sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0}, key=sp.default_sort_key)
@@ -241,7 +241,7 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     """
     table, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
     if unknown := sorted(table.keys() - set(_KEYS)):
-        raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
+        raise InputError(f"{where}: {unknown[0]!r} is not a key of [system]: the keys are {', '.join(_KEYS)}")
     if missing := [key for key in ("coordinates", "L") if not table.get(key)]:
         raise InputError(
             f"{where}: {missing[0]} is missing: state the coordinates and the Lagrangian L, as in "
@@ -275,7 +275,7 @@ def _definitions(
         letter = names.get(name.strip())
         if not equals or "=" in text or not isinstance(letter, sp.Symbol):
             raise InputError(
-                f'{where}: {row!r} defines no letter of symbols.py: write one, as in "omega_0 = sqrt(g/l)"'
+                f'{where}: {row!r} defines no symbol of symbols.py: write a definition, as in "omega_0 = sqrt(g/l)"'
             )
         value = read(text.strip(), names, where)
         twice, in_system = letter in definitions, letter in fixed
@@ -283,7 +283,7 @@ def _definitions(
             says = (
                 "is defined twice"
                 if twice
-                else "is a letter of the system"
+                else "is a symbol of the system"
                 if in_system
                 else "is defined by coordinates"
             )

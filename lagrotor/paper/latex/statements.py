@@ -94,7 +94,7 @@ def _continues(previous: list[Box], line: list[Box]) -> bool:
         return False
     starts = first.kind == "relation" or (first.kind == "operator" and first.name in ("+", "-", "cdot", "times", "/"))
     if starts and _is_related(line) and first.kind != "relation":
-        raise FormulaError("whether a row continues the row before is open", "write a comma between statements")
+        raise FormulaError("it is unclear whether a row continues the row before", "write a comma between statements")
     if starts and any(box.kind in ("text", "wide", "comma") for box in strip(previous)):
         raise FormulaError("a row continues one of several statements", "write each statement in its rows")
     if not starts and not _is_related(line):
@@ -109,18 +109,18 @@ def _segments(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
         following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
         if box.kind in ("arrow", "text"):
             if box.kind == "text" and _DENYING.search(box.name):
-                raise FormulaError(f"{box.name}: the words deny what they join", "write each statement by itself")
+                raise FormulaError(f"{box.name}: the words negate a statement", "write each statement by itself")
             behind = row[place - 1].kind if place else "wide"
             if box.kind == "text" and behind in ("number", "relation", "operator") and not _JOINING.match(box.name):
                 raise FormulaError(
-                    f"the words {box.name} are a unit or a side", "write a letter, or numbers without units"
+                    f"the words {box.name} are a unit or a side", "write a symbol, or numbers without units"
                 )
             condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
             segments.append(("condition" if condition else box.kind, []))
         elif box.kind == "bracket" and box.name == "(" and _is_related(box.contents[0]) and not (box.sup or box.sub):
             segments += [("condition", list(box.contents[0])), ("wide", [])]
         elif box.name == "." and box.kind == "comma" and following and row[place + 1].kind not in _PARTING:
-            raise FormulaError("a full stop stands within the formula", r"write \cdot for a product")
+            raise FormulaError("a full stop is inside the formula", r"write \cdot for a product")
         elif box.kind in ("wide", "comma"):
             previous, next_box = strip(segments[-1][1]), following or box
             goes_on = previous and previous[-1].kind in ("operator", "relation")
@@ -144,9 +144,9 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
         if not segment:
             continue
         if _is_related(segment) and statements and sign == "comma" and statements[-1].kind == "expression":
-            raise FormulaError("what stands before the comma has no relation", "write it for each letter")
+            raise FormulaError("the part before the comma has no relation", "write the relation for each symbol")
         if not _is_related(segment) and statements and sign in ("comma", "wide"):
-            raise FormulaError("what follows the comma has no relation", "write it as a statement of its own")
+            raise FormulaError("the part after the comma has no relation", "write it as a separate statement")
         elif sign == "condition":
             conditions = _statements(reader, segment)
             statements += [replace(condition, kind=sign) for condition in conditions]
@@ -176,7 +176,7 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
         missing = summed - set[str].intersection(*(_indices(side.node) for side in read))
         if missing and len(read) > 1:
             raise FormulaError(
-                f"whether {min(missing)} is summed over is open", r"write \sum, or give it another index"
+                f"it is unclear whether {min(missing)} is summed over", r"write \sum, or give it another index"
             )
     order, value = without_order(read[-1].node)
     read[-1] = replace(read[-1], node=value)
@@ -211,7 +211,7 @@ def _check_side(side: list[Box]) -> None:
         raise FormulaError(f"{name} is a word", r"write \mathrm for it, or \cdot")
     square = len(side) == 1 and side[0].name == "[" and not (side[0].sub or side[0].sup)
     if square and [b.kind for b in side[0].contents[0]] != ["matrix"]:
-        raise FormulaError("what the square brackets mean is open", "leave them out, or write what it is")
+        raise FormulaError("it is unclear what the square brackets mean", "leave them out, or write what it is")
 
 
 def _side(reader: Grammar, row: list[Box]) -> Node:
