@@ -178,10 +178,10 @@ def init_command(options: argparse.Namespace) -> int:
 def notation_command(options: argparse.Namespace) -> int:
     from lagrotor.paper.catalogue import Catalogue
     from lagrotor.paper.latex.init import declare
-    from lagrotor.paper.latex.readings import letter_kinds
+    from lagrotor.paper.latex.readings import symbol_kinds
 
-    rows = letter_kinds(Catalogue(options.folder))
-    proposals = {row.letter: row.kind for row in rows if not row.declared}
+    rows = symbol_kinds(Catalogue(options.folder))
+    proposals = {row.symbol: row.kind for row in rows if not row.declared}
     if unknown := [letter for letter in options.confirm if letter not in proposals]:
         raise InputError(
             f"notation: nothing is proposed for {unknown[0]}: the proposals are for {', '.join(proposals) or 'no letter'}"
@@ -191,11 +191,11 @@ def notation_command(options: argparse.Namespace) -> int:
             options.folder,
             {letter: proposals[letter] for letter in options.confirm} | dict.fromkeys(options.real, "real"),
         )
-        rows = letter_kinds(Catalogue(options.folder))
+        rows = symbol_kinds(Catalogue(options.folder))
     if options.json:
         print_json([asdict(row) for row in rows])
         return 0
-    cells = [(row.letter, row.kind, "declared" if row.declared else "proposed", row.evidence) for row in rows]
+    cells = [(row.symbol, row.kind, "declared" if row.declared else "proposed", row.evidence) for row in rows]
     print(table(("letter", "kind", "", "seen in"), cells) if rows else "every letter is a real number")
     if any(not row.declared for row in rows):
         say(f"declare a proposal: lagrotor notation {options.folder} --confirm LETTER …, or --real LETTER …", 0)

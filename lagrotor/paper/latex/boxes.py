@@ -1,7 +1,4 @@
-r"""A formula as it is printed: letters with their marks, numbers, fractions, brackets, each with its scripts.
-
-Nothing is interpreted here; every token is in one box.
-"""
+"""A formula as printed: a row of boxes (symbols, numbers, fractions, brackets) with their scripts; no interpretation."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -74,11 +71,11 @@ _PAIRS = ("aligned", "alignedat", "align", "align*", "split")
 _ROWS = (*_PAIRS, "gathered", "multlined", "gather", "gather*", "eqnarray*", "eqnarray", "equation", "equation*")
 _CASES = ("cases", "dcases")
 _ROW_ENDS = ("&", r"\\", r"\end", r"\hline", r"\cr")
-_MOST = 200  # brackets within brackets
+_MOST = 200  # nested brackets
 
 
 class FormulaError(Exception):
-    """Where the reading stops: what stands there, and what would help."""
+    """The reason for which a formula is not read, and the remedy."""
 
     def __init__(self, what: str, help_: str) -> None:
         super().__init__(what)
@@ -87,11 +84,12 @@ class FormulaError(Exception):
 
 @dataclass(slots=True)
 class Box:
-    """One thing as it is printed, from `at` to `end` in the LaTeX.
+    """One printed object, from position `at` to `end` in the LaTeX.
 
-    kind: letter number operator relation bracket fraction binomial root function big matrix cases rows accent text wide comma
-    dots arrow bar group partial nabla infinity. name: of the letter or the command; style, marks, upright: of a
-    letter; parts: the rows in it; sub, sup: its scripts; closing: of a bracket; spaced: whether a thin space stands before it.
+    kind: letter (any symbol), number, operator, relation, bracket, fraction, binomial, root, function, big, matrix, cases,
+    rows, accent, text, wide, comma, dots, arrow, bar, group, partial, nabla, infinity.
+    name: the symbol or the command. style, marks, upright: the font and the accents of a symbol. contents: the rows of
+    boxes inside, such as numerator and denominator. closing: the closing bracket. spaced: True after a thin space.
     """
 
     kind: str
@@ -110,7 +108,7 @@ class Box:
 
 
 def boxes(latex: str) -> list[Box]:
-    """Return the boxes of a formula. Raises FormulaError at a token that has no place."""
+    """Return the boxes of a formula. Raises FormulaError at a token that is not allowed in its position."""
     reader = _Reader(latex)
     row = reader.sequence(())
     if reader.ahead:
@@ -129,12 +127,12 @@ class _Reader:
 
     @property
     def ahead(self) -> str:
-        """The text of the token that comes next; empty at the end."""
+        """The text of the next token; empty at the end."""
         return self.items[self.place].text
 
     @property
     def opens(self) -> bool:
-        """Whether a brace comes next."""
+        """True if the next token is an opening brace."""
         return self.items[self.place].kind == "open"
 
     def take(self) -> Token:
@@ -144,16 +142,16 @@ class _Reader:
 
     @property
     def end(self) -> int:
-        """The place behind the last token that was taken."""
+        """The position after the last consumed token."""
         last = self.items[self.place - 1]
         return last.at + len(last.text)
 
     def box(self, kind: str, name: str, item: Token, *contents: list[Box], **fields: Any) -> Box:
-        """Return a box that ends with the last token."""
+        """Return a box that ends with the last consumed token."""
         return Box(kind, name, item.at, self.end, list(contents), **fields)
 
     def argument(self, style: str = "") -> list[Box]:
-        """Return the boxes in braces, or the next single thing."""
+        """Read the boxes in braces, or the next single object."""
         if not self.ahead:
             raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write it in braces")
         if self.opens:
@@ -174,15 +172,15 @@ class _Reader:
         return row
 
     def plain(self) -> str:
-        """Return an argument in braces as it stands."""
+        """Consume an argument in braces and return its text."""
         return self.enclosed("}") if self.opens else self.take().text
 
     def bracketed(self) -> str:
-        """Return an optional argument as it stands."""
+        """Consume an optional argument and return its text."""
         return self.enclosed("]") if self.ahead == "[" else ""
 
     def enclosed(self, closing: str) -> str:
-        """Return the text between the sign that comes next and the one that closes it."""
+        """Consume and return the text between the next sign and its closing sign."""
         start, depth = self.take().at + 1, 0
         while self.ahead:
             item = self.take()
@@ -192,7 +190,7 @@ class _Reader:
         return self.latex[start:]
 
     def sequence(self, ends: tuple[str, ...], style: str = "") -> list[Box]:
-        """Return the boxes until one of the ends comes next."""
+        """Read boxes until one of the ends comes next."""
         self.depth += 1
         if self.depth > _MOST:
             raise FormulaError(f"{self.ahead} is nested too deeply", "write fewer brackets within brackets")
@@ -219,7 +217,7 @@ class _Reader:
         return _without_spaces(row)
 
     def extend(self, row: list[Box], style: str) -> None:
-        """Add the next thing to a row; more boxes than one with a script are a group."""
+        """Append the next object to a row; several boxes with a common script form a group."""
         braced, new = self.opens, self.single(style)
         if row and len(new) == 1 and row[-1].end == new[0].at and _joins(row[-1], new[0], style):
             row[-1].name += new[0].name
@@ -261,7 +259,7 @@ class _Reader:
         target.end = self.end
 
     def single(self, style: str) -> list[Box]:
-        """Return the next thing without its scripts; a group in braces gives all that stands in it."""
+        """Read the next object without its scripts; a group in braces gives all its boxes."""
         if self.opens:
             return self.group(style)
         item = self.take()
@@ -307,7 +305,7 @@ class _Reader:
             return [self.accent(ACCENTS[name], item, style)]
         if item.text in _OPEN:
             return [self.bracket(item.text, item, style)]
-        if _SIZES.fullmatch(item.text):  # the bracket comes next
+        if _SIZES.fullmatch(item.text):  # a size command precedes a bracket
             bar = self.ahead in (r"\|", r"\Vert", "|", r"\vert")
             return self.single(style) if bar else []
         form = _FORMS.get(name.rstrip("*"))
@@ -327,7 +325,7 @@ class _Reader:
         return only
 
     def styled(self, name: str, item: Token) -> list[Box]:
-        r"""Read \mathbf{r}, \mathrm{kin} and \text{and}: letters one by one, or a word."""
+        r"""Read \mathbf{r}, \mathrm{kin} and \text{and}: single symbols, or a word."""
         style, start = STYLES[name], self.place
         worded = self.opens and name in (*_TEXT, "mathrm", "operatorname", "mathit", "mathsf", "mathtt")
         word = self.plain().strip() if worded else "-"
@@ -364,7 +362,7 @@ class _Reader:
         self.take()
         return self.box("bracket", opening, item, content, closing=closing)
 
-    # ---- commands with a form of their own
+    # ---- commands with special arguments
 
     def _left(self, item: Token, style: str) -> list[Box]:
         opening, content = self.take().text, self.sequence((r"\right",), style)
@@ -380,7 +378,6 @@ class _Reader:
         return [self.box(kind, "", item, over, under)]
 
     def _derivative(self, item: Token, style: str) -> list[Box]:
-        r"""Read \dv[2]{x}{t}, \pdv{L}{q} and \dv{t} as fractions."""
         degree, arguments = self.bracketed(), [self.argument(style)]
         if self.opens:
             arguments.append(self.argument(style))
@@ -426,7 +423,7 @@ class _Reader:
         if self.items[self.place].kind == "script":
             self.take()
             self.plain()
-        joined = bool(content) and content[0].kind == "operator"  # the sign joins it to what stands before
+        joined = bool(content) and content[0].kind == "operator"  # the sign joins it to the term before
         return content if joined else [self.box("group", "brace", item, content)]
 
     def _passed_over(self, item: Token, style: str) -> list[Box]:
@@ -434,13 +431,13 @@ class _Reader:
         return [self.box("thin", "", item)] if item.text == r"\hspace" else []
 
     def _line_end(self, item: Token, style: str) -> list[Box]:
-        """Read the end of a line in a display that has one line only."""
+        """Read a line break in a display of one line."""
         self.bracketed()
         return [self.box("wide", "", item)]
 
 
 def _without_spaces(row: list[Box]) -> list[Box]:
-    """Return a row without its thin spaces, each of which is said of the box behind it; three in a row part formulas."""
+    """Remove thin spaces, and mark the box after each as spaced; three in a row separate formulas."""
     result, after_thin = list[Box](), False
     for thin, run in groupby(row, key=lambda box: box.kind == "thin"):
         boxes = list(run)
@@ -454,12 +451,12 @@ def _without_spaces(row: list[Box]) -> list[Box]:
 
 
 def _joins(word: Box, letter: Box, style: str) -> bool:
-    """Return whether an upright letter goes on with the word before it."""
+    """Return True if an upright symbol continues the word before it."""
     letters = word.kind == letter.kind == "letter" and word.upright and letter.upright and len(letter.name) == 1
     return style == "upright" and letters and word.sub is None and word.sup is None and not word.marks
 
 
-# Characters and commands that are a letter, with its name; those that are another box whatever stands beside them: (kind, name).
+# Characters and commands of symbols → name; those of other boxes, independent of their neighbours → (kind, name).
 _LETTERS = {letter: letter for letter in ascii_letters} | _UNICODE
 _LETTERS |= {command: re.sub(r"var(?=[A-Z])", "", command[1:]) for command in GREEK}  # \varDelta is an italic \Delta
 _LETTERS |= {rf"\{'Up' if name[0].isupper() else 'up'}{name.lower()}": name for name in _GREEK_NAMES.split()}
@@ -501,7 +498,7 @@ _FORMS: dict[str, Callable[[_Reader, Token, str], list[Box]]] = {
 
 
 def is_printed_as_vector(box: Box) -> bool:
-    """Return whether a letter is printed as a vector: bold, with an arrow or with a line below."""
+    """Return True for a symbol in bold, with an arrow or with a line below."""
     return box.style == "bold" or "vec" in box.marks or "under" in box.marks
 
 
@@ -516,13 +513,13 @@ def strip(row: list[Box]) -> list[Box]:
 
 
 def parted(row: list[Box], *kinds: str) -> list[list[Box]]:
-    """Return the parts of a row between the boxes of these kinds; a full stop parts nothing."""
+    """Split a row at the boxes of these kinds; a full stop is no separator."""
     ends = [-1, *(k for k, box in enumerate(row) if box.kind in kinds and box.name != "."), len(row)]
     return [row[first + 1 : last] for first, last in pairwise(ends)]
 
 
 def all_boxes(row: Iterable[Box]) -> Iterator[Box]:
-    """Yield the boxes of a row and all that they hold."""
+    """Yield the boxes of a row and all boxes inside them."""
     for box in row:
         yield box
         for inner in (*box.contents, box.sub or (), box.sup or ()):
@@ -530,14 +527,14 @@ def all_boxes(row: Iterable[Box]) -> Iterator[Box]:
 
 
 def is_mark(box: Box, mark: str) -> bool:
-    """Return whether a box is the d or the ∂ of a derivative."""
+    """Return True for the d or the ∂ of a derivative."""
     if mark == "partial":
         return box.kind == "partial" and box.sub is None
     return box.kind == "letter" and box.name == mark and not (box.marks or box.sub or box.primes or box.style)
 
 
 def is_derivative(box: Box) -> str:
-    """Return d or partial where a fraction is a derivative; nothing where it is none."""
+    """Return 'd' or 'partial' for a fraction that is a derivative, '' for any other box."""
     if box.kind == "fraction":
         over, under = box.contents
         for mark in ("d", "partial") if over and len(under) > 1 and under[1].kind == "letter" else ():
@@ -546,11 +543,11 @@ def is_derivative(box: Box) -> str:
     return ""
 
 
-# ---- names of letters
+# ---- names of symbols
 
 
 def stem_of(box: Box) -> str:
-    """Return the name of a letter with its font and marks, without index, dots and primes."""
+    """Return the name of a symbol with its font and marks, without index, dots and primes."""
     return {"lambda": "lamda"}.get(box.name, box.name) + box.style + "".join(_marks(box))
 
 
@@ -559,7 +556,7 @@ def _marks(box: Box) -> list[str]:
 
 
 def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
-    r"""Return the name of a letter in Python: theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__max for T^{\max}."""
+    r"""Return the Python name of a symbol: theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__max for T^{\max}."""
     rates = sum(len(mark) - len("ot") for mark in box.marks if mark.endswith("dot"))
     name = stem_of(box) + "prime" * box.primes + "".join(f"__{word}" for word in raised)
     name += "".join(f"_{word}" for word in index) + (f"_{'d' * rates}ot" if rates else "")
@@ -568,9 +565,9 @@ def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> 
 
 
 def index_of(box: Box) -> list[str]:
-    """Return the parts of an index, such as ["1"], ["cm"] or ["i", "j"]. Raises FormulaError for other signs in it."""
+    """Return the words of an index, such as ["1"], ["cm"] or ["i", "j"]. Raises FormulaError for other signs."""
     words: list[str] = []
-    alone = True  # a comma or a Greek letter ends a run of letters
+    alone = True  # a comma or a Greek letter ends a word
     for entry in box.sub or ():
         if entry.kind == "comma" and entry.name != ".":
             alone = True

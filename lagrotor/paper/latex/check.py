@@ -1,11 +1,11 @@
-r"""The check of a source without any derivation: steps of chains, claimed orders, indices of sums.
+"""The check of a source without derivations: steps of chains, claimed orders, indices of sums.
 
-A step holds if its two members are proved equal, as they stand or with derivatives and integrals taken. It is refuted if
-the members differ, no equation before relates their letters, and one changed sign, factor, power or function of a member
-makes them equal: this tells a slip from a law. Every other step is not judged, for a reason below. The first step of a chain
-may define a letter or state a condition, so it is never refuted.
+A step holds if its two members are proved equal, as printed or after evaluation of derivatives and integrals. It is
+refuted if the members differ, no earlier equation relates their symbols, and one changed sign, factor, power or function
+makes them equal: this distinguishes a slip from a law. Any other step is not judged, for a reason listed below. The first
+step of a chain may define a symbol or state a condition, so it is never refuted.
 
-No reading is confirmed here: the kinds of letters are those that `paper.toml` beside the source declares, or one sweep proposes.
+No reading is confirmed: the kinds of symbols come from the `paper.toml` next to the source, or from one sweep.
 """
 
 import re
@@ -57,9 +57,9 @@ from lagrotor.paper.latex.tree import (
 
 HOLDS, REFUTED, NOT_JUDGED = "holds", "refuted", "not judged"
 INDEX, FAULT = "index outside its sum", "no LaTeX"
-# Findings that are shown without --all, which are errors.
+# Findings that are errors; they are listed even without --all.
 WRONG = (REFUTED, INDEX, FAULT)
-# Reasons for which a step is not judged.
+# Reasons not to judge a step.
 NOT_READ = "the display is not read"
 UNCOMPARABLE = "a member has no value that could be compared"
 OUTSIDE = "the difference is outside what is decided exactly"
@@ -78,7 +78,7 @@ _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 class StepFinding:
     """One finding. `step` counts the relations of a chain from 1; 0 means the whole equation.
 
-    equation: its id, empty where LaTeX itself would stop at the line. members: the two sides of a step as they were read.
+    equation: its id, '' for a LaTeX error. members: the two sides of a step as read.
     """
 
     equation: str
@@ -90,7 +90,7 @@ class StepFinding:
     file: str = ""
 
     def as_data(self) -> dict[str, Any]:
-        """Return the finding as an object of JSON, without what is empty."""
+        """Return the finding as a JSON object without empty fields."""
         return {key: value for key, value in asdict(self).items() if value not in ("", ()) or key == "equation"}
 
 
@@ -102,32 +102,19 @@ class Check:
 
     @property
     def counts(self) -> dict[str, int]:
-        """The number of steps that hold, are refuted, and are not judged."""
+        """The numbers of steps that hold, are refuted, and are not judged."""
         counts = Counter(finding.verdict for finding in self.findings)
         return {verdict: counts[verdict] for verdict in (HOLDS, REFUTED, NOT_JUDGED)}
 
     @property
     def reasons(self) -> dict[str, int]:
-        """The three commonest reasons for which steps are not judged, with their numbers."""
+        """The three most frequent reasons for steps that are not judged, with their numbers."""
         reasons = Counter(finding.why.partition(": ")[0] for finding in self.findings if finding.verdict == NOT_JUDGED)
         return dict(reasons.most_common(3))
 
 
 def check_source(source: Source, declared: Notation = ALL_REAL) -> Check:
-    """Check the displayed equations of a source.
-
-    Parameters
-    ----------
-    source : Source
-        The displays.
-    declared : Notation
-        The kinds of letters that the author declares; one sweep proposes the others.
-
-    Returns
-    -------
-    Check
-        The findings in the order of the source.
-    """
+    """Check the displayed equations of a source; one sweep proposes the kinds of symbols that are not declared."""
     notation = with_proposals(declared, propose([*(equation.latex for equation in source.equations), *source.inline]))
     readings = [(equation, read_formula(equation.latex, notation, equation.lead)) for equation in source.equations]
     faults = [
@@ -142,11 +129,10 @@ class _Checker:
         self.source, self.readings, self.notation = source, readings, notation
         sides = (s.node for _, reading in readings for statement in reading.statements for s in statement.sides)
         self.opaque = Opaque()
-        self.moving = Opaque(self.opaque.names, rates_of(sides))  # derivatives taken
+        self.moving = Opaque(self.opaque.names, rates_of(sides))  # with rates: derivatives are evaluated
         self.place = 0
 
     def findings(self) -> Iterator[StepFinding]:
-        """Yield every finding."""
         for place, (equation, reading) in enumerate(self.readings):
             self.place = place
             if not reading.whole:
@@ -168,7 +154,7 @@ class _Checker:
     def _steps(
         self, equation: Displayed, printed: PrintedStatement, statement: PrintedStatement
     ) -> Iterator[StepFinding]:
-        """Yield the steps of a chain, the first only if it is an identity; printed: without the row before."""
+        """Yield the steps of a chain, the first only if it is an identity; `printed` omits the previous row."""
         order_before = None if statement is printed else self.readings[self.place - 1][1].statements[-1].order
         steps = enumerate(zip(statement.sides, statement.sides[1:], statement.relations, strict=False), 1)
         for step, (lhs, rhs, relation) in steps:
@@ -186,7 +172,7 @@ class _Checker:
                 yield self._finding(equation, step, (lhs, rhs), verdict, why)
 
     def _continued(self, equation: Displayed, statement: PrintedStatement) -> PrintedStatement:
-        """Return a row that continues the one before, with the last side of that row in its place."""
+        """Return a continuing row with the last side of the previous row inserted."""
         previous = self.readings[self.place - 1][1] if equation.lead and self.place else None
         if previous is None or not previous.whole or previous.statements[-1].kind != "equation":
             return statement
@@ -196,7 +182,7 @@ class _Checker:
         return replace(statement, sides=(first, last, *shifted), relations=("=", *statement.relations))
 
     def _step(self, lhs: Node, rhs: Node) -> _VERDICT:
-        """Return the verdict on a step, and the reason."""
+        """Return the verdict on a step and the reason."""
         a, b = self._value(lhs), self._value(rhs)
         if a is None or b is None:
             return NOT_JUDGED, UNCOMPARABLE
@@ -217,7 +203,7 @@ class _Checker:
         return REFUTED, why
 
     def _with_derivatives_taken(self, lhs: Node, rhs: Node, values: tuple[Any, Any]) -> str:
-        """Return the assumptions under which two members agree once derivatives and integrals are taken; "" if they do not."""
+        """Return the assumptions under which the members agree after evaluation of derivatives, or ""."""
         self.moving.fixing = False
         a, b = (expression_of(node, self.moving) for node in (lhs, rhs))
         if a is None or b is None or (a, b) == values or is_large(a, b) or not agree(a, b):
@@ -226,7 +212,7 @@ class _Checker:
         return f"with {fixed if self.moving.fixing else 'derivatives taken'}"
 
     def _refuted(self, lhs: Node, rhs: Node, a: Any, b: Any) -> tuple[str, str]:
-        """Return the reason for which a difference that is not zero refutes nothing, or "" and how the members differ."""
+        """Return the reason not to refute unequal members and "", or "" and how they differ."""
         letters, others = set(letters_of(lhs)), set(letters_of(rhs))
         if not _comparable(a, b):
             return FUNCTIONS, ""
@@ -235,19 +221,22 @@ class _Checker:
         numbers = (node.value for side in (lhs, rhs) for node in walk(side) if isinstance(node, Number))
         if any(value.denominator not in (1, 2, 4) for value in numbers):
             return ROUNDED, ""
-        if not others:  # a constant on the right is wrong only where the left member is another
+        if not others:  # a constant on the right is refuted only by another constant
             value = constant_value(a)
             return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its symbols")
         if self._related(letters):
             return BEFORE, ""
-        slip = change_to_agree(a, rhs, self._value) or change_to_agree(b, lhs, self._value)
-        return ("", f"the members differ by {_difference(a, b)}; {slip}") if slip else (MAYBE, "")
+        for side, fixed, changing in (("right", a, rhs), ("left", b, lhs)):
+            if slip := change_to_agree(fixed, changing, self._value):
+                differ = f"the members differ by {_difference(a, b)}"
+                return "", f"{differ}; they would agree with {slip} in the {side} member"
+        return MAYBE, ""
 
     def _value(self, node: Node) -> Any:
         return expression_of(node, self.opaque)
 
     def _related(self, letters: set[str]) -> bool:
-        """Return whether an equation of these letters only stands in the text or before, so that two members may agree."""
+        """Return True if an earlier equation or the text relates only these symbols: the members may then agree."""
         stems = {letter.split("_")[0] for letter in letters}
         for latex, reading in (*((equation.latex, r) for equation, r in self.readings[: self.place]), *self._text):
             if not reading.whole and (names := letters_printed(latex)) and names <= stems:
@@ -257,7 +246,7 @@ class _Checker:
         return False
 
     def _explains(self, statement: PrintedStatement, letters: set[str]) -> bool:
-        """Return whether a statement relates no other letters than these: no bound, and no identity."""
+        """Return True if a statement relates only these symbols and is no bound and no identity."""
         nodes = [side.node for side in statement.sides]
         if not {name for node in nodes for name in letters_of(node)} <= letters or {*statement.relations} <= _BOUNDS:
             return False
@@ -266,19 +255,19 @@ class _Checker:
 
     @cached_property
     def _text(self) -> list[tuple[str, Reading]]:
-        """The relations of the text, with their readings."""
+        """The relations in the text, with their readings."""
         formulas = (latex for latex in self.source.inline if _RELATION.search(latex))
         return [(latex, read_formula(latex, self.notation)) for latex in formulas]
 
     def _order(self, lhs: Node, rhs: Node, order: tuple[str, int]) -> _VERDICT:
-        """Return the verdict on a step that is claimed through an order of a small letter."""
+        """Return the verdict on a step claimed up to an order in a small symbol."""
         name, power = order
         small = sp.Symbol(name, real=True)
         try:
             a, b = sympy_expression(lhs, self.opaque), sympy_expression(rhs, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
                 return NOT_JUDGED, LETTERS
-            rates = re.compile(rf"{re.escape(name)}_d+ot")  # the rates of a small quantity are as small
+            rates = re.compile(rf"{re.escape(name)}_d+ot")  # rates of a small quantity are of the same order
             scaled = {s: small * s for s in a.free_symbols | b.free_symbols if rates.fullmatch(s.name)}
             term = counted(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
         except WorkError:
@@ -293,16 +282,16 @@ class _Checker:
 
 
 def _may_be_identity(lhs: Node, rhs: Node) -> bool:
-    """Return whether the first step of a chain may be an identity, and no definition."""
+    """Return True if the first step of a chain can be an identity rather than a definition."""
     numeric = isinstance(rhs, Number) and rhs.value != 0 and any(call.name in KNOWN for call in _calls(lhs))
     return isinstance(lhs, Call) and (numeric or bool(letters_of(rhs) and not isinstance(rhs, Letter)))
 
 
 def _open_indices(statement: PrintedStatement) -> Iterator[str]:
-    """Sentences on indices that stand outside their sum on one side, and on another side do not.
+    """Yield sentences on indices that occur outside their sum on one side of a statement, but not on another.
 
-    An index is the letter itself, or a subscript of a letter that also stands inside the sum: E_k = Σ_k v_k has a label.
-    Products and integrals over the same letter bind it as well.
+    An index is the symbol itself, or a subscript that also occurs inside the sum: in E_k = Σ_k v_k the k of E_k is a label.
+    Products and integrals also bind it.
     """
     sums = [n for side in statement.sides for n in _calls(side.node) if n.name == "Sum"]
     for index in dict.fromkeys(n.args[1].name for n in sums if isinstance(n.args[1], Letter)):
@@ -328,6 +317,6 @@ def _difference(a: Any, b: Any) -> str:
 
 
 def _comparable(a: Any, b: Any) -> bool:
-    """Return whether both members have the same derivatives, integrals and unknown functions, and are vectors or not."""
+    """Return True if both members have the same non-explicit terms and are both vectors or both numbers."""
     hidden = [{symbol for symbol in side.free_symbols if has_opaque(symbol)} for side in (a, b)]
     return hidden[0] == hidden[1] and isinstance(a, sp.MatrixBase) == isinstance(b, sp.MatrixBase)

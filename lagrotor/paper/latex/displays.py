@@ -1,4 +1,4 @@
-r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
+"""The displayed equations of a LaTeX source with printed numbers, labels, sections and positions."""
 
 import re
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from lagrotor.paper.latex.numbers import Counters, aux_numbers, plain_number
 from lagrotor.paper.latex.token_stream import EMPTY_LINE, ends_paragraph
 from lagrotor.paper.latex.tokens import BRACES, Token, latex_of, plain
 
-# Each row of these is an equation with a number; the others have one number.
+# Each row of these environments has a number; any other display has one number.
 _ROWS = ("align", "gather", "eqnarray", "alignat", "flalign")
 _PAIRS = ("align", "alignat", "flalign")  # in which every second & begins another equation
 _BEGINS = {rf"\begin{{{name}{star}}}": name + star for name in DISPLAYS for star in ("", "*")}
@@ -32,21 +32,21 @@ _RELATIONS = re.compile(
     r"[=<>]|\\(?:approx|sim|simeq|equiv|neq|ne|leq?|geq?|ll|gg|propto|to|cong|doteq|in|Rightarrow|implies|iff|Leftrightarrow"
     r"|overset|stackrel|longrightarrow|rightarrow|lesssim|gtrsim)(?![A-Za-z])"
 )
-_NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX does not go on in a formula behind these
+_NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX ends an open formula at these
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
-# Environments of displays that are not read.
+# Display environments that are refused.
 _REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases", "empheq", "IEEEeqnarray")
 _SUFFIXES, _LARGEST = (".tex", ".ltx", ".latex"), 20  # MB
 _CONTROLS = [chr(code) for code in range(32) if chr(code) not in "\t\n\r\f"]
-# Packages that a formula may need, and whose commands other formulas do not disturb.
+# Packages that a formula may need and that change no other formula.
 _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
 
 
 @dataclass(frozen=True, slots=True)
 class Displayed:
-    """One displayed equation: `number` as printed, empty if there is none; `latex` expanded, without labels and numbers.
+    """One displayed equation; `number` is the printed one or ''; `latex` is expanded, without labels and numbers.
 
-    lead: the left side of the row before, which this row continues. place: file and line; rows: the line of each row.
+    lead: the left side of the previous row, if this row continues it. place: file and line. rows: the line of each row.
     """
 
     id: str
@@ -63,8 +63,8 @@ class Displayed:
 class Source:
     """The displayed equations of a source; section number → heading; inline formula → section; label → number.
 
-    notes: sentences about what could not be known; faults: file, line, and the error at which TeX would stop; preamble: packages
-    that the formulas need; file: its name.
+    notes: sentences about doubtful readings. faults: (file, line, error at which TeX would stop). preamble: packages that the
+    formulas need.
     """
 
     title: str
@@ -81,10 +81,10 @@ class Source:
 
 @dataclass
 class _Row:
-    """One row of a display as it is read."""
+    """One row of a display; `stepped` is True if the counter was stepped at the begin of the display."""
 
     numbered: bool
-    stepped: bool  # whether the counter was stepped as the display began
+    stepped: bool
     tokens: list[Token] = field(default_factory=list)
     labels: list[str] = field(default_factory=list)
     tag: str = ""
@@ -93,7 +93,7 @@ class _Row:
 
 
 def read_source(file: Path) -> Source:
-    """Return the displayed equations of a .tex file. Raises InputError for another one."""
+    """Read the displayed equations of a .tex file. Raises InputError for any other file."""
     if file.suffix.lower() not in _SUFFIXES:
         raise InputError(f"{file}: give a .tex file")
     if file.is_file() and (size := file.stat().st_size / 1e6) > _LARGEST:
@@ -105,7 +105,7 @@ def read_source(file: Path) -> Source:
 
 
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
-    """Return the displayed equations of a LaTeX source. Raises InputError for a macro without end."""
+    """Read the displayed equations of a LaTeX text. Raises InputError for an endless macro."""
     walker = _Walker(text, file, title)
     try:
         walker.read()
@@ -115,7 +115,7 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
 
 
 class _Walker:
-    """A reader of the expanded tokens, which counts as LaTeX does."""
+    """A reader of the expanded tokens that counts as LaTeX does."""
 
     def __init__(self, text: str, file: Path | None, title: str) -> None:
         self.source = Source(title, file=file.name if file is not None else "")
@@ -125,13 +125,12 @@ class _Walker:
         self.aux, self.aux_name = ({}, "") if file is None else (aux_numbers(file), file.with_suffix(".aux").name)
         self.body = r"\documentclass" not in text
         self.section, self.starred, self.numbered_chapters = "0", 0, True
-        self.last, self.since = "0", 0  # the last number, and how many displays without one came since
-        self.outer: list[tuple[int, Macro | None, str]] = []  # subequations: the counter's value and print, the number
+        self.last, self.since = "0", 0  # the last number, the count of later displays without number
+        self.outer: list[tuple[int, Macro | None, str]] = []  # subequations: counter value, its macro, number
         self.ids: set[str] = set()
-        self.ended = ""  # the end of a display that was missing: it ends nothing later
+        self.ended = ""  # missing end of a display; its later appearance is no second fault
 
     def read(self) -> None:
-        """Read the whole source."""
         for token in self.expander:
             if token.text == r"\end{document}" and not self.expander.end_file(token.at):
                 break
@@ -170,18 +169,18 @@ class _Walker:
         elif token.text == "^" and self.body:
             inside = next((name for name, _ in self.expander.scopes[::-1] if name != "{"), "")
             where = rf"in \begin{{{inside}}}, which is unknown: define it"
-            if not inside.startswith("tikz"):  # a drawing
+            if not inside.startswith("tikz"):
                 alone = "outside any environment: define the command that begins it"
                 self._pass_over(token.at, f"a formula is {where if inside else alone}")
 
     def _pass_over(self, at: int, sentence: str) -> None:
-        """Note a formula that is not read, once for each sentence."""
+        """Note a formula that is not read; each sentence appears once."""
         if not any(sentence in note for note in self.expander.notes):
             self.expander.notes.append(f"{self.expander.place(at)}: {sentence}")
             self.expander.doubt = self.expander.doubt or "a part of the source is left out"
 
     def _stray(self, token: Token, fault: str) -> None:
-        """Keep a fault, unless the token ends a display that is known to be without end."""
+        """Record a fault, unless the token is the late end of a display that was closed with a fault."""
         if token.text != self.ended:
             self.expander.fault(token.at, fault)
         self.ended = ""
@@ -261,7 +260,7 @@ class _Walker:
         braces = 0
         self.expander.in_formula = True
         for token in self.expander:
-            if token.text == end and (end != "$" or braces <= 0):  # \text{if $x$} is within
+            if token.text == end and (end != "$" or braces <= 0):  # \text{if $x$}
                 break
             if token.text in _NO_FORMULA or token.text in _BEGINS or ends_paragraph(token):
                 if not self.expander.doubt:
@@ -276,7 +275,7 @@ class _Walker:
             self.source.inline.setdefault(latex, self.section)
 
     def _display(self, kind: str, token: Token, end: str, starred: bool = False) -> None:
-        """Read a display row by row, each of which gets its number as it ends."""
+        """Read a display row by row; each row gets its number at its end."""
         by_rows = kind in _ROWS
         numbered = not starred and kind != "displaymath"
         rows = [_Row(numbered, numbered and not by_rows)]
@@ -302,7 +301,7 @@ class _Walker:
         self._keep(rows, kind, token)
 
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
-        """Yield the tokens of a display. A display that is not ended where TeX would stop is ended there, with a fault."""
+        """Yield the tokens of a display. A missing end is assumed where TeX would stop, with a fault."""
         depth = braces = 0
         may_nest = begin.text.startswith(r"\begin{gather")  # align within gather
         for token in self.expander:
@@ -326,14 +325,14 @@ class _Walker:
         return self.expander.fault(begin.at, f"{begin.text} is not {'ended' if begin.kind == 'begin' else 'closed'}")
 
     def _pass_end(self, token: Token) -> None:
-        r"""Take the star and the space behind \\."""
+        r"""Consume the star and the space argument after \\."""
         self.expander.star()
         space = latex_of(self.expander.optional() or ()) if self.expander.begins("[") else ""
-        if space and not re.search(r"\d|\\", space):  # no length: the row begins with it
+        if space and not re.search(r"\d|\\", space):  # not a length: it begins the next row
             self.expander.push(plain(f"[{space}]", token.at))
 
     def _sets_number(self, token: Token, row: _Row) -> bool:
-        """Take a command that says something of the number of a row only; return False for another one."""
+        """Consume a command that concerns the number of a row; return False for any other command."""
         name, expander = token.text, self.expander
         if name == r"\tag" or name in _NO_NUMBER:
             self.counters.values["equation"] -= row.stepped
@@ -353,7 +352,7 @@ class _Walker:
         return self.source.labels.get(label[1], "")
 
     def _finish(self, row: _Row) -> None:
-        """Give a row that has ended its number."""
+        """Set the number of a complete row."""
         if row.numbered and not row.tag:
             if not row.stepped:
                 self.counters.step("equation")
@@ -364,10 +363,10 @@ class _Walker:
     # ---- equations
 
     def _keep(self, rows: list[_Row], kind: str, token: Token) -> None:
-        """Keep the equations of a display: rows that continue the one before are joined with it."""
+        """Store the equations of a display; a row that continues the previous one is joined to it."""
         groups: list[list[_Row]] = []
         for row, following in pairwise(rows):
-            if kind in (*_PAIRS, "gather") and not row.number:  # amsmath keeps a label until a row has a number
+            if kind in (*_PAIRS, "gather") and not row.number:  # amsmath moves a label to the next numbered row
                 row.labels, following.labels = [], row.labels + following.labels
         for row in rows:
             for label in row.labels if row.number else ():
@@ -382,7 +381,7 @@ class _Walker:
             lead = self._add(group, kind, token, lead)
 
     def _add(self, group: list[_Row], kind: str, token: Token, lead: str) -> str:
-        """Keep one equation of rows, of which the first may continue another with this left side; return its left side."""
+        """Store one equation; `lead` is the left side that its first row may continue. Return its left side."""
         number = next((row.number for row in group if row.number), "")
         label = next((label for row in group for label in row.labels), "")
         latex = _without_columns(group[0].tokens, kind)
@@ -390,7 +389,7 @@ class _Walker:
             latex = r"\begin{aligned} " + r" \\ ".join(row.latex for row in group) + r" \end{aligned}"
         elif kind == "multline" and r"\\" in latex:
             latex = rf"\begin{{gathered}} {latex} \end{{gathered}}"
-        latex = re.sub(r"\\(begin|end)\{split\}", r"\\\1{aligned}", latex)  # which stands in any formula
+        latex = re.sub(r"\\(begin|end)\{split\}", r"\\\1{aligned}", latex)  # split is valid in a display only
         lead = lead if len(group) == 1 and _RELATIONS.match(_body(latex)) else ""
         self.since = 0 if number else self.since + 1
         self.last = number or self.last
@@ -415,7 +414,7 @@ def _body(latex: str) -> str:
 
 
 def _continues(group: list[_Row], row: _Row) -> bool:
-    """Return True if a row continues the equation of the rows before."""
+    """Return True if a row continues the equation of the previous rows."""
     body, last = _body(row.latex), group[-1].latex.rstrip(" &~")
     if re.search(r"(?:[+\-*/=<>(]|\\(?:times|cdot|pm|left|approx|equiv))\s*$", last):
         return True
@@ -433,7 +432,7 @@ def _left_side(source: str) -> str:
 
 
 def _without_columns(tokens: list[Token], kind: str) -> str:
-    """Return a row as LaTeX without the & of the row itself; every second one parts two equations of align."""
+    """Return a row as LaTeX without its own &; every second & of align separates two equations."""
     depth = columns = 0
     row: list[Token] = []
     for token in tokens:
@@ -447,5 +446,4 @@ def _without_columns(tokens: list[Token], kind: str) -> str:
 
 
 def _letters(count: int) -> str:
-    """Return 1 as a, 26 as z, 27 as aa."""
     return (_letters((count - 1) // 26) if count > 26 else "") + chr(ord("a") + (count - 1) % 26)

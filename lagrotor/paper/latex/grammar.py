@@ -1,8 +1,8 @@
-r"""The reader of expressions: a row of boxes as a tree of sums, products, functions, derivatives and integrals.
+"""The reader of expressions: a row of boxes becomes a tree of sums, products, functions, derivatives and integrals.
 
-The reader takes nothing for granted that the print leaves open: a letter before a bracket is a function where the notation
-declares it, x(t) is the coordinate x, and a sum in brackets is a factor. Every other sign that may mean two things stops the
-reading with the entry of [notation], or the way of writing, that would settle it.
+The reader guesses nothing. A symbol before a bracket is a function if the notation declares it; x(t) is the coordinate x;
+a sum in brackets is a factor. Any other ambiguous sign stops the reading, and the message names the entry of [notation]
+or the spelling that removes the ambiguity.
 """
 
 import re
@@ -45,16 +45,16 @@ _NO_NAMES = "sin cos tan exp log ln det max min lim cot sinh cosh tanh const var
 _WORDS = frozenset(_NO_NAMES.split())
 _MOST_DIGITS = 1000
 _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
-_BRACKETED = ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")  # functions of what stands in brackets
+_BRACKETED = ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")  # functions that need brackets
 _ANGLES = ("theta", "phi", "varphi", "psi", "vartheta", "chi", "alpha", "beta", "gamma")
-_LAST = ("t", "tau", "x", "y", "z", "s")  # in which the argument of a sine without brackets ends
+_LAST = ("t", "tau", "x", "y", "z", "s")  # last symbols of a sine's argument without brackets
 _HELPS = {
     "cases": "write one statement for each case", "nabla": "write its components",
     "partial": r"write \frac{\partial f}{\partial x}", "text": "write words between statements, and numbers without units",
 }  # fmt: skip
 _LABELS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _TRANSPOSES = ("T", "top", "intercal")
-# Letters that may be functions before a sum in brackets.
+# Symbols that may be functions before a sum in brackets.
 _NO_FACTORS = ("delta", "Delta", "Gamma", "zeta", "f", "F", "U", "V", "phi", "psi", "Phi", "Psi")
 _NAMES = {"lbrace": r"\{", "rbrace": r"\}", **dict.fromkeys(("vert", "lvert", "rvert"), "|")}
 _NAMES |= dict.fromkeys(("Vert", "lVert", "rVert"), r"\|")
@@ -65,7 +65,7 @@ _SETTLED = ("functions", "vectors", "matrices", "indices", "positive", "real")
 class Grammar:
     """The reader of one formula in the notation of its paper.
 
-    bound: the indices of the sums that are open. alone: names of the letters that stand in no index; indices: of those that do.
+    bound: indices of the open sums. alone: names of symbols outside indices. indices: names of symbols inside indices.
     """
 
     def __init__(self, source: str, notation: Notation, alone: frozenset[str], indices: frozenset[str]) -> None:
@@ -73,7 +73,7 @@ class Grammar:
         self.bound: list[str] = []
 
     def _open(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
-        """Return the stop at a letter, with the entries of [notation] that would settle what it is."""
+        """Return the error for an ambiguous symbol, with the entries of [notation] that would decide its kind."""
         entries = " or ".join(f'{kind} = "{stem_of(box)}"' for kind in kinds)
         return FormulaError(
             f"it is unclear whether {what}", f"write in paper.toml [notation] {entries}" if kinds else way
@@ -83,17 +83,17 @@ class Grammar:
         return self.source[first.at : (last or first).end]
 
     def _kind(self, box: Box, *kinds: str) -> bool:
-        """Return whether the notation declares a letter to be one of these kinds."""
+        """Return True if the notation declares one of these kinds for a symbol."""
         return any(has_kind(self.notation, kind, box) for kind in kinds)
 
     def _each(self, row: list[Box]) -> tuple[Node, ...]:
-        """Return what stands between the commas of a row."""
+        """Read the expressions between the commas of a row."""
         return tuple(map(self.expression, parted(row, "comma")))
 
     # ---- sums and products
 
     def expression(self, row: list[Box]) -> Node:
-        """Return the sum that a row of boxes is. Raises FormulaError where it is none."""
+        """Read a row of boxes as a sum. Raises FormulaError if it is not one."""
         row = _paired(strip(row))
         terms: list[tuple[str, list[Box]]] = [("+", [])]
         integrals = 0
@@ -120,7 +120,7 @@ class Grammar:
         return Call("sum", tuple(values))
 
     def term(self, row: list[Box]) -> Node:
-        """Return the product that a row of boxes is, its groups joined by signs."""
+        """Read a row of boxes as a product of groups joined by signs."""
         row = strip(row)
         groups: list[tuple[str, list[Node], list[Box]]] = [("", [], [])]
         place = 0
@@ -153,7 +153,7 @@ class Grammar:
         return product
 
     def _joined(self, product: Node, sign: str, right: Node, first: Box) -> Node:
-        """Return two factors joined by a sign; first: the box behind the sign."""
+        """Return two factors joined by a sign; `first` is the box after the sign."""
         text = self.source[: first.at].rstrip()
         if sign == "/":
             return self._divided(product, right, text)
@@ -187,7 +187,7 @@ class Grammar:
         return Call("quotient", (dividend, divisor))
 
     def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
-        """Return one factor and the place behind it."""
+        """Read one factor; return it and the position after it."""
         box = row[place]
         named = box.kind == "letter" and box.upright and len(box.name) > 1 and box.name in FUNCTIONS and not box.marks
         read = Grammar._function if named else _FACTORS.get(box.kind)
@@ -198,9 +198,7 @@ class Grammar:
         elif read is not None:
             node, behind = read(self, row, place)
         else:
-            raise FormulaError(
-                f"{self._text(box)} cannot be read in this place", _HELPS.get(box.kind, "write what it means")
-            )
+            raise FormulaError(f"{self._text(box)} cannot be read", _HELPS.get(box.kind, "write what it means"))
         if behind < len(row) and row[behind].name == "!":
             if box.kind == "function" or [b.name for b in row[behind + 1 : behind + 2]] == ["!"]:
                 raise FormulaError("it is unclear what ! belongs to", "write brackets, or the product")
@@ -210,7 +208,7 @@ class Grammar:
     # ---- letters
 
     def letter(self, box: Box) -> Letter:
-        """Return the letter without its power. Raises FormulaError where its kind is not declared."""
+        """Read a symbol without its power. Raises FormulaError if its kind is not declared."""
         if self._kind(box, "operators"):
             raise FormulaError(f"{stem_of(box)} is an operator", "products with operators are not read")
         dots = [mark.endswith("dot") for mark in box.marks]
@@ -225,7 +223,7 @@ class Grammar:
         return Letter(name_of(box, index_of(box), self._label(box)), vector, matrix)
 
     def _label(self, box: Box) -> list[str]:
-        """Return what a superscript adds to the name of a letter; nothing where the superscript is a power."""
+        """Return the words that a superscript adds to the name of a symbol; a power adds none."""
         if not box.sup or len(box.sup) > 1 or box.kind != "letter":
             return []
         only = box.sup[0]
@@ -270,7 +268,7 @@ class Grammar:
         return self.power(node, box), place + 1
 
     def _sign(self, row: list[Box], place: int, following: Box | None) -> tuple[Node, int] | None:
-        """Return a letter that is a sign, e, i, π, d and Δ; None where it is a letter like others."""
+        """Read the special symbols e, i, π, d and Δ; return None for an ordinary symbol."""
         box, name, number_ = row[place], row[place].name, self._kind(row[place], "numbers")
         settled, kind = self._kind(box, *_SETTLED), following.kind if following else ""
         if name == "e" and (number_ or box.upright):
@@ -296,7 +294,7 @@ class Grammar:
         return None
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
-        r"""Read \Delta x as one letter."""
+        r"""Read \Delta x as one symbol."""
         box, following = row[place : place + 2]
         if following.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
             raise self._open(box, f"\\{box.name} is a factor or acts on what follows", "functions", "real")
@@ -306,7 +304,7 @@ class Grammar:
         return self.power(replace(letter, name=f"{box.name}_{letter.name}"), following), place + 2
 
     def _applied(self, box: Box, bracket: Box) -> Node | None:
-        """Return a letter as a function of the bracket behind it, x for x(t); None where it is a factor."""
+        """Read a symbol as a function of the next bracket, x for x(t); return None if it is a factor."""
         content, name = bracket.contents[0], stem_of(box)
         if name in ("O", "Ocal") and not (box.sub or box.sup):
             return Call("order", (self.expression(content),))
@@ -332,7 +330,7 @@ class Grammar:
         raise self._open(box, f"{self._text(box)} before {bracket.name} is a function or a factor", "functions", "real")
 
     def _call(self, box: Box, bracket: Box) -> Node:
-        """Return a declared function of its arguments; of V'(r) the derivative."""
+        """Read a declared function with its arguments, and V'(r) as its derivative."""
         content, above = bracket.contents[0], box.sup or []
         derived = any(b.kind == "partial" or is_derivative(b) for b in content) or any(map(self._moves, content[1:]))
         itself = len(content) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in content)
@@ -355,7 +353,7 @@ class Grammar:
     # ---- powers
 
     def power(self, node: Node, box: Box) -> Node:
-        """Return the node to the power that its box has."""
+        """Return the node raised to the superscript of its box."""
         if box.sup is None or self._label(box):
             return node
         if not box.sup:
@@ -380,7 +378,7 @@ class Grammar:
         return Call("sqrt", (node,)) if half else Call("power", (node, power))
 
     def _check_power(self, box: Box, row: list[Box]) -> None:
-        """Raise FormulaError for marks and upper indices that stand where a power does."""
+        """Raise FormulaError for a superscript that is a mark or an upper index."""
         text, letters = self._text(row[0], row[-1]), [b for b in row if b.kind == "letter"]
         text = text[1:-1] if text[0] == "{" else text
         if any(b.kind in ("text", "relation", "comma") or b.primes or b.name in ("dagger", "prime", "*") for b in row):
@@ -445,7 +443,7 @@ class Grammar:
         return Call("power", (value, self.expression(box.sup))) if box.sup else value, behind
 
     def _argument(self, row: list[Box], place: int) -> tuple[tuple[Node, ...], int]:
-        """Return the arguments of a function and the place behind them."""
+        """Read the arguments of a function; return them and the position after them."""
         box, start = row[place], place + 1
         first = row[start] if start < len(row) else box
         if first is box or first.kind in ("operator", "comma", "big"):
@@ -469,7 +467,7 @@ class Grammar:
         return (self.term(row[start:end]),), end
 
     def _reach(self, row: list[Box], start: int) -> int:
-        """Return where the argument of a function without brackets ends: 2θ, ωt, kx, nπ, one sign, before a velocity."""
+        """Return the end of a function's argument without brackets: 2θ, ωt, kx, nπ, one symbol."""
         end, kinds = start, ("number", "letter", "fraction", "root", "group")
         while end < len(row) and row[end].kind in kinds and not self._moves(row[end]):
             end += 1
@@ -493,7 +491,7 @@ class Grammar:
         raise FormulaError(f"it is unclear where the argument of {row[start - 1].name} ends", "write it in brackets")
 
     def _moves(self, box: Box) -> bool:
-        """Return whether a box is a velocity or a vector, which ends the argument of a function."""
+        """Return True for a velocity or a vector, which ends the argument of a function."""
         dotted = any(mark.endswith("dot") for mark in box.marks)
         return bool(is_derivative(box)) or (box.kind == "letter" and (dotted or self._kind(box, "vectors")))
 
@@ -520,14 +518,14 @@ class Grammar:
         return self.expression(content) if len(pieces) == 1 else Call("column", self._each(content))
 
     def _at(self, box: Box, content: list[Box]) -> Node:
-        """Read an expression at a place, |_{x = 0}."""
+        """Read an expression evaluated at a point, |_{x = 0}."""
         where = parted(box.sub or [], "relation")
         if len(where) != 2 or not all(where) or box.sup:
             raise FormulaError("the point of evaluation is not an equation", "write |_{x = 0}")
         return Call("at", (self.expression(content), *map(self.expression, where)))
 
     def _group(self, box: Box) -> Node:
-        """Read what stands in braces that have a script, or above a brace."""
+        """Read a group in braces that has a script, or a group with a brace above or below."""
         if any(b.kind == "operator" and b.name in ("+", "-") for b in box.contents[0][1:]):
             raise FormulaError("it is unclear whether brackets enclose the sum", "write brackets")
         return self.expression(box.contents[0])
@@ -585,7 +583,7 @@ class Grammar:
         return (self.power(value, box) if over[1:] else value), behind
 
     def _operand(self, row: list[Box], place: int) -> tuple[Node, int]:
-        """Return what a derivative acts on: the last factor of a term, or a bracket."""
+        """Read the operand of a derivative: the last factor of a term, or a bracket."""
         if place >= len(row) or row[place].kind == "operator":
             raise FormulaError("the derivative has nothing to act on", "operators by themselves are not read")
         node, behind = self.factor(row, place)
@@ -644,7 +642,7 @@ class Grammar:
         return Call("Integral", (self.expression(inner) if inner else number(1), variables[0], *limits)), end
 
     def _variable(self, marks: list[Box]) -> Letter:
-        """Return what an integral is over, from its d and the letter behind."""
+        """Read the variable of an integral from its d and the symbol after it."""
         if len(marks) != 2 or marks[1].kind != "letter" or marks[1].sup or marks[0].sup:
             raise FormulaError("the differential of the integral is not clear", "write d and the variable")
         letter = self.letter(marks[1])
@@ -653,7 +651,7 @@ class Grammar:
         return letter
 
 
-# Readers of the boxes that are a factor by themselves, and of those that take in what follows them.
+# Readers of boxes that are a whole factor, and of boxes whose factor includes later boxes.
 _SIMPLE: dict[str, Callable[[Grammar, Box], Node]] = {
     "bracket": Grammar._bracket, "group": Grammar._group, "root": Grammar._root, "matrix": Grammar._matrix,
     "infinity": lambda reader, box: Letter("oo"), "dots": lambda reader, box: Call("dots", ()),
@@ -663,7 +661,7 @@ _FACTORS: dict[str, Callable[[Grammar, list[Box], int], tuple[Node, int]]] = {
     "number": Grammar._number, "letter": Grammar._letter, "fraction": Grammar._fraction, "function": Grammar._function,
     "big": Grammar._big,
 }  # fmt: skip
-# Calls of which a vector can be a multiple; functions whose argument may go on behind a slash.
+# Calls that can multiply a vector; functions whose argument may continue after a slash.
 _SCALARS = ("sum", "product", "quotient", "negative", "power", "sqrt", "Abs", "norm", "dot", "Derivative", "rate")
 _OPEN_ENDED = {*FUNCTIONS.values()} - {"exp"}
 
@@ -673,7 +671,7 @@ def _plain(bracket: str) -> str:
 
 
 def _product(factors: list[Node]) -> Node:
-    """Return the product of factors side by side. Raises FormulaError for vectors among them."""
+    """Return the product of adjacent factors. Raises FormulaError for two vectors."""
     vectors = [factor for factor in factors if is_vector(factor)]
     if len(vectors) > 1 and not all(map(is_matrix, vectors[:-1])):
         way = 'write \\cdot or \\times, or declare matrices = "…" in [notation]'
@@ -682,7 +680,7 @@ def _product(factors: list[Node]) -> Node:
 
 
 def _check_sums(terms: list[list[Box]]) -> None:
-    """Raise FormulaError where a term behind a sum holds the index of that sum."""
+    """Raise FormulaError if a term after a sum contains the index of that sum."""
     indices: set[str] = set()
     for term in terms:
         letters = {inner.name for box in term for inner in all_boxes(box.sub or ()) if inner.kind == "letter"}
@@ -693,7 +691,7 @@ def _check_sums(terms: list[list[Box]]) -> None:
 
 
 def _check_neighbours(row: list[Box], place: int, previous: Box | None) -> None:
-    """Raise FormulaError for a digit behind a factor, a mixed number, dots, and letters that are a word."""
+    """Raise FormulaError for a number after a factor, a mixed number, dots, and symbols that form a word."""
     box = row[place]
     if box.kind == "dots" and len(row) > 1:
         raise FormulaError("dots replace factors", "write the factors, or a product sign")
@@ -713,12 +711,11 @@ def _check_neighbours(row: list[Box], place: int, previous: Box | None) -> None:
 
 
 def _is_numeric(node: Node) -> bool:
-    """Return whether a node has no letters."""
     return not any(isinstance(inner, Letter) for inner in walk(node))
 
 
 def _is_any_kind(node: Node) -> bool:
-    """Return whether a term may be a number or a vector: 0, dots and O(…)."""
+    """Return True for a term that may be a number or a vector: 0, dots and O(…)."""
     return is_printed_zero(node) or (isinstance(node, Call) and node.name in ("dots", "order"))
 
 
@@ -727,7 +724,7 @@ def _derived(node: Node, variable: Letter, times: int) -> Call:
 
 
 def _rate(node: Node, order: int) -> Node:
-    r"""Return dx/dt as \dot x, and d/dt of other expressions as `rate`."""
+    r"""Return dx/dt as \dot x, and d/dt of any other expression as `rate`."""
     dots = re.search(r"_(d*)dot$", node.name) if isinstance(node, Letter) else None
     total = order + (len(dots[1]) + 1 if dots else 0)
     if isinstance(node, Letter) and total <= 4:
@@ -738,7 +735,7 @@ def _rate(node: Node, order: int) -> Node:
 
 
 def _order(box: Box) -> int:
-    """Return the order of a derivative, the number above its sign."""
+    """Return the order of a derivative from the superscript of its sign."""
     if not box.sup:
         return 1
     if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name in "123456789":
@@ -751,7 +748,7 @@ def _opens_integral(box: Box) -> bool:
 
 
 def _closes_integral(row: list[Box], place: int) -> bool:
-    """Return whether a differential begins here: d before a letter, or above a fraction bar."""
+    """Return True if a differential begins at this position: d before a symbol, or above a fraction bar."""
     box = row[place]
     if box.kind == "fraction":
         return any(is_mark(b, "d") for b in box.contents[0]) and not is_derivative(box)
@@ -760,7 +757,7 @@ def _closes_integral(row: list[Box], place: int) -> bool:
 
 
 def _paired(row: list[Box]) -> list[Box]:
-    """Return a row with its bars in pairs as brackets."""
+    """Return a row in which each pair of bars is one bracket."""
     places = [k for k, box in enumerate(row) if box.kind == "bar"]
     if len(places) % 2:
         raise FormulaError("a bar has no partner", r"write \left| and \right|")

@@ -1,7 +1,7 @@
-"""A new paper: a folder with one worked equation, or one made from a source; it can be made again from a changed source.
+"""A new paper: a folder with one worked example, or a folder made from a source and updated when the source changes.
 
-Made again, an equation keeps its id, its title, its confirmation and its comments if its label or its LaTeX is the same. An
-equation whose print has changed is marked, and its reading is to be confirmed again.
+An update keeps the id, title, confirmation and comments of an equation with the same label or LaTeX. An equation whose
+LaTeX has changed is marked, and its reading must be confirmed again.
 """
 
 import json
@@ -24,30 +24,29 @@ from lagrotor.paper.latex.notation import declared_notation
 from lagrotor.paper.latex.readings import Print, paper_notation, read_print
 from lagrotor.paper.scripts import beside
 
-# The worked example that a new folder begins with.
 _EXAMPLE = "papers/pendulum"
 _HOLDS = "It holds one worked equation, one claim and one figure of a pendulum; replace\nthem by your own."
 _HOLDS_SOURCE = (
     "It holds the displayed equations of {name} as they were read:\nconfirm the readings, then derive the equations."
 )
 _NOT_COPIED = shutil.ignore_patterns("__pycache__", "report", ".*")
-_SYMBOLS = '''"""The letters of the paper: give each its meaning, its unit, and what sympy may assume of it."""
+_SYMBOLS = '''"""The symbols of the paper: give each its meaning, its unit and its sympy assumptions."""
 
 from lagrotor.paper import Glossary
 
 GLOSSARY = Glossary()
 '''
 _HEAD = (
-    "# The displayed equations of {name}. `lagrotor readings` shows each reading beside its print; confirm it there.\n"
-    "# `lagrotor init` makes this file again: confirmed and derived equations stay, comments stand above their equation."
+    "# The displayed equations of {name}. `lagrotor readings` shows each reading and its formula; confirm it there.\n"
+    "# `lagrotor init` updates this file: confirmed and derived equations and the comments above an equation stay."
 )
 
 
 @dataclass(frozen=True)
 class NewPaper:
-    """The folder that was made, the number of its equations, and how many of them were read.
+    """The folder of a new paper, the number of its equations, and the number that were read.
 
-    notes: sentences on the source. changed, gone: ids of equations whose print has changed, and that the source no longer has.
+    notes: sentences on the source. changed: ids of equations whose LaTeX has changed. gone: ids missing from the source.
     """
 
     folder: Path
@@ -59,19 +58,19 @@ class NewPaper:
 
 
 def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
-    """Make the folder of a paper, or make it again from its source.
+    """Make the folder of a paper, or update it from its source.
 
     Parameters
     ----------
     folder : Path
-        A new or an empty folder, or a paper that is made again.
+        A new or empty folder, or an existing paper.
     source : Path, optional
-        LaTeX; without it the folder holds a worked example.
+        The LaTeX file; without it the folder gets a worked example.
 
     Raises
     ------
     InputError
-        Before anything is written, if the folder holds something else, or the source has no displayed equation.
+        Before any file is written, if the folder has other contents, or the source has no displayed equation.
     """
     again = (folder / "paper.toml").is_file()
     if again and source is None:
@@ -83,7 +82,7 @@ def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
     if again and source is not None:
         return _from_source(folder, source, again)
     with TemporaryDirectory(prefix=".made.", dir=folder if folder.is_dir() else folder.resolve().parent) as near:
-        whole = Path(near) / "paper"  # so that an interrupt leaves nothing
+        whole = Path(near) / "paper"  # an interrupt then leaves no half-written paper
         paper = _example(whole, folder.resolve().name) if source is None else _from_source(whole, source, again)
         if folder.is_dir():
             for path in whole.iterdir():
@@ -119,7 +118,7 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     vectors = _vectors(source.equations, prints, old.get("letters", {}))
     comments = _comments(read_text(folder / "equations.toml")) if again else {}
     text = _catalogue(rows, vectors, comments | {"": [_HEAD.format(name=path.name)]})
-    write_text(folder / "equations.toml", text)  # last: the other files are about these equations
+    write_text(folder / "equations.toml", text)  # last, because the other files depend on it
     if not again:
         about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=path.name))
         write_text(folder / "README.md", about)
@@ -132,7 +131,7 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
 
 
 def _derived(folder: Path) -> set[str]:
-    """Return the ids that a derivation states."""
+    """Return the ids for which a derivation gives a verdict."""
     scripts = (folder / "derivations").glob("*.py")
     return {i for script in scripts for i in re.findall(r"verdict\(\s*[\"']([^\"']+)[\"']", read_text(script))}
 
@@ -140,7 +139,7 @@ def _derived(folder: Path) -> set[str]:
 def _merged(
     equations: list[Displayed], prints: list[Print], old: list[dict[str, Any]], derived: set[str]
 ) -> tuple[list[dict[str, Any]], list[str], list[str]]:
-    """Return the rows of equations.toml with the entries of the old ones, the ids changed, and the ids gone."""
+    """Return the rows of equations.toml, updated from the old rows; the changed ids; the ids no longer in the source."""
     matches, ids = _matches(equations, old), {row["id"] for row in old}
     new_ids: set[str] = set()
     rows: list[dict[str, Any]] = []
@@ -157,7 +156,7 @@ def _merged(
 
 
 def _matches(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
-    """Return place of an equation → place of its old row: alike in label and LaTeX, in label, in LaTeX with a new label."""
+    """Match equations to old rows by label and LaTeX, by label, or by LaTeX with a new label; return place → place."""
     matches: dict[int, int] = {}
     rows = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]
     labels = {equation.label for equation in equations} & {label for label, _ in rows} - {""}
@@ -176,7 +175,7 @@ def _matches(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int,
 
 
 def _row(equation: Displayed, print_: Print, previous: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
-    """Return the row of an equation, with the entries of the old row; its id is added to `changed` if its print has changed."""
+    """Return the row of an equation with the entries of its old row; append its id to `changed` if its LaTeX changed."""
     row: dict[str, Any] = {"id": equation.id, "number": equation.number, "section": equation.section}
     row |= {
         "title": equation.label or f"displayed equation {equation.id}",
@@ -189,7 +188,7 @@ def _row(equation: Displayed, print_: Print, previous: Mapping[str, Any] | None,
         stay = ("id",) if previous.get("title") == previous.get("label") else ("id", "title")
         skip = (*row, "changed", "print")
         row |= {key: value for key, value in previous.items() if key not in skip or key in stay}
-        old = previous.get("line", ())  # the author's additions to a line, such as an order, stay if it is read alike
+        old = previous.get("line", ())  # an author's additions, such as an order, stay if the reading is the same
         row["line"] = [next((dict(line) for line in old if line | new == line), new) for new in row["line"]]
         if previous.get("latex") != equation.latex:
             row["changed"] = str(previous.get("latex"))
@@ -207,7 +206,7 @@ def _row(equation: Displayed, print_: Print, previous: Mapping[str, Any] | None,
 def _vectors(
     equations: list[Displayed], prints: list[Print], old: Mapping[str, Mapping[str, str]]
 ) -> dict[str, dict[str, str]]:
-    """Return the tables [letters.SECTION] with the letters that are vectors."""
+    """Return the tables [letters.SECTION] with the names of vectors."""
     letters = {section: dict(rows) for section, rows in old.items()}
     for equation, print_ in zip(equations, prints, strict=True):
         if print_.vectors:
@@ -217,7 +216,7 @@ def _vectors(
 
 
 def _comments(text: str) -> dict[str, list[str]]:
-    """Return id → the comments above and within its equation; under "" those that the file begins with."""
+    """Return id → the comments above and inside its equation; "" → the comments at the top of the file."""
     ids = iter(row["id"] for row in tomllib.loads(text).get("equation", ()))
     lines = text.splitlines()
     head = list(takewhile(lambda line: line.startswith("#"), lines))
@@ -256,7 +255,6 @@ def _equation(row: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _value(key: str, value: Any) -> str:
-    """A TOML value."""
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_text(str(k))} = {_value('', v)}" for k, v in value.items()) + " }"
     if isinstance(value, list | tuple):
@@ -265,9 +263,9 @@ def _value(key: str, value: Any) -> str:
 
 
 def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
-    """Write `read = "confirmed"` and a hash of the print for these equations; return their ids.
+    """Write `read = "confirmed"` and a hash of the LaTeX for these equations; return their ids.
 
-    Raises InputError for one without a reading.
+    Raises InputError for an equation without a reading.
     """
     file = folder / "equations.toml"
     data = toml(file)
@@ -295,13 +293,7 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
 
 
 def declare(folder: Path, kinds: Mapping[str, str]) -> None:
-    """Write letters with their kinds, "f" → "functions", into the table [notation] of paper.toml.
-
-    Raises
-    ------
-    InputError
-        If the table cannot be read, or a letter would have two kinds that exclude each other.
-    """
+    """Write symbol → kind into the table [notation] of paper.toml. Raises InputError for kinds that exclude each other."""
     file = folder / "paper.toml"
     table = dict(toml(file).get("notation", {}))
     for letter, kind in kinds.items():
@@ -311,7 +303,7 @@ def declare(folder: Path, kinds: Mapping[str, str]) -> None:
 
 
 def _write_table(file: Path, name: str, rows: list[str]) -> None:
-    """Write one table of a TOML file, in its place or at the end; comments within it stay, above its rows."""
+    """Replace or append one table of a TOML file; its comments stay above its rows."""
     text = read_text(file)
     old = re.search(rf"^\[{name}\][^\n]*\n(?:(?![\[\n])[^\n]*\n?)*", text, re.MULTILINE)
     comments = [line for line in old[0].splitlines()[1:] if line.startswith("#")] if old else []
@@ -320,7 +312,7 @@ def _write_table(file: Path, name: str, rows: list[str]) -> None:
 
 
 def _write_about(folder: Path, source: Source, again: bool) -> None:
-    """Write paper.toml; made again only its sections are renewed."""
+    """Write paper.toml; an update changes its sections only."""
     file = folder / "paper.toml"
     sections = [f"{_text(number)} = {_text(title)}" for number, title in source.sections.items()]
     if again:
@@ -336,7 +328,7 @@ def _write_about(folder: Path, source: Source, again: bool) -> None:
 
 
 def _write_symbols(folder: Path, prints: Iterable[Print]) -> None:
-    """Write symbols.py with the letters of the prints; where it is there already it gets those that are new."""
+    """Write symbols.py, or append the new symbols of the equations to it."""
     file = folder / "symbols.py"
     text = read_text(file) if file.is_file() else _SYMBOLS
     names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", text) for name in call.split()}
@@ -350,10 +342,9 @@ def _letter(name: str) -> str:
 
 
 def _text(value: str | float) -> str:
-    """Return a string, a number, true or false in TOML."""
     return json.dumps(value, ensure_ascii=False)
 
 
 def _latex(value: str) -> str:
-    """Return a TOML string in which a backslash is a backslash."""
+    """Return a TOML string that keeps backslashes."""
     return f"'''{value}'''" if "'''" not in value and not value.endswith("'") else _text(value)

@@ -1,7 +1,7 @@
 r"""A source after macro expansion, without the parts that \iffalse hides.
 
-Nothing is executed. A definition is a list of tokens, and the number of expansions is bounded. Conditions other than
-\iftrue and \iffalse are not decided: a note names the lines, both branches are skipped, and names defined there are unknown.
+Nothing is executed. A definition is a list of tokens, and the number of expansions is bounded. No condition other than
+\iftrue and \iffalse is decided: a note names its lines, both branches are skipped, names defined there are unknown.
 """
 
 import re
@@ -38,7 +38,7 @@ _ARGUMENT = re.compile(
 
 
 class Parameter(NamedTuple):
-    r"""One argument of a macro: kind m, s, o or g as in \NewDocumentCommand; marks: the two signs around an optional one."""
+    r"""One argument of a macro: `kind` as in \NewDocumentCommand; `marks` are the signs around an optional one."""
 
     kind: str
     marks: str = "[]"
@@ -73,7 +73,7 @@ Primitive = Callable[["Expander", Token], bool | None]
 class Expander(TokenStream):
     """An iterator over the expanded tokens of a source.
 
-    `macros` are the definitions valid at this position. Inside a formula (`in_formula`) an undecided condition remains as a
+    `macros` are the definitions valid at this position. In a formula (`in_formula`) an undecided condition remains as a
     token, so that no reader of formulas accepts it.
     """
 

@@ -1,6 +1,6 @@
-r"""The notation of a paper: the kinds that its author declares for letters, and one sweep that proposes them.
+r"""The notation of a paper: the kinds that its author declares for symbols, and one sweep that proposes them.
 
-Every letter that the table does not name is a real number. A name is written as in a reading, without its index: `theta` for
+Every symbol outside the table is a real number. A name is written as in a reading, without its index: `theta` for
 \theta, `rbold` for \mathbf r, `rvec` for \vec r; the name `r` alone covers all three.
 """
 
@@ -15,11 +15,10 @@ from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, is_p
 
 @dataclass(frozen=True)
 class Notation:
-    """The declared kinds of a paper's letters; every other letter is a real number.
+    """The declared kinds of a paper's symbols; every other symbol is a real number.
 
-    numbers: e where it is Euler's number, i and j where they are the imaginary unit. real: letters that are real numbers although
-    a proposal says otherwise. proposed: functions that the sweep proposes and the author has not declared; they are read only
-    before an evident argument.
+    numbers: e if it is Euler's number, i and j if they are the imaginary unit. real: real numbers in spite of a proposal.
+    proposed: functions that the sweep proposes and the author has not declared; only an evident argument is accepted.
     """
 
     functions: frozenset[str] = frozenset()
@@ -34,7 +33,7 @@ class Notation:
     proposed: frozenset[str] = frozenset()
 
 
-# Keys of the table that hold letters; kinds of which a letter can have one only.
+# Keys of the table that list symbols; groups of kinds that exclude each other.
 KINDS = tuple(key.name for key in fields(Notation) if key.name not in ("decimal_comma", "proposed"))
 _EXCLUSIVE = (
     ("real", "functions", "vectors", "matrices", "operators", "indices", "numbers"),
@@ -48,14 +47,14 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
     Parameters
     ----------
     table : Mapping[str, Any]
-        Kind to the names of its letters, parted by spaces, and `decimal_comma` to true or false.
+        Kind → names of its symbols, separated by spaces, and `decimal_comma` → true or false.
     where : str
         The name of the file, for messages.
 
     Raises
     ------
     InputError
-        For an unknown key, a value of the wrong type, and a letter of two kinds that exclude each other.
+        For an unknown key, a value of the wrong type, and a symbol with two kinds that exclude each other.
     """
     keys = (*KINDS, "decimal_comma")
     if unknown := sorted(table.keys() - set(keys)):
@@ -78,37 +77,37 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
 
 
 def _name(word: str) -> str:
-    """The name of a letter as readings have it."""
+    """Return the name of a symbol as in readings."""
     word = word.removeprefix("\\")
     return "lamda" if word == "lambda" else word
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """A kind that the print suggests for a letter; `evidence` is the formula where it is seen."""
+    """The kind that a formula (`evidence`) suggests for a symbol."""
 
     kind: str
-    letter: str
+    symbol: str
     evidence: str
 
 
 def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notation:
-    """Return the notation with the proposals for those letters that the author has not declared."""
+    """Return the notation with the proposals for those symbols that the author has not declared."""
     declared = {kind: getattr(notation, kind) for kind in KINDS}
     settled = frozenset[str]().union(*declared.values())
-    free = [proposal for proposal in proposals if proposal.letter not in settled]
+    free = [proposal for proposal in proposals if proposal.symbol not in settled]
     extended: dict[str, Any] = {
-        kind: declared[kind] | {proposal.letter for proposal in free if proposal.kind == kind} for kind in KINDS
+        kind: declared[kind] | {proposal.symbol for proposal in free if proposal.kind == kind} for kind in KINDS
     }
     return replace(notation, proposed=extended["functions"] - declared["functions"], **extended)
 
 
 def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
-    """Return the kinds that the formulas of a source suggest for its letters, each with its first evidence.
+    """Return the kinds that the formulas of a source suggest for its symbols, each with its first evidence.
 
-    A letter before the bracket of an argument is a function; a letter in bold or with an arrow is a vector, or a matrix where
-    it multiplies another or is transposed; the letter below a sum is an index; e with letters in its power is Euler's number,
-    and i beside it the imaginary unit, unless they stand elsewhere as letters.
+    A symbol before an argument in brackets is a function. A symbol in bold or with an arrow is a vector; it is a matrix if
+    it multiplies another or is transposed. The symbol below a sum is an index. An e whose power has symbols is Euler's
+    number, and an i in that power is the imaginary unit, unless they also occur as plain symbols.
     """
     sources: dict[tuple[str, str], str] = {}
     for latex in formulas:
@@ -122,7 +121,7 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
             evidence += [("vectors", stem_of(box)) for box in hats]
         for kind, letter in evidence:
             sources.setdefault((kind, letter), latex)
-    for letter in ("e", "i", "j"):  # a charge e beside an exponential, an index i beside an imaginary unit
+    for letter in ("e", "i", "j"):  # a charge e as well as an exponential, an index i as well as an imaginary unit
         if ("letters", letter) in sources:
             sources.pop(("numbers", letter), None)
     for kind, letter in [*sources]:
@@ -132,13 +131,13 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
 
 
 def has_kind(notation: Notation, kind: str, box: Box) -> bool:
-    """Return whether the notation declares a letter to be of a kind, by its name with its font and marks, or without them."""
+    """Return True if the notation declares this kind for a symbol, with or without its font and marks."""
     names = getattr(notation, kind)
     return bool(names) and (stem_of(box) in names or _name(box.name) in names)
 
 
 def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
-    """Kinds and letters that a row of boxes suggests, with those of all that it holds."""
+    """Yield (kind, symbol) pairs that a row of boxes and the boxes inside suggest."""
     for place, (box, following) in enumerate(pairwise([*row, Box("thin", "", 0, 0)])):
         if box.kind == "letter":
             yield from _of_letter(box, following)
@@ -154,7 +153,7 @@ def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
 
 
 def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
-    """Kinds that a letter has as it is equal to a matrix or a column."""
+    """Yield the kind of a symbol that equals a matrix or a column."""
     following = [item for item in row[place + 1 : place + 3] if item.kind != "align"]
     if len(following) == 2 and following[0].name in ("=", ":=") and row[place].kind == "letter":
         closed = following[1].kind == "bracket" and following[1].closing != "."
@@ -165,7 +164,7 @@ def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
 
 
 def _of_letter(box: Box, following: Box) -> Iterator[tuple[str, str]]:
-    """Kinds that a letter and the box behind it suggest."""
+    """Yield the kinds that a symbol and the box after it suggest."""
     power = box.sup or []
     if box.name in ("e", "i", "j") and not (box.marks or box.style or box.primes or box.sub):
         letters = {inner.name for inner in all_boxes(power) if inner.kind == "letter"}
@@ -185,9 +184,9 @@ def _of_letter(box: Box, following: Box) -> Iterator[tuple[str, str]]:
 
 
 def is_evident_argument(box: Box, bracket: Box) -> bool:
-    """Return whether what stands behind a letter is an argument and no factor: one letter other than t, or a list.
+    """Return True if the bracket after a symbol is an argument, not a factor: one symbol other than t, or a list.
 
-    A number may stand for a letter, and a prime makes a sum an argument. A power of the letter or of the bracket makes a product.
+    A power of the symbol or of the bracket makes a product.
     """
     if bracket.kind != "bracket" or bracket.name != "(" or bracket.sup or (box.sup and box.sup[0].kind == "number"):
         return False

@@ -1,4 +1,4 @@
-"""The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
+"""The readings of a paper's equations for comparison with the print, and the kinds of its symbols."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -18,8 +18,8 @@ from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant,
 class Print:
     """The reading of an equation as data.
 
-    lines: for the catalogue. aside: statements that no line can hold, as text. letters, vectors: names of scalars and vectors.
-    stop: (token, the way out) where it is not read.
+    lines: rows of the catalogue. aside: statements that no row can hold, as text. letters, vectors: names of scalars and
+    vectors. stop: (token, remedy) if the equation is not read.
     """
 
     lines: tuple[Mapping[str, Any], ...] = ()
@@ -30,7 +30,7 @@ class Print:
 
 
 def paper_notation(formulas: Iterable[str], table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
-    """Return the kinds of a paper's letters: those that its [notation] declares, and the proposals of one sweep."""
+    """Return the kinds of a paper's symbols: those declared in its [notation], and the proposals of one sweep."""
     return with_proposals(declared_notation(table, where), propose(formulas))
 
 
@@ -52,13 +52,13 @@ def read_print(latex: str, notation: Notation, lead: str = "") -> Print:
 
 
 def _line(statement: PrintedStatement) -> dict[str, Any] | None:
-    """Return the quantity, the members, and the order that is claimed; None for what no line of the catalogue can hold."""
+    """Return a row with quantity, members and claimed order; None if no row of the catalogue can hold the statement."""
     sides = statement.sides
     allowed = [in_catalogue(side.node) for side in sides]
     first = next((place for place, fits in enumerate(allowed) if place and fits), 0)
     if statement.kind != "equation" or not first or not all(allowed[first:]):
         return None
-    names, members = sides[:first], sides[first:]  # p = ∂L/∂q̇ before the members: the subject of the line
+    names, members = sides[:first], sides[first:]  # p = ∂L/∂q̇ before the members is the quantity of the line
     if isinstance(sides[0].node, Number) and all(allowed):
         names, members = sides[1:2], (sides[0], *sides[2:])
     line = {"quantity": " = ".join(map(_latex, names)), "members": [text_of(side.node) for side in members]}
@@ -88,9 +88,9 @@ def statement_text(statement: PrintedStatement) -> str:
 class EquationReading:
     """The reading of one equation.
 
-    status: confirmed, unconfirmed, by hand, changed (the print has changed since), gone (the source no longer has it), aside
-    (read, and nothing in it is compared), not read. said: its lines, and statements that are kept aside, as text. stopped,
-    helps: the token where a reading stopped, and the way out. number: the printed one, where it is another than the id.
+    status: confirmed, unconfirmed, by hand, changed (the LaTeX has changed since), gone (no longer in the source), aside
+    (read, but no statement can be compared), not read. lines: its printed lines and uncompared statements, as text.
+    stopped, helps: the token at which a reading stopped, and the remedy. number: the printed number, if it is not the id.
     """
 
     id: str
@@ -104,18 +104,7 @@ class EquationReading:
 
 
 def readings(paper: Catalogue) -> Iterator[EquationReading]:
-    """Read every equation, in the paper's order.
-
-    Parameters
-    ----------
-    paper : Catalogue
-        The paper.
-
-    Raises
-    ------
-    InputError
-        If the table [notation] cannot be read.
-    """
+    """Read every equation in the paper's order. Raises InputError if the table [notation] cannot be read."""
     equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
     for entry in equations:
@@ -140,33 +129,33 @@ def _reading(entry: Equation, notation: Notation) -> EquationReading:
 
 
 @dataclass(frozen=True)
-class LetterKind:
-    """The kind of one letter: declared in [notation], or proposed by the formula `evidence`."""
+class SymbolKind:
+    """The kind of one symbol: declared in [notation], or proposed by the formula `evidence`."""
 
-    letter: str
+    symbol: str
     kind: str
     declared: bool
     evidence: str = ""
 
 
-def letter_kinds(paper: Catalogue) -> list[LetterKind]:
-    """Return the letters of a paper that are no plain real numbers, the declared ones first."""
+def symbol_kinds(paper: Catalogue) -> list[SymbolKind]:
+    """Return the symbols of a paper that are not plain real numbers, the declared ones first."""
     table = declared_notation(paper.about.notation, str(paper.folder / "paper.toml"))
-    kinds = [LetterKind(letter, kind, True) for kind in KINDS for letter in sorted(getattr(table, kind))]
-    letters = {kind.letter for kind in kinds}
+    kinds = [SymbolKind(name, kind, True) for kind in KINDS for name in sorted(getattr(table, kind))]
+    declared = {kind.symbol for kind in kinds}
     proposals = propose(entry.latex for entry in paper.equations.values())
-    return kinds + [LetterKind(p.letter, p.kind, False, p.evidence) for p in proposals if p.letter not in letters]
+    return kinds + [SymbolKind(p.symbol, p.kind, False, p.evidence) for p in proposals if p.symbol not in declared]
 
 
 def _line_texts(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
-    """Printed lines as text, with the order that each claims."""
+    """Return printed lines as text, each with its claimed order."""
     claimed = (f" + O({row['small']}**{row.get('order', 0) + 1})" if row.get("small") else "" for row in lines)
     texts = (" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in lines)
     return tuple(map("".join, zip(texts, claimed, strict=True)))
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:
-    """The printed lines of an equation as they are judged, in LaTeX; none where a letter of theirs is not declared."""
+    """Return the judged lines of an equation in LaTeX; the tuple is empty if a symbol is not declared."""
     try:
         lines = paper.lines(identifier)
     except InputError:

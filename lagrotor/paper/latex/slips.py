@@ -1,4 +1,4 @@
-"""Slips of an author: one sign, factor, power or function of a side changed, so that it agrees with another."""
+"""Typical slips of an author: one sign, factor, power or function whose change makes two sides equal."""
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
@@ -11,44 +11,37 @@ import sympy as sp
 from lagrotor.paper.latex.comparison import LARGEST, decided, nearly_equal, value_at
 from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, has_opaque, rational_value, text_of
 
-# Functions that are taken for each other.
+# Functions that authors confuse.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 _FACTORS = (
     (Fraction(-1), "the sign of {} changed"),
     (Fraction(2), "{} doubled"),
     (Fraction(1, 2), "{} halved"),
 )
-_MOST_SLIPS = 100  # changes that are tried
-_MOST_PARTS = 100  # denominator of a factor
+_MOST_SLIPS = 100  # number of changes tried
+_MOST_PARTS = 100  # largest denominator of a factor
 
 
 def change_to_agree(fixed: Any, changing: Node, value: Callable[[Node], Any]) -> str:
-    """Return the one change of a side with which it agrees with another, in words; "" where there is none.
+    """Return the one change that makes a side equal to a fixed one, in words; "" if there is none.
 
-    Parameters
-    ----------
-    fixed : sympy.Expr or sympy.Matrix
-        The other side.
-    changing : Node
-        The side that is changed.
-    value : callable
-        Called with a changed side; returns its expression, or None.
+    `value` maps a changed side to its expression, or to None.
     """
     expression = value(changing)
     point = point_of(fixed, expression)
     number = value_at(fixed, point)
     ratio = _ratio(number, value_at(expression, point))
     if ratio and not has_opaque(fixed) and decided(fixed, sp.Rational(str(ratio)) * expression) == "zero":
-        return f"with the factor {ratio} of the whole they agree"
+        return f"an additional factor {ratio}"
     for variant, change in islice(_slips(changing), _MOST_SLIPS):
         slip = value(variant)
         if slip is not None and nearly_equal(number, value_at(slip, point)) and decided(fixed, slip) == "zero":
-            return f"with {change} they agree"
+            return change
     return ""
 
 
 def _slips(node: Node, embed: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, str]]:
-    """Yield a side with one part of `node` changed as authors do, and the change in words; put: puts a new node into the side."""
+    """Yield a side with one node changed, and the change in words; `embed` puts the changed node into the side."""
     yield from ((embed(changed), change) for changed, change in _changes(node))
     if isinstance(node, Call):
         for place, argument in enumerate(node.args):
@@ -64,10 +57,10 @@ def _with_argument(node: Call, place: int, argument: Node) -> Call:
 
 
 def _changes(node: Node) -> Iterator[tuple[Node, str]]:
-    """Yield a node with another power, function or argument, or with another factor of a term."""
+    """Yield the node with another power, function or argument, or with a factor on one term."""
     base, power, steps = _powers(node)
     for exponent in (power + difference for difference in steps):
-        if exponent:  # cos² nπ is 1 for whole n
+        if exponent:  # power 0 is excluded
             yield Call("power", (base, Number(exponent))), f"the power {exponent} of {text_of(base)}"
     if isinstance(node, Call) and node.name in KNOWN:
         if function := _TAKEN_FOR.get(node.name):
@@ -82,7 +75,7 @@ def _changes(node: Node) -> Iterator[tuple[Node, str]]:
 
 
 def _powers(node: Node) -> tuple[Node, Fraction, tuple[Fraction | int, ...]]:
-    """Return the base and the power that a node is, and the differences of powers that are tried."""
+    """Return the base and the exponent of a node, and the changes of the exponent to try."""
     if isinstance(node, Call) and node.name == "power" and (power := rational_value(node.args[1])) is not None:
         return node.args[0], power, (1, -1, 2, -2)
     if isinstance(node, Call) and node.name == "sqrt":
@@ -96,7 +89,7 @@ def _times(factor: Fraction, node: Node) -> Node:
 
 
 def _ratio(a: Any, b: Any) -> Fraction | None:
-    """Return the quotient of two numbers as a fraction of small numbers; None where it is none."""
+    """Return a/b as a fraction with a small denominator, or None."""
     if not (a.is_real and b.is_real and b and abs(a / b) < LARGEST):
         return None
     fraction = Fraction(float(a / b)).limit_denominator(_MOST_PARTS)
@@ -104,13 +97,13 @@ def _ratio(a: Any, b: Any) -> Fraction | None:
 
 
 def constant_value(a: Any) -> sp.Rational | None:
-    """Return the number that an expression is for all values of its symbols; None where it is none."""
+    """Return the value of an expression that is constant in its symbols, or None."""
     ratio = None if isinstance(a, sp.MatrixBase) else _ratio(value_at(a, point_of(a)), sp.S.One)
     constant = None if ratio is None else sp.Rational(str(ratio))
     return constant if constant is not None and decided(a, constant) == "zero" else None
 
 
 def point_of(*sides: Any) -> dict[sp.Symbol, sp.Rational]:
-    """Return a value for each letter of some sides."""
+    """Return a rational value for each symbol of some sides."""
     symbols = sorted(set().union(*(side.free_symbols for side in sides)), key=str)
     return {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}

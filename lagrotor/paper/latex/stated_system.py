@@ -1,13 +1,13 @@
-r"""A derivation stated as text: coordinates, a Lagrangian and constraints in `paper.toml`, and the role of each equation.
+"""A derivation stated as text: coordinates, a Lagrangian and constraints in `paper.toml`, and the role of each equation.
 
     [system]
     coordinates = "theta"
     L = "m*R**2*theta_dot**2/2 + m*g*R*cos(theta)"
     constraints = []                        # each expression is zero
-    forces = []                             # on each coordinate, besides those of L: friction, "-c*theta_dot"
-    where = ["omega_0 = sqrt(g/R)"]         # definitions of letters that L does not have, by constants
+    forces = []                             # one per coordinate, in addition to L: friction, "-c*theta_dot"
+    where = ["omega_0 = sqrt(g/R)"]         # definitions of symbols outside L, by constants
 
-    [system.derives]                        # equation id → the quantity that the equation prints
+    [system.derives]                        # equation id → the printed quantity
     "1" = "L"
     "2" = "acceleration theta"              # θ̈ from the equations of motion, multipliers eliminated
     "3" = "energy"                          # q̇ ∂L/∂q̇ − L
@@ -16,10 +16,10 @@ r"""A derivation stated as text: coordinates, a Lagrangian and constraints in `p
     "6" = "motion theta"                    # any equation that follows from the equations of motion
     "7" = "integral"                        # F with dF/dt = 0 along every motion
 
-The constraints, their rates and the definitions are premises of every verdict. A verdict names those that it needs. A
-print with a letter that neither the system nor a definition has is refused: its value decides whether the print is right.
+The constraints, their rates and the definitions are premises of every verdict; a verdict names those that it needs. An
+equation with a symbol outside the system and the definitions is refused, because the symbol's value decides the verdict.
 
-The text is parsed by the reader of expressions; nothing in it runs. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
+The text is parsed by the reader of expressions and never executed. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
 §§1.4, 2.4, 2.6, 2.7, 6.2.
 """
 
@@ -62,12 +62,12 @@ _ROLE = re.compile(
     r"|(?P<form>frequency|frequency\^2|period)(?: +(?P<which>\d+))?(?: +at +(?P<at>.*))?"
 )
 _ROLES = "L, energy, integral, momentum q, acceleration q, motion q, frequency at q = 0, frequency^2 or period"
-_LAGRANGIANS = ("L", "Lcal", "Lscr")  # names of L in a print, where they are no letters of the system
+_LAGRANGIANS = ("L", "Lcal", "Lscr")  # printed names of L, unless the system has such a symbol
 
 
 @dataclass(frozen=True)
 class StatedSystem:
-    """The system of a paper's `paper.toml`; `system["2"]` is the derived expression for equation 2."""
+    """The system in a paper's `paper.toml`; `system["2"]` is the derived expression for equation 2."""
 
     c: Coordinates
     L: sp.Expr
@@ -80,12 +80,12 @@ class StatedSystem:
     paper: Catalogue
 
     def __getitem__(self, identifier: str) -> sp.Expr:
-        """Return the derived expression to which the printed members of an equation are compared.
+        """Return the derived expression for the printed members of an equation.
 
         Raises
         ------
         InputError
-            If the equation has no role, or its print cannot be judged by this system.
+            If the equation has no role, or this system cannot decide it.
         """
         if identifier not in self.derives:
             raise self._error(f"equation {identifier} has no role: {', '.join(self.derives)} have one")
@@ -110,7 +110,7 @@ class StatedSystem:
 
     @cached_property
     def premises(self) -> tuple[Premise, ...]:
-        """The premises of every print: the constraints with their rates, and the definitions of letters."""
+        """The premises of every equation: the constraints with their rates, and the definitions of symbols."""
         rates = [sp.Eq(e, 0) for g in self.constraints for e in (g, total_derivative(g, self.c))]
         definitions = (sp.Eq(letter, value, evaluate=False) for letter, value in self.where.items())
         return (
@@ -120,7 +120,7 @@ class StatedSystem:
 
     @cached_property
     def accelerations(self) -> sp.Matrix:
-        """The accelerations a of M a + h = Gᵀ λ with the constraints differentiated twice, the multipliers λ eliminated."""
+        """The accelerations a of M a + h = Gᵀ λ and the constraints differentiated twice, the multipliers λ eliminated."""
         multipliers = sp.symbols(f"multiplier_1:{len(self.constraints) + 1}")
         rows = euler_lagrange(self.L, self.c) - sp.Matrix(self.forces)
         for multiplier, constraint in zip(multipliers, self.constraints, strict=True):
@@ -136,12 +136,12 @@ class StatedSystem:
 
     @cached_property
     def _known(self) -> set[sp.Basic]:
-        """The letters of the system, of its coordinates and their rates, of the definitions, and the time."""
+        """The symbols of the system, the coordinates with their rates, the definitions, and the time."""
         expressions = (self.L, *self.constraints, *self.forces, *self.where.values(), *self.where)
         return {t, *self.c.q, *self.c.v, *self.c.a}.union(*(e.free_symbols for e in expressions))
 
     def _check_letters(self, identifier: str) -> None:
-        """Raise InputError if an equation has no line, or a printed member has a letter that the system does not have."""
+        """Raise InputError if an equation has no line, or a member has a symbol outside the system."""
         if not self.paper.equation(identifier).line:
             says = "has no printed line: write it as an [[equation.line]] in equations.toml, or remove it here"
             raise self._error(f"equation {identifier} {says}")
@@ -162,7 +162,7 @@ class StatedSystem:
         return values
 
     def _along(self, e: sp.Expr) -> sp.Expr:
-        """Return an expression with the accelerations of the motion put in."""
+        """Substitute the accelerations of the motion."""
         return shortest(e.xreplace(dict(zip(self.c.a, self.accelerations, strict=True))) if e.has(*self.c.a) else e)
 
     def _rate(self, e: sp.Expr) -> sp.Expr:
@@ -170,7 +170,7 @@ class StatedSystem:
         return self._along(total_derivative(self._along(e), self.c))
 
     def _conserved(self, identifier: str) -> sp.Expr:
-        """Return a printed F less its change after a short time: F itself where dF/dt = 0 along every motion."""
+        """Return F − τ dF/dt along the motion; it equals the printed F if F is conserved."""
         F = self.paper.lines(identifier)[0].members[0]
         if not F.has(*self.c.q, *self.c.v):
             says = f"prints {F}, which depends on no coordinate or velocity: remove it here"
@@ -191,7 +191,7 @@ class StatedSystem:
         return line.members[0] + self._along(lhs - line.members[0]) if moving else self._along(lhs)
 
     def _left_side(self, identifier: str) -> sp.Expr | None:
-        """Return what stands before the first member of a print; None where it has other letters, or sides that differ."""
+        """Return the side before the first member; None if it has unknown symbols, or parts that differ."""
 
         def partial(f: sp.Expr, by: sp.Symbol, order: int = 1) -> sp.Expr:
             if by == t:
@@ -213,7 +213,7 @@ class StatedSystem:
         return lhs if same and lhs.free_symbols <= self._known else None
 
     def _frequency(self, form: str, which: int, point: str) -> sp.Expr:
-        """Return ω of a small oscillation about an equilibrium, ω², or its period; the mode's rate is i ω."""
+        """Return ω, ω² or the period of a small oscillation about an equilibrium; a mode's rate is i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
             raise self._error("with friction small motion has no frequency: remove it here")
         system = System(self.c, self.L, constraints=self.constraints, forces=self.forces)
@@ -237,7 +237,7 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     Raises
     ------
     InputError
-        If none is stated, or a key, an expression or a definition cannot be read.
+        If there is no system, or a key, an expression or a definition cannot be read.
     """
     table, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
     if unknown := sorted(table.keys() - set(_KEYS)):
@@ -268,7 +268,7 @@ def stated_system(paper: Catalogue) -> StatedSystem:
 def _definitions(
     rows: tuple[str, ...], names: Mapping[str, Any], fixed: set[sp.Basic], c: Coordinates, where: str
 ) -> dict[sp.Symbol, sp.Expr]:
-    """Return letter → expression in constants; refuse another relation, a letter of L, and one that is defined twice."""
+    """Return symbol → expression in constants. Raises InputError for a symbol of L or a repeated definition."""
     definitions: dict[sp.Symbol, sp.Expr] = {}
     for row in rows:
         name, equals, text = str(row).partition("=")
@@ -293,7 +293,18 @@ def _definitions(
 
 
 def stated(script: str) -> StatedSystem:
-    """Return the system of the paper whose folder holds `derivations/` with this script, given as `__file__`."""
+    """Return the stated system of the paper to which a derivation belongs.
+
+    Parameters
+    ----------
+    script : str
+        The derivation's `__file__`, in the folder `derivations/` of the paper.
+
+    Returns
+    -------
+    StatedSystem
+        The system in the paper's `paper.toml`.
+    """
     return stated_system(Catalogue(Path(script).resolve().parent.parent))
 
 
@@ -309,7 +320,7 @@ system = stated(__file__)
 """
 _CELL = """
 # %% [markdown]
-# ## ({title}): {said}
+# ## ({title}): {role}
 
 # %%
 verdict({id}, system[{id}]{premises})
@@ -321,17 +332,17 @@ def _one_line(text: str) -> str:
 
 
 def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
-    """Write `derivations/s_system.py`, which states each equation of [system.derives] that can be judged.
+    """Write `derivations/s_system.py`, with a verdict for each equation of [system.derives] that can be decided.
 
     Returns
     -------
     tuple of Path and dict
-        The script, and id → reason of the equations that are left out.
+        The script, and id → reason for the equations left out.
 
     Raises
     ------
     InputError
-        If the system cannot be read, or none of its equations can be judged.
+        If the system cannot be read, or none of its equations can be decided.
     """
     system, cells, refused = stated_system(paper), "", dict[str, str]()
     premises = ", premises=system.premises" if system.premises else ""
@@ -341,7 +352,7 @@ def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
         except (InputError, SingularError) as error:
             refused[i] = str(error)
         else:
-            cells += _CELL.format(title=_one_line(i), said=_one_line(role), id=json.dumps(i), premises=premises)
+            cells += _CELL.format(title=_one_line(i), role=_one_line(role), id=json.dumps(i), premises=premises)
     if refused and not cells:
         raise InputError("; ".join(dict.fromkeys(refused.values())))
     folder = paper.folder / "derivations"

@@ -1,4 +1,4 @@
-"""The statements of a formula: rows that continue each other, parts between commas and words, sides and relations."""
+"""The statements of a formula: joined rows, parts between commas and words, sides and relations."""
 
 import re
 from dataclasses import dataclass, replace
@@ -10,8 +10,8 @@ from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zer
 _JOINING = re.compile(r"(?:and|where|with|for|if|when|at)\b")
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather|or)\b")
-_SETS = ("in", "->")  # relations of what need not be alike
-# Kinds of statements, each with the relations that it may have.
+_SETS = ("in", "->")  # relations between objects of different kinds
+# Kinds of statements → their possible relations.
 _EQUAL, _BOUNDS = {"=", ":="}, {"<", ">", "<=", ">=", "<<", ">>", "!=", "<~", ">~"}
 _KINDS = {"expression": set[str](), "equation": _EQUAL, "approximation": {*_EQUAL, "~"}, "inequality": _EQUAL | _BOUNDS}
 _PARTING = ("wide", "arrow", "text")
@@ -28,7 +28,7 @@ class Side:
 
 @dataclass(frozen=True)
 class PrintedStatement:
-    """Sides and the relations between them; `order`: (small letter, power) of a term O(…) that the last side had.
+    """Sides and the relations between them; `order` is (small symbol, power) of a term O(…) of the last side.
 
     kind: equation, approximation, inequality, range, condition, expression or other.
     """
@@ -40,7 +40,7 @@ class PrintedStatement:
 
 
 def read_statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
-    """Return the statements of a formula, its rows joined where one continues the other."""
+    """Return the statements of a formula; rows that continue each other are joined."""
     statements: list[PrintedStatement] = []
     for piece in _pieces(strip(row)):
         statements += _statements(reader, piece)
@@ -52,7 +52,7 @@ def _is_related(row: list[Box]) -> bool:
 
 
 def _pieces(row: list[Box]) -> list[list[Box]]:
-    """Return the rows of a display, each with the rows that continue it; what stands beside them is a piece of its own."""
+    """Return the rows of a display, each with the rows that continue it; boxes after the rows are a last piece."""
     lines = _system(row[0]) if row else None
     remainder = strip(row[1:])
     if lines is None or (remainder and row[1].kind not in ("wide", "comma", "text")):
@@ -73,7 +73,7 @@ def _pieces(row: list[Box]) -> list[list[Box]]:
 
 
 def _system(box: Box) -> list[list[Box]] | None:
-    """Return the lines of rows, which may stand in a brace; None where a box is none."""
+    """Return the lines of rows, possibly inside a brace; None for any other box."""
     if box.sub is not None or box.sup is not None:
         return None
     if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
@@ -103,7 +103,7 @@ def _continues(previous: list[Box], line: list[Box]) -> bool:
 
 
 def _segments(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
-    """Return a piece in parts between wide spaces, words, arrows and commas: the sign before each part, and its boxes."""
+    """Split a piece at wide spaces, words, arrows and commas into pairs of separator and boxes."""
     segments: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
         following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
@@ -156,7 +156,7 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
 
 
 def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
-    """Return one statement. Raises FormulaError where a side is missing, or a vector is equal to a number."""
+    """Read one statement. Raises FormulaError if a side is missing, or a vector equals a number."""
     sides = [strip(side) for side in parted(row, "relation")]
     relations = [box.name for box in row if box.kind == "relation"]
     if len(sides) > 2 and [b.kind for b in sides[-1]] == ["dots"]:
@@ -184,7 +184,7 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
 
 
 def _indices(node: Node) -> set[str]:
-    """Return i, j, k, μ and ν where they are indices of the letters of a node, outside the sums over them."""
+    """Return those of i, j, k, μ and ν that are indices of symbols in a node and not bound by a sum."""
     if isinstance(node, Call):
         bound = set(letters_of(Call("", node.args[1:]))) if node.name in ("Sum", "Product") else set[str]()
         return set[str]().union(*map(_indices, node.args)) - bound
@@ -195,7 +195,7 @@ def _indices(node: Node) -> set[str]:
 
 
 def _repeated(node: Node) -> set[str]:
-    """Return the indices that two factors of a product share and no sum binds: they may stand for a sum."""
+    """Return the unbound indices that two factors of a product share: a summation convention is possible."""
     if not isinstance(node, Call):
         return set()
     shared = [_indices(argument) for argument in node.args] if node.name in ("product", "dot") else []
@@ -204,7 +204,7 @@ def _repeated(node: Node) -> set[str]:
 
 
 def _check_side(side: list[Box]) -> None:
-    """Raise FormulaError for a side that is an acronym or stands in square brackets."""
+    """Raise FormulaError for a side that is an acronym or has square brackets."""
     plain = [b for b in side if b.kind == "letter" and not (b.sub or b.sup or b.marks or b.style)]
     name = "".join(box.name for box in plain)
     if 2 < len(side) == len(name) and name.isupper():
@@ -223,7 +223,7 @@ def _kind(relations: list[str]) -> str:
 
 
 def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:
-    """Return the power of a term O(x^n) in which a sum ends, and the sum without it."""
+    """Split a sum into the (symbol, power) of its last term O(x^n), None without one, and the remaining sum."""
     last = node.args[-1] if isinstance(node, Call) and node.name == "sum" else None
     if not (isinstance(node, Call) and isinstance(last, Call) and last.name == "order"):
         return None, node

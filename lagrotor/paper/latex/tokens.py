@@ -1,4 +1,4 @@
-"""The tokens of TeX in a LaTeX text (commands, braces, scripts, runs of characters; no comments), and tokens as LaTeX."""
+"""LaTeX text as a list of TeX tokens (commands, braces, scripts, runs of characters), and tokens as LaTeX."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -23,10 +23,10 @@ BRACES = {"open": 1, "close": -1}
 
 
 class Token(NamedTuple):
-    r"""One token: `kind` is command, open, close, math, align, script, param, text or raw; `at` is its position in the text.
+    r"""One token; `kind` is command, open, close, math, align, script, param, text or raw; `at` is its position.
 
-    An `Expander` adds three kinds: begin and end (\begin{x}, \end{x} as one token); primitive (a command that no definition
-    changes); scope (the end of the definitions inside an environment).
+    An `Expander` adds the kinds begin and end (\begin{x}, \end{x} as one token), primitive (a command that no definition
+    changes) and scope (the end of the definitions inside an environment).
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""What a printed formula says: numbers, letters and calls; as text in the names of letters, and as a sympy expression."""
+"""The tree of a printed formula (numbers, symbols, calls), its text with Python names, and its sympy expression."""
 
 import operator
 import re
@@ -17,14 +17,14 @@ from lagrotor.paper.grammar import FUNCTIONS
 
 @dataclass(frozen=True)
 class Number:
-    """A number as printed, exact."""
+    """An exact printed number."""
 
     value: Fraction
 
 
 @dataclass(frozen=True)
 class Letter:
-    r"""A letter with its index, marks and dots, theta_1_dot for \dot\theta_1; a matrix is a vector, too."""
+    r"""A printed symbol with index, marks and dots: theta_1_dot for \dot\theta_1. Every matrix is also a vector."""
 
     name: str
     vector: bool = False
@@ -33,7 +33,7 @@ class Letter:
 
 @dataclass(frozen=True)
 class Call:
-    """An operation, sum product quotient power negative, or a function by its name, of its arguments."""
+    """An operation (sum, product, quotient, power, negative) or a named function, with its arguments."""
 
     name: str
     args: tuple["Node", ...]
@@ -49,15 +49,15 @@ class Call:
 Node: TypeAlias = Number | Letter | Call
 
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
-# Operations whose value is a vector or a matrix, and those that are one where their first argument is.
+# Operations with a vector or matrix as value; operations whose value has the kind of their first argument.
 _VECTORS = ("cross", "column", "matrix", "inverse", "transpose")
 _CARRYING_NAMES = "sum negative quotient Derivative rate prime Integral Sum at power"
 _CARRYING = frozenset(_CARRYING_NAMES.split())
-# What a line of the catalogue may call, but in another sense than a print.
+# Names that a line of the catalogue may call with a meaning other than the printed one.
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
 _MOST_BITS = 20_000  # of a number that is evaluated
-_MOST_ADDED = 40  # terms of a sum that is written out
+_MOST_ADDED = 40  # terms of an explicit sum
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
@@ -70,12 +70,11 @@ KNOWN = {name: getattr(sp, name) for name in _KNOWN_NAMES.split()}
 
 
 def number(value: int | str) -> Number:
-    """A number from its digits."""
     return Number(Fraction(value))
 
 
 def rational_value(node: Node) -> Fraction | None:
-    """Return the number that a node prints, such as 2, -1 or 3/2; None where it prints another thing."""
+    """Return the number that a node prints, such as 2, -1 or 3/2, or None."""
     if isinstance(node, Number):
         return node.value
     values = [rational_value(argument) for argument in node.args] if isinstance(node, Call) else []
@@ -88,7 +87,7 @@ def rational_value(node: Node) -> Fraction | None:
 
 
 def walk(node: Node) -> Iterator[Node]:
-    """The node and all that it holds."""
+    """Yield the node and all nodes below it."""
     waiting = [node]
     while waiting:
         node = waiting.pop()
@@ -98,19 +97,19 @@ def walk(node: Node) -> Iterator[Node]:
 
 
 def letters_of(node: Node) -> list[str]:
-    """The names of its letters, in the order in which they are printed; pi, e and i as numbers are none."""
+    """Return the names of the symbols in printed order, without the constants pi, e and i."""
     return list(
         dict.fromkeys(inner.name for inner in walk(node) if isinstance(inner, Letter) and not is_constant(inner))
     )
 
 
 def is_constant(letter: Letter) -> bool:
-    """Return whether it is pi, i or infinity."""
+    """Return True for pi, i and infinity."""
     return letter.name in _CONSTANTS
 
 
 def is_vector(node: Node) -> bool:
-    """Return whether its value is a vector or a matrix."""
+    """Return True if the value is a vector or a matrix."""
     if not isinstance(node, Call):
         return isinstance(node, Letter) and node.vector
     if node.name in ("product", "matmul"):
@@ -132,7 +131,7 @@ def product_of(factors: list[Node]) -> Node:
 
 
 def is_matrix(node: Node) -> bool:
-    """Return whether a node is a matrix: a declared one, one that is written out, a transposed one, a product of such."""
+    """Return True for a declared or explicit matrix, a transpose, and a product with one."""
     if not isinstance(node, Call):
         return isinstance(node, Letter) and node.matrix
     if node.name in ("sum", "negative", "quotient", "power", "rate", "Derivative", "Sum"):
@@ -144,7 +143,7 @@ def is_matrix(node: Node) -> bool:
 
 
 def divisors(node: Node) -> Iterator[Node]:
-    """Yield what a node divides by, and what it takes a logarithm of, but within sums and integrals."""
+    """Yield divisors and arguments of logarithms, except inside sums and integrals."""
     if isinstance(node, Call) and node.name not in BINDING:
         if node.name == "quotient":
             yield node.args[1]
@@ -155,7 +154,7 @@ def divisors(node: Node) -> Iterator[Node]:
 
 
 def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
-    """Return a node with parts replaced; not the variable of a derivative or an integral, nor what that variable is in it."""
+    """Substitute nodes, except the variable of a derivative or an integral inside that derivative or integral."""
     if node in values:
         return values[node]
     if not isinstance(node, Call) or not values:
@@ -168,14 +167,14 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
 
 
 def in_catalogue(node: Node) -> bool:
-    """Return whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
+    """Return True if a line of the catalogue can contain the node: arithmetic and functions with the same meaning."""
     nodes = list(walk(node))
     names = {call.name for call in nodes if isinstance(call, Call)}
     return names <= {*_ARITHMETIC, *_CALLED} and Letter("imaginary_unit") not in nodes
 
 
 def text_of(node: Node) -> str:
-    """The node as text, in the order of the print: 1/2*m*x_dot**2."""
+    """Return the node as text in printed order: 1/2*m*x_dot**2."""
     return _text(node, 0)
 
 
@@ -207,12 +206,11 @@ def _text(node: Node, above: int) -> str:
 
 @dataclass
 class Opaque:
-    """Parts that stand for themselves in a sympy expression: derivatives, integrals, functions that are not known.
+    """The symbols that replace non-explicit terms in a sympy expression: derivatives, integrals, unknown functions.
 
-    rates: letters and components to their rates. Where they are known, derivatives and integrals of explicit expressions are
-    taken, the other letters held fixed, and `fixing` says whether any were. refuses: whether a part that stands for itself is
-    refused in words; then a letter before its argument is a function of sympy, and sums are left to the decision. letters:
-    symbols with other assumptions than to be real.
+    rates: symbols and components → their rates; with them, derivatives and integrals of explicit expressions are
+    evaluated with the other symbols constant, and `fixing` becomes True if there were any. refuses: raise InputError for
+    a non-explicit term; f(x) is then a sympy function, and sums remain unevaluated. letters: symbols that are not just real.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
@@ -222,7 +220,7 @@ class Opaque:
     letters: Mapping[str, sp.Symbol] = field(default_factory=dict)
 
     def symbol(self, node: Node) -> Any:
-        """Return the symbol that stands for a part; of a vector, its components. Raises InputError where none may."""
+        """Return the symbol of a non-explicit term; of a vector, its components. Raises InputError with `refuses`."""
         text = text_of(node)
         if self.refuses and isinstance(node, Call):
             if isinstance(getattr(sp, node.name, None), sp.FunctionClass) and node.name not in _GREEK:
@@ -235,8 +233,8 @@ class Opaque:
         return self.names.setdefault(text, sp.Symbol(f"[{text}]", real=True))
 
 
-_GREEK = ("beta", "gamma", "zeta")  # as a rule a function of the author's
-# Calls without a value of sympy that is decided, and what would help.
+_GREEK = ("beta", "gamma", "zeta")  # usually a function of the author
+# Calls that are not decided → remedy.
 _UNDECIDED = {
     "Integral": "write an integral of an explicit expression between two limits",
     "Derivative": "write the expression that is differentiated, or give it by a premise, L = …",
@@ -249,12 +247,12 @@ _UNDECIDED = {
     "arg": "write it with real symbols", "Re": "write it with real symbols", "Im": "write it with real symbols",
     "max": "write one of them", "min": "write one of them",
     **dict.fromkeys(("sum", "product", "quotient", "power", "cross", "dot", "norm", "column", "matrix", "row"),
-                    "its parts are a vector and a number, or of different sizes, or too large"),
+                    "its arguments are a vector and a number, of different sizes, or too large"),
 }  # fmt: skip
 
 
 def sympy_expression(node: Node, opaque: Opaque) -> Any:
-    """Return the node as a sympy expression of real letters; a part that is not explicit stands for itself."""
+    """Return the node as a sympy expression of real symbols; a non-explicit term becomes a symbol."""
     if isinstance(node, Number):
         return sp.Rational(node.value.numerator, node.value.denominator)
     if isinstance(node, Letter):
@@ -268,14 +266,14 @@ def sympy_expression(node: Node, opaque: Opaque) -> Any:
 
 
 def _value(node: Call, opaque: Opaque) -> Any:
-    """Return the value of arithmetic, of a known function, of vectors and of matrices that are written out; else None."""
+    """Return the value of arithmetic, a known function, vectors or explicit matrices; None for any other call."""
     if node.name == "matrix":
         rows = (row.args for row in node.args if isinstance(row, Call))
         return sp.Matrix([[sympy_expression(argument, opaque) for argument in row] for row in rows])
     if node.name not in _VALUES and node.name not in KNOWN:
         return None
     if node.name in _OF_MATRICES and any(isinstance(argument, Letter) and argument.matrix for argument in walk(node)):
-        return None  # a matrix whose entries are not known
+        return None  # the entries are unknown
     values = [sympy_expression(argument, opaque) for argument in node.args]
     sizes = [value.shape if isinstance(value, sp.MatrixBase) else () for value in values]
     if _too_large(node, values) or not _fits(node.name, sizes):
@@ -286,7 +284,7 @@ def _value(node: Call, opaque: Opaque) -> Any:
 
 
 def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
-    """Return whether an operation is defined for parts of these sizes; () is the size of a number."""
+    """Return True if an operation is defined for arguments of these shapes; () is the shape of a number."""
     if name == "sum":
         return len(set(sizes)) == 1
     if name == "product":
@@ -304,12 +302,12 @@ def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
 
 
 def has_opaque(*values: Any) -> bool:
-    """Return whether a part of an expression stands for itself."""
+    """Return True if an expression contains a symbol for a non-explicit term."""
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
 def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
-    """Return the letters with dots, and the components of vectors, with their rates."""
+    """Return the map from symbols with dots, and components of vectors, to their rates."""
     rates: dict[sp.Symbol, sp.Symbol] = {}
     for letter in {inner for node in nodes for inner in walk(node)}:
         if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
@@ -320,7 +318,7 @@ def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
 
 
 def _bound(node: Call, opaque: Opaque) -> Any:
-    """Return the value of a sum of a few terms, of the derivative or integral of an explicit expression; else None."""
+    """Return the value of a short sum, or of the derivative or integral of an explicit expression; else None."""
     inner = sympy_expression(node.args[0], opaque)
     if node.name == "rate":
         return None if isinstance(node.args[0], Letter) or opaque.rates is None else _rate(inner, opaque)
@@ -340,7 +338,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
     if node.name == "Derivative":
         order = ends[0] if ends else sp.S.One
         value = sp.diff(inner, variable, int(order)) if order.is_Integer and 0 < order < 20 else None
-    elif len(ends) != 2 or inner.has(sp.I):  # what is complex is not decided
+    elif len(ends) != 2 or inner.has(sp.I):  # complex integrals are not decided
         return None
     else:
         value = sp.Integral(inner, (variable, *ends))
@@ -349,7 +347,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
 
 
 def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
-    """Return a sum or a product of a few terms; for a decision a sum of any length, but for letters that bear its index."""
+    """Return a short sum or product term by term; for a decision, a sum of any length without indexed symbols."""
     name = variable.name
     if len(ends) != 2 or ends[0].is_Integer is not True:
         return None
@@ -362,7 +360,7 @@ def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque:
 
 
 def _indexed(node: Node, name: str, k: int) -> Node:
-    """Return a term of a sum, the index and the letters that bear it replaced: x_i by x_2."""
+    """Return the k-th term of a sum: the index and the symbols with it are replaced, x_i by x_2."""
     if isinstance(node, Letter):
         stem, *index = node.name.split("_")
         named = replace(node, name="_".join((stem, *(str(k) if word == name else word for word in index))))
@@ -375,7 +373,7 @@ def _indexed(node: Node, name: str, k: int) -> Node:
 
 
 def _rate(inner: Any, opaque: Opaque) -> Any:
-    """Return the derivative by t along the rates of the letters, those without one held fixed; None where none has a rate."""
+    """Return the time derivative along the rates of the symbols, others constant; None if no symbol has a rate."""
     time = sp.Symbol("t", real=True)
     rates = {**(opaque.rates or {}), time: sp.S.One}
     moving = sorted(inner.free_symbols & rates.keys(), key=str)
@@ -385,7 +383,7 @@ def _rate(inner: Any, opaque: Opaque) -> Any:
     return reduce(operator.add, [inner.diff(symbol) * rates[symbol] for symbol in moving])
 
 
-# Operations whose second part is a letter that they use up; `rate` uses t.
+# Operations that bind their second argument; `rate` binds t.
 BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
 _OF_MATRICES = ("matmul", "det", "inverse", "transpose", "tr", "power")
 _VALUES: dict[str, Any] = {
@@ -408,14 +406,14 @@ _VALUES: dict[str, Any] = {
 
 
 def _raised(base: Any, exponent: Any) -> Any:
-    """Return a power; sympy does not evaluate the root of a function."""
+    """Return a power; the root of a function remains unevaluated."""
     if isinstance(base, sp.Expr) and base.has(sp.Function) and not exponent.is_Integer:
         return sp.Pow(base, exponent, evaluate=False)
     return base**exponent
 
 
 def _too_large(node: Call, values: list[Any]) -> bool:
-    """Return whether the value is a number that no one writes out: 9**9**9, 99999!."""
+    """Return True if the value has too many digits: 9**9**9, 99999!."""
     if node.name == "power" and all(isinstance(value, sp.Rational) for value in values):
         base, exponent = values
         return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)

@@ -135,7 +135,7 @@ COUNTS = r"\begin{equation}\label{a} a = b \end{equation}\begin{equation}\label{
 @pytest.mark.parametrize(
     ("start", "said"),
     [
-        (r"\documentclass{strange}\begin{document}", "the class strange is not known"),
+        (r"\documentclass{strange}\begin{document}", "the class strange is unknown"),
         (ARTICLE + r"\setcounter{equation}{\x}", r"paper.tex:1: \setcounter{equation}{\x} is not known"),
         (ARTICLE + r"\newtheorem{law}[equation]{Law}", "theorems share the counter of equations"),
         (ARTICLE + r"\mathtoolsset{showonlyrefs}", "showonlyrefs of mathtools removes numbers"),
