@@ -186,20 +186,18 @@ def animate_lines(
     """
     target, flat = Path(path), _flat(lines)
     check_film(target, float(t[-1] - t[0]), fps)
-    projected = [Camera()(line) if flat is None else np.delete(line, flat, axis=-1) for line in lines]
+    views = [Camera()(line) if flat is None else np.delete(line, flat, axis=-1) for line in lines]
 
     def stage(figure: Figure) -> tuple[Axes, Callable[[int], list[Artist]]]:
         axes = figure.subplots()
-        _limits(axes, np.concatenate([line.reshape(-1, 2) for line in projected]))
-        drawn = [_line(axes, inks[i % len(inks)], 2.0) for i in range(len(projected))]
-        traces = [
-            (_line(axes, GROUND, 1.0), projected[i]) for i in (range(len(projected)) if traced is None else traced)
-        ]
+        _limits(axes, np.concatenate([line.reshape(-1, 2) for line in views]))
+        drawn = [_line(axes, inks[i % len(inks)], 2.0) for i in range(len(views))]
+        traces = [(_line(axes, GROUND, 1.0), views[i]) for i in (range(len(views)) if traced is None else traced)]
         clock = axes.text(0.02, 0.98, "", transform=axes.transAxes, va="top", animated=True, fontsize=11)
 
         def update(i: int) -> list[Artist]:
             clock.set_text(f"t = {t[i]:5.2f} s")
-            for artist, line in zip(drawn, projected, strict=True):
+            for artist, line in zip(drawn, views, strict=True):
                 artist.set_data(*line[i].T)
             for trace, line in traces:
                 trace.set_data(*line[: i + 1, -1].T)

@@ -152,7 +152,7 @@ class _Checker:
         return StepFinding(equation.id, step, line, verdict, why, members, file if file != self.source.file else "")
 
     def _steps(
-        self, equation: Displayed, printed: PrintedStatement, statement: PrintedStatement
+        self, display: Displayed, printed: PrintedStatement, statement: PrintedStatement
     ) -> Iterator[StepFinding]:
         """Yield the steps of a chain, the first only if it is an identity; `printed` omits the previous row."""
         order_before = None if statement is printed else self.readings[self.place - 1][1].statements[-1].order
@@ -169,7 +169,7 @@ class _Checker:
                 continue
             verdict, why = bounded(decide, *arguments, too_large=(NOT_JUDGED, TOO_LARGE))
             if step > 1 or verdict == HOLDS:
-                yield self._finding(equation, step, (lhs, rhs), verdict, why)
+                yield self._finding(display, step, (lhs, rhs), verdict, why)
 
     def _continued(self, equation: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """Return a continuing row with the last side of the previous row inserted."""

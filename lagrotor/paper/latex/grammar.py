@@ -75,9 +75,8 @@ class Grammar:
     def _open(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
         """Return the error for an ambiguous symbol, with the entries of [notation] that would decide its kind."""
         entries = " or ".join(f'{kind} = "{stem_of(box)}"' for kind in kinds)
-        return FormulaError(
-            f"it is unclear whether {what}", f"write in paper.toml [notation] {entries}" if kinds else way
-        )
+        way = f"write in paper.toml [notation] {entries}" if kinds else way
+        return FormulaError(f"it is unclear whether {what}", way)
 
     def _text(self, first: Box, last: Box | None = None) -> str:
         return self.source[first.at : (last or first).end]
@@ -109,12 +108,10 @@ class Grammar:
                 terms[-1][1].append(box)
         if not terms[-1][1]:
             raise FormulaError("nothing follows the sign" if row else "the expression is empty", "write what is meant")
-        values = [
-            Call("negative", (self.term(content),)) if sign == "-" else self.term(content) for sign, content in terms
-        ]
+        values = [Call("negative", (self.term(run),)) if sign == "-" else self.term(run) for sign, run in terms]
         if len(values) == 1:
             return values[0]
-        _check_sums([content for _, content in terms])
+        _check_sums([run for _, run in terms])
         if len({(is_vector(value), is_matrix(value)) for value in values if not _is_any_kind(value)}) > 1:
             raise FormulaError("a vector and a number are added", "declare the vectors in [notation]")
         return Call("sum", tuple(values))
@@ -145,7 +142,7 @@ class Grammar:
         for sign, factors, content in groups:
             if len(factors) > 1 and any(isinstance(factor, Call) and factor.name == "order" for factor in factors):
                 raise FormulaError(
-                    "it is unclear whether O(…) next to a factor is an order", r"write \cdot for a product"
+                    "it is unclear whether O(…) next to a factor is an order", r"write \cdot for products"
                 )
             right = _product(factors)
             product = right if product is None else self._joined(product, sign, right, content[0])
@@ -229,12 +226,8 @@ class Grammar:
         only = box.sup[0]
         if only.kind == "operator" and only.name in _LABELS:
             return [_LABELS[only.name]]
-        if (
-            only.kind == "bracket"
-            and only.name == "("
-            and len(only.contents[0]) == 1
-            and not self._kind(box, "functions")
-        ):
+        bracket = (only.kind, only.name) == ("bracket", "(")
+        if bracket and len(only.contents[0]) == 1 and not self._kind(box, "functions"):
             inner = only.contents[0][0]
             return [inner.name] if inner.kind in ("number", "letter") and not (inner.sup or inner.sub) else []
         upright = only.upright and (len(only.name) > 1 or only.name not in (*_TRANSPOSES, "d", "e", "i"))
@@ -242,18 +235,18 @@ class Grammar:
         return [only.name] if worded or (only.kind == "letter" and upright) else []
 
     def _letter(self, row: list[Box], place: int) -> tuple[Node, int]:
-        box, following = row[place], row[place + 1] if place + 1 < len(row) else None
-        kind = following.kind if following else ""
+        box, right = row[place], row[place + 1] if place + 1 < len(row) else None
+        kind = right.kind if right else ""
         if not (box.marks or box.style or box.sub or box.primes):
-            constant = self._sign(row, place, following)
+            constant = self._sign(row, place, right)
             if constant is not None:
                 return constant
         word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
         if word or (box.name == "d" and box.upright and box.primes):
             way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
             raise self._open(box, f"{box.name} acts on what follows", way=way)
-        if following is not None and kind == "bracket" and _plain(following.name) in _ROUND:
-            applied = self._applied(box, following)
+        if right is not None and kind == "bracket" and _plain(right.name) in _ROUND:
+            applied = self._applied(box, right)
             if applied is not None:
                 return applied, place + 2
         node: Node = self.letter(box)
@@ -267,10 +260,10 @@ class Grammar:
                 node = Call("prime", (node,))
         return self.power(node, box), place + 1
 
-    def _sign(self, row: list[Box], place: int, following: Box | None) -> tuple[Node, int] | None:
+    def _sign(self, row: list[Box], place: int, right: Box | None) -> tuple[Node, int] | None:
         """Read the special symbols e, i, π, d and Δ; return None for an ordinary symbol."""
         box, name, number_ = row[place], row[place].name, self._kind(row[place], "numbers")
-        settled, kind = self._kind(box, *_SETTLED), following.kind if following else ""
+        settled, kind = self._kind(box, *_SETTLED), right.kind if right else ""
         if name == "e" and (number_ or box.upright):
             return Call("exp", (self.expression(box.sup) if box.sup else number(1),)), place + 1
         if name == "e" and not settled and any(b.kind in ("letter", "infinity") for b in all_boxes(box.sup or ())):
@@ -285,7 +278,7 @@ class Grammar:
         if name == "pi" and not settled:
             return self.power(Letter("pi"), box), place + 1
         proposed = name in ("Delta", "delta") and self._kind(box, "proposed") and kind != "bracket"
-        if (settled and not proposed) or following is None or kind in ("operator", "comma", "dots", "percent"):
+        if (settled and not proposed) or right is None or kind in ("operator", "comma", "dots", "percent"):
             return None
         if name in ("Delta", "delta"):
             return None if box.sup else self._difference(row, place)
@@ -295,13 +288,13 @@ class Grammar:
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
         r"""Read \Delta x as one symbol."""
-        box, following = row[place : place + 2]
-        if following.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
+        box, right = row[place : place + 2]
+        if right.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
             raise self._open(box, f"\\{box.name} is a factor or acts on what follows", "functions", "real")
-        letter = self.letter(following)
+        letter = self.letter(right)
         if place + 2 < len(row) and row[place + 2].kind == "bracket":
-            raise self._open(following, f"\\{box.name} {following.name} is a function or a factor", "functions")
-        return self.power(replace(letter, name=f"{box.name}_{letter.name}"), following), place + 2
+            raise self._open(right, f"\\{box.name} {right.name} is a function or a factor", "functions")
+        return self.power(replace(letter, name=f"{box.name}_{letter.name}"), right), place + 2
 
     def _applied(self, box: Box, bracket: Box) -> Node | None:
         """Read a symbol as a function of the next bracket, x for x(t); return None if it is a factor."""
@@ -401,12 +394,10 @@ class Grammar:
     def _number(self, row: list[Box], place: int) -> tuple[Node, int]:
         box, behind = row[place], place + 1
         node: Node = Number(self._value(box.name))
-        following = row[behind] if behind < len(row) else box
+        right = row[behind] if behind < len(row) else box
         degrees = box.sup is not None and [b.name for b in box.sup] in (["circ"], ["o"])
-        if (following.upright and following.name not in (*FUNCTIONS, "d", "e", "i")) or (
-            degrees and following.name in ("C", "F")
-        ):
-            raise FormulaError(f"upright {following.name} after a number is a unit", "write the number without it")
+        if (right.upright and right.name not in (*FUNCTIONS, "d", "e", "i")) or (degrees and right.name in ("C", "F")):
+            raise FormulaError(f"upright {right.name} after a number is a unit", "write the number without it")
         if degrees:
             return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
         return self.power(node, box), behind
@@ -473,16 +464,11 @@ class Grammar:
             end += 1
             if end < len(row) and row[end].spaced:
                 break
-        run, following = row[start:end], row[end] if end < len(row) else None
+        run, right = row[start:end], row[end] if end < len(row) else None
         names, letters = [item.name for item in run], [item for item in run if item.kind == "letter"]
-        ends = (
-            following is None
-            or following.spaced
-            or following.kind in ("operator", "function", "big")
-            or self._moves(following)
-        )
+        ends = right is None or right.spaced or right.kind in ("operator", "function", "big") or self._moves(right)
         angle = bool(run) and names[0] in _ANGLES and not run[0].sub
-        if len(run) == 1 and (ends or (angle and following is not None and following.kind == "bracket")):
+        if len(run) == 1 and (ends or (angle and right is not None and right.kind == "bracket")):
             return end
         plain = run and len(letters) + (run[0].kind == "number") == len(run) > 1 and names[0] not in _LAST
         is_clear = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
@@ -571,8 +557,8 @@ class Grammar:
         if not over[1:]:
             node, behind = self._operand(row, behind)
         else:
-            node, following = self.expression(over[1:]), row[behind] if behind < len(row) else box
-            content = following.contents[0] if following.kind == "bracket" and following.name == "(" else []
+            node, right = self.expression(over[1:]), row[behind] if behind < len(row) else box
+            content = right.contents[0] if right.kind == "bracket" and right.name == "(" else []
             if in_time and [(b.name, b.sub) for b in content] == [("t", None)]:
                 behind += 1  # \frac{dx}{dt}(t)
             elif content and not any(b.kind == "operator" for b in content[1:]):
@@ -588,9 +574,7 @@ class Grammar:
             raise FormulaError("the derivative has nothing to act on", "operators by themselves are not read")
         node, behind = self.factor(row, place)
         if behind < len(row) and row[place].kind != "bracket":
-            raise FormulaError(
-                "it is unclear how far the derivative reaches", "write brackets around what is differentiated"
-            )
+            raise FormulaError("it is unclear how far the derivative reaches", "write brackets around its operand")
         return node, behind
 
     # ---- sums, integrals, limits

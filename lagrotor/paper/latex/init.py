@@ -174,32 +174,27 @@ def _matches(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int,
     return matches
 
 
-def _row(equation: Displayed, print_: Print, previous: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
+def _row(equation: Displayed, print_: Print, prior: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
     """Return the row of an equation with the entries of its old row; append its id to `changed` if its LaTeX changed."""
     row: dict[str, Any] = {"id": equation.id, "number": equation.number, "section": equation.section}
-    row |= {
-        "title": equation.label or f"displayed equation {equation.id}",
-        "label": equation.label,
-        "latex": equation.latex,
-    }
+    title = equation.label or f"displayed equation {equation.id}"
+    row |= {"title": title, "label": equation.label, "latex": equation.latex}
     row |= {"lead": equation.lead, "aside": list(print_.aside), "read": "unconfirmed" if print_.lines else ""}
     row["line"] = [dict(line) for line in print_.lines]
-    if previous is not None:
-        stay = ("id",) if previous.get("title") == previous.get("label") else ("id", "title")
+    if prior is not None:
+        stay = ("id",) if prior.get("title") == prior.get("label") else ("id", "title")
         skip = (*row, "changed", "print")
-        row |= {key: value for key, value in previous.items() if key not in skip or key in stay}
-        old = previous.get("line", ())  # an author's additions, such as an order, stay if the reading is the same
+        row |= {key: value for key, value in prior.items() if key not in skip or key in stay}
+        old = prior.get("line", ())  # an author's additions, such as an order, stay if the reading is the same
         row["line"] = [next((dict(line) for line in old if line | new == line), new) for new in row["line"]]
-        if previous.get("latex") != equation.latex:
-            row["changed"] = str(previous.get("latex"))
+        if prior.get("latex") != equation.latex:
+            row["changed"] = str(prior.get("latex"))
             changed.append(row["id"])
-        elif old and previous.get("read") != "unconfirmed":
+        elif old and prior.get("read") != "unconfirmed":
             row["read"] = ""
-            row |= {
-                key: value for key, value in previous.items() if key in ("read", "print", "aside", "reading", "line")
-            }
+            row |= {key: value for key, value in prior.items() if key in ("read", "print", "aside", "reading", "line")}
         else:
-            row["changed"] = previous.get("changed")
+            row["changed"] = prior.get("changed")
     return {key: value for key, value in row.items() if value not in ("", [], None)}
 
 

@@ -32,9 +32,8 @@ _MATTER = [
     r"\tag",
 ]
 _NO_VALUE = (Token("command", r"\NoValue", 0),)
-_ARGUMENT = re.compile(
-    r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?"
-)  # one entry of a specification for \NewDocumentCommand
+# One entry of an argument specification of \NewDocumentCommand.
+_ARGUMENT = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")
 
 
 class Parameter(NamedTuple):

@@ -6,7 +6,7 @@ Every symbol outside the table is a real number. A name is written as in a readi
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -69,10 +69,9 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
     if not isinstance(comma, bool):
         raise InputError(f"{where}: notation: decimal_comma is {comma!r}: write true or false")
     for kinds in _EXCLUSIVE:
-        for second in kinds:
-            for first in kinds[: kinds.index(second)]:
-                if both := sorted(names[second] & names[first]):
-                    raise InputError(f"{where}: notation: {both[0]} is in {first} and in {second}: keep one of them")
+        for first, second in combinations(kinds, 2):
+            if both := sorted(names[first] & names[second]):
+                raise InputError(f"{where}: notation: {both[0]} is in {first} and in {second}: keep one of them")
     return Notation(**names, decimal_comma=comma)
 
 
@@ -95,10 +94,8 @@ def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notatio
     """Return the notation with the proposals for those symbols that the author has not declared."""
     declared = {kind: getattr(notation, kind) for kind in KINDS}
     settled = frozenset[str]().union(*declared.values())
-    free = [proposal for proposal in proposals if proposal.symbol not in settled]
-    extended: dict[str, Any] = {
-        kind: declared[kind] | {proposal.symbol for proposal in free if proposal.kind == kind} for kind in KINDS
-    }
+    free = [p for p in proposals if p.symbol not in settled]
+    extended: dict[str, Any] = {kind: declared[kind] | {p.symbol for p in free if p.kind == kind} for kind in KINDS}
     return replace(notation, proposed=extended["functions"] - declared["functions"], **extended)
 
 

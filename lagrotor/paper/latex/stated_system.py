@@ -278,16 +278,13 @@ def _definitions(
                 f'{where}: {row!r} defines no symbol of symbols.py: write a definition, as in "omega_0 = sqrt(g/l)"'
             )
         value = read(text.strip(), names, where)
-        twice, in_system = letter in definitions, letter in fixed
-        if twice or in_system or value.free_symbols & {*c.q, *c.v, *c.a, t}:
-            says = (
-                "is defined twice"
-                if twice
-                else "is a symbol of the system"
-                if in_system
-                else "is defined by coordinates"
-            )
-            raise InputError(f"{where}: {row!r}: {letter} {says}: write it out in L or in the print")
+        problems = {
+            "is defined twice": letter in definitions,
+            "is a symbol of the system": letter in fixed,
+            "is defined by coordinates": value.free_symbols & {*c.q, *c.v, *c.a, t},
+        }
+        if problem := next((words for words, holds in problems.items() if holds), ""):
+            raise InputError(f"{where}: {row!r}: {letter} {problem}: write the expression in L or in the equation")
         definitions[letter] = value
     return definitions
 

@@ -79,11 +79,7 @@ def _system(box: Box) -> list[list[Box]] | None:
     if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
         inside = strip(box.contents[0])
         return _system(inside[0]) if len(inside) == 1 else None
-    return (
-        [[inner for cell in line.contents for inner in cell] for line in box.contents[0]]
-        if box.kind == "rows"
-        else None
-    )
+    return [[b for cell in line.contents for b in cell] for line in box.contents[0]] if box.kind == "rows" else None
 
 
 def _continues(previous: list[Box], line: list[Box]) -> bool:
@@ -122,11 +118,9 @@ def _segments(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
         elif box.name == "." and box.kind == "comma" and following and row[place + 1].kind not in _PARTING:
             raise FormulaError("a full stop is inside the formula", r"write \cdot for a product")
         elif box.kind in ("wide", "comma"):
-            previous, next_box = strip(segments[-1][1]), following or box
+            previous, right = strip(segments[-1][1]), following or box
             goes_on = previous and previous[-1].kind in ("operator", "relation")
-            signed = next_box.kind == "relation" or (
-                box.kind == "wide" and next_box.kind == "operator" and next_box.name != "-"
-            )
+            signed = right.kind == "relation" or (box.kind == "wide" and right.kind == "operator" and right.name != "-")
             if not (goes_on or (signed and previous)):
                 waiting = not previous and segments[-1][0] in ("text", "condition")
                 segments.append((segments[-1][0] if waiting else box.kind, []))

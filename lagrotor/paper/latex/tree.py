@@ -77,7 +77,7 @@ def rational_value(node: Node) -> Fraction | None:
     """Return the number that a node prints, such as 2, -1 or 3/2, or None."""
     if isinstance(node, Number):
         return node.value
-    values = [rational_value(argument) for argument in node.args] if isinstance(node, Call) else []
+    values = [rational_value(arg) for arg in node.args] if isinstance(node, Call) else []
     match (node.name, *values):
         case ("negative", Fraction() as value):
             return -value
@@ -98,9 +98,7 @@ def walk(node: Node) -> Iterator[Node]:
 
 def letters_of(node: Node) -> list[str]:
     """Return the names of the symbols in printed order, without the constants pi, e and i."""
-    return list(
-        dict.fromkeys(inner.name for inner in walk(node) if isinstance(inner, Letter) and not is_constant(inner))
-    )
+    return list(dict.fromkeys(n.name for n in walk(node) if isinstance(n, Letter) and not is_constant(n)))
 
 
 def is_constant(letter: Letter) -> bool:
@@ -149,8 +147,8 @@ def divisors(node: Node) -> Iterator[Node]:
             yield node.args[1]
         elif node.name == "log" or (node.name == "power" and "-" in text_of(node.args[1])):
             yield node.args[0]
-        for argument in node.args:
-            yield from divisors(argument)
+        for arg in node.args:
+            yield from divisors(arg)
 
 
 def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
@@ -162,8 +160,8 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
     if node.name in BINDING and len(node.args) > 1:
         inner, variable, *ends = node.args
         free = {key: value for key, value in values.items() if key != variable}
-        return Call(node.name, (put_for(inner, free), variable, *(put_for(argument, values) for argument in ends)))
-    return Call(node.name, tuple(put_for(argument, values) for argument in node.args))
+        return Call(node.name, (put_for(inner, free), variable, *(put_for(arg, values) for arg in ends)))
+    return Call(node.name, tuple(put_for(arg, values) for arg in node.args))
 
 
 def in_catalogue(node: Node) -> bool:
@@ -226,7 +224,7 @@ class Opaque:
             if isinstance(getattr(sp, node.name, None), sp.FunctionClass) and node.name not in _GREEK:
                 raise InputError(f"{text} is not decided: judge has no rules for the function {node.name}")
             if node.name not in _UNDECIDED and not any(map(is_vector, (node, *node.args))):
-                return sp.Function(node.name, real=True)(*(sympy_expression(argument, self) for argument in node.args))
+                return sp.Function(node.name, real=True)(*(sympy_expression(arg, self) for arg in node.args))
             raise InputError(f"{text} is not decided: {_UNDECIDED.get(node.name, 'write its components')}")
         if is_vector(node) and not is_matrix(node):
             return sp.Matrix(sp.symbols([f"[{text}]_{k}" for k in (1, 2, 3)], real=True))
@@ -269,12 +267,12 @@ def _value(node: Call, opaque: Opaque) -> Any:
     """Return the value of arithmetic, a known function, vectors or explicit matrices; None for any other call."""
     if node.name == "matrix":
         rows = (row.args for row in node.args if isinstance(row, Call))
-        return sp.Matrix([[sympy_expression(argument, opaque) for argument in row] for row in rows])
+        return sp.Matrix([[sympy_expression(arg, opaque) for arg in row] for row in rows])
     if node.name not in _VALUES and node.name not in KNOWN:
         return None
-    if node.name in _OF_MATRICES and any(isinstance(argument, Letter) and argument.matrix for argument in walk(node)):
+    if node.name in _OF_MATRICES and any(isinstance(arg, Letter) and arg.matrix for arg in walk(node)):
         return None  # the entries are unknown
-    values = [sympy_expression(argument, opaque) for argument in node.args]
+    values = [sympy_expression(arg, opaque) for arg in node.args]
     sizes = [value.shape if isinstance(value, sp.MatrixBase) else () for value in values]
     if _too_large(node, values) or not _fits(node.name, sizes):
         return None
@@ -365,11 +363,7 @@ def _indexed(node: Node, name: str, k: int) -> Node:
         stem, *index = node.name.split("_")
         named = replace(node, name="_".join((stem, *(str(k) if word == name else word for word in index))))
         return number(k) if node.name == name else named
-    return (
-        Call(node.name, tuple(_indexed(argument, name, k) for argument in node.args))
-        if isinstance(node, Call)
-        else node
-    )
+    return Call(node.name, tuple(_indexed(arg, name, k) for arg in node.args)) if isinstance(node, Call) else node
 
 
 def _rate(inner: Any, opaque: Opaque) -> Any:
