@@ -1,4 +1,4 @@
-"""The commands that measure: chart (speed against accuracy) and stability (where methods fail)."""
+"""The benchmark commands: chart (speed against accuracy) and stability (limits of methods, throughput)."""
 
 import argparse
 import json
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from lagrotor.benchmark.runner import Benchmark
     from lagrotor.benchmark.throughput import Throughput
 
-LIMIT_HEAD = ("regime", "what", "predicted", "found", "ratio", "what the tool does")
-THROUGHPUT_HEAD = ("what", "a second", "share", "of")
+LIMIT_HEAD = ("regime", "quantity", "predicted", "measured", "ratio", "behaviour of the tool")
+THROUGHPUT_HEAD = ("quantity", "per second", "share", "of")
 
 
 def add_benchmark_commands(command: Command) -> None:
-    """chart, stability."""
+    """Add chart and stability."""
     added = command("chart", chart_command, "chart speed against accuracy", "lagrotor chart --quick --out .")
     added.add_argument(
         "--quick", action="store_true", help="fewer methods, tolerances and repeats: seconds for minutes"
@@ -30,7 +30,7 @@ def add_benchmark_commands(command: Command) -> None:
     added = command(
         "stability",
         stability_command,
-        "where methods fail, predicted and found; how much runs in a second",
+        "show where methods fail, predicted and measured, and the throughput",
         "lagrotor stability --quick",
     )
     added.add_argument("--quick", action="store_true", help="shorter runs and coarser thresholds: seconds, not minutes")
@@ -38,7 +38,7 @@ def add_benchmark_commands(command: Command) -> None:
 
 
 def chart_command(options: argparse.Namespace) -> int:
-    """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
+    """Run the charts; write chart-SCENE.svg, .png and chart.json; print the tables and the files."""
     from lagrotor.benchmark.scenes_and_methods import benchmarks
     from lagrotor.drawing.style import paper_style
     from lagrotor.files import write_beside, write_text
@@ -64,14 +64,14 @@ def chart_command(options: argparse.Namespace) -> int:
 
 
 def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
-    """Return the benchmarks and the ratios of the displaced scene, for JSON."""
+    """Return the benchmarks and the ratios of the displaced scene as JSON data."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
     return {"charts": [asdict(chart) for chart in charts], "ratios": ratios(charts[0])}
 
 
 def chart_tables(charts: "list[Benchmark]") -> str:
-    """Return the front of each scene, set-up times, failures and ratios as tables."""
+    """Return tables of each scene's front, set-up times and failures, and of the ratios."""
     from lagrotor.benchmark.runner import failure_sentences, front
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
@@ -118,7 +118,7 @@ def stability_command(options: argparse.Namespace) -> int:
 
 
 def _throughput(measure: Any, quick: bool) -> "list[Throughput]":
-    """In one process a core; here, when quick, as starting them costs more than the run."""
+    """Measure the throughput with one process per core; the quick measurement uses this process only."""
     if quick:
         return list(measure(256))
     from concurrent.futures import ProcessPoolExecutor

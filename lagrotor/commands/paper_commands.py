@@ -1,8 +1,7 @@
 """The commands about a paper: judge, init, notation, readings, derive, check, reproduce, audit, certify, claims, figure.
 
-Exit status 1 when a verdict is not as recorded, or a check finds something wrong.
-
-Without --paper they are about the paper that lagrotor was written for.
+The exit status is 1 if a verdict differs from the recorded one, or if a check finds an error. Without --paper, a command
+uses the paper for which lagrotor was written.
 """
 
 import argparse
@@ -20,70 +19,76 @@ if TYPE_CHECKING:
 
 
 def add_paper_commands(command: Command) -> None:
-    """Add the commands that read equations and those that test a paper."""
     _add_reading_commands(command)
     _add_testing_commands(command)
 
 
 def _add_reading_commands(command: Command) -> None:
-    """judge, init, notation, readings, derive, check."""
+    """Add judge, init, notation, readings, derive and check."""
     added = command("judge", judge_command, "judge one equation", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"')
     added.description = (
-        "Judge one equation, written as in Python or in LaTeX: whether it holds, where, under which premises; the proof\n"
-        "is exact, and what is refuted has a point at which the two sides differ.\n"
+        "Decide exactly whether an equation, in Python or LaTeX notation, holds, in which domain and under which premises.\n"
+        "A refuted equation comes with a point at which its sides differ.\n"
         "Exit status: 0 it holds, perhaps to an order or under premises, 1 it does not or is undecided, 2 bad usage or input."
     )
-    added.add_argument("equation", metavar="EQUATION", help="left = right; letters are real")
+    added.add_argument("equation", metavar="EQUATION", help="left = right; symbols are real")
     added.add_argument("--given", nargs="+", default=[], metavar="RELATION", help="premises: J = I_3, x >= 0, a != b")
     add_json(added)
 
     added = command("init", init_command, "begin a paper of your own", "lagrotor init my-paper --from paper.tex")
     added.description = (
-        "Begin a paper of your own: a folder with one worked equation, claim and figure, or with the equations of a source.\n"
-        "Again with --from: the source has changed; what is confirmed or derived stays."
+        "Make the folder of a new paper, with one worked equation, claim and figure, or with the equations of a source.\n"
+        "Run it again with --from after the source has changed: confirmed and derived equations stay."
     )
-    added.add_argument("folder", type=Path, metavar="DIR", help="a new or an empty folder, or the one to make again")
-    source = "take the displayed equations of a .tex file, and read them"
+    added.add_argument("folder", type=Path, metavar="DIR", help="a new or empty folder, or a paper to update")
+    source = "read the displayed equations of a .tex file"
     added.add_argument("--from", type=Path, metavar="FILE", dest="source", help=source)
 
     added = command(
-        "notation", notation_command, "declare the kinds of letters", "lagrotor notation my-paper --confirm f r"
+        "notation", notation_command, "declare the kinds of symbols", "lagrotor notation my-paper --confirm f r"
     )
     added.description = (
-        "Show the letters that are declared or proposed as functions, vectors, matrices, indices or numbers, each with a\n"
-        "formula where this is seen. Every other letter is a real number."
+        "Show the symbols that are declared or proposed as functions, vectors, matrices, indices or numbers, each proposal\n"
+        "with a formula that suggests it. Every other symbol is a real number."
     )
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
-    added.add_argument("--confirm", nargs="+", default=[], metavar="LETTER", help="declare these as proposed")
-    added.add_argument("--real", nargs="+", default=[], metavar="LETTER", help="declare these as real numbers")
-    add_json(added, "a JSON list, one object a letter")
+    added.add_argument("--confirm", nargs="+", default=[], metavar="SYMBOL", help="declare these as proposed")
+    added.add_argument("--real", nargs="+", default=[], metavar="SYMBOL", help="declare these as real numbers")
+    add_json(added, "a JSON list, one object a symbol")
 
     added = command(
-        "readings", readings_command, "compare readings with the print", "lagrotor readings my-paper --confirm 3 5a"
+        "readings",
+        readings_command,
+        "compare readings with the printed equations",
+        "lagrotor readings my-paper --confirm 3 5a",
     )
-    added.description = "How each equation was read, beside its print; what you confirm can be judged."
+    added.description = "Show each printed equation and its reading. Only a confirmed reading can be judged."
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
-    added.add_argument("--confirm", nargs="+", metavar="ID", help="these readings are what is printed")
+    added.add_argument(
+        "--confirm", nargs="+", metavar="ID", help="confirm that these readings agree with the printed equations"
+    )
     add_json(added, "a JSON list, one object an equation")
 
-    added = command("derive", derive_command, "derive what paper.toml states", "lagrotor derive my-paper")
+    added = command(
+        "derive", derive_command, "derive the equations of the system in paper.toml", "lagrotor derive my-paper"
+    )
     added.description = (
         "Write the derivation of the system that paper.toml states: coordinates, L, constraints; no Python is needed."
     )
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder, with [system] in its paper.toml")
 
-    added = command("check", check_command, "check a source by itself", "lagrotor check paper.tex --json")
+    added = command("check", check_command, "check a source without derivations", "lagrotor check paper.tex --json")
     added.description = (
-        "Check a source without any derivation: each step of a chain, claimed orders, indices.\n"
-        "Exit status: 0 nothing was found, 1 something was, 2 bad usage or input."
+        "Check each step of a chain of equations, claimed orders and indices.\n"
+        "Exit status: 0 no error was found, 1 an error was found, 2 bad usage or input."
     )
     added.add_argument("sources", nargs="+", type=Path, metavar="FILE", help="a .tex file")
     add_json(added, "a JSON object: findings, steps, reasons")
-    added.add_argument("--all", action="store_true", help="show the steps that hold and those that are not judged, too")
+    added.add_argument("--all", action="store_true", help="also show steps that hold or are not judged")
 
 
 def _add_testing_commands(command: Command) -> None:
-    """reproduce, audit, certify, claims, figure."""
+    """Add reproduce, audit, certify, claims and figure."""
     added = command(
         "reproduce",
         reproduce_command,
@@ -95,14 +100,14 @@ def _add_testing_commands(command: Command) -> None:
     added.add_argument("--jobs", type=int, metavar="N", help="processes (default: one a core, one in a debugger)")
     proofs = "write the proof of each exact verdict into DIR/certificates, linked from the page; lagrotor certify checks them"
     added.add_argument("--certify", action="store_true", help=proofs)
-    add_json(added, "what was found as a JSON object")
+    add_json(added, "the results as a JSON object")
 
     added = command("audit", audit_command, "judge the paper's equations", "lagrotor audit 5.12 5.15 --json")
-    added.description = "Judge the paper's equations. For single ids only their own derivations run."
+    added.description = "Judge the paper's equations. With ids, only the derivations of these equations run."
     added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
     _add_paper(added)
     add_json(added, "a JSON list, one object an equation")
-    added.add_argument("--record", action="store_true", help="put the verdicts on record, once they have been read")
+    added.add_argument("--record", action="store_true", help="record the verdicts; read them first")
     proofs = "write each exact verdict with its proof as a file of Coq into this folder; lagrotor certify checks them"
     added.add_argument("--certify", type=Path, metavar="DIR", help=proofs)
 
@@ -118,13 +123,13 @@ def _add_testing_commands(command: Command) -> None:
     added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
     _add_paper(added)
     add_json(added, "a JSON list, one object a claim")
-    added.add_argument("--record", action="store_true", help="put the outcomes on record, once they have been read")
+    added.add_argument("--record", action="store_true", help="record the outcomes; read them first")
 
     added = command("figure", figure_command, "draw figures as SVG and PNG", "lagrotor figure 17 t6 --out .")
     added.add_argument("keys", nargs="+", metavar="N", help="a figure's number, or letter and number, such as t6")
     _add_paper(added)
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
-    add_json(added, "a JSON list: files and measured numbers of each")
+    add_json(added, "a JSON list of files and measured numbers")
 
 
 def _add_paper(parser: argparse.ArgumentParser) -> None:
@@ -165,13 +170,13 @@ def init_command(options: argparse.Namespace) -> int:
     for note in paper.notes:
         print(f"  {note}")
     if paper.changed:
-        print(f"changed since, to be confirmed again: {', '.join(paper.changed)}")
+        print(f"changed, confirm again: {', '.join(paper.changed)}")
     if paper.gone:
         print(f"no longer in the source: {', '.join(paper.gone)}")
     if options.source:
-        print(f"see the kinds of its letters: lagrotor notation {paper.folder}")
-        print(f"compare the readings with the print: lagrotor readings {paper.folder}")
-    print(f"go on with {paper.folder / 'README.md'}, and with: lagrotor audit --paper {paper.folder}")
+        print(f"see the kinds of its symbols: lagrotor notation {paper.folder}")
+        print(f"compare the readings with the printed equations: lagrotor readings {paper.folder}")
+    print(f"continue with {paper.folder / 'README.md'}, and with: lagrotor audit --paper {paper.folder}")
     return 0
 
 
@@ -184,7 +189,7 @@ def notation_command(options: argparse.Namespace) -> int:
     proposals = {row.symbol: row.kind for row in rows if not row.declared}
     if unknown := [letter for letter in options.confirm if letter not in proposals]:
         raise InputError(
-            f"notation: nothing is proposed for {unknown[0]}: the proposals are for {', '.join(proposals) or 'no letter'}"
+            f"notation: nothing is proposed for {unknown[0]}: the proposals are for {', '.join(proposals) or 'no symbol'}"
         )
     if options.confirm or options.real:
         declare(
@@ -196,9 +201,9 @@ def notation_command(options: argparse.Namespace) -> int:
         print_json([asdict(row) for row in rows])
         return 0
     cells = [(row.symbol, row.kind, "declared" if row.declared else "proposed", row.evidence) for row in rows]
-    print(table(("letter", "kind", "", "seen in"), cells) if rows else "every letter is a real number")
+    print(table(("symbol", "kind", "", "formula"), cells) if rows else "every symbol is a real number")
     if any(not row.declared for row in rows):
-        say(f"declare a proposal: lagrotor notation {options.folder} --confirm LETTER …, or --real LETTER …", 0)
+        say(f"declare a proposal: lagrotor notation {options.folder} --confirm SYMBOL …, or --real SYMBOL …", 0)
     return 0
 
 
@@ -219,7 +224,7 @@ def readings_command(options: argparse.Namespace) -> int:
     for reading in rows:
         number = f", printed ({reading.number})" if reading.number else ""
         print(wrap(f"{reading.id}{number}  {reading.title}: {reading.status}", 4))
-        print(wrap(f"    print    {reading.print}", 13))
+        print(wrap(f"    printed  {reading.print}", 13))
         for text in reading.lines:
             formula = " = ".join(from_latex(side) if "\\" in side else readable(side) for side in text.split(" = "))
             print(wrap(f"    read     {formula}", 13))
@@ -228,7 +233,7 @@ def readings_command(options: argparse.Namespace) -> int:
     counts = Counter(reading.status for reading in rows)
     say(f"{_some(len(rows), 'equation')}: {', '.join(f'{n} {status}' for status, n in counts.items())}", 0)
     if counts["unconfirmed"] or counts["changed"]:
-        say(f"confirm what is read as printed: lagrotor readings {options.folder} --confirm ID …", 0)
+        say(f"confirm the correct readings: lagrotor readings {options.folder} --confirm ID …", 0)
     return 0
 
 
@@ -291,7 +296,7 @@ def _some(count: int, what: str) -> str:
 
 def reproduce_command(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
-        raise InputError(f"--jobs {options.jobs} must be at least 1: it is how many processes run")
+        raise InputError(f"--jobs {options.jobs} must be at least 1: it is the number of processes")
     from lagrotor.report.content import count_list
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.job.reproduce import reproduce
@@ -352,7 +357,7 @@ def audit_command(options: argparse.Namespace) -> int:
         files = sum(bool(row.file) for row in certify(verdicts, paper, options.certify))
         say(f"{_some(files, 'certificate')} in {options.certify}; to check: lagrotor certify {options.certify}", 0)
     if options.record:
-        return say(f"put on record in {paper.renew_record(verdicts)}", 0)
+        return say(f"recorded in {paper.renew_record(verdicts)}", 0)
     changes = paper.changes(verdicts, identifiers or paper.equations)
     return _say_changes(changes, bool(paper.recorded))
 
@@ -415,7 +420,7 @@ def claims_command(options: argparse.Namespace) -> int:
     if untested := sorted(identifiers - {result.test.id for result in results}):
         say(f"not yet tested: {', '.join(untested)}", 0)
     if options.record:
-        return say(f"put on record in {paper.renew_record(results)}", 0)
+        return say(f"recorded in {paper.renew_record(results)}", 0)
     changes = paper.changes(results, [i for i in paper.claims if i in identifiers])
     return _say_changes(changes, bool(paper.recorded))
 
@@ -443,7 +448,7 @@ def figure_command(options: argparse.Namespace) -> int:
 
 def _say_changes(changes: list[str], on_record: bool) -> int:
     if not on_record:
-        return say("no verdicts are on record yet: nothing to compare these with", 0)
+        return say("no verdicts are on record yet: there is nothing to compare with", 0)
     for change in changes:
         say(f"changed: {change}", 1)
     return 1 if changes else 0

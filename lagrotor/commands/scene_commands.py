@@ -15,20 +15,17 @@ from lagrotor.pair.scene import Link, Scene, Shock
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
-    """Add the options of spins and bar; a scene file has all else."""
+    """Add the options of spins and bar; a scene file has all other data."""
     group = parser.add_argument_group("scene")
     group.add_argument("--spins", nargs=2, type=float, metavar=("W1", "W2"), help="axial angular velocities, rad/s")
     group.add_argument("--link-mass", type=float, metavar="KG", help=f"mass of the bar (default: {Link.mass:g})")
     says = f"transverse inertia of the bar, kg m² (default: {Link.inertia:g})"
     group.add_argument("--link-inertia", type=float, metavar="X", help=says)
-    says = (
-        "the whole scene from a TOML file instead: rotors, bar, axes, rates, shock; simulate --write-scene writes one"
-    )
+    says = "the whole scene from a TOML file: rotors, bar, axes, rates, shock; simulate --write-scene writes one"
     group.add_argument("--scene", type=Path, metavar="FILE", help=says)
 
 
 def add_shock(parser: argparse.ArgumentParser) -> None:
-    """Add the options of a shock."""
     group = parser.add_argument_group("shock: force exp(-((t - time)/width)^2) on the tip of rotor 1")
     group.add_argument("--shock", nargs=3, type=float, metavar=("FX", "FY", "FZ"), help="force, N")
     group.add_argument("--shock-time", type=float, metavar="S", help="centre of the pulse, s")
@@ -36,7 +33,7 @@ def add_shock(parser: argparse.ArgumentParser) -> None:
 
 
 def scene_from_options(options: argparse.Namespace) -> Scene:
-    """Return the scene that the options describe, or that of the file. Raises InputError for one that makes no sense."""
+    """Return the scene of the options or of the scene file. Raises InputError for contradictory options."""
     shock = _shock(options) if "shock" in options else None  # rate takes none
     link = {name: value for name in ("mass", "inertia") if (value := vars(options)[f"link_{name}"]) is not None}
     if options.scene:
@@ -56,7 +53,7 @@ def scene_from_options(options: argparse.Namespace) -> Scene:
 
 
 def _shock(options: argparse.Namespace) -> Shock | None:
-    """Return the shock that the options describe, if any. Raises InputError when a part of it is missing."""
+    """Return the shock of the options, or None. Raises InputError if one of its options is missing."""
     values = {"--shock": options.shock, "--shock-time": options.shock_time, "--shock-width": options.shock_width}
     missing = [name for name, value in values.items() if value is None]
     if len(missing) == len(values):
@@ -67,7 +64,7 @@ def _shock(options: argparse.Namespace) -> Shock | None:
 
 
 def check_file(path: Path) -> None:
-    """Raises InputError unless a run can be written there."""
+    """Raise InputError unless a run can be written to the path."""
     endings = (".npz", ".csv", *PICTURES, *FILMS)
     if path.suffix not in endings:
         raise InputError(f"--out {path}: the name must end in {', '.join(endings)}")
@@ -76,7 +73,7 @@ def check_file(path: Path) -> None:
     check_folder(path.parent)
 
 
-# What can be varied: name → (what it is, the scene with that value).
+# A function that returns a scene with one value changed.
 _Change = Callable[[Scene, float], Scene]
 
 
@@ -103,12 +100,12 @@ _VARIED: dict[str, tuple[str, _Change]] = {
     "link-mass": ("mass of the bar, kg", _bar_field("mass")),
     "link-inertia": ("inertia of the bar, kg m²", _bar_field("inertia")),
 }
-_MOST = 100_000  # runs of a sweep, which are all in memory at once
+_MOST = 100_000  # runs of a sweep; all are in memory at once
 _TOLERANCE = "target for the estimated largest error of an axis over the run"
 
 
 def add_sweep(added: argparse.ArgumentParser) -> None:
-    """The options of a sweep."""
+    """Add the options of a sweep."""
     add_scene(added)
     add_shock(added)
     says = "; ".join(f"{name}: {what}" for name, (what, _) in _VARIED.items())
@@ -132,7 +129,7 @@ def _values(options: argparse.Namespace) -> list[float]:
 
 
 def sweep_command(options: argparse.Namespace) -> int:
-    """Run the family; a line a run."""
+    """Run the family of scenes and print one line per run."""
     if not (math.isfinite(options.t_end) and options.t_end > 0):
         raise InputError(f"--t-end {options.t_end:g} must be above zero")
     values, scene, change = _values(options), scene_from_options(options), _VARIED[options.vary][1]
@@ -167,12 +164,12 @@ _FPS = 25.0  # frames per second
 
 
 def add_scene_commands(command: Command) -> None:
-    """simulate, sweep, animate, rate."""
+    """Add simulate, sweep, animate and rate."""
     _add_simulate(
         command(
             "simulate",
             simulate_command,
-            "run a rotor pair and keep or show its motion",
+            "simulate a rotor pair; save or show the motion",
             "lagrotor simulate --spins 10 -10 --shock 40 -11 0 --shock-time 2 --shock-width 0.05 --t-end 10 --out run.npz",
         )
     )
@@ -180,14 +177,14 @@ def add_scene_commands(command: Command) -> None:
         command(
             "sweep",
             sweep_command,
-            "run a rotor pair many times with one of its numbers varied",
+            "simulate a rotor pair for many values of one parameter",
             "lagrotor sweep --spins 10 -10 --vary paired --between 0.05 0.3 6",
         )
     )
     added = command(
         "animate",
         animate_command,
-        "write a ready scene's motion as a GIF",
+        "write the motion of an example scene as a GIF",
         "lagrotor animate free-precession --out pair.gif",
     )
     says = "\n".join(f"  {name:<18} {ready.says}" for name, ready in SCENES.items())
@@ -198,7 +195,10 @@ def add_scene_commands(command: Command) -> None:
     add_json(added, "a JSON object with the file's name")
 
     added = command(
-        "rate", rate_command, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
+        "rate",
+        rate_command,
+        "compute the natural rate of a rotor pair in closed form",
+        "lagrotor rate --spins 10 -10 --json",
     )
     add_scene(added)
     add_json(added)
@@ -209,9 +209,9 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
     add_shock(added)
     says = "start on the paired precession of this amplitude (opposite spins)"
     added.add_argument("--paired", type=float, metavar="R0", help=says)
-    added.add_argument("--write-scene", type=Path, metavar="FILE", help="write the scene as TOML too, for --scene")
+    added.add_argument("--write-scene", type=Path, metavar="FILE", help="also write the scene as TOML, for --scene")
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the run, s (default: 10)")
-    added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
+    added.add_argument("--samples", type=int, default=1001, metavar="N", help="number of saved times (default: 1001)")
     says = "auto, closed_form, linear, averaged, minimal, spheres or euler (default: auto)"
     added.add_argument("--model", default="auto", help=says)
     added.add_argument("--tol", type=float, default=1e-9, help=f"{_TOLERANCE} (default: 1e-9)")
@@ -219,7 +219,7 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
         "--out",
         type=Path,
         metavar="FILE",
-        help="write the run (.npz, .csv), a picture of it (.png, .svg, .pdf) or a film (.gif); a line, no table",
+        help="write the run (.npz, .csv), a picture (.png, .svg, .pdf) or a film (.gif), and print one line instead of the table",
     )
     add_json(added, "the summary as a JSON object")
 
@@ -289,7 +289,7 @@ def simulate_command(options: argparse.Namespace) -> int:
 
 
 def _scene_with_start(scene: Scene, options: argparse.Namespace) -> Scene:
-    """Return the scene, on its paired precession with `--paired`, written with `--write-scene`."""
+    """Return the scene, on its paired precession with `--paired`; write it with `--write-scene`."""
     if options.paired is not None:
         from lagrotor.models.orbits.precession import paired_scene
 
@@ -308,8 +308,8 @@ def _run_table(run: dict[str, Any]) -> str:
     rows = [
         ("model", f"{run['model']} ({run['why']})"),
         ("evaluations", str(run["evaluations"])),
-        ("energy at first [J]", f"{run['energy_first']:.12g}"),
-        ("energy at last [J]", f"{run['energy_last']:.12g}"),
+        ("initial energy [J]", f"{run['energy_first']:.12g}"),
+        ("final energy [J]", f"{run['energy_last']:.12g}"),
         ("link length, spread [m]", f"{run['link_length_spread']:.3g}"),
         ("tip 1 at the end [m]", point(run["tip_1"])),
         ("tip 2 at the end [m]", point(run["tip_2"])),
@@ -334,7 +334,7 @@ def rate_command(options: argparse.Namespace) -> int:
             return 0
         print()
         rows = [(name, limit.formula, f"{limit.rate:.12g}", limit.says) for name, limit in limits.items()]
-        print(table(("limit", "formula", "rad/s", "what is changed"), rows))
+        print(table(("limit", "formula", "rad/s", "change"), rows))
     return 0
 
 
@@ -342,14 +342,14 @@ _ENDINGS = (*PICTURES, *FILMS, ".toml")
 
 
 def add_structure_commands(command: Command) -> None:
-    """structure."""
+    """Add structure."""
     added = command(
         "structure",
         structure_command,
-        "whether a structure of rotors and bars stands, and its modes",
+        "show the stability and the modes of a structure of rotors and bars",
         "lagrotor structure corner --out corner.png",
     )
-    says = "a TOML file with joints, bars, spins …, or a name of the gallery, such as corner; list names them"
+    says = "a TOML file with joints, bars, spins …, or a name of the gallery, such as corner; list prints the names"
     added.add_argument("structure", metavar="FILE", help=says)
     added.add_argument("--out", type=Path, metavar="FILE", help="write a picture, a film (.gif) or the .toml itself")
     add_json(added)
@@ -361,7 +361,7 @@ def structure_command(options: argparse.Namespace) -> int:
 
     if options.structure == "list":
         listed = {name: entry.says for name, entry in GALLERY.items()}
-        print_json(listed) if options.json else print(table(("name", "what it shows"), list(listed.items())))
+        print_json(listed) if options.json else print(table(("name", "description"), list(listed.items())))
         return 0
     if options.out and options.out.suffix not in _ENDINGS:
         raise InputError(f"--out {options.out}: the name must end in {', '.join(_ENDINGS)}")
@@ -419,15 +419,15 @@ def _summary(s: Any) -> dict[str, Any]:
 
 def _table(summary: dict[str, Any]) -> str:
     verdict = {True: "yes", False: "no", None: "not judged"}[summary["stands"]]
-    rows = [("stands", f"{verdict}: {summary['why']}")]
+    rows = [("stable", f"{verdict}: {summary['why']}")]
     count = f"{summary['degrees_of_freedom']}; rotors: {summary['rotors']}, bars: {summary['bars']}"
     if summary["stands"] is None:
         return table(("structure", ""), [*rows, ("degrees of freedom", count)])
     factor = summary["critical_spin"]
-    least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
+    least = "no spin suffices" if factor is None else f"{factor:.6g} times its spins" if factor else "none needed"
     modes = enumerate(summary["modes"], 1)
     kind = "never at these spins" if summary["kind"] == "never" and factor else summary["kind"]
-    rows.insert(0, ("standing", kind))
+    rows.insert(0, ("stability", kind))
     rows += [
         ("least spin, to first order", least),
         ("degrees of freedom", f"{count}; modes that grow: {summary['topple']}"),

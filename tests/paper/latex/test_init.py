@@ -218,7 +218,7 @@ def test_readings_are_shown_beside_the_print_and_confirmed(source: Path, capsys:
     folder = str(source.parent / "mine")
     assert main(["readings", folder]) == 0
     out = capsys.readouterr().out
-    assert "1  eq:T: unconfirmed" in out and r"print    T = \frac{1}{2} m v^2" in out
+    assert "1  eq:T: unconfirmed" in out and r"printed  T = \frac{1}{2} m v^2" in out
     assert main(["readings", folder, "--confirm", "1"]) == 0
     assert main(["readings", folder, "--json"]) == 0
     assert '"status": "confirmed"' in capsys.readouterr().out
