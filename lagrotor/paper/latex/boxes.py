@@ -112,7 +112,7 @@ def boxes(latex: str) -> list[Box]:
     reader = _Reader(latex)
     row = reader.sequence(())
     if reader.ahead:
-        raise FormulaError(f"{reader.ahead} has no opening bracket", "write the bracket that it closes")
+        raise FormulaError(f"{reader.ahead} has no opening bracket", "write the opening bracket")
     return row
 
 
@@ -153,7 +153,7 @@ class _Reader:
     def argument(self, style: str = "") -> list[Box]:
         """Read the boxes in braces, or the next single object."""
         if not self.ahead:
-            raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write it in braces")
+            raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write the argument in braces")
         if self.opens:
             return self.group(style)
         if not self.ahead.isdecimal():
@@ -165,7 +165,7 @@ class _Reader:
         opened = self.take()
         row = self.sequence(("}",), style)
         if not self.ahead:
-            raise FormulaError("{ is not closed", "write the brace that closes it")
+            raise FormulaError("{ is not closed", "write the closing brace")
         self.take()
         if row:  # its ends have their braces
             row[0].at, row[-1].end = opened.at, self.end
@@ -193,7 +193,7 @@ class _Reader:
         """Read boxes until one of the ends comes next."""
         self.depth += 1
         if self.depth > _MOST:
-            raise FormulaError(f"{self.ahead} is nested too deeply", "write fewer brackets within brackets")
+            raise FormulaError(f"{self.ahead} is nested too deeply", "write fewer nested brackets")
         row: list[Box] = []
         while self.ahead and self.ahead not in ends:
             item = self.items[self.place]
@@ -231,7 +231,7 @@ class _Reader:
     def comma_in_number(self, number: Box) -> None:
         self.place += 3
         if not self.ahead.isdecimal():
-            raise FormulaError("{,} is not part of a number", "write digits behind the comma")
+            raise FormulaError("{,} is not part of a number", "write digits after the comma")
         number.name += "{,}"
         while self.ahead.isdecimal():
             number.name += self.take().text
@@ -251,7 +251,7 @@ class _Reader:
         if item.text == "^" and content and all(b.kind == "letter" and b.name == "prime" for b in content):
             self.prime(row, len(content))
         elif (target.sup if item.text == "^" else target.sub) is not None:
-            raise FormulaError(f"{item.text} follows another {item.text}", "write one pair of braces")
+            raise FormulaError(f"{item.text} follows another {item.text}", "write both in one pair of braces")
         elif item.text == "^":
             target.sup = content
         else:
@@ -286,7 +286,7 @@ class _Reader:
             return [self.box("relation", ":=", item)]
         if text in (":", "."):
             return [self.box("operator" if text == ":" else "comma", text, item)]
-        raise FormulaError(f"{text} is not known", "write it in LaTeX")
+        raise FormulaError(f"{text} is unknown", "write the character in LaTeX")
 
     def number(self, item: Token) -> Box:
         digits = item.text
@@ -313,7 +313,7 @@ class _Reader:
             return form(self, item, style)
         if name in STYLES:
             return self.styled(name, item)
-        raise FormulaError(f"{item.text} is not known", r"write what it means, or define it by \newcommand")
+        raise FormulaError(f"{item.text} is unknown", r"write what it means, or define it by \newcommand")
 
     def accent(self, mark: str, item: Token, style: str) -> Box:
         content = self.argument(style)
@@ -358,7 +358,7 @@ class _Reader:
         if _SIZES.fullmatch(self.ahead):
             self.take()
         if self.ahead != closing:
-            raise FormulaError(f"{opening} is not closed by {closing}", f"write {closing} where it ends")
+            raise FormulaError(f"{opening} is not closed by {closing}", f"write {closing} at the end")
         self.take()
         return self.box("bracket", opening, item, content, closing=closing)
 
@@ -396,7 +396,7 @@ class _Reader:
     def _begin(self, item: Token, style: str) -> list[Box]:
         name = self.plain()
         if name not in (*_MATRICES, *_ROWS, *_CASES):
-            raise FormulaError(rf"\begin{{{name}}} is not known", "write the formula without this environment")
+            raise FormulaError(rf"\begin{{{name}}} is unknown", "write the formula without this environment")
         self.bracketed()
         if name in ("array", "alignedat") and "|" in self.plain():
             raise FormulaError("the matrix contains a line", "write its blocks separately")

@@ -61,12 +61,12 @@ INDEX, FAULT = "index outside its sum", "no LaTeX"
 WRONG = (REFUTED, INDEX, FAULT)
 # Reasons not to judge a step.
 NOT_READ = "the display is not read"
-UNCOMPARABLE = "a member has no value that could be compared"
-OUTSIDE = "the difference is outside what is decided exactly"
+UNCOMPARABLE = "a member has no value for a comparison"
+OUTSIDE = "the exact decision does not cover the difference"
 FUNCTIONS = "derivatives, integrals or functions may be related"
 LETTERS = "the right member has symbols that the left member lacks"
 BEFORE = "an earlier equation relates its symbols"
-MAYBE = "it may be a condition"
+MAYBE = "the step may be a condition"
 ROUNDED = "a decimal number may be rounded"
 ALL_REAL = Notation()
 _VERDICT = tuple[str, str]

@@ -97,7 +97,7 @@ def read_source(file: Path) -> Source:
     if file.suffix.lower() not in _SUFFIXES:
         raise InputError(f"{file}: give a .tex file")
     if file.is_file() and (size := file.stat().st_size / 1e6) > _LARGEST:
-        raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts")
+        raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts one by one")
     text = read_text(file, "latin-1")
     if text.startswith("%PDF") or 20 * sum(map(text.count, _CONTROLS)) > len(text):
         raise InputError(f"{file} is not text: give its LaTeX source")
@@ -177,7 +177,7 @@ class _Walker:
         """Note a formula that is not read; each sentence appears once."""
         if not any(sentence in note for note in self.expander.notes):
             self.expander.notes.append(f"{self.expander.place(at)}: {sentence}")
-            self.expander.doubt = self.expander.doubt or "a part of the source is left out"
+            self.expander.doubt = self.expander.doubt or "a part of the source is skipped"
 
     def _stray(self, token: Token, fault: str) -> None:
         """Record a fault, unless the token is the late end of a display that was closed with a fault."""

@@ -107,7 +107,7 @@ class Grammar:
             else:
                 terms[-1][1].append(box)
         if not terms[-1][1]:
-            raise FormulaError("nothing follows the sign" if row else "the expression is empty", "write what is meant")
+            raise FormulaError("nothing follows the sign" if row else "the expression is empty", "write the expression")
         values = [Call("negative", (self.term(run),)) if sign == "-" else self.term(run) for sign, run in terms]
         if len(values) == 1:
             return values[0]
@@ -168,7 +168,9 @@ class Grammar:
             return _product([product, right])
         cofactor = right if vectors[0] else product if vectors[1] else None
         if sign == "cdot" and isinstance(cofactor, Call) and cofactor.name not in (*_SCALARS, *FUNCTIONS.values()):
-            raise FormulaError(f"it is unclear whether {cofactor.name} is a vector", "write it without the dot")
+            raise FormulaError(
+                f"it is unclear whether {cofactor.name} is a vector", "write the product without the dot"
+            )
         if sign == "times" and not (_is_numeric(product) or _is_numeric(right)):
             way = r"declare the vectors in [notation], or write \cdot"
             raise FormulaError("it is unclear whether × is of vectors or of numbers", way)
@@ -180,7 +182,7 @@ class Grammar:
         last = dividend.args[-1] if isinstance(dividend, Call) and dividend.name == "product" else dividend
         last = last.args[0] if isinstance(last, Call) and last.name == "power" else last
         if isinstance(last, Call) and last.name in _OPEN_ENDED and text.rstrip(" /")[-1:] not in ")]}":
-            raise FormulaError("it is unclear whether the slash is within the function", "write brackets")
+            raise FormulaError("it is unclear whether the slash is inside the function", "write brackets")
         return Call("quotient", (dividend, divisor))
 
     def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -244,7 +246,7 @@ class Grammar:
         word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
         if word or (box.name == "d" and box.upright and box.primes):
             way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
-            raise self._open(box, f"{box.name} acts on what follows", way=way)
+            raise self._open(box, f"{box.name} is an operator", way=way)
         if right is not None and kind == "bracket" and _plain(right.name) in _ROUND:
             applied = self._applied(box, right)
             if applied is not None:
@@ -290,7 +292,7 @@ class Grammar:
         r"""Read \Delta x as one symbol."""
         box, right = row[place : place + 2]
         if right.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
-            raise self._open(box, f"\\{box.name} is a factor or acts on what follows", "functions", "real")
+            raise self._open(box, f"\\{box.name} is a factor or an operator", "functions", "real")
         letter = self.letter(right)
         if place + 2 < len(row) and row[place + 2].kind == "bracket":
             raise self._open(right, f"\\{box.name} {right.name} is a function or a factor", "functions")
@@ -336,7 +338,7 @@ class Grammar:
             raise FormulaError("a bracket has an index", "write the index on a symbol")
         named, arguments = self.letter(replace(box, primes=0)), self._each(content)
         if named.vector and not named.name.split("_")[0].endswith(("bold", "vec")):
-            raise FormulaError(f"{named.name} is a vector and a function", "print it in bold")
+            raise FormulaError(f"{named.name} is a vector and a function", "write the vector in bold")
         if box.primes and len(arguments) == 1 and isinstance(arguments[0], Letter):
             value = _derived(Call(named.name, arguments), arguments[0], box.primes)
         else:
@@ -350,7 +352,7 @@ class Grammar:
         if box.sup is None or self._label(box):
             return node
         if not box.sup:
-            raise FormulaError("a power is empty", "write it")
+            raise FormulaError("a power is empty", "write the exponent")
         only = box.sup[0].name if len(box.sup) == 1 and box.sup[0].kind == "letter" else ""
         if only in _TRANSPOSES and (is_vector(node) or only != "T" or isinstance(node, Letter)):
             if not is_vector(node):
@@ -365,7 +367,7 @@ class Grammar:
                 raise FormulaError("the power of a matrix is not a number", "write the product")
         elif is_vector(node):
             if power != number(2):
-                raise FormulaError("a vector has a power", "write its length")
+                raise FormulaError("a vector has a power", "write the power of its length")
             return Call("dot", (node, node))
         half = power == Call("quotient", (number(1), number(2)))
         return Call("sqrt", (node,)) if half else Call("power", (node, power))
@@ -419,10 +421,10 @@ class Grammar:
         box, name = row[place], FUNCTIONS.get(row[place].name, row[place].name)
         inner, behind = self._argument(row, place)
         if behind < len(row) and row[behind].kind == "bracket" and [b.name for b in row[behind].contents[0]] == ["t"]:
-            raise FormulaError(f"it is unclear where the argument of {box.name} ends", "write it in brackets")
+            raise FormulaError(f"it is unclear where the argument of {box.name} ends", "write the argument in brackets")
         above = [b.name for b in box.sup or ()]
         if box.sub is not None and name != "log":
-            raise FormulaError(f"{box.name} has an index", "write what it means")
+            raise FormulaError(f"{box.name} has an index", "write the function without index")
         if above == ["-", "1"] and name in _INVERSE:
             return Call(_INVERSE[name], inner), behind
         if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
@@ -438,7 +440,7 @@ class Grammar:
         box, start = row[place], place + 1
         first = row[start] if start < len(row) else box
         if first is box or first.kind in ("operator", "comma", "big"):
-            raise FormulaError(f"{box.name} has no argument", "write it in brackets")
+            raise FormulaError(f"{box.name} has no argument", "write the argument in brackets")
         raised = FormulaError("it is unclear whether the power is of the argument or of the function", "write brackets")
         if first.kind == "bracket" and _plain(first.name) in _ROUND:
             if first.sub or first.sup:
@@ -448,7 +450,7 @@ class Grammar:
         if (first.kind == "matrix" and not first.sup) or (box.name in _BRACKETED and alone):
             return (self.expression([first]),), start + 1
         if box.name not in FUNCTIONS or box.name in _BRACKETED:
-            raise FormulaError(f"it is unclear where the argument of {box.name} ends", "write it in brackets")
+            raise FormulaError(f"it is unclear where the argument of {box.name} ends", "write the argument in brackets")
         if first.kind in ("function", "bracket") and not first.sup:
             node, behind = self.factor(row, start)
             return (node,), behind
@@ -474,7 +476,9 @@ class Grammar:
         is_clear = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
         if ends and plain and is_clear and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
             return end
-        raise FormulaError(f"it is unclear where the argument of {row[start - 1].name} ends", "write it in brackets")
+        raise FormulaError(
+            f"it is unclear where the argument of {row[start - 1].name} ends", "write the argument in brackets"
+        )
 
     def _moves(self, box: Box) -> bool:
         """Return True for a velocity or a vector, which ends the argument of a function."""
@@ -496,7 +500,7 @@ class Grammar:
                 raise FormulaError("‖…‖ encloses no vector", 'write in paper.toml [notation] vectors = "…"')
             return Call("norm" if is_vector(inner) else "Abs", (inner,))
         if any(b.kind == "relation" for b in content):
-            raise FormulaError("a relation is inside brackets", "write it separately")
+            raise FormulaError("a relation is inside brackets", "write the relation separately")
         pieces = parted(content, "comma")
         if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(pieces) > 1 and box.name != "("):
             way = "means, kets, commutators, Poisson brackets and intervals are not read"
@@ -586,7 +590,7 @@ class Grammar:
         if BIG[box.name] == "limit":
             raise FormulaError("\\lim is not read", "limits are not decided")
         if not terms:
-            raise FormulaError(f"\\{box.name} has no terms", "write them")
+            raise FormulaError(f"\\{box.name} has no terms", "write the terms")
         ends = [*map(self.expression, (below[2:], box.sup))] if below[2:] and box.sup else []
         signs = [b.name for b in below[1:2]]
         if not below or below[0].kind != "letter" or signs != ["="] * len(ends[:1]) or bool(box.sup) != bool(ends):
@@ -613,13 +617,15 @@ class Grammar:
             variables.append(self._variable(over[start:]))
             numerator = over[:start] or [Box("number", "1", row[at].at, row[at].at)]
             if any(b.kind == "operator" for b in inner):
-                raise FormulaError("only one term has a differential", "write it at the end")
+                raise FormulaError("only one term has a differential", "write the differential at the end")
             inner = [*inner, replace(row[at], contents=[numerator, row[at].contents[1]]), *row[at + 1 : end]]
         else:
             variables.append(self._variable(row[end : end + 2]))
             end += 2
             if end < len(row) and (row[end].kind != "operator" or not inner):
-                raise self._open(box, "what follows the differential is integrated", way="write the differential last")
+                raise self._open(
+                    box, "the factors after the differential are integrated", way="write the differential last"
+                )
         limits = [self.expression(limit) for limit in (box.sub, box.sup) if limit]
         if len(limits) == 1 or box.name != "int" or (inner and inner[-1].kind == "operator"):
             raise FormulaError("the integral is over a line or a region", "write one variable and two limits")
@@ -670,7 +676,7 @@ def _check_sums(terms: list[list[Box]]) -> None:
         letters = {inner.name for box in term for inner in all_boxes(box.sub or ()) if inner.kind == "letter"}
         sums = [box for box in term if box.kind == "big"]
         if letters & indices and not sums:
-            raise FormulaError("it is unclear whether the sum ends here", "write brackets around what is summed")
+            raise FormulaError("it is unclear whether the sum ends here", "write brackets around the summand")
         indices |= {b.name for box in sums if box.name in ("sum", "prod") for b in box.sub or () if b.kind == "letter"}
 
 

@@ -99,7 +99,7 @@ class Counters:
         elif re.fullmatch(r"[+-]?\d+", text := latex_of(expander.expand(expander.argument())).strip()):
             values[name] = int(text) + (values.get(name, 0) if token.text == r"\addtocounter" else 0)
         else:
-            expander.doubt = f"{expander.place(token.at)}: {token.text}{{{name}}}{{{text}}} is not known"
+            expander.doubt = f"{expander.place(token.at)}: {token.text}{{{name}}}{{{text}}} is unknown"
 
     def _number_within(self, expander: Expander, token: Token) -> None:
         star = expander.star()

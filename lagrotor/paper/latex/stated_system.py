@@ -91,7 +91,7 @@ class StatedSystem:
             raise self._error(f"equation {identifier} has no role: {', '.join(self.derives)} have one")
         role = _ROLE.fullmatch(_one_line(self.derives[identifier]))
         if role is None:
-            raise self._error(f"{self.derives[identifier]!r} is not known: write {_ROLES}")
+            raise self._error(f"{self.derives[identifier]!r} is unknown: write {_ROLES}")
         self._check_letters(identifier)
         words = role.groupdict(default="")
         if words["form"]:
@@ -173,7 +173,7 @@ class StatedSystem:
         """Return F − τ dF/dt along the motion; it equals the printed F if F is conserved."""
         F = self.paper.lines(identifier)[0].members[0]
         if not F.has(*self.c.q, *self.c.v):
-            says = f"prints {F}, which depends on no coordinate or velocity: remove it here"
+            says = f"has the expression {F}, which depends on no coordinate or velocity: remove the equation here"
             raise self._error(f"equation {identifier} {says}")
         time = next(name for name in ("tau", "short_time", "time_since") if name not in self.names)
         return F - sp.Symbol(time, positive=True) * self._rate(F)
@@ -215,7 +215,7 @@ class StatedSystem:
     def _frequency(self, form: str, which: int, point: str) -> sp.Expr:
         """Return ω, ω² or the period of a small oscillation about an equilibrium; a mode's rate is i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
-            raise self._error("with friction small motion has no frequency: remove it here")
+            raise self._error("a system with friction has no frequency of small oscillations: remove the equation here")
         system = System(self.c, self.L, constraints=self.constraints, forces=self.forces)
         modes = system.linearise(self._point(point)).modes()
         squares = sorted({sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0}, key=sp.default_sort_key)

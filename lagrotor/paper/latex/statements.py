@@ -94,7 +94,7 @@ def _continues(previous: list[Box], line: list[Box]) -> bool:
     if starts and any(box.kind in ("text", "wide", "comma") for box in strip(previous)):
         raise FormulaError("a row continues one of several statements", "write each statement in its rows")
     if not starts and not _is_related(line):
-        raise FormulaError("a row has no relation", "begin it with the sign that joins it to the row before")
+        raise FormulaError("a row has no relation", "begin the row with the sign that joins it to the row before")
     return starts
 
 
@@ -105,7 +105,7 @@ def _segments(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
         following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
         if box.kind in ("arrow", "text"):
             if box.kind == "text" and _DENYING.search(box.name):
-                raise FormulaError(f"{box.name}: the words negate a statement", "write each statement by itself")
+                raise FormulaError(f"{box.name}: the words negate a statement", "write each statement separately")
             behind = row[place - 1].kind if place else "wide"
             if box.kind == "text" and behind in ("number", "relation", "operator") and not _JOINING.match(box.name):
                 raise FormulaError(
@@ -156,7 +156,7 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     if len(sides) > 2 and [b.kind for b in sides[-1]] == ["dots"]:
         sides, relations = sides[:-1], relations[:-1]  # the chain goes on
     if not all(sides):
-        raise FormulaError("a side of the relation is missing", "write it, or join it to the row before")
+        raise FormulaError("a side of the relation is missing", "write the side, or join the row to the row before")
     read: list[Side] = []
     for place, side in enumerate(sides):
         _check_side(side)
@@ -202,10 +202,10 @@ def _check_side(side: list[Box]) -> None:
     plain = [b for b in side if b.kind == "letter" and not (b.sub or b.sup or b.marks or b.style)]
     name = "".join(box.name for box in plain)
     if 2 < len(side) == len(name) and name.isupper():
-        raise FormulaError(f"{name} is a word", r"write \mathrm for it, or \cdot")
+        raise FormulaError(f"{name} is a word", r"write \mathrm{…} for a word, or \cdot for a product")
     square = len(side) == 1 and side[0].name == "[" and not (side[0].sub or side[0].sup)
     if square and [b.kind for b in side[0].contents[0]] != ["matrix"]:
-        raise FormulaError("it is unclear what the square brackets mean", "leave them out, or write what it is")
+        raise FormulaError("it is unclear what the square brackets mean", "write the meaning, or omit the brackets")
 
 
 def _side(reader: Grammar, row: list[Box]) -> Node:

@@ -173,7 +173,7 @@ class TokenStream:
             if depth == 0:
                 return inside
             inside.append(token)
-        self.fault(at, "{ is not closed: the text up to the end is taken as an argument")
+        self.fault(at, "{ is not closed: the text up to the end becomes the argument")
         return inside
 
     def _until(self, opening: str, closing: str, at: int) -> list[Token]:

@@ -136,7 +136,7 @@ COUNTS = r"\begin{equation}\label{a} a = b \end{equation}\begin{equation}\label{
     ("start", "said"),
     [
         (r"\documentclass{strange}\begin{document}", "the class strange is unknown"),
-        (ARTICLE + r"\setcounter{equation}{\x}", r"paper.tex:1: \setcounter{equation}{\x} is not known"),
+        (ARTICLE + r"\setcounter{equation}{\x}", r"paper.tex:1: \setcounter{equation}{\x} is unknown"),
         (ARTICLE + r"\newtheorem{law}[equation]{Law}", "theorems share the counter of equations"),
         (ARTICLE + r"\mathtoolsset{showonlyrefs}", "showonlyrefs of mathtools removes numbers"),
         (ARTICLE + r"\ifnum1=1 \stepcounter{equation}\fi", "a part of the source is skipped"),

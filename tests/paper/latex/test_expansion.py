@@ -121,8 +121,8 @@ DERIVATIVES = [
     (r"\pdv{x} f", "Derivative(f, x)"),
     (r"\sin[2](x)", "sin(x)**2"),
     (r"\qty(a + b) \qty[c]", "(a + b)*c"),
-    (r"\ket{a}", r"\ket is not known"),
-    (r"\SI{2}{m}", r"\SI is not known"),
+    (r"\ket{a}", r"\ket is unknown"),
+    (r"\SI{2}{m}", r"\SI is unknown"),
 ]
 
 

@@ -31,7 +31,7 @@ FAULTS = {
     "It costs $5.": (2, "$ is not closed in its paragraph", ["x = y"]),
     "\\verb|a": (2, r"\verb is not closed on its line", ["x = y"]),
     "\\iffalse hidden": (2, r"\iffalse has no \fi: the text up to the end is skipped", []),
-    "\\newcommand{\\q}{a": (2, "{ is not closed: the text up to the end is taken as an argument", []),
+    "\\newcommand{\\q}{a": (2, "{ is not closed: the text up to the end becomes the argument", []),
     "\\newcommand{\\q}[1][a]{#1} \\q[0, 1)": (2, "the argument has no end, ], in its paragraph", ["x = y"]),
 }
 

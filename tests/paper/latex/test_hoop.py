@@ -242,11 +242,11 @@ def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path
     [
         ('coordinates = "theta"', 'coordinate = "theta"', "'coordinate' is not a key"),
         ('"acceleration theta"', '"acceleration phi"', "the coordinates are theta"),
-        ('"energy"', '"action"', "'action' is not known"),
+        ('"energy"', '"action"', "'action' is unknown"),
         ("coordinates =", 'where = ["g"]\ncoordinates =', "defines no symbol"),
         ("coordinates =", 'where = ["g = R"]\ncoordinates =', "g is a symbol of the system"),
         ("coordinates =", 'where = ["theta_0 = theta"]\ncoordinates =', "theta_0 is defined by coordinates"),
-        ('"acceleration theta"', '"small motion theta"', "is not known"),
+        ('"acceleration theta"', '"small motion theta"', "is unknown"),
         ("coordinates =", 'forces = ["0", "0"]\ncoordinates =', "2 for 1 coordinates"),
         ("theta_dot**2 +", "__import__('os') +", "no part of an expression|is not defined"),
         ('"7" = "acceleration theta"', '"9" = "energy"', "'9' is not in the catalogue"),
