@@ -426,7 +426,7 @@ class _Reader:
         joined = bool(content) and content[0].kind == "operator"  # the sign joins it to the term before
         return content if joined else [self.box("group", "brace", item, content)]
 
-    def _passed_over(self, item: Token, style: str) -> list[Box]:
+    def _skip(self, item: Token, style: str) -> list[Box]:
         self.plain()
         return [self.box("thin", "", item)] if item.text == r"\hspace" else []
 
@@ -489,7 +489,7 @@ _FORMS: dict[str, Callable[[_Reader, Token, str], list[Box]]] = {
     **dict.fromkeys(_FRACTIONS, _Reader._frac),
     **dict.fromkeys(("dv", "pdv"), _Reader._derivative),
     **dict.fromkeys(("underbrace", "overbrace"), _Reader._underbrace),
-    **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._passed_over),
+    **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._skip),
     **{"left": _Reader._left, "sqrt": _Reader._sqrt, "begin": _Reader._begin, "\\": _Reader._line_end},
 }
 
@@ -512,7 +512,7 @@ def strip(row: list[Box]) -> list[Box]:
     return row[start:end]
 
 
-def parted(row: list[Box], *kinds: str) -> list[list[Box]]:
+def split_at(row: list[Box], *kinds: str) -> list[list[Box]]:
     """Split a row at the boxes of these kinds; a full stop is no separator."""
     ends = [-1, *(k for k, box in enumerate(row) if box.kind in kinds and box.name != "."), len(row)]
     return [row[first + 1 : last] for first, last in pairwise(ends)]

@@ -24,9 +24,9 @@ from lagrotor.paper.latex.comparison import (
     TOO_LARGE,
     agree,
     agree_for_positive,
-    bounded,
-    counted,
-    decided,
+    bound_work,
+    count_calls,
+    equality,
     expression_of,
     is_large,
     may_agree,
@@ -140,7 +140,7 @@ class _Checker:
                 yield self._finding(equation, 0, None, NOT_JUDGED, f"{NOT_READ}: {what}: {helps}")
             for nth, statement in enumerate(reading.statements):
                 yield from (self._finding(equation, 0, None, INDEX, why) for why in _open_indices(statement))
-                yield from self._steps(equation, statement, statement if nth else self._continued(equation, statement))
+                yield from self._steps(equation, statement, statement if nth else self._join_row(equation, statement))
 
     def _finding(
         self, equation: Displayed, step: int, sides: tuple[Side, Side] | None, verdict: str, why: str
@@ -167,11 +167,11 @@ class _Checker:
                 decide, arguments = self._order, (*arguments, claimed)
             elif relation not in ("=", ":="):
                 continue
-            verdict, why = bounded(decide, *arguments, too_large=(NOT_JUDGED, TOO_LARGE))
+            verdict, why = bound_work(decide, *arguments, too_large=(NOT_JUDGED, TOO_LARGE))
             if step > 1 or verdict == HOLDS:
                 yield self._finding(display, step, (lhs, rhs), verdict, why)
 
-    def _continued(self, equation: Displayed, statement: PrintedStatement) -> PrintedStatement:
+    def _join_row(self, equation: Displayed, statement: PrintedStatement) -> PrintedStatement:
         """Return a continuing row with the last side of the previous row inserted."""
         previous = self.readings[self.place - 1][1] if equation.lead and self.place else None
         if previous is None or not previous.whole or previous.statements[-1].kind != "equation":
@@ -188,7 +188,7 @@ class _Checker:
             return NOT_JUDGED, UNCOMPARABLE
         if a != b and is_large(a, b):
             return NOT_JUDGED, TOO_LARGE
-        answer = decided(a, b) if may_agree(a, b) else "nonzero"
+        answer = equality(a, b) if may_agree(a, b) else "nonzero"
         if answer == "zero":
             return HOLDS, "an identity where its roots are real" if radicands(a, b) else "an identity"
         if agree_for_positive(a, b):
@@ -198,7 +198,7 @@ class _Checker:
         if assumption := self._with_derivatives_taken(lhs, rhs, (a, b)):
             return HOLDS, assumption
         reason, why = self._refuted(lhs, rhs, a, b)
-        if reason or decided(a, b) != "nonzero":
+        if reason or equality(a, b) != "nonzero":
             return NOT_JUDGED, reason or OUTSIDE
         return REFUTED, why
 
@@ -224,7 +224,7 @@ class _Checker:
         if not others:  # a constant on the right is refuted only by another constant
             value = constant_value(a)
             return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its symbols")
-        if self._related(letters):
+        if self._has_relation(letters):
             return BEFORE, ""
         for side, fixed, changing in (("right", a, rhs), ("left", b, lhs)):
             if slip := change_to_agree(fixed, changing, self._value):
@@ -235,7 +235,7 @@ class _Checker:
     def _value(self, node: Node) -> Any:
         return expression_of(node, self.opaque)
 
-    def _related(self, letters: set[str]) -> bool:
+    def _has_relation(self, letters: set[str]) -> bool:
         """Return True if an earlier equation or the text relates only these symbols: the members may then agree."""
         stems = {letter.split("_")[0] for letter in letters}
         for latex, reading in (*((equation.latex, r) for equation, r in self.readings[: self.place]), *self._text):
@@ -269,7 +269,7 @@ class _Checker:
                 return NOT_JUDGED, LETTERS
             rates = re.compile(rf"{re.escape(name)}_d+ot")  # rates of a small quantity are of the same order
             scaled = {s: small * s for s in a.free_symbols | b.free_symbols if rates.fullmatch(s.name)}
-            term = counted(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
+            term = count_calls(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
         except WorkError:
             raise
         except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
@@ -313,7 +313,11 @@ def _without_bound(node: Node, index: str) -> Node:
 
 
 def _difference(a: Any, b: Any) -> str:
-    return "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(counted(sp.factor_terms, counted(sp.expand, a - b)))
+    return (
+        "a vector"
+        if isinstance(a, sp.MatrixBase)
+        else sp.sstr(count_calls(sp.factor_terms, count_calls(sp.expand, a - b)))
+    )
 
 
 def _comparable(a: Any, b: Any) -> bool:

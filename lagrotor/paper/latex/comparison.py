@@ -21,7 +21,7 @@ _MOST_POINTS = 16  # test points at which two sides are evaluated until both are
 _step: Calls | None = None  # remaining calls of the current step
 
 
-def bounded(work: Callable[..., Any], *arguments: Any, too_large: Any = None) -> Any:
+def bound_work(work: Callable[..., Any], *arguments: Any, too_large: Any = None) -> Any:
     """Return work(*arguments), or `too_large` if the work exceeds the bound for one step."""
     global _step
     previous, _step = _step, Calls(MOST_CALLS)
@@ -33,7 +33,7 @@ def bounded(work: Callable[..., Any], *arguments: Any, too_large: Any = None) ->
         _step = previous
 
 
-def counted(work: Callable[..., Any], *arguments: Any) -> Any:
+def count_calls(work: Callable[..., Any], *arguments: Any) -> Any:
     """Return work(*arguments); its calls count for the current step."""
     return work(*arguments) if _step is None else at_most(_step, work, *arguments)
 
@@ -41,7 +41,7 @@ def counted(work: Callable[..., Any], *arguments: Any) -> Any:
 def expression_of(node: Node, opaque: Opaque) -> Any:
     """Return the node as a sympy expression, or None."""
     try:
-        return counted(sympy_expression, node, opaque)
+        return count_calls(sympy_expression, node, opaque)
     except (TypeError, ValueError, ArithmeticError, AttributeError):
         return None
 
@@ -50,7 +50,7 @@ def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
     """Return the value at a point; nan outside the range of floats."""
     entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
     try:
-        value = counted(sp.N, entry.xreplace(point), 15)
+        value = count_calls(sp.N, entry.xreplace(point), 15)
         return value if abs(complex(value)) < LARGEST else sp.nan
     except (ArithmeticError, AttributeError, ValueError, TypeError):
         return sp.nan
@@ -88,10 +88,10 @@ def is_large(*sides: Any) -> bool:
 
 def agree(a: Any, b: Any) -> bool:
     """Return True if two sides are proved equal."""
-    return may_agree(a, b) and decided(a, b) == "zero"
+    return may_agree(a, b) and equality(a, b) == "zero"
 
 
-def decided(a: Any, b: Any) -> str:
+def equality(a: Any, b: Any) -> str:
     """Return 'zero', 'nonzero' or 'undecided' for a − b; 'shape' for a vector and a number."""
     matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
     if all(matrices):
@@ -112,7 +112,7 @@ def _single(a: Any, b: Any) -> str:
     if a == b and radicands(a):  # even if its roots are real nowhere
         return "zero"
     try:
-        decision = counted(decide_equal, a, b, [sp.Gt(radicand, 0) for radicand in radicands(a, b)])
+        decision = count_calls(decide_equal, a, b, [sp.Gt(radicand, 0) for radicand in radicands(a, b)])
     except WorkError:
         raise
     except (LagrotorError, TypeError, ValueError, ArithmeticError):

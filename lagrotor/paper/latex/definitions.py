@@ -176,12 +176,12 @@ def _end_input(expander: Expander, token: Token) -> None:
     expander.end_file(token.at)
 
 
-def _pass_name(expander: Expander, token: Token) -> None:
+def _skip_name(expander: Expander, token: Token) -> None:
     r"""Skip the name of a condition in \newif\ifx, which is not decided."""
     expander.argument()
 
 
-def _with_argument(expander: Expander, token: Token) -> None:
+def _skip_argument(expander: Expander, token: Token) -> None:
     r"""Skip the argument of \titleformat, \tikzset …"""
     expander.star()
     expander.argument()
@@ -200,7 +200,7 @@ PRIMITIVES: dict[str, Primitive] = {
     **_commands("let", _let),
     **_commands("newenvironment renewenvironment", _new_environment),
     **_commands("newtheorem", _new_theorem),
-    **_commands("newif", _pass_name),
+    **_commands("newif", _skip_name),
     **_commands("DeclareMathOperator", _operator),
     **_commands("DeclarePairedDelimiter", _pair),
     **_commands("usepackage RequirePackage", _use),
@@ -211,6 +211,6 @@ PRIMITIVES: dict[str, Primitive] = {
     **_commands("else fi", _else),
     **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
     **_commands("long protected outer relax protect expandafter makeatletter makeatother xspace", lambda *_: None),
-    **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _with_argument),
+    **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _skip_argument),
     **_commands("endinput", _end_input),
 }

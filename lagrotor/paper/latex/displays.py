@@ -165,21 +165,21 @@ class _Walker:
             self.counters.values["equation"], printed, _ = self.outer.pop()
             self.expander.define(r"\theequation", printed)
         elif token.text.replace(r"\end", r"\begin") in _BEGINS:
-            self._stray(token, f"{token.text} has no matching opening")
+            self._unmatched(token, f"{token.text} has no matching opening")
         elif token.text == "^" and self.body:
             inside = next((name for name, _ in self.expander.scopes[::-1] if name != "{"), "")
             where = rf"in \begin{{{inside}}}, which is unknown: define it"
             if not inside.startswith("tikz"):
                 alone = "outside any environment: define the command that begins it"
-                self._pass_over(token.at, f"a formula is {where if inside else alone}")
+                self._note(token.at, f"a formula is {where if inside else alone}")
 
-    def _pass_over(self, at: int, sentence: str) -> None:
+    def _note(self, at: int, sentence: str) -> None:
         """Note a formula that is not read; each sentence appears once."""
         if not any(sentence in note for note in self.expander.notes):
             self.expander.notes.append(f"{self.expander.place(at)}: {sentence}")
             self.expander.doubt = self.expander.doubt or "a part of the source is skipped"
 
-    def _stray(self, token: Token, fault: str) -> None:
+    def _unmatched(self, token: Token, fault: str) -> None:
         """Record a fault, unless the token is the late end of a display that was closed with a fault."""
         if token.text != self.ended:
             self.expander.fault(token.at, fault)
@@ -199,13 +199,13 @@ class _Walker:
             else:
                 self.source.authors += names_of_authors(text)
         elif name in _FAULTS and self.body:
-            self._stray(token, _FAULTS[name])
+            self._unmatched(token, _FAULTS[name])
         elif name == "label":
             label = expander.name()
             if self.outer:
                 self.source.labels[label] = self.aux.get(label, self.outer[-1][2])
         elif name in DISPLAYS and self.body:
-            self._pass_over(token.at, rf"\{name} begins a display as a command: write \begin{{{name}}}")
+            self._note(token.at, rf"\{name} begins a display as a command: write \begin{{{name}}}")
         elif name == "appendix":
             self.counters.begin_appendix(expander)
         elif name in ("frontmatter", "mainmatter", "backmatter"):
@@ -228,7 +228,7 @@ class _Walker:
                 self.expander.argument()
             self._display(kind, token, end, name != kind)
         elif kind in _REFUSED:
-            self._pass_over(token.at, rf"\begin{{{name}}} is not read: write equation or align")
+            self._note(token.at, rf"\begin{{{name}}} is not read: write equation or align")
 
     def _begin_subequations(self) -> None:
         """Number by letters within the next number."""
@@ -288,7 +288,7 @@ class _Walker:
             braces += BRACES.get(item.kind, 0)
             row = rows[-1]
             if depth == braces == 0 and item.text in _ROW_ENDS:
-                self._pass_end(item)
+                self._skip_row_end(item)
                 if by_rows:
                     self._finish(row)
                     rows.append(_Row(numbered, False))
@@ -298,7 +298,7 @@ class _Walker:
                 row.tokens.append(item)
         self.expander.in_formula = False
         self._finish(rows[-1])
-        self._keep(rows, kind, token)
+        self._store(rows, kind, token)
 
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
         """Yield the tokens of a display. A missing end is assumed where TeX would stop, with a fault."""
@@ -324,7 +324,7 @@ class _Walker:
         self.ended = end
         return self.expander.fault(begin.at, f"{begin.text} is not {'ended' if begin.kind == 'begin' else 'closed'}")
 
-    def _pass_end(self, token: Token) -> None:
+    def _skip_row_end(self, token: Token) -> None:
         r"""Consume the star and the space argument after \\."""
         self.expander.star()
         space = latex_of(self.expander.optional() or ()) if self.expander.begins("[") else ""
@@ -362,7 +362,7 @@ class _Walker:
 
     # ---- equations
 
-    def _keep(self, rows: list[_Row], kind: str, token: Token) -> None:
+    def _store(self, rows: list[_Row], kind: str, token: Token) -> None:
         """Store the equations of a display; a row that continues the previous one is joined to it."""
         groups: list[list[_Row]] = []
         for row, following in pairwise(rows):

@@ -22,7 +22,7 @@ from lagrotor.paper.latex.boxes import (
     is_mark,
     is_printed_as_vector,
     name_of,
-    parted,
+    split_at,
     stem_of,
     strip,
 )
@@ -72,7 +72,7 @@ class Grammar:
         self.source, self.notation, self.alone, self.indices = source, notation, alone, indices
         self.bound: list[str] = []
 
-    def _open(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
+    def _ambiguity(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
         """Return the error for an ambiguous symbol, with the entries of [notation] that would decide its kind."""
         entries = " or ".join(f'{kind} = "{stem_of(box)}"' for kind in kinds)
         way = f"write in paper.toml [notation] {entries}" if kinds else way
@@ -85,15 +85,15 @@ class Grammar:
         """Return True if the notation declares one of these kinds for a symbol."""
         return any(has_kind(self.notation, kind, box) for kind in kinds)
 
-    def _each(self, row: list[Box]) -> tuple[Node, ...]:
+    def _expressions(self, row: list[Box]) -> tuple[Node, ...]:
         """Read the expressions between the commas of a row."""
-        return tuple(map(self.expression, parted(row, "comma")))
+        return tuple(map(self.expression, split_at(row, "comma")))
 
     # ---- sums and products
 
     def expression(self, row: list[Box]) -> Node:
         """Read a row of boxes as a sum. Raises FormulaError if it is not one."""
-        row = _paired(strip(row))
+        row = _pair_bars(strip(row))
         terms: list[tuple[str, list[Box]]] = [("+", [])]
         integrals = 0
         for place, box in enumerate(row):
@@ -145,15 +145,15 @@ class Grammar:
                     "it is unclear whether O(…) next to a factor is an order", r"write \cdot for products"
                 )
             right = _product(factors)
-            product = right if product is None else self._joined(product, sign, right, content[0])
+            product = right if product is None else self._join(product, sign, right, content[0])
         assert product is not None
         return product
 
-    def _joined(self, product: Node, sign: str, right: Node, first: Box) -> Node:
+    def _join(self, product: Node, sign: str, right: Node, first: Box) -> Node:
         """Return two factors joined by a sign; `first` is the box after the sign."""
         text = self.source[: first.at].rstrip()
         if sign == "/":
-            return self._divided(product, right, text)
+            return self._divide(product, right, text)
         vectors = is_vector(product), is_vector(right)
         if all(vectors) and not (is_matrix(product) or is_matrix(right)):
             if sign == "*":
@@ -176,7 +176,7 @@ class Grammar:
             raise FormulaError("it is unclear whether × is of vectors or of numbers", way)
         return product_of([product, right])
 
-    def _divided(self, dividend: Node, divisor: Node, text: str) -> Node:
+    def _divide(self, dividend: Node, divisor: Node, text: str) -> Node:
         if is_vector(divisor):
             raise FormulaError("the divisor is a vector", "divide by its length")
         last = dividend.args[-1] if isinstance(dividend, Call) and dividend.name == "product" else dividend
@@ -214,11 +214,11 @@ class Grammar:
         if dots != sorted(dots):
             raise FormulaError(f"a mark is above the dot of {box.name}", "give the rate a symbol")
         if "hat" in box.marks and box.name.isupper() and not self._kind(box, *_SETTLED):
-            raise self._open(box, f"{stem_of(box)} is an operator or a symbol", "operators", "vectors", "real")
+            raise self._ambiguity(box, f"{stem_of(box)} is an operator or a symbol", "operators", "vectors", "real")
         matrix = self._kind(box, "matrices")
         vector = matrix or self._kind(box, "vectors")
         if is_printed_as_vector(box) and not vector:
-            raise self._open(box, f"{stem_of(box)} is a vector or a matrix", "vectors", "matrices")
+            raise self._ambiguity(box, f"{stem_of(box)} is a vector or a matrix", "vectors", "matrices")
         return Letter(name_of(box, index_of(box), self._label(box)), vector, matrix)
 
     def _label(self, box: Box) -> list[str]:
@@ -240,43 +240,43 @@ class Grammar:
         box, right = row[place], row[place + 1] if place + 1 < len(row) else None
         kind = right.kind if right else ""
         if not (box.marks or box.style or box.sub or box.primes):
-            constant = self._sign(row, place, right)
+            constant = self._special_symbol(row, place, right)
             if constant is not None:
                 return constant
         word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
         if word or (box.name == "d" and box.upright and box.primes):
             way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
-            raise self._open(box, f"{box.name} is an operator", way=way)
+            raise self._ambiguity(box, f"{box.name} is an operator", way=way)
         if right is not None and kind == "bracket" and _plain(right.name) in _ROUND:
-            applied = self._applied(box, right)
+            applied = self._application(box, right)
             if applied is not None:
                 return applied, place + 2
         node: Node = self.letter(box)
         if box.primes and self._kind(box, "functions"):
             if self._kind(box, "proposed"):
-                raise self._open(box, f"{self._text(box)} is a derivative or another symbol", "functions", "real")
+                raise self._ambiguity(box, f"{self._text(box)} is a derivative or another symbol", "functions", "real")
             node = self.letter(replace(box, primes=0))
             if is_vector(node):
-                raise self._open(box, f"{self._text(box)} is a derivative or another vector", "vectors")
+                raise self._ambiguity(box, f"{self._text(box)} is a derivative or another vector", "vectors")
             for _ in range(box.primes):
                 node = Call("prime", (node,))
         return self.power(node, box), place + 1
 
-    def _sign(self, row: list[Box], place: int, right: Box | None) -> tuple[Node, int] | None:
+    def _special_symbol(self, row: list[Box], place: int, right: Box | None) -> tuple[Node, int] | None:
         """Read the special symbols e, i, π, d and Δ; return None for an ordinary symbol."""
         box, name, number_ = row[place], row[place].name, self._kind(row[place], "numbers")
         settled, kind = self._kind(box, *_SETTLED), right.kind if right else ""
         if name == "e" and (number_ or box.upright):
             return Call("exp", (self.expression(box.sup) if box.sup else number(1),)), place + 1
         if name == "e" and not settled and any(b.kind in ("letter", "infinity") for b in all_boxes(box.sup or ())):
-            raise self._open(box, "e is Euler's number", "numbers", "real")
+            raise self._ambiguity(box, "e is Euler's number", "numbers", "real")
         if name in ("i", "j") and name not in self.bound:
             if number_ or (box.upright and name == "i"):
                 return self.power(Letter("imaginary_unit"), box), place + 1
             if name == "i" and not settled:
-                raise self._open(box, "i is the imaginary unit", "numbers", "indices", "real")
+                raise self._ambiguity(box, "i is the imaginary unit", "numbers", "indices", "real")
         if name == "pi" and self._kind(box, "functions") and kind != "bracket":
-            raise self._open(box, "pi is the number or a quantity", way="give the quantity an index")
+            raise self._ambiguity(box, "pi is the number or a quantity", way="give the quantity an index")
         if name == "pi" and not settled:
             return self.power(Letter("pi"), box), place + 1
         proposed = name in ("Delta", "delta") and self._kind(box, "proposed") and kind != "bracket"
@@ -292,13 +292,13 @@ class Grammar:
         r"""Read \Delta x as one symbol."""
         box, right = row[place : place + 2]
         if right.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
-            raise self._open(box, f"\\{box.name} is a factor or an operator", "functions", "real")
+            raise self._ambiguity(box, f"\\{box.name} is a factor or an operator", "functions", "real")
         letter = self.letter(right)
         if place + 2 < len(row) and row[place + 2].kind == "bracket":
-            raise self._open(right, f"\\{box.name} {right.name} is a function or a factor", "functions")
+            raise self._ambiguity(right, f"\\{box.name} {right.name} is a function or a factor", "functions")
         return self.power(replace(letter, name=f"{box.name}_{letter.name}"), right), place + 2
 
-    def _applied(self, box: Box, bracket: Box) -> Node | None:
+    def _application(self, box: Box, bracket: Box) -> Node | None:
         """Read a symbol as a function of the next bracket, x for x(t); return None if it is a factor."""
         content, name = bracket.contents[0], stem_of(box)
         if name in ("O", "Ocal") and not (box.sub or box.sup):
@@ -312,7 +312,7 @@ class Grammar:
             return self.power(self.power(self.letter(box), box), bracket)
         bars = bool(content) and content[0].name in ("|", "||")  # V(|x - y|)
         adds = not bars and any(b.kind == "operator" and b.name in ("+", "-") for b in content[1:])
-        late = any([b.name for b in piece] == ["t"] for piece in parted(content, "operator"))  # x(t - \tau)
+        late = any([b.name for b in piece] == ["t"] for piece in split_at(content, "operator"))  # x(t - \tau)
         derived = [b.kind for b in content] == ["fraction"] and bool(bracket.sup or is_derivative(content[0]))
         listed = any(b.kind in ("comma", "relation") for b in content)
         doubtful = name in _NO_FACTORS or self._kind(box, "proposed")
@@ -322,25 +322,29 @@ class Grammar:
             and (any(mark.endswith("dot") for mark in box.marks) or not doubtful)
         ):
             return None
-        raise self._open(box, f"{self._text(box)} before {bracket.name} is a function or a factor", "functions", "real")
+        raise self._ambiguity(
+            box, f"{self._text(box)} before {bracket.name} is a function or a factor", "functions", "real"
+        )
 
     def _call(self, box: Box, bracket: Box) -> Node:
         """Read a declared function with its arguments, and V'(r) as its derivative."""
         content, above = bracket.contents[0], box.sup or []
-        derived = any(b.kind == "partial" or is_derivative(b) for b in content) or any(map(self._moves, content[1:]))
+        derived = any(b.kind == "partial" or is_derivative(b) for b in content) or any(
+            map(self._is_velocity, content[1:])
+        )
         itself = len(content) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in content)
         if (derived or itself) and not any(b.kind == "comma" for b in content):
-            raise self._open(box, f"{stem_of(box)} is a factor here")
+            raise self._ambiguity(box, f"{stem_of(box)} is a factor here")
         if [b.name for b in above] == ["-", "1"] or any(b.kind in ("bracket", "letter") for b in above):
             way = "write brackets around the base, or use another symbol"
-            raise self._open(box, f"{self._text(box)} has a power", way=way)
+            raise self._ambiguity(box, f"{self._text(box)} has a power", way=way)
         if bracket.sub:
             raise FormulaError("a bracket has an index", "write the index on a symbol")
-        named, arguments = self.letter(replace(box, primes=0)), self._each(content)
+        named, arguments = self.letter(replace(box, primes=0)), self._expressions(content)
         if named.vector and not named.name.split("_")[0].endswith(("bold", "vec")):
             raise FormulaError(f"{named.name} is a vector and a function", "write the vector in bold")
         if box.primes and len(arguments) == 1 and isinstance(arguments[0], Letter):
-            value = _derived(Call(named.name, arguments), arguments[0], box.primes)
+            value = _derivative_of(Call(named.name, arguments), arguments[0], box.primes)
         else:
             value = Call(name_of(box, index_of(box)) if box.primes else named.name, arguments)
         return self.power(self.power(value, box), bracket)
@@ -356,7 +360,7 @@ class Grammar:
         only = box.sup[0].name if len(box.sup) == 1 and box.sup[0].kind == "letter" else ""
         if only in _TRANSPOSES and (is_vector(node) or only != "T" or isinstance(node, Letter)):
             if not is_vector(node):
-                raise self._open(box, f"{self._text(box)} is transposed or has a power", "matrices", "real")
+                raise self._ambiguity(box, f"{self._text(box)} is transposed or has a power", "matrices", "real")
             return Call("transpose", (node,))
         self._check_power(box, box.sup)
         power = self.expression(box.sup)
@@ -389,7 +393,7 @@ class Grammar:
         upper = any(b.name in lowered or self._kind(b, "indices") for b in unsettled)
         below = bool(unsettled) and any(b.kind == "letter" for b in box.sub or ())
         if len(letters) == len(row) > 1 or upper or below:
-            raise self._open(letters[0], f"{text} is an upper index or a power", "real")
+            raise self._ambiguity(letters[0], f"{text} is an upper index or a power", "real")
 
     # ---- numbers
 
@@ -428,7 +432,7 @@ class Grammar:
         if above == ["-", "1"] and name in _INVERSE:
             return Call(_INVERSE[name], inner), behind
         if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
-            raise self._open(box, f"{box.name} has a mark or a power", way="write brackets around the base")
+            raise self._ambiguity(box, f"{box.name} has a mark or a power", way="write brackets around the base")
         value = Call(name.lower() if name == "Tr" else name, inner)
         if name == "log10" or (name == "log" and box.sub):
             base = self.expression(box.sub) if box.sub else number(10)
@@ -445,7 +449,7 @@ class Grammar:
         if first.kind == "bracket" and _plain(first.name) in _ROUND:
             if first.sub or first.sup:
                 raise raised
-            return self._each(first.contents[0]), start + 1
+            return self._expressions(first.contents[0]), start + 1
         alone = first.kind == "letter" and all(b.kind == "operator" for b in row[start + 1 : start + 2])
         if (first.kind == "matrix" and not first.sup) or (box.name in _BRACKETED and alone):
             return (self.expression([first]),), start + 1
@@ -454,21 +458,23 @@ class Grammar:
         if first.kind in ("function", "bracket") and not first.sup:
             node, behind = self.factor(row, start)
             return (node,), behind
-        end = self._reach(row, start)
+        end = self._argument_end(row, start)
         if any(item.sup is not None and not self._label(item) and item.name != "e" for item in row[start:end]):
             raise raised
         return (self.term(row[start:end]),), end
 
-    def _reach(self, row: list[Box], start: int) -> int:
+    def _argument_end(self, row: list[Box], start: int) -> int:
         """Return the end of a function's argument without brackets: 2θ, ωt, kx, nπ, one symbol."""
         end, kinds = start, ("number", "letter", "fraction", "root", "group")
-        while end < len(row) and row[end].kind in kinds and not self._moves(row[end]):
+        while end < len(row) and row[end].kind in kinds and not self._is_velocity(row[end]):
             end += 1
             if end < len(row) and row[end].spaced:
                 break
         run, right = row[start:end], row[end] if end < len(row) else None
         names, letters = [item.name for item in run], [item for item in run if item.kind == "letter"]
-        ends = right is None or right.spaced or right.kind in ("operator", "function", "big") or self._moves(right)
+        ends = (
+            right is None or right.spaced or right.kind in ("operator", "function", "big") or self._is_velocity(right)
+        )
         angle = bool(run) and names[0] in _ANGLES and not run[0].sub
         if len(run) == 1 and (ends or (angle and right is not None and right.kind == "bracket")):
             return end
@@ -480,7 +486,7 @@ class Grammar:
             f"it is unclear where the argument of {row[start - 1].name} ends", "write the argument in brackets"
         )
 
-    def _moves(self, box: Box) -> bool:
+    def _is_velocity(self, box: Box) -> bool:
         """Return True for a velocity or a vector, which ends the argument of a function."""
         dotted = any(mark.endswith("dot") for mark in box.marks)
         return bool(is_derivative(box)) or (box.kind == "letter" and (dotted or self._kind(box, "vectors")))
@@ -490,7 +496,7 @@ class Grammar:
     def _bracket(self, box: Box) -> Node:
         pair, content = (_plain(box.name), _plain(box.closing)), box.contents[0]
         if pair == (".", "|"):
-            return self._at(box, content)
+            return self._evaluation(box, content)
         if pair in (("|", "|"), (r"\|", r"\|")):
             inner = self.expression(content)
             pairs = any(re.search(r"_(?:ij|ik|jk|kl|i_j|i_k|j_k)\b", name) for name in letters_of(inner))
@@ -501,15 +507,15 @@ class Grammar:
             return Call("norm" if is_vector(inner) else "Abs", (inner,))
         if any(b.kind == "relation" for b in content):
             raise FormulaError("a relation is inside brackets", "write the relation separately")
-        pieces = parted(content, "comma")
+        pieces = split_at(content, "comma")
         if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(pieces) > 1 and box.name != "("):
             way = "means, kets, commutators, Poisson brackets and intervals are not read"
             raise FormulaError(f"{box.name} … {box.closing} is not read", way)
-        return self.expression(content) if len(pieces) == 1 else Call("column", self._each(content))
+        return self.expression(content) if len(pieces) == 1 else Call("column", self._expressions(content))
 
-    def _at(self, box: Box, content: list[Box]) -> Node:
+    def _evaluation(self, box: Box, content: list[Box]) -> Node:
         """Read an expression evaluated at a point, |_{x = 0}."""
-        where = parted(box.sub or [], "relation")
+        where = split_at(box.sub or [], "relation")
         if len(where) != 2 or not all(where) or box.sup:
             raise FormulaError("the point of evaluation is not an equation", "write |_{x = 0}")
         return Call("at", (self.expression(content), *map(self.expression, where)))
@@ -566,10 +572,10 @@ class Grammar:
             if in_time and [(b.name, b.sub) for b in content] == [("t", None)]:
                 behind += 1  # \frac{dx}{dt}(t)
             elif content and not any(b.kind == "operator" for b in content[1:]):
-                raise self._open(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
+                raise self._ambiguity(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
         value = _rate(node, order) if in_time else node
         for variable, times in variables if not in_time else ():
-            value = _derived(value, variable, times)
+            value = _derivative_of(value, variable, times)
         return (self.power(value, box) if over[1:] else value), behind
 
     def _operand(self, row: list[Box], place: int) -> tuple[Node, int]:
@@ -623,7 +629,7 @@ class Grammar:
             variables.append(self._variable(row[end : end + 2]))
             end += 2
             if end < len(row) and (row[end].kind != "operator" or not inner):
-                raise self._open(
+                raise self._ambiguity(
                     box, "the factors after the differential are integrated", way="write the differential last"
                 )
         limits = [self.expression(limit) for limit in (box.sub, box.sup) if limit]
@@ -709,7 +715,7 @@ def _is_any_kind(node: Node) -> bool:
     return is_printed_zero(node) or (isinstance(node, Call) and node.name in ("dots", "order"))
 
 
-def _derived(node: Node, variable: Letter, times: int) -> Call:
+def _derivative_of(node: Node, variable: Letter, times: int) -> Call:
     return Call("Derivative", (node, variable, number(times)) if times > 1 else (node, variable))
 
 
@@ -746,7 +752,7 @@ def _closes_integral(row: list[Box], place: int) -> bool:
     return is_mark(box, "d") and target is not None and target.kind == "letter" and not is_mark(target, "d")
 
 
-def _paired(row: list[Box]) -> list[Box]:
+def _pair_bars(row: list[Box]) -> list[Box]:
     """Return a row in which each pair of bars is one bracket."""
     places = [k for k, box in enumerate(row) if box.kind == "bar"]
     if len(places) % 2:

@@ -111,7 +111,7 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     formulas = [*(equation.latex for equation in source.equations), *source.inline]
     notation = paper_notation(formulas, table, str(folder / "paper.toml"))
     prints = [read_print(equation.latex, notation, equation.lead) for equation in source.equations]
-    rows, changed, gone = _merged(source.equations, prints, old.get("equation", []), _derived(folder))
+    rows, changed, gone = _merge(source.equations, prints, old.get("equation", []), _judged_ids(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
     _write_about(folder, source, again)
     _write_symbols(folder, prints)
@@ -130,17 +130,17 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
 # ---- equations.toml
 
 
-def _derived(folder: Path) -> set[str]:
+def _judged_ids(folder: Path) -> set[str]:
     """Return the ids for which a derivation gives a verdict."""
     scripts = (folder / "derivations").glob("*.py")
     return {i for script in scripts for i in re.findall(r"verdict\(\s*[\"']([^\"']+)[\"']", read_text(script))}
 
 
-def _merged(
+def _merge(
     equations: list[Displayed], prints: list[Print], old: list[dict[str, Any]], derived: set[str]
 ) -> tuple[list[dict[str, Any]], list[str], list[str]]:
     """Return the rows of equations.toml, updated from the old rows; the changed ids; the ids no longer in the source."""
-    matches, ids = _matches(equations, old), {row["id"] for row in old}
+    matches, ids = _match_rows(equations, old), {row["id"] for row in old}
     new_ids: set[str] = set()
     rows: list[dict[str, Any]] = []
     changed: list[str] = []
@@ -155,7 +155,7 @@ def _merged(
     return [*rows, *stay], changed, [row["id"] for row in gone]
 
 
-def _matches(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
+def _match_rows(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
     """Match equations to old rows by label and LaTeX, by label, or by LaTeX with a new label; return place → place."""
     matches: dict[int, int] = {}
     rows = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]

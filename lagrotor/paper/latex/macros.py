@@ -86,7 +86,7 @@ class Expander(TokenStream):
         self.doubt = ""  # reason for which equation numbers may be wrong
         self.branches = 0  # number of open conditions
         self._expansions: Counter[int] = Counter()
-        self._made = 0
+        self._output_size = 0
         self._stream = self._expanded()
         self.load("")
 
@@ -96,7 +96,7 @@ class Expander(TokenStream):
     def _expanded(self) -> Iterator[Token]:
         while (token := self.next()) is not None:
             if token.kind in ("command", "primitive"):
-                if self._acts(token):
+                if self._execute(token):
                     continue
                 token = Token("command", token.text, token.at)
             elif token.kind == "open":
@@ -118,14 +118,14 @@ class Expander(TokenStream):
             self.waiting = waiting
             self._close_to(depth)
 
-    def _acts(self, token: Token) -> bool:
+    def _execute(self, token: Token) -> bool:
         """Expand or execute a command; return False if its token remains in the text."""
         name = token.text
         if token.kind == "command" and (macro := self.macros.get(name)) is not None:
             body = self._body(macro, token)
             self._expansions[token.at] += 1
-            self._made += len(body)
-            if self._expansions[token.at] > _MOST_EXPANSIONS or self._made > _MOST_TOKENS + 10 * self.length:
+            self._output_size += len(body)
+            if self._expansions[token.at] > _MOST_EXPANSIONS or self._output_size > _MOST_TOKENS + 10 * self.length:
                 sentence = f"{name} expands without end: a macro that calls itself cannot be expanded"
                 raise InputError(f"{self.place(token.at)}: {sentence}")
             self.push(body)
@@ -137,7 +137,7 @@ class Expander(TokenStream):
         elif name in (r"\endgroup", r"\egroup"):
             self.end_group("{")
         elif name.startswith(r"\if") and name != r"\iff" and not self.in_formula:
-            self.leave_out(token)
+            self.skip_condition(token)
             return True
         return False
 
@@ -208,7 +208,7 @@ class Expander(TokenStream):
 
     # ---- conditions
 
-    def leave_out(self, condition: Token) -> None:
+    def skip_condition(self, condition: Token) -> None:
         """Skip the branches of an undecided condition; the names that they define become undefined.
 
         A note names branches that contain equations, headings, counters or files.

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.paper.latex.comparison import LARGEST, decided, nearly_equal, value_at
+from lagrotor.paper.latex.comparison import LARGEST, equality, nearly_equal, value_at
 from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, has_opaque, rational_value, text_of
 
 # Functions that authors confuse.
@@ -31,11 +31,11 @@ def change_to_agree(fixed: Any, changing: Node, value: Callable[[Node], Any]) ->
     point = point_of(fixed, expression)
     number = value_at(fixed, point)
     ratio = _ratio(number, value_at(expression, point))
-    if ratio and not has_opaque(fixed) and decided(fixed, sp.Rational(str(ratio)) * expression) == "zero":
+    if ratio and not has_opaque(fixed) and equality(fixed, sp.Rational(str(ratio)) * expression) == "zero":
         return f"an additional factor {ratio}"
     for variant, change in islice(_slips(changing), _MOST_SLIPS):
         slip = value(variant)
-        if slip is not None and nearly_equal(number, value_at(slip, point)) and decided(fixed, slip) == "zero":
+        if slip is not None and nearly_equal(number, value_at(slip, point)) and equality(fixed, slip) == "zero":
             return change
     return ""
 
@@ -100,7 +100,7 @@ def constant_value(a: Any) -> sp.Rational | None:
     """Return the value of an expression that is constant in its symbols, or None."""
     ratio = None if isinstance(a, sp.MatrixBase) else _ratio(value_at(a, point_of(a)), sp.S.One)
     constant = None if ratio is None else sp.Rational(str(ratio))
-    return constant if constant is not None and decided(a, constant) == "zero" else None
+    return constant if constant is not None and equality(a, constant) == "zero" else None
 
 
 def point_of(*sides: Any) -> dict[sp.Symbol, sp.Rational]:

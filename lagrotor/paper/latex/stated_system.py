@@ -97,14 +97,14 @@ class StatedSystem:
         if words["form"]:
             return self._frequency(words["form"], int(words["which"] or 1), words["at"])
         if words["whole"] == "integral":
-            return self._conserved(identifier)
+            return self._integral(identifier)
         if words["whole"]:
             return self.L if words["whole"] == "L" else shortest(energy(self.L, self.c))
         names = [q.name for q in self.c.q]
         if words["name"] not in names:
             raise self._error(f"{words['kind']} {words['name'] or '?'}: the coordinates are {', '.join(names)}")
         if words["kind"] == "motion":
-            return shortest(self._as_printed(identifier))
+            return shortest(self._motion_equation(identifier))
         rows = momenta(self.L, self.c) if words["kind"] == "momentum" else self.accelerations
         return shortest(rows[names.index(words["name"])])
 
@@ -169,7 +169,7 @@ class StatedSystem:
         """Return de/dt along the motion."""
         return self._along(total_derivative(self._along(e), self.c))
 
-    def _conserved(self, identifier: str) -> sp.Expr:
+    def _integral(self, identifier: str) -> sp.Expr:
         """Return F − τ dF/dt along the motion; it equals the printed F if F is conserved."""
         F = self.paper.lines(identifier)[0].members[0]
         if not F.has(*self.c.q, *self.c.v):
@@ -178,7 +178,7 @@ class StatedSystem:
         time = next(name for name in ("tau", "short_time", "time_since") if name not in self.names)
         return F - sp.Symbol(time, positive=True) * self._rate(F)
 
-    def _as_printed(self, identifier: str) -> sp.Expr:
+    def _motion_equation(self, identifier: str) -> sp.Expr:
         """Return the right side of a printed equation of motion, plus left − right along the motion."""
         (line, *further), lhs = self.paper.lines(identifier), self._left_side(identifier)
         moving = any(member.has(*self.c.a) for member in line.members)

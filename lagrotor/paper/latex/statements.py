@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass, replace
 
-from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
+from lagrotor.paper.latex.boxes import Box, FormulaError, split_at, strip
 from lagrotor.paper.latex.grammar import Grammar
 from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, letters_of, number
 
@@ -151,7 +151,7 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
 
 def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     """Read one statement. Raises FormulaError if a side is missing, or a vector equals a number."""
-    sides = [strip(side) for side in parted(row, "relation")]
+    sides = [strip(side) for side in split_at(row, "relation")]
     relations = [box.name for box in row if box.kind == "relation"]
     if len(sides) > 2 and [b.kind for b in sides[-1]] == ["dots"]:
         sides, relations = sides[:-1], relations[:-1]  # the chain goes on

@@ -329,7 +329,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
     if node.name == "at":
         return None if len(ends) != 1 else inner.subs(variable, ends[0])
     if node.name in ("Sum", "Product"):
-        return _added(node, inner, variable, ends, opaque)
+        return _series(node, inner, variable, ends, opaque)
     others = inner.free_symbols - {variable}
     if (variable not in inner.free_symbols and (others or not opaque.refuses)) or (others and opaque.rates is None):
         return None
@@ -344,26 +344,26 @@ def _bound(node: Call, opaque: Opaque) -> Any:
     return None if value is None or value.has(sp.nan, sp.zoo) else value
 
 
-def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
+def _series(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
     """Return a short sum or product term by term; for a decision, a sum of any length without indexed symbols."""
     name = variable.name
     if len(ends) != 2 or ends[0].is_Integer is not True:
         return None
     if ends[1].is_Integer and ends[1] - ends[0] <= _MOST_ADDED:
         numbers = range(int(ends[0]), int(ends[1]) + 1)
-        terms = [sympy_expression(_indexed(node.args[0], name, k), opaque) for k in numbers]
+        terms = [sympy_expression(_with_index(node.args[0], name, k), opaque) for k in numbers]
         return (sp.Add if node.name == "Sum" else sp.Mul)(*terms)
     free = not any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
     return sp.Sum(inner, (variable, *ends)) if opaque.refuses and free and node.name == "Sum" else None
 
 
-def _indexed(node: Node, name: str, k: int) -> Node:
+def _with_index(node: Node, name: str, k: int) -> Node:
     """Return the k-th term of a sum: the index and the symbols with it are replaced, x_i by x_2."""
     if isinstance(node, Letter):
         stem, *index = node.name.split("_")
         named = replace(node, name="_".join((stem, *(str(k) if word == name else word for word in index))))
         return number(k) if node.name == name else named
-    return Call(node.name, tuple(_indexed(arg, name, k) for arg in node.args)) if isinstance(node, Call) else node
+    return Call(node.name, tuple(_with_index(arg, name, k) for arg in node.args)) if isinstance(node, Call) else node
 
 
 def _rate(inner: Any, opaque: Opaque) -> Any:
@@ -386,7 +386,7 @@ _VALUES: dict[str, Any] = {
     "matmul": lambda *values: reduce(operator.mul, values),
     "negative": operator.neg,
     "quotient": operator.truediv,
-    "power": lambda base, exponent: _raised(base, exponent),
+    "power": lambda base, exponent: _power(base, exponent),
     "cross": lambda u, v: u.cross(v),
     "dot": lambda u, v: u.dot(v),
     "norm": lambda u: sp.sqrt(u.dot(u)),
@@ -399,7 +399,7 @@ _VALUES: dict[str, Any] = {
 }
 
 
-def _raised(base: Any, exponent: Any) -> Any:
+def _power(base: Any, exponent: Any) -> Any:
     """Return a power; the root of a function remains unevaluated."""
     if isinstance(base, sp.Expr) and base.has(sp.Function) and not exponent.is_Integer:
         return sp.Pow(base, exponent, evaluate=False)
