@@ -57,21 +57,14 @@ def _add_reading_commands(command: Command) -> None:
     add_json(added, "a JSON list, one object a symbol")
 
     added = command(
-        "readings",
-        readings_command,
-        "compare readings with the printed equations",
-        "lagrotor readings my-paper --confirm 3 5a",
+        "readings", readings_command, "compare readings with the source", "lagrotor readings my-paper --confirm 3 5a"
     )
     added.description = "Show each printed equation and its reading. Only a confirmed reading can be judged."
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
-    added.add_argument(
-        "--confirm", nargs="+", metavar="ID", help="confirm that these readings agree with the printed equations"
-    )
+    added.add_argument("--confirm", nargs="+", metavar="ID", help="confirm these readings as correct")
     add_json(added, "a JSON list, one object an equation")
 
-    added = command(
-        "derive", derive_command, "derive the equations of the system in paper.toml", "lagrotor derive my-paper"
-    )
+    added = command("derive", derive_command, "derive the system in paper.toml", "lagrotor derive my-paper")
     added.description = (
         "Write the derivation of the system that paper.toml states: coordinates, L, constraints; no Python is needed."
     )
@@ -187,15 +180,13 @@ def notation_command(options: argparse.Namespace) -> int:
 
     rows = symbol_kinds(Catalogue(options.folder))
     proposals = {row.symbol: row.kind for row in rows if not row.declared}
-    if unknown := [letter for letter in options.confirm if letter not in proposals]:
+    if unknown := [name for name in options.confirm if name not in proposals]:
         raise InputError(
             f"notation: nothing is proposed for {unknown[0]}: the proposals are for {', '.join(proposals) or 'no symbol'}"
         )
     if options.confirm or options.real:
-        declare(
-            options.folder,
-            {letter: proposals[letter] for letter in options.confirm} | dict.fromkeys(options.real, "real"),
-        )
+        kinds = {name: proposals[name] for name in options.confirm} | dict.fromkeys(options.real, "real")
+        declare(options.folder, kinds)
         rows = symbol_kinds(Catalogue(options.folder))
     if options.json:
         print_json([asdict(row) for row in rows])

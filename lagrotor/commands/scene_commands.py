@@ -39,11 +39,7 @@ def scene_from_options(options: argparse.Namespace) -> Scene:
     if options.scene:
         from lagrotor.pair.scene_document import read_scene
 
-        named = {
-            "--spins": options.spins,
-            "--shock": shock,
-            **{f"--link-{name}": value for name, value in link.items()},
-        }
+        named = {"--spins": options.spins, "--shock": shock} | {f"--link-{name}": x for name, x in link.items()}
         if both := [name for name, value in named.items() if value is not None]:
             raise InputError(f"--scene and {both[0]}: the file has the whole scene; change it there")
         return read_scene(options.scene)
@@ -195,10 +191,7 @@ def add_scene_commands(command: Command) -> None:
     add_json(added, "a JSON object with the file's name")
 
     added = command(
-        "rate",
-        rate_command,
-        "compute the natural rate of a rotor pair in closed form",
-        "lagrotor rate --spins 10 -10 --json",
+        "rate", rate_command, "compute the natural rate of a rotor pair", "lagrotor rate --spins 10 -10 --json"
     )
     add_scene(added)
     add_json(added)

@@ -313,11 +313,9 @@ def _without_bound(node: Node, index: str) -> Node:
 
 
 def _difference(a: Any, b: Any) -> str:
-    return (
-        "a vector"
-        if isinstance(a, sp.MatrixBase)
-        else sp.sstr(count_calls(sp.factor_terms, count_calls(sp.expand, a - b)))
-    )
+    if isinstance(a, sp.MatrixBase):
+        return "a vector"
+    return sp.sstr(count_calls(sp.factor_terms, count_calls(sp.expand, a - b)))
 
 
 def _comparable(a: Any, b: Any) -> bool:

@@ -72,7 +72,7 @@ class Grammar:
         self.source, self.notation, self.alone, self.indices = source, notation, alone, indices
         self.bound: list[str] = []
 
-    def _ambiguity(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
+    def _unclear(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
         """Return the error for an ambiguous symbol, with the entries of [notation] that would decide its kind."""
         entries = " or ".join(f'{kind} = "{stem_of(box)}"' for kind in kinds)
         way = f"write in paper.toml [notation] {entries}" if kinds else way
@@ -141,9 +141,7 @@ class Grammar:
         product: Node | None = None
         for sign, factors, content in groups:
             if len(factors) > 1 and any(isinstance(factor, Call) and factor.name == "order" for factor in factors):
-                raise FormulaError(
-                    "it is unclear whether O(…) next to a factor is an order", r"write \cdot for products"
-                )
+                raise FormulaError("it is unclear whether O(…) next to a factor is an order", r"write \cdot if not")
             right = _product(factors)
             product = right if product is None else self._join(product, sign, right, content[0])
         assert product is not None
@@ -168,9 +166,7 @@ class Grammar:
             return _product([product, right])
         cofactor = right if vectors[0] else product if vectors[1] else None
         if sign == "cdot" and isinstance(cofactor, Call) and cofactor.name not in (*_SCALARS, *FUNCTIONS.values()):
-            raise FormulaError(
-                f"it is unclear whether {cofactor.name} is a vector", "write the product without the dot"
-            )
+            raise FormulaError(f"it is unclear whether {cofactor.name} is a vector", "remove the dot")
         if sign == "times" and not (_is_numeric(product) or _is_numeric(right)):
             way = r"declare the vectors in [notation], or write \cdot"
             raise FormulaError("it is unclear whether × is of vectors or of numbers", way)
@@ -214,11 +210,11 @@ class Grammar:
         if dots != sorted(dots):
             raise FormulaError(f"a mark is above the dot of {box.name}", "give the rate a symbol")
         if "hat" in box.marks and box.name.isupper() and not self._kind(box, *_SETTLED):
-            raise self._ambiguity(box, f"{stem_of(box)} is an operator or a symbol", "operators", "vectors", "real")
+            raise self._unclear(box, f"{stem_of(box)} is an operator or a symbol", "operators", "vectors", "real")
         matrix = self._kind(box, "matrices")
         vector = matrix or self._kind(box, "vectors")
         if is_printed_as_vector(box) and not vector:
-            raise self._ambiguity(box, f"{stem_of(box)} is a vector or a matrix", "vectors", "matrices")
+            raise self._unclear(box, f"{stem_of(box)} is a vector or a matrix", "vectors", "matrices")
         return Letter(name_of(box, index_of(box), self._label(box)), vector, matrix)
 
     def _label(self, box: Box) -> list[str]:
@@ -246,7 +242,7 @@ class Grammar:
         word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
         if word or (box.name == "d" and box.upright and box.primes):
             way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
-            raise self._ambiguity(box, f"{box.name} is an operator", way=way)
+            raise self._unclear(box, f"{box.name} is an operator", way=way)
         if right is not None and kind == "bracket" and _plain(right.name) in _ROUND:
             applied = self._application(box, right)
             if applied is not None:
@@ -254,10 +250,10 @@ class Grammar:
         node: Node = self.letter(box)
         if box.primes and self._kind(box, "functions"):
             if self._kind(box, "proposed"):
-                raise self._ambiguity(box, f"{self._text(box)} is a derivative or another symbol", "functions", "real")
+                raise self._unclear(box, f"{self._text(box)} is a derivative or another symbol", "functions", "real")
             node = self.letter(replace(box, primes=0))
             if is_vector(node):
-                raise self._ambiguity(box, f"{self._text(box)} is a derivative or another vector", "vectors")
+                raise self._unclear(box, f"{self._text(box)} is a derivative or another vector", "vectors")
             for _ in range(box.primes):
                 node = Call("prime", (node,))
         return self.power(node, box), place + 1
@@ -269,14 +265,14 @@ class Grammar:
         if name == "e" and (number_ or box.upright):
             return Call("exp", (self.expression(box.sup) if box.sup else number(1),)), place + 1
         if name == "e" and not settled and any(b.kind in ("letter", "infinity") for b in all_boxes(box.sup or ())):
-            raise self._ambiguity(box, "e is Euler's number", "numbers", "real")
+            raise self._unclear(box, "e is Euler's number", "numbers", "real")
         if name in ("i", "j") and name not in self.bound:
             if number_ or (box.upright and name == "i"):
                 return self.power(Letter("imaginary_unit"), box), place + 1
             if name == "i" and not settled:
-                raise self._ambiguity(box, "i is the imaginary unit", "numbers", "indices", "real")
+                raise self._unclear(box, "i is the imaginary unit", "numbers", "indices", "real")
         if name == "pi" and self._kind(box, "functions") and kind != "bracket":
-            raise self._ambiguity(box, "pi is the number or a quantity", way="give the quantity an index")
+            raise self._unclear(box, "pi is the number or a quantity", way="give the quantity an index")
         if name == "pi" and not settled:
             return self.power(Letter("pi"), box), place + 1
         proposed = name in ("Delta", "delta") and self._kind(box, "proposed") and kind != "bracket"
@@ -292,10 +288,10 @@ class Grammar:
         r"""Read \Delta x as one symbol."""
         box, right = row[place : place + 2]
         if right.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
-            raise self._ambiguity(box, f"\\{box.name} is a factor or an operator", "functions", "real")
+            raise self._unclear(box, f"\\{box.name} is a factor or an operator", "functions", "real")
         letter = self.letter(right)
         if place + 2 < len(row) and row[place + 2].kind == "bracket":
-            raise self._ambiguity(right, f"\\{box.name} {right.name} is a function or a factor", "functions")
+            raise self._unclear(right, f"\\{box.name} {right.name} is a function or a factor", "functions")
         return self.power(replace(letter, name=f"{box.name}_{letter.name}"), right), place + 2
 
     def _application(self, box: Box, bracket: Box) -> Node | None:
@@ -322,22 +318,19 @@ class Grammar:
             and (any(mark.endswith("dot") for mark in box.marks) or not doubtful)
         ):
             return None
-        raise self._ambiguity(
-            box, f"{self._text(box)} before {bracket.name} is a function or a factor", "functions", "real"
-        )
+        what = f"{self._text(box)} before {bracket.name} is a function or a factor"
+        raise self._unclear(box, what, "functions", "real")
 
     def _call(self, box: Box, bracket: Box) -> Node:
         """Read a declared function with its arguments, and V'(r) as its derivative."""
         content, above = bracket.contents[0], box.sup or []
-        derived = any(b.kind == "partial" or is_derivative(b) for b in content) or any(
-            map(self._is_velocity, content[1:])
-        )
+        derived = any(b.kind == "partial" or is_derivative(b) for b in content) or any(map(self._is_rate, content[1:]))
         itself = len(content) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in content)
         if (derived or itself) and not any(b.kind == "comma" for b in content):
-            raise self._ambiguity(box, f"{stem_of(box)} is a factor here")
+            raise self._unclear(box, f"{stem_of(box)} is a factor here")
         if [b.name for b in above] == ["-", "1"] or any(b.kind in ("bracket", "letter") for b in above):
             way = "write brackets around the base, or use another symbol"
-            raise self._ambiguity(box, f"{self._text(box)} has a power", way=way)
+            raise self._unclear(box, f"{self._text(box)} has a power", way=way)
         if bracket.sub:
             raise FormulaError("a bracket has an index", "write the index on a symbol")
         named, arguments = self.letter(replace(box, primes=0)), self._expressions(content)
@@ -360,7 +353,7 @@ class Grammar:
         only = box.sup[0].name if len(box.sup) == 1 and box.sup[0].kind == "letter" else ""
         if only in _TRANSPOSES and (is_vector(node) or only != "T" or isinstance(node, Letter)):
             if not is_vector(node):
-                raise self._ambiguity(box, f"{self._text(box)} is transposed or has a power", "matrices", "real")
+                raise self._unclear(box, f"{self._text(box)} is transposed or has a power", "matrices", "real")
             return Call("transpose", (node,))
         self._check_power(box, box.sup)
         power = self.expression(box.sup)
@@ -393,7 +386,7 @@ class Grammar:
         upper = any(b.name in lowered or self._kind(b, "indices") for b in unsettled)
         below = bool(unsettled) and any(b.kind == "letter" for b in box.sub or ())
         if len(letters) == len(row) > 1 or upper or below:
-            raise self._ambiguity(letters[0], f"{text} is an upper index or a power", "real")
+            raise self._unclear(letters[0], f"{text} is an upper index or a power", "real")
 
     # ---- numbers
 
@@ -432,7 +425,7 @@ class Grammar:
         if above == ["-", "1"] and name in _INVERSE:
             return Call(_INVERSE[name], inner), behind
         if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
-            raise self._ambiguity(box, f"{box.name} has a mark or a power", way="write brackets around the base")
+            raise self._unclear(box, f"{box.name} has a mark or a power", way="write brackets around the base")
         value = Call(name.lower() if name == "Tr" else name, inner)
         if name == "log10" or (name == "log" and box.sub):
             base = self.expression(box.sub) if box.sub else number(10)
@@ -466,15 +459,14 @@ class Grammar:
     def _argument_end(self, row: list[Box], start: int) -> int:
         """Return the end of a function's argument without brackets: 2θ, ωt, kx, nπ, one symbol."""
         end, kinds = start, ("number", "letter", "fraction", "root", "group")
-        while end < len(row) and row[end].kind in kinds and not self._is_velocity(row[end]):
+        while end < len(row) and row[end].kind in kinds and not self._is_rate(row[end]):
             end += 1
             if end < len(row) and row[end].spaced:
                 break
         run, right = row[start:end], row[end] if end < len(row) else None
         names, letters = [item.name for item in run], [item for item in run if item.kind == "letter"]
-        ends = (
-            right is None or right.spaced or right.kind in ("operator", "function", "big") or self._is_velocity(right)
-        )
+        stops = ("operator", "function", "big")
+        ends = right is None or right.spaced or right.kind in stops or self._is_rate(right)
         angle = bool(run) and names[0] in _ANGLES and not run[0].sub
         if len(run) == 1 and (ends or (angle and right is not None and right.kind == "bracket")):
             return end
@@ -482,11 +474,10 @@ class Grammar:
         is_clear = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
         if ends and plain and is_clear and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
             return end
-        raise FormulaError(
-            f"it is unclear where the argument of {row[start - 1].name} ends", "write the argument in brackets"
-        )
+        function = row[start - 1].name
+        raise FormulaError(f"it is unclear where the argument of {function} ends", "write the argument in brackets")
 
-    def _is_velocity(self, box: Box) -> bool:
+    def _is_rate(self, box: Box) -> bool:
         """Return True for a velocity or a vector, which ends the argument of a function."""
         dotted = any(mark.endswith("dot") for mark in box.marks)
         return bool(is_derivative(box)) or (box.kind == "letter" and (dotted or self._kind(box, "vectors")))
@@ -572,7 +563,7 @@ class Grammar:
             if in_time and [(b.name, b.sub) for b in content] == [("t", None)]:
                 behind += 1  # \frac{dx}{dt}(t)
             elif content and not any(b.kind == "operator" for b in content[1:]):
-                raise self._ambiguity(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
+                raise self._unclear(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
         value = _rate(node, order) if in_time else node
         for variable, times in variables if not in_time else ():
             value = _derivative_of(value, variable, times)
@@ -629,9 +620,8 @@ class Grammar:
             variables.append(self._variable(row[end : end + 2]))
             end += 2
             if end < len(row) and (row[end].kind != "operator" or not inner):
-                raise self._ambiguity(
-                    box, "the factors after the differential are integrated", way="write the differential last"
-                )
+                way = "write the differential last"
+                raise self._unclear(box, "the factors after the differential are integrated", way=way)
         limits = [self.expression(limit) for limit in (box.sub, box.sup) if limit]
         if len(limits) == 1 or box.name != "int" or (inner and inner[-1].kind == "operator"):
             raise FormulaError("the integral is over a line or a region", "write one variable and two limits")

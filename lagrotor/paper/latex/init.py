@@ -271,9 +271,7 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
         if row is None:
             raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
         if row.get("read") == "gone":
-            raise InputError(
-                f"equation {identifier} is no longer in the source: there is no printed equation to compare it with"
-            )
+            raise InputError(f"equation {identifier} is no longer in the source: it cannot be confirmed")
         if not row.get("line"):
             why = f"`lagrotor readings {folder}` shows where its reading stopped, or which statements are not compared"
             raise InputError(f"equation {identifier} has no line to confirm: {why}")
