@@ -125,9 +125,9 @@ class FilmedMotion:
     joined: bool
 
     def lines(self) -> tuple[list[Array], list[str], list[int]]:
-        """Return lines (m, p, 3) in m (wheels with one marked spoke, axes, bar, ground), colours, and indices of traced lines.
+        """Return lines (m, p, 3) in m, their colours, and the indices of traced lines.
 
-        The wheels do not show the inertia to scale.
+        The lines are wheels with one marked spoke, axes, bar and ground. The wheels do not show the inertia to scale.
         """
         angles = np.linspace(0, 2 * np.pi, 6 * SPOKES + 1)
         rim = RADIUS * self.length * np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])

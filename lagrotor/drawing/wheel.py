@@ -20,8 +20,8 @@ def wheel(radius: float, axle: float, n: int, arcs: int = 1) -> tuple[Array, NDA
     """Return the wireframe of a wheel about e_z: points (n arcs + 2, 3) in m, segments (n arcs + 2 n + 1, 2) of indices.
 
     The n joints on the rim are at radius (cos 2πk/n, sin 2πk/n, 0). Two spokes join each to the ends (0, 0, ∓axle/2) of
-    the axle, the last two points. Segments: the rim with `arcs` chords between joints (1 as in the paper), the spokes joint
-    by joint, the axle. Raises InputError unless lengths are positive, n is at least 3 and arcs at least 1.
+    the axle, the last two points. The segments are the rim (`arcs` chords between joints, 1 as in the paper), the spokes
+    and the axle. Raises InputError unless lengths are positive, n is at least 3 and arcs at least 1.
     """
     if not (radius > 0 and axle > 0 and n >= 3 and arcs >= 1):
         raise InputError(

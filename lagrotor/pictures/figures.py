@@ -1,7 +1,7 @@
 """The figures of a paper: run a figure's script and save its picture.
 
-A script `figures/figNN_*.py` (a figure of the paper) or `figures/tN_*.py` (any other) defines the strings TITLE, CAPTION
-and ALT and `figure() -> matplotlib.figure.Figure`. It may define `measure() -> dict[str, float]`, numbers read off it.
+A script `figures/figNN_*.py` (a figure of the paper) or `figures/tN_*.py` (any other) defines TITLE, CAPTION and ALT, and
+`figure() -> matplotlib.figure.Figure`. It may define `measure() -> dict[str, float]`, numbers read off the figure.
 
 The SVG has half as many characters as matplotlib's; a PNG with 256 colours is larger for most figures, and blurred.
 """
@@ -25,9 +25,9 @@ _PNG: dict[str, Any] = {"metadata": {"Software": None}, "pil_kwargs": {"compress
 
 @dataclass(frozen=True)
 class Picture:
-    """A saved figure: texts of its script, the files `svg` and `png`, and `measured`, the numbers that the script reads off.
+    """A saved figure: texts of its script, the files `svg` and `png`, and numbers `measured` by the script.
 
-    key: the paper's number, such as "17", or the name of another figure, such as "t6". stem: the script's and files' name.
+    key: the paper's number, such as "17", or the name of another figure, such as "t6". stem: name of script and files.
     """
 
     stem: str

@@ -1,9 +1,9 @@
 """The check of a source without derivations: steps of chains, claimed orders, indices of sums.
 
 A step holds if its two members are proved equal, as printed or after evaluation of derivatives and integrals. It is
-refuted if the members differ, no earlier equation relates their symbols, and one changed sign, factor, power or function
-makes them equal: this distinguishes a slip from a law. Any other step is not judged, for a reason listed below. The first
-step of a chain may define a symbol or state a condition, so it is never refuted.
+refuted if the members differ, no earlier equation relates their symbols, and one small change makes them equal. The
+change is one sign, factor, power or function; it distinguishes a slip from a law. Any other step is not judged, for a
+reason listed below. The first step of a chain may define a symbol or state a condition, so it is never refuted.
 
 No reading is confirmed: the kinds of symbols come from the `paper.toml` next to the source, or from one sweep.
 """
@@ -290,8 +290,8 @@ def _may_be_identity(lhs: Node, rhs: Node) -> bool:
 def _open_indices(statement: PrintedStatement) -> Iterator[str]:
     """Yield sentences on indices that occur outside their sum on one side of a statement, but not on another.
 
-    An index is the symbol itself, or a subscript that also occurs inside the sum: in E_k = Σ_k v_k the k of E_k is a label.
-    Products and integrals also bind it.
+    An index is the symbol itself, or a subscript that also occurs inside the sum. In E_k = Σ_k v_k the k of E_k is a
+    label. Products and integrals also bind it.
     """
     sums = [n for side in statement.sides for n in _calls(side.node) if n.name == "Sum"]
     for index in dict.fromkeys(n.args[1].name for n in sums if isinstance(n.args[1], Letter)):

@@ -63,8 +63,8 @@ class Displayed:
 class Source:
     """The displayed equations of a source; section number → heading; inline formula → section; label → number.
 
-    notes: sentences about doubtful readings. faults: (file, line, error at which TeX would stop). preamble: packages that the
-    formulas need.
+    notes: sentences about doubtful readings. faults: (file, line, error at which TeX would stop). preamble: packages for
+    the formulas.
     """
 
     title: str

@@ -46,7 +46,7 @@ _HEAD = (
 class NewPaper:
     """The folder of a new paper, the number of its equations, and the number that were read.
 
-    notes: sentences on the source. changed: ids of equations whose LaTeX has changed. gone: ids missing from the source.
+    notes: sentences on the source. changed: ids of equations with changed LaTeX. gone: ids missing from the source.
     """
 
     folder: Path
@@ -139,7 +139,7 @@ def _judged_ids(folder: Path) -> set[str]:
 def _merge(
     equations: list[Displayed], prints: list[Print], old: list[dict[str, Any]], derived: set[str]
 ) -> tuple[list[dict[str, Any]], list[str], list[str]]:
-    """Return the rows of equations.toml, updated from the old rows; the changed ids; the ids no longer in the source."""
+    """Return the rows of equations.toml, updated from the old rows, and the ids of changed and of missing equations."""
     matches, ids = _match_rows(equations, old), {row["id"] for row in old}
     new_ids: set[str] = set()
     rows: list[dict[str, Any]] = []
@@ -175,7 +175,7 @@ def _match_rows(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[i
 
 
 def _row(equation: Displayed, print_: Print, prior: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
-    """Return the row of an equation with the entries of its old row; append its id to `changed` if its LaTeX changed."""
+    """Return the row of an equation with the entries of its old row; append its id to `changed` for new LaTeX."""
     row: dict[str, Any] = {"id": equation.id, "number": equation.number, "section": equation.section}
     title = equation.label or f"displayed equation {equation.id}"
     row |= {"title": title, "label": equation.label, "latex": equation.latex}
@@ -286,7 +286,7 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
 
 
 def declare(folder: Path, kinds: Mapping[str, str]) -> None:
-    """Write symbol → kind into the table [notation] of paper.toml. Raises InputError for kinds that exclude each other."""
+    """Write symbol → kind into [notation] of paper.toml. Raises InputError for kinds that exclude each other."""
     file = folder / "paper.toml"
     table = dict(toml(file).get("notation", {}))
     for letter, kind in kinds.items():

@@ -17,8 +17,8 @@ from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, is_p
 class Notation:
     """The declared kinds of a paper's symbols; every other symbol is a real number.
 
-    numbers: e if it is Euler's number, i and j if they are the imaginary unit. real: real numbers in spite of a proposal.
-    proposed: functions that the sweep proposes and the author has not declared; only an evident argument is accepted.
+    numbers: e as Euler's number, i and j as the imaginary unit. real: real numbers in spite of a proposal. proposed:
+    functions that the sweep proposes and the author has not declared; only an evident argument is accepted.
     """
 
     functions: frozenset[str] = frozenset()
@@ -102,9 +102,9 @@ def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notatio
 def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
     """Return the kinds that the formulas of a source suggest for its symbols, each with its first evidence.
 
-    A symbol before an argument in brackets is a function. A symbol in bold or with an arrow is a vector; it is a matrix if
-    it multiplies another or is transposed. The symbol below a sum is an index. An e whose power has symbols is Euler's
-    number, and an i in that power is the imaginary unit, unless they also occur as plain symbols.
+    A symbol before an argument in brackets is a function. A symbol in bold or with an arrow is a vector, or a matrix if it
+    multiplies another or is transposed. The symbol below a sum is an index. An e whose power has symbols is Euler's number,
+    and an i in that power is the imaginary unit. Both remain symbols if they also occur as such elsewhere.
     """
     sources: dict[tuple[str, str], str] = {}
     for latex in formulas:

@@ -1,4 +1,4 @@
-"""The readings of a paper's equations for comparison with the print, and the kinds of its symbols."""
+"""The readings of a paper's equations, for comparison with the source, and the kinds of its symbols."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant,
 class Print:
     """The reading of an equation as data.
 
-    lines: rows of the catalogue. aside: statements that no row can hold, as text. letters, vectors: names of scalars and
+    lines: rows of the catalogue. aside: statements that no row can hold, as text. letters, vectors: names of scalars and of
     vectors. stop: (token, remedy) if the equation is not read.
     """
 
@@ -88,9 +88,9 @@ def statement_text(statement: PrintedStatement) -> str:
 class EquationReading:
     """The reading of one equation.
 
-    status: confirmed, unconfirmed, by hand, changed (the LaTeX has changed since), gone (no longer in the source), aside
-    (read, but no statement can be compared), not read. lines: its printed lines and uncompared statements, as text.
-    stopped, helps: the token at which a reading stopped, and the remedy. number: the printed number, if it is not the id.
+    status: confirmed, unconfirmed, by hand, changed (new LaTeX), gone (no longer in the source), aside (read, but no
+    statement can be compared), not read. lines: its printed lines and uncompared statements, as text. stopped, helps: the
+    token at which a reading stopped, and the remedy. number: the printed number, if it is not the id.
     """
 
     id: str

@@ -25,8 +25,8 @@ BRACES = {"open": 1, "close": -1}
 class Token(NamedTuple):
     r"""One token; `kind` is command, open, close, math, align, script, param, text or raw; `at` is its position.
 
-    An `Expander` adds the kinds begin and end (\begin{x}, \end{x} as one token), primitive (a command that no definition
-    changes) and scope (the end of the definitions inside an environment).
+    An `Expander` adds the kinds begin and end (\begin{x} and \end{x} as one token) and primitive (a command that no
+    definition changes). Its kind scope marks the end of the definitions inside an environment.
     """
 
     kind: str

@@ -206,9 +206,9 @@ def _text(node: Node, above: int) -> str:
 class Opaque:
     """The symbols that replace non-explicit terms in a sympy expression: derivatives, integrals, unknown functions.
 
-    rates: symbols and components → their rates; with them, derivatives and integrals of explicit expressions are
-    evaluated with the other symbols constant, and `fixing` becomes True if there were any. refuses: raise InputError for
-    a non-explicit term; f(x) is then a sympy function, and sums remain unevaluated. letters: symbols that are not just real.
+    rates: symbols and components → their rates. With them, derivatives and integrals of explicit expressions are evaluated;
+    the other symbols are constant, and `fixing` becomes True if there were any. refuses: raise InputError for a
+    non-explicit term; f(x) is then a sympy function, and sums remain unevaluated. letters: symbols with other assumptions.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
