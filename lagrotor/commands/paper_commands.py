@@ -158,7 +158,7 @@ def init_command(options: argparse.Namespace) -> int:
     from lagrotor.paper.latex.init import begin_paper
 
     paper = begin_paper(options.folder, options.source)
-    equations = _some(paper.equations, "equation")
+    equations = _plural(paper.equations, "equation")
     print(f"{paper.folder}: {equations}; {paper.read} read" if options.source else f"{paper.folder}: {equations}")
     for note in paper.notes:
         print(f"  {note}")
@@ -222,7 +222,7 @@ def readings_command(options: argparse.Namespace) -> int:
         if reading.stopped:
             print(wrap(f"    stopped  {reading.stopped}: {reading.helps}", 13))
     counts = Counter(reading.status for reading in rows)
-    say(f"{_some(len(rows), 'equation')}: {', '.join(f'{n} {status}' for status, n in counts.items())}", 0)
+    say(f"{_plural(len(rows), 'equation')}: {', '.join(f'{n} {status}' for status, n in counts.items())}", 0)
     if counts["unconfirmed"] or counts["changed"]:
         say(f"confirm the correct readings: lagrotor readings {options.folder} --confirm ID …", 0)
     return 0
@@ -274,14 +274,14 @@ def check_command(options: argparse.Namespace) -> int:
                 if finding.members:
                     print(wrap("    {} = {}".format(*map(readable, finding.members)), 6))
         counts = "; ".join(f"{verdict}: {count}" for verdict, count in whole.counts.items())
-        say(f"{_some(displayed, 'displayed equation')}; steps: {counts}", 0)
+        say(f"{_plural(displayed, 'displayed equation')}; steps: {counts}", 0)
         if whole.reasons:
             reasons = "; ".join(f"{reason} ({count})" for reason, count in whole.reasons.items())
             say(f"not judged because {reasons}{'' if options.all else '; all of them: --all'}", 0)
     return 1 if any(finding.verdict in WRONG for _, finding in rows) else 0
 
 
-def _some(count: int, what: str) -> str:
+def _plural(count: int, what: str) -> str:
     return f"{count} {what}{'s' * (count != 1)}"
 
 
@@ -298,16 +298,16 @@ def reproduce_command(options: argparse.Namespace) -> int:
     if options.json:
         print_json(asdict(result) | {"report": str(page)})
         return _say_changes(result.changes, bool(paper.recorded))
-    print(f"{_some(sum(result.equations.values()), 'equation')}: {count_list(result.equations) or 'none'}")
+    print(f"{_plural(sum(result.equations.values()), 'equation')}: {count_list(result.equations) or 'none'}")
     if result.claims:
-        print(f"{_some(sum(result.claims.values()), 'claim')} tested: {count_list(result.claims)}")
+        print(f"{_plural(sum(result.claims.values()), 'claim')} tested: {count_list(result.claims)}")
     if result.taken == ["report"]:
         print("all taken from the last run (same inputs); to write it again, delete the folder")
     elif result.taken:
         kinds = Counter(name.split()[0] for name in result.taken)
-        reused = ", ".join(_some(count, kind) for kind, count in kinds.items())
+        reused = ", ".join(_plural(count, kind) for kind, count in kinds.items())
         print(f"{reused} taken from earlier runs (same inputs)")
-    print(f"{_some(result.figures, 'figure')}; {result.seconds:.1f} s; report: {page}")
+    print(f"{_plural(result.figures, 'figure')}; {result.seconds:.1f} s; report: {page}")
     if not converter():
         print("the page shows printed equations as LaTeX source; to see them typeset: pip install 'lagrotor[report]'")
     return _say_changes(result.changes, bool(paper.recorded))
@@ -346,7 +346,7 @@ def audit_command(options: argparse.Namespace) -> int:
         from lagrotor.proofs.coq.coq_check import certify
 
         files = sum(bool(row.file) for row in certify(verdicts, paper, options.certify))
-        say(f"{_some(files, 'certificate')} in {options.certify}; to check: lagrotor certify {options.certify}", 0)
+        say(f"{_plural(files, 'certificate')} in {options.certify}; to check: lagrotor certify {options.certify}", 0)
     if options.record:
         return say(f"recorded in {paper.renew_record(verdicts)}", 0)
     changes = paper.changes(verdicts, identifiers or paper.equations)
@@ -382,7 +382,7 @@ def certify_command(options: argparse.Namespace) -> int:
         print(table(("id", "line", "verdict", "Coq", "quantity"), cells))
     summary = ", ".join(f"{counts[status]} {status}" for status in ("accepted", "rejected", "skipped"))
     return say(
-        f"{_some(len(checks), 'line')}: {summary}; {time.perf_counter() - began:.0f} s", min(counts["rejected"], 1)
+        f"{_plural(len(checks), 'line')}: {summary}; {time.perf_counter() - began:.0f} s", min(counts["rejected"], 1)
     )
 
 

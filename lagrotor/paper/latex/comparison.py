@@ -95,18 +95,18 @@ def equality(a: Any, b: Any) -> str:
     """Return 'zero', 'nonzero' or 'undecided' for a − b; 'shape' for a vector and a number."""
     matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
     if all(matrices):
-        return _all(a - b) if a.shape == b.shape else "shape"
+        return _matrix_equality(a - b) if a.shape == b.shape else "shape"
     if any(matrices):
-        return _all(a if matrices[0] else b) if sp.S.Zero in (a, b) else "shape"
-    return _single(a, b)
+        return _matrix_equality(a if matrices[0] else b) if sp.S.Zero in (a, b) else "shape"
+    return _scalar_equality(a, b)
 
 
-def _all(matrix: sp.MatrixBase) -> str:
-    answers = {_single(entry, sp.S.Zero) for entry in matrix}
+def _matrix_equality(matrix: sp.MatrixBase) -> str:
+    answers = {_scalar_equality(entry, sp.S.Zero) for entry in matrix}
     return next(answer for answer in ("nonzero", "undecided", "zero") if answer in answers)
 
 
-def _single(a: Any, b: Any) -> str:
+def _scalar_equality(a: Any, b: Any) -> str:
     if any(side.has(sp.oo, sp.nan, sp.zoo, sp.I) for side in (a, b)):
         return "undecided"
     if a == b and radicands(a):  # even if its roots are real nowhere

@@ -30,7 +30,7 @@ class Side:
 class PrintedStatement:
     """Sides and the relations between them; `order` is (small symbol, power) of a term O(…) of the last side.
 
-    kind: equation, approximation, inequality, range, condition, expression or other.
+    kind: equation, approximation, inequality, condition, expression or other.
     """
 
     sides: tuple[Side, ...]
@@ -161,7 +161,7 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
     for place, side in enumerate(sides):
         _check_side(side)
         index = not place and len(sides) > 1 and [(b.name, b.sup) for b in side] in ([("i", None)], [("j", None)])
-        node: Node = reader.letter(side[0]) if index else _side(reader, side)
+        node: Node = reader.letter(side[0]) if index else reader.expression(side)
         read.append(Side(node, reader.source[side[0].at : side[-1].end].strip(), side[0].at))
     kinds = {is_vector(side.node) for side in read if not is_printed_zero(side.node) and side.node != Call("dots", ())}
     if len(kinds) > 1 and not {*relations} & {*_SETS}:
@@ -206,10 +206,6 @@ def _check_side(side: list[Box]) -> None:
     square = len(side) == 1 and side[0].name == "[" and not (side[0].sub or side[0].sup)
     if square and [b.kind for b in side[0].contents[0]] != ["matrix"]:
         raise FormulaError("it is unclear what the square brackets mean", "write the meaning, or omit the brackets")
-
-
-def _side(reader: Grammar, row: list[Box]) -> Node:
-    return reader.expression(row)
 
 
 def _kind(relations: list[str]) -> str:
