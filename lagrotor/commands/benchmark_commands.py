@@ -20,7 +20,7 @@ THROUGHPUT_HEAD = ("quantity", "per second", "share", "of")
 
 def add_benchmark_commands(command: Command) -> None:
     """Add chart and stability."""
-    added = command("chart", chart_command, "chart speed against accuracy", "lagrotor chart --quick --out .")
+    added = command("chart", chart_command, "measure speed against accuracy", "lagrotor chart --quick --out .")
     added.add_argument(
         "--quick", action="store_true", help="fewer methods, tolerances and repeats: seconds for minutes"
     )

@@ -25,7 +25,9 @@ def add_paper_commands(command: Command) -> None:
 
 def _add_reading_commands(command: Command) -> None:
     """Add judge, init, notation, readings, derive and check."""
-    added = command("judge", judge_command, "judge one equation", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"')
+    added = command(
+        "judge", judge_command, "decide whether one equation holds", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"'
+    )
     added.description = (
         "Decide exactly whether an equation, in Python or LaTeX notation, holds, in which domain and under which premises.\n"
         "A refuted equation comes with a point at which its sides differ.\n"
@@ -35,7 +37,7 @@ def _add_reading_commands(command: Command) -> None:
     added.add_argument("--given", nargs="+", default=[], metavar="RELATION", help="premises: J = I_3, x >= 0, a != b")
     add_json(added)
 
-    added = command("init", init_command, "begin a paper of your own", "lagrotor init my-paper --from paper.tex")
+    added = command("init", init_command, "make the folder of a new paper", "lagrotor init my-paper --from paper.tex")
     added.description = (
         "Make the folder of a new paper, with one worked equation, claim and figure, or with the equations of a source.\n"
         "Run it again with --from after the source has changed: confirmed and derived equations stay."
@@ -54,7 +56,7 @@ def _add_reading_commands(command: Command) -> None:
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
     added.add_argument("--confirm", nargs="+", default=[], metavar="SYMBOL", help="declare these as proposed")
     added.add_argument("--real", nargs="+", default=[], metavar="SYMBOL", help="declare these as real numbers")
-    add_json(added, "a JSON list, one object a symbol")
+    add_json(added, "a JSON list, one object per symbol")
 
     added = command(
         "readings", readings_command, "compare readings with the source", "lagrotor readings my-paper --confirm 3 5a"
@@ -62,12 +64,10 @@ def _add_reading_commands(command: Command) -> None:
     added.description = "Show each printed equation and its reading. Only a confirmed reading can be judged."
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder")
     added.add_argument("--confirm", nargs="+", metavar="ID", help="confirm these readings as correct")
-    add_json(added, "a JSON list, one object an equation")
+    add_json(added, "a JSON list, one object per equation")
 
     added = command("derive", derive_command, "derive the system in paper.toml", "lagrotor derive my-paper")
-    added.description = (
-        "Write the derivation of the system that paper.toml states: coordinates, L, constraints; no Python is needed."
-    )
+    added.description = "Write the derivation of the system in paper.toml (coordinates, L, constraints) without Python."
     added.add_argument("folder", type=Path, metavar="DIR", help="a paper's folder, with [system] in its paper.toml")
 
     added = command("check", check_command, "check a source without derivations", "lagrotor check paper.tex --json")
@@ -99,7 +99,7 @@ def _add_testing_commands(command: Command) -> None:
     added.description = "Judge the paper's equations. With ids, only the derivations of these equations run."
     added.add_argument("ids", nargs="*", metavar="ID", help="equations, such as 5.15 (default: all that are judged)")
     _add_paper(added)
-    add_json(added, "a JSON list, one object an equation")
+    add_json(added, "a JSON list, one object per equation")
     added.add_argument("--record", action="store_true", help="record the verdicts; read them first")
     proofs = "write each exact verdict with its proof as a file of Coq into this folder; lagrotor certify checks them"
     added.add_argument("--certify", type=Path, metavar="DIR", help=proofs)
@@ -110,12 +110,12 @@ def _add_testing_commands(command: Command) -> None:
     )
     added.epilog = "exit status: 0 all accepted, 1 one is rejected, 2 nothing could be checked\n" + str(added.epilog)
     added.add_argument("folder", type=Path, metavar="DIR", help="the folder of certificates")
-    add_json(added, "a JSON list, one object a line")
+    add_json(added, "a JSON list, one object per line")
 
     added = command("claims", claims_command, "test the paper's claims", "lagrotor claims C08 C22 --json")
     added.add_argument("ids", nargs="*", metavar="ID", help="claims, such as C08 (default: all)")
     _add_paper(added)
-    add_json(added, "a JSON list, one object a claim")
+    add_json(added, "a JSON list, one object per claim")
     added.add_argument("--record", action="store_true", help="record the outcomes; read them first")
 
     added = command("figure", figure_command, "draw figures as SVG and PNG", "lagrotor figure 17 t6 --out .")

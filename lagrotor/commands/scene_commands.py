@@ -111,7 +111,7 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
     )
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the runs, s (default: 10)")
     added.add_argument("--tol", type=float, default=1e-8, help=f"{_TOLERANCE} (default: 1e-8)")
-    add_json(added, "a JSON list, one object a run")
+    add_json(added, "a JSON list, one object per run")
 
 
 def _values(options: argparse.Namespace) -> list[float]:

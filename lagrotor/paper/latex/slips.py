@@ -60,7 +60,7 @@ def _changes(node: Node) -> Iterator[tuple[Node, str]]:
     """Yield the node with another power, function or argument, or with a factor on one term."""
     base, power, steps = _powers(node)
     for exponent in (power + difference for difference in steps):
-        if exponent:  # power 0 is excluded
+        if exponent:  # not 0: cos² nπ = 1 for integer n is no slip
             yield Call("power", (base, Number(exponent))), f"the power {exponent} of {text_of(base)}"
     if isinstance(node, Call) and node.name in KNOWN:
         if function := _TAKEN_FOR.get(node.name):
