@@ -26,7 +26,11 @@ NAMES = {
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
-KEYWORDS: dict[str, dict[str, str]] = {}
+KEYWORDS: dict[str, dict[str, str]] = {
+    "bare": {"seen": "points"},
+    "canvas": {"seen": "points"},
+    "distance_over_one_turn": {"most": "greatest"},
+}
 
 P = ParamSpec("P")
 R = TypeVar("R")
