@@ -1,14 +1,14 @@
 """Closed forms of the pair, each with its error.
 
-- `natural_frequency` and `natural_rate`: the slow rate of a pair of any two spins.
+- `natural_frequency` and `natural_rate`: the frequency of small motion of a pair of any two spins.
 - `paired_precession`: opposite spins as a periodic series (`series`), its closed forms (`closed_forms`), their errors
   (`remainder`) and its stability (`stability`). `rate_shift` has other orbits about the upright position.
 - `impulse_response` and `shock_response`: the linear response to an impulse and to a Gaussian pulse.
 - `drift_after_shock`, `averaged_motion`, `charged_particle`: opposite spins averaged over the fast precession, and
-  the slow motion of a scene that follows. `toppling` and `parallel_twist` treat motions with parallel axes.
+  the slow motion of a scene. `toppling` and `parallel_twist` treat motions with parallel axes.
 
-A `ClosedForm` (`closed_form`) joins expressions with their arguments, domain and order, and is generated as numpy
-functions. The scripts in `derivations/t….py` derive each formula; a new one comes with its script.
+A `ClosedForm` (`closed_form`) joins expressions with their arguments, domain and order, and gives numpy functions.
+A script in `derivations/` derives each formula; a new formula comes with its script.
 """
 
 from typing import TYPE_CHECKING
@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from lagrotor.theory.paired_precession.stability import elliptic_edge as elliptic_edge
     from lagrotor.theory.paired_precession.stability import exponent_series as exponent_series
     from lagrotor.theory.paired_precession.stability import growth_squared as growth_squared
-    from lagrotor.theory.paired_precession.stability import most_growth as most_growth
     from lagrotor.theory.parallel_twist import lyapunov_criterion as lyapunov_criterion
     from lagrotor.theory.parallel_twist import parallel_scene as parallel_scene
     from lagrotor.theory.parallel_twist import twist_bounded as twist_bounded

@@ -1,6 +1,6 @@
-"""Numbers of this room that were found by trial: what each one is, what it was calibrated on, and the test that holds it.
+"""Empirical constants of the closed forms, each with its calibration and the test that checks it.
 
-The powers and the letters that they multiply are derived; the factors in front are empirical wherever they are used.
+The powers and the quantities that they multiply are derived; only the factors are empirical.
 """
 
 from lagrotor.numerics.solver_constants import Calibrated
@@ -17,7 +17,7 @@ _SWUNG = (
 )
 NEXT_SHIFT = Calibrated(
     3.0,
-    "N r⁴, of which size the next order of the natural rate's shift is",
+    "factor of N r⁴, the size of the next order of the natural rate's shift",
     _SWUNG + "1.22 is the most of 3,319 orbits",
     _RATE + "test_natural_rate",
 )

@@ -37,11 +37,11 @@ def test_the_motion_obeys_its_equations_until_it_turns(seed: int) -> None:
     unit = 1 / (motion.rate * motion.swing * (motion.swing**2 + motion.half**2 + abs(motion.momentum)))
     options = {"rtol": 1e-10, "atol": 1e-13, "method": "LSODA", "events": there, "max_step": unit / 4}
     run = solve_ivp(lambda t, y: motion.slopes(*y), (0, 60 * unit), (motion.lean, motion.half), **options)
-    time, lean, half = motion.until(goal)
+    time, lean, half = motion._until(goal)
     assert (time, lean) == pytest.approx((run.t[-1], goal), rel=1e-5)
     assert replace(motion, lean=lean, half=half).invariant == pytest.approx(motion.invariant, rel=1e-6)
     if motion.farthest < pi / 2:
-        time, lean, half = motion.until(motion.farthest * (1 + 1e-6))
+        time, lean, half = motion._until(motion.farthest * (1 + 1e-6))
         assert time == inf and abs(motion.slopes(lean, half)[0]) < 1e-6 / unit
 
 
