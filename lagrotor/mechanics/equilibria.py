@@ -178,7 +178,7 @@ def _at_rest(forces: Sequence[sp.Expr], constraints: Sequence[sp.Expr], box: Box
     r = _size(forces, box) / _size(slopes, box)
     c, s = sp.symbols("c s", real=True, cls=sp.Dummy)
     balance = [c * force + s * r * slope for force, slope in zip(forces, slopes, strict=True)]
-    # c = 0 only where ∂g/∂q = 0, no root that stands alone
+    # c = 0 needs ∂g/∂q = 0, where no root is isolated
     angle = {c: (sp.S.Zero, sp.S.One), s: (sp.S.NegativeOne, sp.S.One)}
     roots, undecided = roots_in_box([*balance, g, c**2 + s**2 - 1], {**box, **angle})
     return [{q: root[q] for q in box} for root in roots], undecided
@@ -335,7 +335,7 @@ def _equilibrium(
         cosine, sine = solution.get(c), solution.get(s)
         (angle,) = u.free_symbols & {*unknowns}
         if cosine is None or sine is None:
-            at[angle] = angle  # any
+            at[angle] = angle  # arbitrary
             continue
         if cosine.is_number and sine.is_number:
             value = sp.atan2(sine, cosine)

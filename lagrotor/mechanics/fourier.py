@@ -21,7 +21,7 @@ from sympy import QQ, ZZ
 
 Key = tuple[int, int]  # (power of eps, harmonic): cos(h Phi) for h >= 0, sin(|h| Phi) for h < 0
 Coefficient = Any  # an element of the field
-Waves = Mapping[int, Coefficient]  # of one power of eps
+Waves = Mapping[int, Coefficient]  # {harmonic: value} of one power of eps
 Series = Any  # a FourierSeries, or an object with the same arithmetic
 Pairs = list[tuple[Waves, Waves]]
 

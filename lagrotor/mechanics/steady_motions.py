@@ -38,7 +38,7 @@ from lagrotor.mechanics.quasi_velocities import independent_rows
 
 
 def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
-    """Return the names of y: coordinates and velocities; turn_p is the small rotation of a ball joint about the axis of p."""
+    """Return the symbols of y: coordinates, velocities, and turn_p, the small rotation of a ball joint about the axis of p."""
     first = {joint.quaternion[0]: joint.omega for joint in system.ball_joints}
     gone = {q for joint in system.ball_joints for q in joint.quaternion[1:]}
     names = [
@@ -113,7 +113,7 @@ class StateEquations:
 
     @property
     def stable_if(self) -> sp.Basic:
-        """The condition for bounded or decaying motions, drifts apart, as of `LinearSystem.stable_if`."""
+        """The condition on the parameters under which all motions except drifts stay bounded, as of `LinearSystem.stable_if`."""
         s = sp.Symbol("s")
         return stability_condition(sp.eye(self.A.rows) * s - self.A, s)
 
@@ -193,7 +193,7 @@ def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearS
     dependent = f"linearise: the constraints are dependent at {at}: leave out what follows from the others"
     lam = G * force if not G.rows else _solve_exactly(G * G.T, G * force, dependent)
     answers = [decide_zero(e).answer for e in force - G.T * lam]
-    # What `equilibria` solved is an equilibrium, also where its roots are outside the class that is decided.
+    # A result of `equilibria` is an equilibrium, even if its roots are outside the class of decisions.
     if "nonzero" in answers or ("undecided" in answers and not isinstance(at, Equilibrium)):
         raise SingularError(f"linearise: {at} is no equilibrium: the force is not zero; start from one")
     residual = motion - system.rows.T * lam

@@ -274,7 +274,7 @@ class ExponentSeries:
 
     @property
     def square(self) -> FourierSeries:
-        """lambda² = A B, per radian² of phase: positive for growth, negative for oscillation."""
+        """The square lambda² = A B per radian² of phase: positive for growth, negative for oscillation."""
         return self.A * self.B
 
 
@@ -373,7 +373,7 @@ def _responses(
 
 _HIGHEST_ORDER = 2  # of averaging
 _START_TOLERANCE = 1e-9  # relative residual of the initial state
-_PHASE = sp.Symbol("Phi", real=True)  # of a periodic motion, Φ = ω t
+_PHASE = sp.Symbol("Phi", real=True)  # the phase Φ = ω t of a periodic motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -490,7 +490,9 @@ def oscillation(
         (x,) = unknowns
         turn = (frequency * frequency).times(convert(K / M))
         first = x.derivative()
-        return [_sum_of_products(coefficients, (x, turn * first * first, turn * first.derivative()))]  # of q, v² and a
+        return [
+            _sum_of_products(coefficients, (x, turn * first * first, turn * first.derivative()))
+        ]  # powers of q, v² and a
 
     mode = {1: convert(A) if inside else field.one}
     solved = periodic_series(residual, [field.zero], [mode], order, field, mode_power=0 if inside else 1)

@@ -17,7 +17,6 @@ from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.theory.averaged_motion import SlowMotion as SlowMotion
-    from lagrotor.theory.averaged_motion import next_brackets as next_brackets
     from lagrotor.theory.averaged_motion import slow_frequency as slow_frequency
     from lagrotor.theory.averaged_motion import slow_motion as slow_motion
     from lagrotor.theory.averaged_motion import time_to_reach as time_to_reach
@@ -53,10 +52,7 @@ if TYPE_CHECKING:
     from lagrotor.theory.parallel_twist import twist_growth_error as twist_growth_error
     from lagrotor.theory.parallel_twist import twist_multiplier_growth as twist_multiplier_growth
     from lagrotor.theory.rate_shift import azimuth_drift as azimuth_drift
-    from lagrotor.theory.rate_shift import drift_coefficient as drift_coefficient
     from lagrotor.theory.rate_shift import frequency_shift as frequency_shift
-    from lagrotor.theory.rate_shift import shift_coefficient as shift_coefficient
-    from lagrotor.theory.rate_shift import twist_coefficient as twist_coefficient
     from lagrotor.theory.toppling import toppling_growth as toppling_growth
     from lagrotor.theory.toppling import toppling_polynomial as toppling_polynomial
     from lagrotor.theory.toppling import toppling_threshold as toppling_threshold

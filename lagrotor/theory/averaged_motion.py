@@ -65,21 +65,8 @@ class SlowMotion:
         y, s2, c = self.half**2, self.swing**2, cos(self.lean) ** 2
         return ((y + (s2 - self.momentum) / 2) ** 2 - 3 * s2**2 / 8) / c - self.weight * s2 * y
 
-    def slopes(self, lean: float, half: float) -> tuple[float, float]:
-        """Return the rates of the centre.
-
-        Parameters
-        ----------
-        lean : float
-            Lean beta in rad.
-        half : float
-            Half-angle eta in rad.
-
-        Returns
-        -------
-        tuple[float, float]
-            The rates (beta', eta') in rad/s.
-        """
+    def _slopes(self, lean: float, half: float) -> tuple[float, float]:
+        """Return the rates (beta', eta') of the centre in rad/s."""
         s2, c = self.swing**2, cos(lean) ** 2
         inner = half**2 + (s2 - self.momentum) / 2
         half_slope = 4 * half * inner / c - 2 * self.weight * s2 * half
@@ -102,7 +89,7 @@ class SlowMotion:
 
         def rhs(_: float, y: Any) -> list[float]:
             c = cos(y[0])  # the time is scaled by c³, so that rates stay finite where c vanishes
-            lean_rate, half_rate = self.slopes(y[0], scale * y[1])
+            lean_rate, half_rate = self._slopes(y[0], scale * y[1])
             return [lean_rate * c**3 / unit, half_rate * c**3 / (unit * scale), c**3]
 
         def reached(_: float, y: Any) -> float:
@@ -121,21 +108,6 @@ class SlowMotion:
         beta, eta, time = run.sol(end).tolist()
         return (time / unit if end < run.t[-1] or len(run.t_events[0]) else inf), abs(beta), scale * eta
 
-    def time_to(self, lean: float) -> float:
-        """Return the time in which |beta| grows to a lean.
-
-        Parameters
-        ----------
-        lean : float
-            Lean in rad.
-
-        Returns
-        -------
-        float
-            Time in s; inf if the motion does not reach the lean.
-        """
-        return self._until(lean)[0]
-
     @property
     def farthest(self) -> float:
         """The largest |beta| of the motion in rad; pi/2 if it does not turn back."""
@@ -148,7 +120,7 @@ class SlowMotion:
 
 
 def slow_motion(scene: Scene) -> SlowMotion:
-    """Return the slow motion after the scene's shock of opposite spins at rest upright.
+    """Return the slow motion of opposite spins after the scene's shock, from rest upright.
 
     The linear response gives the centre (x, (y_1 − y_2)/2), the amplitude s in (y_1 − y_2)/2, and P = −p_y.
 
@@ -165,7 +137,7 @@ def slow_motion(scene: Scene) -> SlowMotion:
     Raises
     ------
     InputError
-        As of `shock_response`, and unless the spins are opposite.
+        Unless opposite spins with a bar and a shock start at rest upright.
     DomainError
         Where |eta| + s > 0.4.
 
@@ -218,9 +190,9 @@ def time_to_reach(scene: Scene, x: float) -> float:
     Raises
     ------
     InputError
-        As of `slow_motion`.
+        Unless opposite spins with a bar and a shock start at rest upright.
     DomainError
-        As of `slow_motion`; unless 0 < x < 1; for a twist above 30 degrees, sin chi = (|eta| + s)/(k sqrt(1 − x²)); and where
+        Unless 0 < x < 1; for |eta| + s > 0.4; for a twist above 30 degrees, sin chi = (|eta| + s)/(k sqrt(1 − x²)); and where
         `turns_back` cannot decide.
 
     References
@@ -265,9 +237,9 @@ def turns_back(scene: Scene) -> bool:
     Raises
     ------
     InputError
-        As of `slow_motion`.
+        Unless opposite spins with a bar and a shock start at rest upright.
     DomainError
-        As of `slow_motion`; for a twist above 30 degrees; and so near the threshold that twice the next order could decide.
+        For |eta| + s > 0.4; for a twist above 30 degrees; and so near the threshold that twice the next order could decide.
 
     References
     ----------
@@ -302,28 +274,7 @@ def turns_back(scene: Scene) -> bool:
 
 
 def next_brackets(s2: Any, d: Any, sigma: Any, k2: Any) -> tuple[Any, Any]:
-    """Return F_6 and L_4 of `slow_frequency`, of numbers or symbols.
-
-    Parameters
-    ----------
-    s2 : float or Expr
-        Square of the amplitude, s² = sigma r0².
-    d : float or Expr
-        Momentum of the push, k momentum/G.
-    sigma : float or Expr
-        Shape of the bar, (a + b)/(a − b).
-    k2 : float or Expr
-        Square of the length ratio k = ell/R.
-
-    Returns
-    -------
-    tuple[float or Expr, float or Expr]
-        The sixth-order term F_6 and the fourth-order term L_4.
-
-    References
-    ----------
-    derivations/t11_slow_motion.py.
-    """
+    """Return F_6 and L_4 of `slow_frequency`, of numbers or symbols; s2 = sigma r0², d = k momentum/G, k2 = k²."""
     cubic = (3 / sigma + 10 - 8 * sigma) * k2 - 12, 8 * k2 / sigma + 14, (4 / sigma + 2) * k2 + 8
     square = (8 / sigma + 15 - 54 * sigma + 31 * sigma**2) * k2 + 6 / sigma - 21 + 51 * sigma
     F_6 = s2 * (cubic[0] * s2**2 - cubic[1] * d * s2 - cubic[2] * d**2) / (4 * k2)

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
 _IN_LINE = 0.999  # largest sin(h)/(k cos beta): at 1 the coordinates are singular
-_LOCAL = 1e-9, 1e-12  # of the path's integration
+_LOCAL = 1e-9, 1e-12  # relative and absolute tolerance of the path
 
 
 class _Place(NamedTuple):

@@ -124,9 +124,9 @@ class ClosedForm:
         Raises
         ------
         InputError
-            As of a call, and for a series without a known bound.
+            For a wrong number of arguments, and for a series without a known bound.
         DomainError
-            As of a call, and where the series does not converge.
+            Outside the domain, and where the series does not converge.
         """
         flat, shape = self._check_arguments(values)
         if self.order is None:

@@ -145,7 +145,7 @@ def _form(
 
 
 def toppling_after_shock(scene: Scene) -> float:
-    """Compute the mean rate alpha' about the joint line just after the shock of opposite spins, to second order.
+    """Compute the mean rate alpha' about the joint line just after a shock, for opposite spins, to second order.
 
     `lagrotor.models.toppling_error` measures the error.
 
@@ -162,7 +162,7 @@ def toppling_after_shock(scene: Scene) -> float:
     Raises
     ------
     InputError
-        As of `shock_response`, and unless the spins are opposite.
+        Unless opposite spins with a bar and a shock start at rest upright.
 
     References
     ----------
@@ -178,7 +178,7 @@ def toppling_after_shock(scene: Scene) -> float:
 
 
 def wander_after_shock(scene: Scene) -> float:
-    """Compute the mean rate of x just after the shock of opposite spins, to third order.
+    """Compute the mean rate of x just after a shock, for opposite spins, to third order.
 
     `lagrotor.models.wander_error` measures the error.
 
@@ -195,7 +195,7 @@ def wander_after_shock(scene: Scene) -> float:
     Raises
     ------
     InputError
-        As of `toppling_after_shock`.
+        Unless opposite spins with a bar and a shock start at rest upright.
 
     References
     ----------
@@ -232,7 +232,7 @@ def cancelling_force(scene: Scene) -> float:
     Raises
     ------
     InputError
-        As of `toppling_after_shock`.
+        Unless opposite spins with a bar and a shock start at rest upright.
     DomainError
         When no force cancels the rotation.
 

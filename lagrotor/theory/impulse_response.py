@@ -131,13 +131,6 @@ def _impulse() -> sp.Matrix:
 
 
 def _form(name: str, outputs: tuple[str, ...], column: sp.Matrix) -> ClosedForm:
-    return ClosedForm(
-        name,
-        outputs,
-        tuple(sp.factor(e) for e in column),
-        (a, b, G_1, G_2, P_X, P_1, P_2),
-        _SPUN,
-        "first order in the impulse, from rest upright, any spins not both zero, any bar",
-        "4.2, 5, 5.2.1",
-        1,
-    )
+    assumptions = "first order in the impulse, from rest upright, any spins not both zero, any bar"
+    expressions, arguments = tuple(sp.factor(e) for e in column), (a, b, G_1, G_2, P_X, P_1, P_2)
+    return ClosedForm(name, outputs, expressions, arguments, _SPUN, assumptions, "4.2, 5, 5.2.1", 1)

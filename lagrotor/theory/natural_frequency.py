@@ -40,15 +40,9 @@ def natural_frequency() -> ClosedForm:
     s = sp.Symbol("s")
     polynomial = sp.Poly(linear_pair().characteristic(s), s)
     leading, constant = polynomial.coeff_monomial(s**6), polynomial.coeff_monomial(s**4)
-    return ClosedForm(
-        "natural_frequency",
-        ("Omega_0",),
-        (sp.sqrt(sp.factor(constant / leading)),),
-        (a, b, G_1, G_2),
-        (sp.Gt(a, sp.Abs(b)),),
-        "small motion about the upright rest state, any spins, any bar",
-        "5.28",
-    )
+    rate, domain = sp.sqrt(sp.factor(constant / leading)), (sp.Gt(a, sp.Abs(b)),)
+    assumptions = "small motion about the upright rest state, any spins, any bar"
+    return ClosedForm("natural_frequency", ("Omega_0",), (rate,), (a, b, G_1, G_2), domain, assumptions, "5.28")
 
 
 @cache
@@ -70,15 +64,10 @@ def pair_precession_rate() -> ClosedForm:
     matrix, right_side = sp.linear_eq_to_matrix([integral_A - A, integral_B - B], [phi_v, psi_v])
     rate = linear_solve(matrix, right_side, "pair_precession_rate: the integrals do not give the rates")[0]
     numerator, denominator = sp.fraction(sp.factor(rate))
-    return ClosedForm(
-        "pair_precession_rate",
-        ("phi'",),
-        (numerator / denominator,),
-        (theta_1, theta_2, A, B, J, I3),
-        (sp.Ne(sp.factor(denominator), 0),),
-        "the ansatz phi_1' = −phi_2', psi_1' = −psi_2'; a link that exerts nothing",
-        "5.15",
-    )
+    arguments, domain = (theta_1, theta_2, A, B, J, I3), (sp.Ne(sp.factor(denominator), 0),)
+    assumptions = "the ansatz phi_1' = −phi_2', psi_1' = −psi_2'; a link that exerts nothing"
+    rate = numerator / denominator
+    return ClosedForm("pair_precession_rate", ("phi'",), (rate,), arguments, domain, assumptions, "5.15")
 
 
 @cache
@@ -106,12 +95,6 @@ def free_precession_rate() -> ClosedForm:
         {theta_a: 0, theta_v: 0, psi_v: omega - phi_v * sp.cos(theta)}
     )
     rate = next(root for root in sp.solve(steady, phi_v) if root != 0)
-    return ClosedForm(
-        "free_precession_rate",
-        ("phi'",),
-        (rate.subs(omega, G / I3),),
-        (theta, G, J),
-        (sp.Ne(sp.cos(theta), 0),),
-        "one grounded rotor, no gravity, theta constant",
-        "5.23",
-    )
+    rate, domain = rate.subs(omega, G / I3), (sp.Ne(sp.cos(theta), 0),)
+    assumptions = "one grounded rotor, no gravity, theta constant"
+    return ClosedForm("free_precession_rate", ("phi'",), (rate,), (theta, G, J), domain, assumptions, "5.23")

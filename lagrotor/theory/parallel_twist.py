@@ -48,18 +48,13 @@ def twist_growth() -> ClosedForm:
     rate = G / (a + b)
     mean = sp.integrate(b * rate**2 * rho**2 * sp.sin(Phi) ** 2, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi)
     squared = sp.factor(-mean / ((a - b) / 2))
-    return ClosedForm(
-        "twist_growth",
-        ("growth",),
-        (sp.sqrt(sp.Max(squared, 0)),),
-        (rho, G, a, b),
-        (sp.Gt(a, sp.Abs(b)), sp.Lt(rho, 1), lyapunov_criterion()),
-        "equal spins, parallel axes on a cone about the vertical",
-        "5",
-        1,
-        rho,
-        lambda *values: np.asarray(twist_growth_error()(*values)),
-    )
+    growth, domain = sp.sqrt(sp.Max(squared, 0)), (sp.Gt(a, sp.Abs(b)), sp.Lt(rho, 1), lyapunov_criterion())
+    validity = "equal spins, parallel axes on a cone about the vertical", "5", 1, rho
+
+    def error(*values: Array) -> Array:
+        return np.asarray(twist_growth_error()(*values))
+
+    return ClosedForm("twist_growth", ("growth",), (growth,), (rho, G, a, b), domain, *validity, error)
 
 
 @cache
@@ -209,7 +204,7 @@ def twist_bounded(scene: Scene, angle: float) -> bool:
     Raises
     ------
     InputError
-        As of `parallel_scene`.
+        Unless the spins are equal and there is a bar.
 
     References
     ----------

@@ -22,80 +22,22 @@ from lagrotor.pair.scene import Scene
 
 
 def shift_coefficient(sigma: Any, k: Any, share: Any) -> Any:
-    """Return c of Omega = Omega_0 (1 + c r0² + …), of numbers or symbols.
-
-    Parameters
-    ----------
-    sigma : float or Expr
-        Shape of the bar, (a + b)/(a − b).
-    k : float or Expr
-        Length ratio ell/R.
-    share : float or Expr
-        Share of opposite spins as of `opposite_share`, between 0 and 1.
-
-    Returns
-    -------
-    float or Expr
-        The coefficient, dimensionless.
-
-    References
-    ----------
-    derivations/t12_unequal_spins.py.
-    """
+    """Return c of Omega = Omega_0 (1 + c r0² + …), of numbers or symbols."""
     return (2 + 3 * share * (sigma - 1) - share**2 * (sigma**2 - 1) - 3 * share**2 * sigma / k**2) / 4
 
 
 def drift_coefficient(sigma: Any, k: Any, root: Any) -> Any:
-    """Return the azimuth drift alpha'/(Omega_0 r0⁴), of numbers or symbols.
-
-    Parameters
-    ----------
-    sigma : float or Expr
-        Shape of the bar, (a + b)/(a − b).
-    k : float or Expr
-        Length ratio ell/R.
-    root : float or Expr
-        The root sqrt(share/sigma) with the sign of G_1 − G_2.
-
-    Returns
-    -------
-    float or Expr
-        The coefficient, dimensionless.
-
-    References
-    ----------
-    derivations/t12_unequal_spins.py.
-    """
+    """Return alpha'/(Omega_0 r0⁴) of numbers or symbols; root: sqrt(share/sigma) with the sign of G_1 − G_2."""
     return root**3 * sigma**2 * (sigma - 5) / (16 * k)
 
 
 def twist_coefficient(sigma: Any, share: Any) -> Any:
-    """Return lambda²/(Omega_0 r0)² of a twist: positive for growth, negative for a slow oscillation.
-
-    Parameters
-    ----------
-    sigma : float or Expr
-        Shape of the bar, (a + b)/(a − b).
-    share : float or Expr
-        Share of opposite spins as of `opposite_share`, between 0 and 1.
-
-    Returns
-    -------
-    float or Expr
-        The coefficient, dimensionless.
-
-    References
-    ----------
-    derivations/t12_unequal_spins.py.
-    """
+    """Return lambda²/(Omega_0 r0)² of a twist, of numbers or symbols: positive for growth, negative for oscillation."""
     return (1 - share) * (sigma - 1) * ((sigma + 1) * share - 1) / 2
 
 
 def opposite_share(scene: Scene) -> float:
-    """Return sigma (G_1 − G_2)² / ((G_1 + G_2)² + sigma (G_1 − G_2)²), 0 for equal spins and 1 for opposite ones.
-
-    Raises InputError without a bar, and without any spin.
-    """
+    """Return the share of opposite spins. Raises InputError without a bar, and without any spin."""
     if not isinstance(scene, Scene) or scene.link is None or scene.spins == (0, 0):
         raise InputError(f"the shift of the natural rate: {scene!r} needs a bar and a spin")
     first, second = scene.momenta

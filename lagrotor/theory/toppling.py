@@ -82,15 +82,9 @@ def toppling_growth() -> ClosedForm:
     p_2, p_1, p_0 = toppling_polynomial()
     falling = sp.Abs(p_0) * sp.Heaviside(-p_0, 0)
     growth = sp.sqrt(2 * falling / (p_1 + sp.sqrt(p_1**2 + 4 * p_2 * falling)))
-    return ClosedForm(
-        "toppling_growth",
-        ("growth",),
-        (growth,),
-        (nu, G, a, b, k),
-        (sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0)),
-        "opposite spins, axes parallel in the y-z plane, alpha' = nu",
-        "5, 7",
-    )
+    validity = "opposite spins, axes parallel in the y-z plane, alpha' = nu", "5, 7"
+    domain = sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0)
+    return ClosedForm("toppling_growth", ("growth",), (growth,), (nu, G, a, b, k), domain, *validity)
 
 
 @cache
@@ -113,12 +107,5 @@ def toppling_threshold() -> ClosedForm:
     >>> toppling_threshold().expressions
     (G/(b*k),)
     """
-    return ClosedForm(
-        "toppling_threshold",
-        ("nu",),
-        (G / (k * b),),
-        (G, b, k),
-        (sp.Ne(b, 0),),
-        "opposite spins, uniform turning about the joint line",
-        "5, 7",
-    )
+    validity = "opposite spins, uniform turning about the joint line", "5, 7"
+    return ClosedForm("toppling_threshold", ("nu",), (G / (k * b),), (G, b, k), (sp.Ne(b, 0),), *validity)

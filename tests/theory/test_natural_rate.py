@@ -9,9 +9,9 @@ from lagrotor.models import exact_orbit, upright_orbit
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.orbits.variational import flow
 from lagrotor.numerics import measured_order, peak, spectrum
-from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error, twist_coefficient
+from lagrotor.theory import azimuth_drift, frequency_shift, natural_rate_error
 from lagrotor.theory.natural_rate import TURNS, natural_rate_limits
-from lagrotor.theory.rate_shift import opposite_share
+from lagrotor.theory.rate_shift import opposite_share, twist_coefficient
 from tests.theory.random_pairs import COUNTS, exact_axes, held, random_pair, swinging
 
 

@@ -34,7 +34,7 @@ _CLOSE = 1e-7  # of the largest rate: rates closer to each other, or to zero, co
 
 @dataclass(frozen=True, eq=False)
 class NormalCoordinates:
-    """x = vectors (2n, 2n) (z_1 … z_n, w_1 … w_n), {z_j, w_j} = weights_j, and ½ x·A x = sum_j frequencies_j z_j w_j + N.
+    """Coordinates z, w with x = vectors (2n, 2n) (z, w), {z_j, w_j} = weights_j, ½ x·A x = sum_j frequencies_j z_j w_j + N.
 
     frequencies (n,): ω with the sign of the energy where the weight is −i, λ where it is 1, and 0 for the modes of N.
     Oscillations come first, by |ω|.

@@ -244,7 +244,7 @@ def birkhoff(
             generator = generator + term
         generators.append(generator)
         K = lie_transform(K, generator, weights, order)
-        resonant, _, _ = split(K.part(degree))  # without the rounding errors of the removed terms
+        resonant, _, _ = split(K.part(degree))  # drops the rounding errors of the removed terms
         K = total([*(term_d for d, term_d in K.parts.items() if d != degree), resonant])
     error = 0.0 if field is not None else _error(H.through(order) - H.part(1), K, generators, weights, order)
     values = (

@@ -25,7 +25,7 @@ Exponents = tuple[int, ...]
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """sum_k coefficients[k] × prod_j x_j^exponents[k, j]: exponents (m, n), each row once, coefficients (m,), none of them 0."""
+    """The sum of coefficients[k] × prod_j x_j^exponents[k, j]: exponents (m, n), rows unique, coefficients (m,), nonzero."""
 
     exponents: NDArray[np.int64]
     coefficients: Coefficients
@@ -37,7 +37,7 @@ class Polynomial:
 
     @cached_property
     def terms(self) -> dict[Exponents, Any]:
-        """{exponents: coefficient}."""
+        """The nonzero coefficients, {exponents: coefficient}."""
         return {tuple(e): c for e, c in zip(self.exponents.tolist(), self.coefficients.tolist(), strict=True)}
 
     @cached_property

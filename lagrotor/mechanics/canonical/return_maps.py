@@ -187,7 +187,7 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
             raise SingularError(
                 f"normal_form: a multiplier is {value} to {near:.1g}: {way}move a parameter or the energy off this value"
             )
-    normal = normal_coordinates(-J @ (M - np.eye(n)) @ np.linalg.inv(M + np.eye(n)), J)  # the same vectors: Cayley
+    normal = normal_coordinates(-J @ (M - np.eye(n)) @ np.linalg.inv(M + np.eye(n)), J)  # Cayley: same vectors
     shares, weights = normal.frequencies, normal.weights
     angles = np.array(
         [2 * np.arctan(s.real) if c == -1j else np.log((1 + s) / (1 - s)) for s, c in zip(shares, weights, strict=True)]
@@ -197,7 +197,7 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
     pair = np.diag(weights)
     brackets = normal.vectors @ np.block([[none, pair], [-pair, none]]) @ normal.vectors.T - J
     mismatch = np.abs(inverse @ M @ normal.vectors - np.diag(np.exp(rates))).max() / np.abs(np.exp(rates)).max()
-    linear = float(max(mismatch, np.abs(brackets).max()))  # also of multipliers that count as equal
+    linear = float(max(mismatch, np.abs(brackets).max()))  # large if unequal multipliers count as equal
     if not linear < _NEAR:
         raise SingularError(
             f"normal_form: the multipliers {np.linalg.eigvals(M).tolist()} are not separated (residual {linear:.1g}): some are "
@@ -265,11 +265,11 @@ def largest_difference(f: Sequence[Polynomial], g: Sequence[Polynomial]) -> floa
 
 
 _LOCAL = (1e-11, 1e-13)  # errors of a step: of the map for comparison, and of the result
-_EVALUATIONS = 200_000  # at most
-_RESCALINGS = 6  # until the units are those of the orbit
-_NEWTON = 15  # steps to the orbit
+_EVALUATIONS = 200_000  # largest number for one integration
+_RESCALINGS = 6  # largest number, to the units of the orbit
+_NEWTON = 15  # largest number of steps to the orbit
 _CLOSED = 1e-11  # of the orbit's size: the last Newton step
-_OTHER = 1e-6  # of the orbit's momentum: a larger difference means an open orbit
+_OPEN = 1e-6  # of the orbit's momentum: a larger difference means an open orbit
 _FAR = 0.5  # of the orbit's size or period, without a drive: a larger step leads to another orbit
 
 
@@ -456,7 +456,7 @@ def return_map_form(
                 break
         else:
             raise InputError("normal_form: Newton's method did not converge to the orbit: give a start nearer to it")
-        if linear.apart > _OTHER:
+        if linear.apart > _OPEN:
             raise InputError(
                 f"normal_form: after {period:.6g} s the motion from {dict(at)} is at its start with another momentum: the orbit "
                 "is not closed; give its whole period"
@@ -473,7 +473,7 @@ def return_map_form(
         fine.error, largest_difference(maps[1], maps[0]), largest_difference([fine.series], [coarse.series]),
         *(abs(float(f.coefficients[0])) for f in returns[1].F),
     )  # fmt: skip
-    unit = units[0] * units[n]  # of an action
+    unit = units[0] * units[n]  # unit of the action
 
     def scaled(f: Polynomial, power: int) -> Polynomial:
         return f.times(unit ** (power - f.exponents.sum(1) / 2))

@@ -13,6 +13,7 @@ from lagrotor.theory.paired_precession.orbit_harmonics import harmonic_momentum
 from lagrotor.theory.paired_precession.remainder import with_error
 from lagrotor.theory.paired_precession.series import PairedSeries, paired_series
 
+_ORBIT = "opposite spins, the symmetric periodic orbit"
 _ORBIT_DOMAIN = (sp.Gt(r0, -1), sp.Lt(r0, 1))
 _Values = dict[sp.Symbol, Array]
 
@@ -46,17 +47,8 @@ def paired_frequency(order: int = 3) -> ClosedForm:
     (1 - r_0**2*sigma*(k**2*sigma - 3*k**2 + 3)/(4*k**2),)
     """
     series = paired_series(order)
-    form = ClosedForm(
-        "paired_frequency",
-        ("Omega/Omega_0",),
-        (series.expression(series.frequency),),
-        (r0, sigma, k),
-        _ORBIT_DOMAIN,
-        "opposite spins, the symmetric periodic orbit",
-        "5.21",
-        order,
-        r0,
-    )
+    ratio, validity = series.expression(series.frequency), (_ORBIT, "5.21", order, r0)
+    form = ClosedForm("paired_frequency", ("Omega/Omega_0",), (ratio,), (r0, sigma, k), _ORBIT_DOMAIN, *validity)
     return with_error(form, _frequency, lambda series, amplitude: series.remainder(amplitude).frequency)
 
 
@@ -101,17 +93,9 @@ def corrected_trajectories(order: int = 3) -> ClosedForm:
     y *= sp.sqrt(sigma)
     later = {Phi: Phi + sp.pi}
     second = (-x.subs(later), y.subs(later), z.subs(later))
-    form = ClosedForm(
-        "corrected_trajectories",
-        ("x_1", "y_1", "z_1", "x_2", "y_2", "z_2"),
-        (x, y, z, *second),
-        (r0, Phi, sigma, k),
-        _ORBIT_DOMAIN,
-        "opposite spins with G_1 > 0, the symmetric periodic orbit",
-        "5.22",
-        order,
-        r0,
-    )
+    outputs, validity = ("x_1", "y_1", "z_1", "x_2", "y_2", "z_2"), (f"{_ORBIT}, G_1 > 0", "5.22", order, r0)
+    arguments = r0, Phi, sigma, k
+    form = ClosedForm("corrected_trajectories", outputs, (x, y, z, *second), arguments, _ORBIT_DOMAIN, *validity)
     return with_error(form, _axes)
 
 
@@ -169,17 +153,8 @@ def paired_momentum(order: int = 4) -> ClosedForm:
     total = (orbit.frequency * turning).times(s) + x + x.half_period_later()  # x_2 = −x_1 half a period later
     if any(h for _, h in total.terms):
         raise SingularError("paired_momentum: the momentum varies along the orbit: the series is wrong")
-    form = ClosedForm(
-        "paired_momentum",
-        ("P/G",),
-        (orbit.expression(total),),
-        (r0, sigma, k),
-        _ORBIT_DOMAIN,
-        "opposite spins, the symmetric periodic orbit",
-        "5.2.1",
-        order,
-        r0,
-    )
+    ratio, validity = orbit.expression(total), (_ORBIT, "5.2.1", order, r0)
+    form = ClosedForm("paired_momentum", ("P/G",), (ratio,), (r0, sigma, k), _ORBIT_DOMAIN, *validity)
     return with_error(form, _momentum, _momentum_rest)
 
 

@@ -170,7 +170,7 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
 def coefficient_field(shape: sp.Expr, ratio: sp.Expr) -> Domain:
     """Return the field of the coefficients: rational functions of sigma and k where they are symbols."""
     free = sorted((sp.sympify(shape, strict=True).free_symbols | sp.sympify(ratio, strict=True).free_symbols), key=str)
-    return sp.ZZ.frac_field(*free) if free else sp.QQ  # of whole numbers: reduced faster than of fractions
+    return sp.ZZ.frac_field(*free) if free else sp.QQ  # integer coefficients reduce faster than fractions
 
 
 def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain | None = None) -> Residual:

@@ -24,11 +24,12 @@ from lagrotor.theory.paired_precession.remainder import with_error
 from lagrotor.theory.paired_precession.series import PairedSeries, equations, paired_series
 
 _SINES = (False, True, False, False, False)  # x, Y, z and the two multipliers along the orbit
+_NEW = "past the paper"
 _X, _TWIST = 0, 1  # the unknowns with a neutral displacement at rest
 
 
 def exponent_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> ExponentSeries:
-    """Compute A and B through r_0**order.
+    """Compute the coefficients A and B of the coupled perturbations, xi' = A eta, eta' = B xi, through r_0**order.
 
     Parameters
     ----------
@@ -106,17 +107,9 @@ def growth_squared(order: int = 6, dumbbell: bool = False) -> ClosedForm:
     # A begins with r_0² (r_0⁴ for sigma = 1), B with r_0⁴.
     series = exponent_series(order - (4 if dumbbell else 2), shape)
     square = series.A.through(order) * series.B.through(order)
-    form = ClosedForm(
-        "growth_squared",
-        ("lambda²",),
-        (paired_series(1, shape).expression(square),),
-        (r0, sigma, k),
-        (sp.Gt(r0, -1), sp.Lt(r0, 1), *((sp.Eq(sigma, 1),) if dumbbell else ())),
-        "opposite spins, small amplitude",
-        "past the paper",
-        order,
-        r0,
-    )
+    domain = sp.Gt(r0, -1), sp.Lt(r0, 1), *((sp.Eq(sigma, 1),) if dumbbell else ())
+    growth, validity = paired_series(1, shape).expression(square), ("opposite spins, small amplitude", _NEW, order, r0)
+    form = ClosedForm("growth_squared", ("lambda²",), (growth,), (r0, sigma, k), domain, *validity)
     return with_error(form, _square, _square_rest)
 
 
@@ -161,18 +154,12 @@ def elliptic_edge() -> ClosedForm:
     terms = exponent_series(4).A.terms
     field = paired_series(1).field
     square = sp.factor(-field.to_sympy(terms[2, 0]) / field.to_sympy(terms[4, 0]))
-    return ClosedForm(
-        "elliptic_edge",
-        ("r_0",),
-        (sp.sqrt(square),),
-        (sigma, k),
-        (sp.Gt(sigma, 1),),
-        "opposite spins, b > 0, sigma − 1 small",
-        "past the paper",
-        1,
-        sigma,
-        lambda shapes, ratios: np.array([[_edge_error(s, q) for s, q in zip(shapes, ratios, strict=True)]]),
-    )
+    edge, validity = sp.sqrt(square), ("opposite spins, b > 0, sigma − 1 small", _NEW, 1, sigma)
+
+    def error(shapes: Array, ratios: Array) -> Array:
+        return np.array([[_edge_error(s, q) for s, q in zip(shapes, ratios, strict=True)]])
+
+    return ClosedForm("elliptic_edge", ("r_0",), (edge,), (sigma, k), (sp.Gt(sigma, 1),), *validity, error)
 
 
 def _edge_error(shape: float, ratio: float) -> float:
@@ -193,7 +180,7 @@ def _least_root(coefficients: Array) -> float:
 
 
 def growth_bound(r0: float, sigma: float, k: float) -> float:
-    """Return an empirical bound of lambda per radian of phase: the sum of both leading laws of `growth_squared`, where positive.
+    """Return an empirical bound of the growth exponent lambda per radian of phase, from both leading laws of `growth_squared`.
 
     lambda² ≤ (3/16) sigma² (1 − sigma) r_0⁶ / k² + (9/32) r_0⁸ / k⁴ holds for the exact multipliers of random bars in the
     tests, r_0 ≤ 0.5, 0.4 < sigma < 1.8, 0.5 < k < 2.
