@@ -1,8 +1,7 @@
 """Equilibria of a system, exact by elimination or enclosed in a box by interval Newton.
 
 The conditions ∂L/∂q + Q + Gᵀ λ = 0, g = 0 at v = 0 become polynomials in cosines, sines and lengths. A factor of degree one or
-two
-eliminates one unknown at a time; a system without such factors is refused, and the message names a way out.
+two eliminates one unknown at a time; a system without such factors is refused, and the message names a way out.
 """
 
 import warnings
@@ -109,12 +108,12 @@ def _in_box(
         raise InputError(
             "equilibria: where a body rolls, equilibria are not isolated: give linearise a point, or leave out rolling"
         )
-    letters = system.letters | system.push.free_symbols
-    if strangers := {name for name in values if isinstance(name, str)} - {*map(str, letters)}:
+    symbols = system.letters | system.push.free_symbols
+    if strangers := {name for name in values if isinstance(name, str)} - {*map(str, symbols)}:
         raise InputError(f"equilibria: values name {min(strangers)}, which the system does not have: leave it out")
-    numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol("equilibria: values", values, letters).items()}
-    still = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
-    forces = [put_in(e, still).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
+    numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol("equilibria: values", values, symbols).items()}
+    at_rest = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
+    forces = [put_in(e, at_rest).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
     forces, constraints = (
         [e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}) for e in expressions]
         for expressions in (forces, [g.subs(numbers) for g in system.constraints])
@@ -139,7 +138,7 @@ def _in_box(
         raise InputError(f"equilibria: {', '.join(free)} without a value: in a box every symbol needs one")
     roots, undecided = _at_rest(forces, constraints, edges)
     middles = [{q: sp.Float(round((low + high) / 2, 20), 17) for q, (low, high) in root.items()} for root in roots]
-    kinks = [kinks_in((*forces, *constraints), expressions, edges) for expressions in undecided]
+    kinks = [kinks_in((*forces, *constraints), region, edges) for region in undecided]
     if undecided and all(kinks):
         warnings.warn(
             f"equilibria: nothing is decided where {' or '.join(dict.fromkeys(str(kink[0]) for kink in kinks))} = 0, first "
@@ -151,7 +150,7 @@ def _in_box(
         place = _about(undecided[kinks.index([])], c.q)
         proved = "; ".join(", ".join(f"{q} = {float(x):.6g}" for q, x in at.items()) for at in middles)
         raise SingularError(
-            f"equilibria: {len(undecided)} parts of the box are undecided, the first about {place}: an equilibrium that is "
+            f"equilibria: {len(undecided)} regions of the box are undecided, the first about {place}: an equilibrium that is "
             "not isolated or degenerate, a coordinate on which no force depends, a constraint whose derivative is zero, forces "
             f"that jump, or too large a box; choose another one. Proved elsewhere in it: {proved or 'none'}"
         )
@@ -206,21 +205,21 @@ def _rational(where: str, value: Any) -> sp.Rational:
 
 def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[Equilibrium, ...]:
     c = system.c
-    still = dict.fromkeys((*c.v, *c.a), 0)
+    at_rest = dict.fromkeys((*c.v, *c.a), 0)
     lam = sp.Matrix(system.multipliers)
-    force = euler_lagrange(system.L, c).subs(still) - system.push.subs(still)
-    pulled = (system.rows.T * lam).subs(still) if len(lam) else sp.zeros(len(c.q), 1)
-    conditions = [e for e in (*(force - pulled), *system.constraints, *system.residual.subs(still)) if e != 0]
+    force = euler_lagrange(system.L, c).subs(at_rest) - system.push.subs(at_rest)
+    pulled = (system.rows.T * lam).subs(at_rest) if len(lam) else sp.zeros(len(c.q), 1)
+    conditions = [e for e in (*(force - pulled), *system.constraints, *system.residual.subs(at_rest)) if e != 0]
     if any(t in e.free_symbols for e in conditions):
         raise InputError("equilibria: a force or a constraint depends on time: there is no equilibrium; simulate it")
-    symbols_to_solve = _unknowns(system, unknowns)
-    polynomials, pairs = _polynomials(conditions, symbols_to_solve)
-    symbols = [*(x for pair in pairs.values() for x in pair), *symbols_to_solve, *system.multipliers]
-    fixed = {q: q for q in c.q if q not in symbols_to_solve and any(q in e.free_symbols for e in conditions)}
+    targets = _unknowns(system, unknowns)
+    polynomials, pairs = _polynomials(conditions, targets)
+    symbols = [*(x for pair in pairs.values() for x in pair), *targets, *system.multipliers]
+    fixed = {q: q for q in c.q if q not in targets and any(q in e.free_symbols for e in conditions)}
     places: list[Equilibrium] = []
     circles = {c**2 + s**2 - 1 for c, s in pairs.values()}
     for solution in _solve(polynomials, symbols, {}, circles):
-        equilibrium = _equilibrium(solution, symbols_to_solve, pairs, fixed)
+        equilibrium = _equilibrium(solution, targets, pairs, fixed)
         if equilibrium is not None:
             equilibrium = replace(equilibrium, regular=_regular(system, equilibrium.at))
         if equilibrium is not None and equilibrium not in places:
@@ -303,10 +302,8 @@ def _solve(
     for factor, x, _ in best:
         for root in sp.roots(sp.Poly(factor, x)):
             if root.is_real is not False:
-                root_value = {x: root}
-                yield from _solve(
-                    others, unknowns, {s: e.subs(root_value) for s, e in solution.items()} | root_value, circles
-                )
+                at = {x: root}
+                yield from _solve(others, unknowns, {s: e.subs(at) for s, e in solution.items()} | at, circles)
 
 
 def _easiest(factor: sp.Expr, unknowns: Sequence[sp.Symbol]) -> tuple[sp.Symbol, int]:

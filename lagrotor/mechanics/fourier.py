@@ -5,8 +5,7 @@
 with coefficients in any exact field (rationals, or rational functions of parameters as sympy domain elements).
 
 The coefficient of eps**n of a sum or product is computed when it is read, and cached. An equation is therefore written once, of
-series whose higher orders are still unknown. Order N costs about N**2 products of harmonics; evaluation anew for each order,
-N**3.
+series whose higher orders are still unknown. Order N costs about N**2 products of harmonics instead of N**3.
 van der Hoeven, Relax, but don't be too lazy, J. Symb. Comp. 34 (2002).
 """
 

@@ -135,8 +135,7 @@ class LinearSystem:
 
         It is sufficient and, but for equality, necessary. A polynomial det(s² M + s C + K) even in s needs real, negative,
         distinct roots s²: positive coefficients and Hankel minors of the power sums. Without gyroscopic forces roots may
-        coincide.
-        Otherwise the even factors satisfy this, and the Routh–Hurwitz determinants of the others are positive.
+        coincide. Otherwise the even factors satisfy this, and the Routh–Hurwitz determinants of the others are positive.
 
         Factors that are positive by the assumptions are divided out, and an eigenvalue common to independent modes counts once.
         Zero roots of neighbouring equilibria and of drifts at constant velocity are allowed; growth as t² gives False.

@@ -5,8 +5,7 @@ With F = M a + h − Q − Gᵀ λ = 0 and G a + γ = 0, small changes of q, v a
     M δa − Gᵀ δλ = −(∂F/∂q δq + ∂F/∂v δv + ∂F/∂u δu),        G δa = −(∂γ/∂q δq + ∂γ/∂v δv),
 
 with F and γ at a = 0. The constraints Φ = (g, G v + b) = 0 give some of (q, v) by the others, the states x. With
-quasi-velocities
-the equations of Boltzmann and Hamel replace F.
+quasi-velocities the equations of Boltzmann and Hamel replace F.
 
 A ball joint has small displacements y of its state (q, u), three rotations ϑ about the axes of ω for its four quaternions:
 

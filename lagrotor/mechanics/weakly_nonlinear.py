@@ -1,8 +1,7 @@
 """Weakly nonlinear motion: series of periodic orbits, their characteristic exponents, and averaging.
 
 Lindstedt–Poincaré: q = q₀ + Σ εⁿ xₙ(Φ), Φ' = ω₀ (1 + Σ wₙ εⁿ), for a motion symmetric under time reversal. ε is a parameter of
-the
-system, with an arbitrary amplitude A, or ε is the amplitude itself.
+the system, with an arbitrary amplitude A, or ε is the amplitude itself.
 
 Characteristic exponents: in a system at rest with two constant displacements (p_0 and q_0, exponent zero), an orbit of small
 amplitude eps couples them. A perturbation of the orbit has the form
@@ -83,9 +82,8 @@ def periodic_series(
 
     residual: (unknowns, frequency) → the equations of motion as Fourier series, time derivatives carried by the frequency.
     mode: for each unknown {harmonic: coefficient} (cos for h ≥ 0, sin for h < 0), which fixes its parity. field: of the
-    coefficients.
-    numeric: the same equations in floating point, ten times as fast. mode_power: power of eps of the mode, 0 where eps
-    multiplies the nonlinearity and the mode has an arbitrary amplitude.
+    coefficients. numeric: the same equations in floating point, ten times as fast. mode_power: power of eps of the mode, 0
+    where eps multiplies the nonlinearity and the mode has an arbitrary amplitude.
 
     Order n is linear in the coefficients of eps^n; at the mode's own harmonic the correction omega_{n − mode_power} makes the
     system solvable. Raises SingularError at a resonance with another mode.
@@ -291,17 +289,13 @@ def characteristic_exponents(
     """Return A and B through eps**order for an orbit known through at least that order.
 
     residual, numeric: the equations as of `periodic_series`. exchange: the sign of p and q in the equations at half a period
-    later.
-    sines: True for each unknown with a sine series; p has the same parities, q the opposite ones. neutral: the numbers of the
-    unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged. Raises SingularError where
-    another exponent is close to zero.
+    later. sines: True for each unknown with a sine series; p has the same parities, q the opposite ones. neutral: the numbers
+    of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged. Raises SingularError
+    where another exponent is close to zero.
     """
     parity = {"p": list(sines), "q": [not sine for sine in sines]}
-    fixed, nothing, unit = (
-        dict(zip("pq", neutral, strict=True)),
-        FourierSeries({}, order),
-        constant_series(field.one, order),
-    )
+    fixed = dict(zip("pq", neutral, strict=True))
+    nothing, unit = FourierSeries({}, order), constant_series(field.one, order)
     perturbation = {name: [unit if i == fixed[name] else nothing for i in range(len(sines))] for name in "pq"}
     operators, drift = _responses(residual, orbit.at_rest(field), parity, perturbation, order, field.one, exchange)
     value = field.convert if numeric is None else float
@@ -320,7 +314,7 @@ def characteristic_exponents(
                 for j, coefficient in enumerate(values):
                     unknowns[name][j].assign(n, -h if parity[name][j] else h, coefficient)
                 slow[name].assign(n, 0, shift)
-        forget([name for equation in equations for name in (equation.p, equation.q)], n)
+        forget([series for equation in equations for series in (equation.p, equation.q)], n)
     return ExponentSeries(slow["q"], slow["p"], tuple(unknowns["p"]), tuple(unknowns["q"]))
 
 
@@ -490,9 +484,7 @@ def oscillation(
         (x,) = unknowns
         turn = (frequency * frequency).times(convert(K / M))
         first = x.derivative()
-        return [
-            _sum_of_products(coefficients, (x, turn * first * first, turn * first.derivative()))
-        ]  # powers of q, v² and a
+        return [_sum_of_products(coefficients, (x, turn * first * first, turn * first.derivative()))]  # q, v², a
 
     mode = {1: convert(A) if inside else field.one}
     solved = periodic_series(residual, [field.zero], [mode], order, field, mode_power=0 if inside else 1)

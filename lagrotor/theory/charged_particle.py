@@ -5,8 +5,7 @@ With the spins eliminated the pair is a charged particle in three dimensions, q 
     L = q'·M q'/2 + g·q',    f = curl g,
 
 of mass matrix M in the field f of the spins, without other forces. It can rest anywhere. A push along the field carries it on;
-a
-push perpendicular to the field makes it oscillate at the local rate Omega. The oscillation's energy over that rate, J, is the
+a push perpendicular to the field makes it oscillate at the local rate Omega. The oscillation's energy over that rate, J, is the
 adiabatic invariant. The centre Q, with the speed u along the unit vector b of the field, obeys to leading order
 
     L = (g + u b)·Q' − H,    H = J Omega + u²/2,    Omega² = f·M f/det M,    b = M f/sqrt(f·M f),

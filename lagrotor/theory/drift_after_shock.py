@@ -10,8 +10,7 @@ with p = k P/G, P the momentum about the joint line, and kappa = (sigma − 1) k
 
 A shock (p_x, p_y) on rotor 1, upright, gives eta = p_x/(2 G), P = −p_y and s² = A² (p_x² + sigma p_y²)/(4 G²). The bar lets the
 axes twist apart only by leaning towards each other. A twist of either sign therefore takes momentum, the pair turns about the
-joint
-line, and the turning converts the twist into x.
+joint line, and the turning converts the twist into x.
 
 Derived in derivations/t11_slow_motion.py and t6_shock_drift.py; `theory.averaged_motion` follows the motion.
 """

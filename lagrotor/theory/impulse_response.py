@@ -1,10 +1,8 @@
 """The linear response of the coupled pair at rest to an impulse, in closed form, for any two spins and any bar.
 
 The linear pair, q = (x, y_1, y_2), is M q'' + C q' = Q(t), and one integration gives M q' + C q = p(t), with p the impulse
-received.
-C has one null vector n, the direction of toppling or twisting, and N = M⁻¹ C satisfies N³ = −Omega² N. So the response to a
-unit
-impulse is a polynomial in N:
+received. C has one null vector n, the direction of toppling or twisting, and N = M⁻¹ C satisfies N³ = −Omega² N. So the
+response to a unit impulse is a polynomial in N:
 
     H(s) = n nᵀ s / (n.M n) + D (1 − cos Omega s) + S sin(Omega s) / Omega,
     D = −N M⁻¹ / Omega²  (permanent displacement),    S = −N² M⁻¹ / Omega²  (velocity of the oscillation).

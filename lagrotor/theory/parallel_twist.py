@@ -1,17 +1,14 @@
 """Equal spins: the parallel pair is exactly one rotor; the growth of a small twist on it.
 
 With r_1 = r_2 = r and G_1 = G_2 no force drives a twist: the pair is one rotor of inertia a + b and momentum G for each axis,
-and
-precesses steadily about any fixed direction h at G / ((a + b) cos theta). A small twist Delta obeys, on any parallel motion
+and precesses steadily about any fixed direction h at G / ((a + b) cos theta). A small twist Delta obeys, on any parallel motion
 r(t), x = r . e_x,
 
     d/dt ( (a − b)/2 (1 − x²) Delta' ) + b (|r'|² + x x'') Delta = 0,
 
 independent of G and ell / R. With beta = b/(a − b) it grows for b < 0, K > m ell²/4, the inertia of two point masses at the
-bar's
-ends. It drifts for b = 0. For b > 0 it is bounded on cones with pi² beta sin² theta <= 4 cos theta (Lyapunov's criterion;
-Magnus &
-Winkler, Hill's Equation, 1966, ch. V); on wider cones it may grow by resonance. Derived in derivations/t9_twist.py.
+bar's ends. It drifts for b = 0. For b > 0 it is bounded on cones with pi² beta sin² theta <= 4 cos theta (Lyapunov's criterion;
+Magnus & Winkler, Hill's Equation, 1966, ch. V); on wider cones it may grow by resonance. Derived in derivations/t9_twist.py.
 """
 
 from dataclasses import replace

@@ -1,8 +1,8 @@
 """The linear response of a scene at rest and upright to its Gaussian pulse: motion, drift, oscillation and energy.
 
 A Gaussian pulse of width w has the effect of an impulse of the same size, with the oscillation multiplied by exp(−(Omega_0
-w)²/4).
-The matrices are those of `theory.impulse_response`. The response is of first order in the shock, with an error of second order.
+w)²/4). The matrices are those of `theory.impulse_response`. The response is of first order in the shock, with an error of
+second order.
 """
 
 from dataclasses import dataclass

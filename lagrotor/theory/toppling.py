@@ -6,8 +6,7 @@ As alpha is cyclic, the linearised motions have constant coefficients; in (U, De
     L_2 = A U'² + D Delta'²/4 − A nu² U² + (G nu/k − b nu²) Delta²/2 − G U Delta' + A alpha'²,   A = a + b, D = a − b,
 
 so that the rotation is stable if  e = b nu² − G nu / k > 0  and unstable if e < 0  (G = G_1 = −G_2). For a massless bar the
-sense
-of rotation decides: nu against G is stable, nu with G is unstable. Derived in derivations/t8_toppling.py.
+sense of rotation decides: nu against G is stable, nu with G is unstable. Derived in derivations/t8_toppling.py.
 """
 
 from functools import cache

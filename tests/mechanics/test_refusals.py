@@ -419,7 +419,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "singular at": lambda: heavy_top().routh("phi psi").linearise({heavy_top().c.q[0]: 0}),
         "the mass matrix is singular at": lambda: System(P, u**2 + x**2 * w**2 - x**2).linearise({x: 0, y: 0}),
         "the mass matrix is singular, or the constraints": lambda: pendulum.linearise({q: 0}, inputs=(m,)),
-        "1 parts of the box are undecided": lambda: boxed(System(A, v**2 / 2 - q**4), {}, {q: (-1, 2)}),
+        "1 regions of the box are undecided": lambda: boxed(System(A, v**2 / 2 - q**4), {}, {q: (-1, 2)}),
         r"first about theta = 1(.|\n)*Proved elsewhere in it: theta = 2$": lambda: boxed(
             System(A, v**2 / 2, forces=((q - 1) ** 3 * (2 - q),)), {}, {q: (0.5, 3)}
         ),

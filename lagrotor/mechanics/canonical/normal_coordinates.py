@@ -8,8 +8,7 @@ energy is
 A saddle with rates ± λ and vectors v, u has H = λ z w, {z, w} = 1. Modes of rate zero get a canonical basis alone.
 
 `exact_coordinates` works without rounding for frequencies that are rational, or rational in parameters. The vector w of each
-mode
-is scaled by ω/(v†A v), so that no root is needed: w = k z̄ with k > 0, and the action is z w.
+mode is scaled by ω/(v†A v), so that no root is needed: w = k z̄ with k > 0, and the action is z w.
 
 Williamson, Amer. J. Math. 58 (1936) 141; Yakubovich & Starzhinskii, Linear Differential Equations with
 Periodic Coefficients, ch. III.

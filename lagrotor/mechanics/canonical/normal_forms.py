@@ -5,10 +5,8 @@ In normal coordinates (see `normal_coordinates`) the quadratic part is H₂ = su
     {H₂, z^a w^b} = D z^a w^b + {N, z^a w^b},     D = i sum_j ω_j (a_j − b_j)   for oscillations.
 
 Degree by degree exp(L_χ) removes the terms with D ≠ 0, where {H₂, χ} is the sum of these terms; the transformation is canonical
-at
-every order. The remaining series has the actions I_j = z_j w_j and the resonances, D = 0 or |D| at most the `detuning`. N is
-the
-quadratic part of modes with rate zero; the normal form is then the Hamiltonian averaged over all oscillations. Arnold,
+at every order. The remaining series has the actions I_j = z_j w_j and the resonances, D = 0 or |D| at most the `detuning`. N is
+the quadratic part of modes with rate zero; the normal form is then the Hamiltonian averaged over all oscillations. Arnold,
 Mathematical Methods of Classical Mechanics, app. 7; Giorgilli & Galgani, Cel. Mech. 17 (1978) 267; Deprit, Cel. Mech. 1 (1969)
 12.
 """

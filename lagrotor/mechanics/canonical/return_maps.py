@@ -1,19 +1,16 @@
 """The return map of a periodic orbit as power series, and Birkhoff's normal form of a canonical map about a fixed point.
 
 With the linear part Λ diagonal, z_j → e^{−iα_j} z_j, the map is F = Φ_h ∘ Λ with the flow Φ_h of a series h in unit time. A
-change of
-coordinates Φ_χ of degree d changes h_d to h_d − χ + χ∘Λ⁻¹, and removes all terms z^a w^b but those with
+change of coordinates Φ_χ of degree d changes h_d to h_d − χ + χ∘Λ⁻¹, and removes all terms z^a w^b but those with
 
     |1 − e^{iα·(a − b)}| ≈ 0:    F = Φ_K ∘ Λ,     K of the actions I_j = z_j w_j and the resonances.
 
 The rotation angle per return is then α_j + ∂K/∂I_j.
 
 Without a drive the section of a periodic orbit is a plane: with x = x₀ + S (x_1, y, p_1), S canonical and x_1 along the motion,
-it is
-x_1 = 0, and energy conservation gives p_1(y). dx_1 ∧ dp_1 vanishes there, so that y has canonical brackets. The motion of a
-series
-in y (see `taylor_series`) gives the map through any degree, and the return time as another series. With a drive y is all of x −
-x₀.
+it is x_1 = 0, and energy conservation gives p_1(y). dx_1 ∧ dp_1 vanishes there, so that y has canonical brackets. The motion of
+a series in y (see `taylor_series`) gives the map through any degree, and the return time as another series. With a drive y is
+all of x − x₀.
 
 Birkhoff, Dynamical Systems (1927), ch. III; Moser, Stable and Random Motions in Dynamical Systems (1973), II.3; Arnold,
 Mathematical Methods of Classical Mechanics, app. 7.
@@ -467,7 +464,7 @@ def return_map_form(
             f"normal_form: the motion from {dict(at)} cannot be followed for {period:.6g} s: {stop.reason}; give a start on an "
             "orbit and its period"
         ) from None
-    maps = [[f.polynomial.where(f.polynomial.exponents.sum(1) > 0) for f in linear.F] for linear in returns]
+    maps = [[f.polynomial.where(f.polynomial.exponents.sum(1) > 0) for f in returned.F] for returned in returns]
     coarse, fine = (map_normal_form(F, order, detuning * period) for F in maps)
     error = max(
         fine.error, largest_difference(maps[1], maps[0]), largest_difference([fine.series], [coarse.series]),

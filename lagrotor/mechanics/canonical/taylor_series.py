@@ -1,11 +1,9 @@
 """Taylor series in several variables, of expressions and of programs.
 
 `LocalSeries` gives the Taylor polynomial of an expression about a point, exact or in floating-point numbers. A
-`TruncatedSeries`
-stores all coefficients through a degree, lowest degrees first, and compiled programs accept it as a number: jet transport. Its
-motion
-contains all derivatives by the initial state, the variational equations to any order. Both expand f about the value u of its
-argument, f(u + v) = sum_m f^(m)(u) v^m / m!; v has no constant term, so that the sum is finite.
+`TruncatedSeries` stores all coefficients through a degree, lowest degrees first, and compiled programs accept it as a number:
+jet transport. Its motion contains all derivatives by the initial state, the variational equations to any order. Both expand f
+about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!; v has no constant term, so that the sum is finite.
 
 Berz, Modern Map Methods in Particle Beam Physics, ch. 2; Jorba & Zou, Experimental Mathematics 14 (2005) 99.
 """

@@ -1,8 +1,7 @@
 """Stability of the paired precession at small amplitude: its characteristic exponents as a power series.
 
 Besides rotation about the joint line and a shift of the phase, the orbit has one pair of perturbations: a shift of both axes
-along
-x, and a twist. The bar and the orbit couple them, xi' = A eta, eta' = B xi per radian of phase, with exponents ± lambda,
+along x, and a twist. The bar and the orbit couple them, xi' = A eta, eta' = B xi per radian of phase, with exponents ± lambda,
 lambda² = A B:
 
     A = −sigma (sigma − 1)/2 r_0² + …,    B = 3 sigma/(8 k²) r_0⁴ + …
