@@ -78,9 +78,7 @@ def equilibria(
     derivative or no value and nothing is decided.
     """
     if isinstance(unknowns, Mapping):
-        raise InputError(
-            "equilibria: unknowns must be names of symbols: values are given as values={symbol: number, …}"
-        )
+        raise InputError("equilibria: unknowns must be names of symbols: values are given as values={symbol: number}")
     if values is not None or box is not None:
         if unknowns:
             raise InputError(f"equilibria: in a box all coordinates are unknown: leave out unknowns = {unknowns!r}")
@@ -95,19 +93,13 @@ def _in_box(
 
     system, values = put_functions("equilibria", system, values)
     if called := [str(name) for name, value in values.items() if isinstance(value, FunctionValue)]:
-        raise InputError(
-            f"equilibria: {called[0]} is a callable or a table, and an enclosure in a box needs an expression: give one"
-        )
+        raise InputError(f"equilibria: {called[0]} is a callable or a table: an enclosure needs an expression")
     c = system.c
     values = {name: value for name, value in values.items() if not isinstance(value, sp.Lambda)}
     if len(system.constraints) > 1:
-        raise InputError(
-            "equilibria: a box is searched with one constraint at most: solve the others for coordinates by in_coordinates"
-        )
+        raise InputError("equilibria: a box takes one constraint at most: solve the others by in_coordinates")
     if system.rolling:
-        raise InputError(
-            "equilibria: where a body rolls, equilibria are not isolated: give linearise a point, or leave out rolling"
-        )
+        raise InputError("equilibria: with rolling, equilibria are not isolated: give linearise a point")
     symbols = system.letters | system.push.free_symbols
     if strangers := {name for name in values if isinstance(name, str)} - {*map(str, symbols)}:
         raise InputError(f"equilibria: values name {min(strangers)}, which the system does not have: leave it out")
@@ -121,19 +113,15 @@ def _in_box(
     sides = by_symbol("equilibria: box", box, c.q)
     if {*sides} != {*c.q} or not all(isinstance(side, Sequence) and len(side) == 2 for side in sides.values()):
         raise InputError(f"equilibria: box = {box!r} must be {{coordinate: (least, largest)}} for each of {c.q}")
-    edges: Box = {
-        q: (_rational(f"equilibria: box of {q}", sides[q][0]), _rational(f"equilibria: box of {q}", sides[q][1]))
-        for q in c.q
-    }
+    ends = {q: [_rational(f"equilibria: box of {q}", x) for x in sides[q]] for q in c.q}
+    edges: Box = {q: (low, high) for q, (low, high) in ends.items()}
     if empty := [str(q) for q, (low, high) in edges.items() if low >= high]:
         raise InputError(f"equilibria: the box of {', '.join(empty)} is empty: give (least, largest)")
     for q, (low, high) in edges.items():
         lower_margin, upper_margin = (0 if isinstance(x, int | sp.Rational) else 2**-53 for x in sides[q])
         edges[q] = low - abs(low) * sp.Rational(lower_margin), high + abs(high) * sp.Rational(upper_margin)
     if any(e.free_symbols & {*system.multipliers} for e in forces):
-        raise InputError(
-            "equilibria: a force depends on the reaction of a constraint: a box is searched without such forces"
-        )
+        raise InputError("equilibria: a force depends on the reaction of a constraint: leave out the box")
     if free := sorted({str(s) for e in (*forces, *constraints) for s in e.free_symbols - {*c.q}}):
         raise InputError(f"equilibria: {', '.join(free)} without a value: in a box every symbol needs one")
     roots, undecided = _at_rest(forces, constraints, edges)
@@ -238,9 +226,7 @@ def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> t
     letters = (system.letters | {*system.c.q} | system.push.free_symbols) - {*system.c.v, *system.speeds, t}
     by_name = {str(s): s for s in sorted(letters, key=str)}
     if strangers := [str(name) for name in names if str(name) not in by_name]:
-        raise InputError(
-            f"equilibria: {', '.join(strangers)} not in the system: solve for some of {', '.join(by_name)}"
-        )
+        raise InputError(f"equilibria: no {', '.join(strangers)} in the system: solve for some of {', '.join(by_name)}")
     return tuple(by_name[str(name)] for name in names) or system.c.q
 
 
@@ -286,9 +272,8 @@ def _solve(
         if not factors:
             return  # a condition on the parameters alone, which are independent
         factor_lists.append(factors)
-    bound = set().union(
-        *(f.free_symbols for e, factors in zip(whole, factor_lists, strict=True) if e not in circles for f in factors)
-    )
+    coupled = (factors for e, factors in zip(whole, factor_lists, strict=True) if e not in circles)
+    bound = set().union(*(f.free_symbols for factors in coupled for f in factors))
     places = [i for i, e in enumerate(whole) if e not in circles or e.subs(solution) != e or e.free_symbols & bound]
     factor_lists, whole = [factor_lists[i] for i in places], [whole[i] for i in places]
     if not factor_lists:

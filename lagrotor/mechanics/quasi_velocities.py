@@ -60,9 +60,7 @@ def check_velocities(c: Coordinates, velocities: Any, named: Mapping[sp.Symbol, 
     """Return the quasi-velocities as pairs (u, expression affine in v). named: symbols that the expressions may contain."""
     pairs = list(velocities.items()) if isinstance(velocities, Mapping) else velocities
     if not isinstance(pairs, list | tuple) or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
-        raise InputError(
-            f"System: velocities = {velocities!r} must be {{symbol: expression in q, v and t, …}}, a dictionary"
-        )
+        raise InputError(f"System: velocities = {velocities!r} must be {{symbol: expression in q, v and t, …}}")
     checked: list[Stage] = []
     definitions = dict(named or {})
     for u, e in pairs:
@@ -88,9 +86,7 @@ def check_velocities(c: Coordinates, velocities: Any, named: Mapping[sp.Symbol, 
     if len({*names}) < len(names):
         raise InputError(f"System: velocities {', '.join(names)}: each needs a different name")
     if len(names) > len(c.q):
-        raise InputError(
-            f"System: {len(names)} velocities for {len(c.q)} coordinates: there are at most as many; leave some out"
-        )
+        raise InputError(f"System: {len(names)} velocities for {len(c.q)} coordinates: leave some out")
     return tuple(checked)
 
 
@@ -121,17 +117,10 @@ def kinematics(
     u = sp.Matrix([*(u for u, _ in pairs), *[0] * len(used)])
     still, at_rest = dict.fromkeys(c.a, sp.S.Zero), dict.fromkeys(c.v, sp.S.Zero)
     gamma = F.applyfunc(lambda e: total_derivative(e, c).xreplace(still))
-    return Kinematics(
-        tuple(stages),
-        F,
-        inverse,
-        inverse[:, : len(velocities)],
-        inverse * (u - F.xreplace(at_rest)),
-        -inverse * gamma,
-        used,
-        tuple(i for i in range(len(residual)) if i not in used),
-        tuple(poles),
-    )
+    velocity, alpha = inverse * (u - F.xreplace(at_rest)), -inverse * gamma
+    left = tuple(i for i in range(len(residual)) if i not in used)
+    B = inverse[:, : len(velocities)]
+    return Kinematics(tuple(stages), F, inverse, B, velocity, alpha, used, left, tuple(poles))
 
 
 def boltzmann_hamel(
@@ -189,9 +178,8 @@ def inverse_of(
             solving, normal = solve_symmetric(gram, sp.eye(len(rows)), f"{prefix}{number}")
             stages += solving
             block_inverse = block.T * normal
-        right = sp.eye(n).extract(rows, list(range(n))) - K.extract(rows, solved) * inverse.extract(
-            solved, list(range(n))
-        )
+        known = K.extract(rows, solved) * inverse.extract(solved, list(range(n)))
+        right = sp.eye(n).extract(rows, list(range(n))) - known
         for i, line in enumerate((block_inverse * right).tolist()):
             inverse[columns[i], :] = sp.Matrix([[short(e) for e in line]])
         solved += columns

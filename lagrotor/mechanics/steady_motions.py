@@ -40,11 +40,8 @@ def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
     """Return the symbols of y: coordinates, velocities, and turn_p, the small rotation of a ball joint about the axis of p."""
     first = {joint.quaternion[0]: joint.omega for joint in system.ball_joints}
     gone = {q for joint in system.ball_joints for q in joint.quaternion[1:]}
-    names = [
-        [sp.Symbol(f"turn_{w}", real=True) for w in first[q]] if q in first else [q]
-        for q in system.c.q
-        if q not in gone
-    ]
+    turns = {q: [sp.Symbol(f"turn_{w}", real=True) for w in omega] for q, omega in first.items()}
+    names = [turns.get(q, [q]) for q in system.c.q if q not in gone]
     return (*(s for group in names for s in group), *system.speeds)
 
 
@@ -129,9 +126,8 @@ def state_equations(
     kinematics = system.kinematics
     V, F = (sp.Matrix(system.c.v), system.motion) if kinematics is None else (kinematics.velocity, system.hamel)
     velocity_of = dict(zip(system.c.v, V, strict=True))
-    measured = [
-        _in_speeds(system, expression(f"linearise: outputs[{i}]", e), velocity_of) for i, e in enumerate(outputs)
-    ]
+    named = [expression(f"linearise: outputs[{i}]", e) for i, e in enumerate(outputs)]
+    measured = [_in_speeds(system, e, velocity_of) for e in named]
     G, gamma = (e.xreplace(velocity_of) for e in rows_left(system))
     units = [joint.unit_length for joint in system.ball_joints]
     configuration = [g for g in system.constraints if g not in units]
@@ -148,9 +144,7 @@ def state_equations(
     free = whole.applyfunc(lambda e: put_in(e, dict.fromkeys(lam, sp.S.Zero)))
     solution = _solve_exactly(evaluate(saddle), -evaluate(free), singular)
     if nonzero := [f"{a} = {e}" for a, e in zip(rates, solution[:m], strict=True) if decide_zero(e).answer != "zero"]:
-        raise SingularError(
-            f"linearise: {dict(at)} is no steady motion: {', '.join(nonzero)} is not zero; start from one"
-        )
+        raise SingularError(f"linearise: {dict(at)} is no steady motion: {', '.join(nonzero)} is not zero")
     point |= dict(zip(lam, solution[m:], strict=True))
     P, P_inverse = map(sp.Matrix, small_turns(system, state))
     slope = (jacobian(list(whole), state) * P).row_join(jacobian(list(whole), inputs))
@@ -163,10 +157,8 @@ def state_equations(
     independent = [i for i in range(size) if i not in places]
     sensitivity = (jacobian(measured, state) * P).row_join(jacobian(measured, inputs))
     y = evaluate(sensitivity) + evaluate(jacobian(measured, (*rates, *lam))) * response
-    names, blocks = (
-        small_states(system),
-        (both[independent, :size] * T, both[independent, size:], y[:, :size] * T, y[:, size:]),
-    )
+    blocks = both[independent, :size] * T, both[independent, size:], y[:, :size] * T, y[:, size:]
+    names = small_states(system)
     return StateEquations(tuple(names[i] for i in independent), *(e.applyfunc(sp.factor) for e in blocks))
 
 
@@ -182,9 +174,7 @@ def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearS
     """
     c, point = system.c, at.at if isinstance(at, Equilibrium) else at
     if system.push.free_symbols & {*system.multipliers}:
-        raise InputError(
-            "linearise: a force depends on the reaction of a constraint: give outputs or a velocity, for A, B, C, D"
-        )
+        raise InputError("linearise: a force depends on a reaction: give outputs or a velocity, for A, B, C, D")
     motion = euler_lagrange(system.L, c) - system.push
     values = _place(system, point, (), motion, list(system.residual))
     evaluate = partial(_values, point, values)
@@ -217,9 +207,7 @@ def _place(
     used = set[sp.Basic]().union(*(e.free_symbols for e in equations))
     letters = {*c.q, *speeds} | system.L.free_symbols | system.push.free_symbols | used
     if strangers := [str(u) for u in inputs if u not in letters or u in (*c.q, *c.v, *speeds, t)]:
-        raise InputError(
-            f"linearise: inputs {', '.join(strangers)} are no symbols of the system's forces or constraints"
-        )
+        raise InputError(f"linearise: inputs {', '.join(strangers)} are no symbols of forces or constraints")
     letters = letters - {*c.v} | {*speeds}
     point = by_symbol("linearise: at", at, letters)
     if strangers := [str(s) for s in point if s not in letters]:
@@ -231,18 +219,14 @@ def _place(
         if all(q in point and point[q] == 0 for q in joint.quaternion):
             raise InputError(f"linearise: {no_turn(joint.quaternion, 0)}")
     if any(decide_zero(derivative(e, t)).answer != "zero" for e in equations):
-        raise InputError(
-            "linearise: the motion depends on time explicitly: write a symbol for an input F(t), or simulate it"
-        )
+        raise InputError("linearise: it depends on time explicitly: write a symbol for an input F(t), or simulate it")
     if missing := [str(q) for q in c.q if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
     values = dict.fromkeys((*c.q, *c.v, *c.a, *speeds, *system.speed_rates, *inputs), sp.S.Zero)
     values |= {s: expression(f"linearise: {s}", x) for s, x in point.items()}
     residuals = _values(at, values, sp.Matrix([*system.constraints, *residual]))
     if wrong := [e for e in residuals if decide_zero(e).answer == "nonzero"]:
-        raise InputError(
-            f"linearise: the point is off the constraints: a residual is {wrong[0]}: give coordinates and velocities on them"
-        )
+        raise InputError(f"linearise: the point is off the constraints: a residual is {wrong[0]}: give one on them")
     return values
 
 
@@ -262,9 +246,7 @@ def _values(at: Mapping[Any, Any], point: Mapping[Any, sp.Expr], matrix: sp.Matr
 
     values = matrix.applyfunc(value) if len(matrix) else matrix
     if values.has(sp.nan, sp.zoo, sp.oo):
-        raise SingularError(
-            f"linearise: the equations are singular at {dict(at)}: use coordinates that are regular there"
-        )
+        raise SingularError(f"linearise: the equations are singular at {dict(at)}: use coordinates regular there")
     if values.has(sp.DiracDelta):
         raise InputError(f"linearise: forces jump at {dict(at)}: write the case that holds there")
     return values
@@ -283,9 +265,8 @@ def _check_steady(
     course = {q: point[q] + v * time for q, v in rates.items() if v != 0}
     for joint in system.ball_joints:
         if rate := shortest(sp.sqrt(sp.Add(*(rates[q] ** 2 for q in joint.quaternion)))):
-            rotation = {
-                q: point[q] * sp.cos(rate * time) + rates[q] / rate * sp.sin(rate * time) for q in joint.quaternion
-            }
+            c, s = sp.cos(rate * time), sp.sin(rate * time) / rate
+            rotation = {q: point[q] * c + rates[q] * s for q in joint.quaternion}
             course |= rotation
     for expressions, name in ((forces, "forces"), (coefficients, "coefficients")):
         for e in expressions:
@@ -304,9 +285,7 @@ def _in_speeds(system: Equations, e: sp.Expr, velocity_of: Mapping[Any, Any]) ->
     if kinematics is None:
         return e
     if e.free_symbols & {system.multipliers[i] for i in kinematics.used}:
-        raise InputError(
-            f"linearise: output {e} depends on the reaction of a constraint that the velocities satisfy: leave these out"
-        )
+        raise InputError(f"linearise: output {e} depends on a reaction without a value in quasi-velocities: drop these")
     accelerations = kinematics.B * sp.Matrix(system.speed_rates) + kinematics.alpha
     return e.xreplace(dict(zip(system.c.a, accelerations, strict=True))).xreplace(dict(velocity_of))
 
@@ -333,11 +312,8 @@ def _tangent(slope: sp.Matrix, size: int, k: int, n: int) -> tuple[list[int], sp
         chosen += [columns[i] for i in pivots]
     independent = [i for i in range(size) if i not in chosen]
     T = sp.zeros(size, len(independent))
-    dependent = -_solve_exactly(
-        slope[:, chosen],
-        slope[:, independent],
-        "linearise: the constraints are dependent at the point: leave out what follows from the others",
-    )
+    refusal = "linearise: the constraints are dependent at the point: leave out what follows from the others"
+    dependent = -_solve_exactly(slope[:, chosen], slope[:, independent], refusal)
     for i, j in enumerate(independent):
         T[j, i] = 1
     for i, j in enumerate(chosen):

@@ -443,9 +443,7 @@ class Oscillation:
         returns = run.crossings(v, direction=1 if run.v[1, 0] > 0 else -1)
         turns = returns.t[returns.t > 0.4 * period]
         if not len(turns):
-            raise SingularError(
-                f"error: the motion from {q} = {float(start):.6g} does not come back within 1.6 periods of the series"
-            )
+            raise SingularError(f"error: the motion from {q} = {float(start):.6g} does not return within 1.6 periods")
         return float(abs(omega / (2 * sp.pi / turns[0]) - 1))
 
 
@@ -658,9 +656,7 @@ def averaged(system: Equations, order: int, small: sp.Symbol, frequency: Any = N
     square = -sp.diff(still, q)
     nu = sp.sqrt(square) if frequency is None else expression("averaged: frequency", frequency)
     if decide_zero(still + nu**2 * q).answer != "zero" or nu.is_nonpositive or nu.has(sp.I):
-        raise InputError(
-            f"averaged: for {small} = 0 it is {a} = {still}, not −ν² {q} with ν = {nu}: give frequency, or another small"
-        )
+        raise InputError(f"averaged: for {small} = 0, {a} = {still} is not −ν² {q} with ν = {nu}: give frequency")
     F = _series(acceleration + nu**2 * q, small, order)
     base, waves = _trigonometric(F, nu)
     poly = _polynomial("averaged", F.xreplace(waves.symbol_of), (small, q, v, *waves.symbols))
@@ -723,9 +719,8 @@ def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
             )
         ratios.append(ratio)
     base = lcm(*(int(ratio.q) for ratio in ratios)) if ratios else 1
-    numbers = tuple(
-        int(ratio * base) * (-1 if isinstance(e, sp.sin) else 1) for e, ratio in zip(nodes, ratios, strict=True)
-    )
+    signs = [-1 if isinstance(e, sp.sin) else 1 for e in nodes]
+    numbers = tuple(int(ratio * base) * sign for ratio, sign in zip(ratios, signs, strict=True))
     return base, _Waves({e: sp.Dummy(f"w{i}", real=True) for i, e in enumerate(nodes)}, numbers)
 
 
@@ -785,7 +780,5 @@ def _field(coefficients: Sequence[sp.Expr]) -> tuple[Domain, Any]:
     if field.is_EX:
         field, _ = sp.construct_domain([*coefficients, sp.S.Half], field=True, extension=True)
     if field.is_EX or not field.is_Exact:
-        raise DomainError(
-            f"the coefficients {coefficients} are in no field that is decided: write decimals as fractions"
-        )
+        raise DomainError(f"the coefficients {coefficients} are in no exact field: write decimals as fractions")
     return field, lambda e: field.from_sympy(sp.sympify(e, strict=True))

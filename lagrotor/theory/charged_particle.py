@@ -200,9 +200,8 @@ def leaning_state(scene: Scene) -> tuple[Array, Array]:
     mean_rate = (v1 + v2) / (2 * height)
     mean_rate -= mean * (mean @ mean_rate)
     half = (normal * np.sqrt(1 - tilt**2) + lean * tilt) @ (v2 - v1) / (2 * height)
-    return np.array([beta, np.arctan2(sine, height), alpha]), np.array(
-        [lean @ mean_rate, half, normal @ mean_rate / np.cos(beta)]
-    )
+    rates = lean @ mean_rate, half, normal @ mean_rate / np.cos(beta)
+    return np.array([beta, np.arctan2(sine, height), alpha]), np.array(rates)
 
 
 def leaning_field() -> "tuple[sp.Matrix, sp.Matrix]":

@@ -132,9 +132,7 @@ class ClosedForm:
         if self.order is None:
             bounds = np.zeros(1)
         elif self.bound is None:
-            raise InputError(
-                f"{self.name}: no bound of this series' error is known; compare it with a simulated motion"
-            )
+            raise InputError(f"{self.name}: no bound of this series' error is known; compare it with a simulation")
         else:
             bounds = self.bound(*(np.broadcast_to(v, prod(shape)) for v in flat))
         return self._in_shape(np.broadcast_to(bounds, (len(self.outputs), prod(shape))).copy(), shape)
@@ -146,9 +144,8 @@ class ClosedForm:
     def _check_arguments(self, values: tuple[ArrayLike, ...]) -> tuple[list[float | Array], tuple[int, ...]]:
         """Return the arguments as numbers or rows, and their broadcast shape. Raises DomainError outside the domain."""
         if len(values) != len(self.arguments):
-            raise InputError(
-                f"{self.name}: takes {len(self.arguments)} arguments ({', '.join(map(str, self.arguments))})"
-            )
+            names = ", ".join(map(str, self.arguments))
+            raise InputError(f"{self.name}: takes {len(self.arguments)} arguments ({names})")
         try:
             arrays = [np.asarray(v, dtype=float) for v in values]
         except (TypeError, ValueError) as error:
@@ -164,9 +161,7 @@ class ClosedForm:
             inside = np.broadcast_to(holds, prod(shape))
             if not inside.all():
                 where = int(np.argmin(inside))
-                at = ", ".join(
-                    f"{s} = {v if isinstance(v, float) else v[where]:g}"
-                    for s, v in zip(self.arguments, flat, strict=True)
-                )
+                numbers = [v if isinstance(v, float) else v[where] for v in flat]
+                at = ", ".join(f"{s} = {v:g}" for s, v in zip(self.arguments, numbers, strict=True))
                 raise DomainError(f"{self.name}: outside its domain {relation}: {at}")
         return flat, shape

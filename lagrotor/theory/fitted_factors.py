@@ -12,9 +12,7 @@ LARGEST_SWING = Calibrated(
     "150 pairs with 0.5 < k < 2, any two spins, 20 swings; beyond it runs over 24 swings topple over",
     _RATE + "test_an_amplitude_out_of_range_is_refused",
 )
-_SWUNG = (
-    "pairs with 0.15 < k < 4, bars up to 50 kg, any two spins, swings of any phase over 20 turns and exact orbits; "
-)
+_SWUNG = "pairs with 0.15 < k < 4, bars up to 50 kg, any two spins, swings of any phase over 20 turns and orbits; "
 NEXT_SHIFT = Calibrated(
     3.0,
     "factor of N r⁴, the size of the next order of the natural rate's shift",

@@ -91,9 +91,8 @@ def free_precession_rate() -> ClosedForm:
     (G/(J*cos(theta)),)
     """
     theta, (theta_v, phi_v, psi_v), theta_a = ROTOR.q[0], ROTOR.v, ROTOR.a[0]
-    steady = euler_lagrange(rotor_lagrangian(), ROTOR)[0].subs(
-        {theta_a: 0, theta_v: 0, psi_v: omega - phi_v * sp.cos(theta)}
-    )
+    steady_motion = {theta_a: 0, theta_v: 0, psi_v: omega - phi_v * sp.cos(theta)}
+    steady = euler_lagrange(rotor_lagrangian(), ROTOR)[0].subs(steady_motion)
     rate = next(root for root in sp.solve(steady, phi_v) if root != 0)
     rate, domain = rate.subs(omega, G / I3), (sp.Ne(sp.cos(theta), 0),)
     assumptions = "one grounded rotor, no gravity, theta constant"

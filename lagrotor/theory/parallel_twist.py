@@ -72,9 +72,8 @@ def twist_growth_error() -> ClosedForm:
     """
     form, beta = twist_growth(), b / (a - b)
     error = form.expressions[0] * rho**2 * (sp.Rational(3, 4) + sp.Abs(beta) / 16) / (1 - rho**2)
-    return replace(
-        form, name="twist_growth_error", outputs=("error",), expressions=(error,), order=None, small=None, bound=None
-    )
+    name = "twist_growth_error"
+    return replace(form, name=name, outputs=("error",), expressions=(error,), order=None, small=None, bound=None)
 
 
 @cache

@@ -77,9 +77,7 @@ def normal_coordinates(A: Matrix, bracket: Matrix) -> NormalCoordinates:
 
 def _check(form: Matrix, rate: complex) -> None:
     if np.linalg.svd(form, compute_uv=False)[-1] < _DEFECTIVE * abs(rate):
-        raise SingularError(
-            f"normal_form: the rate {rate:.6g} is double and not diagonal: move a parameter off this value"
-        )
+        raise SingularError(f"normal_form: the rate {rate:.6g} is double and not diagonal: move a parameter off it")
 
 
 def _oscillations(A: Matrix, V: Matrix, omega: float, near: float) -> list[tuple[complex, complex, Matrix, Matrix]]:

@@ -89,9 +89,8 @@ class NormalForm(Shown):
     def energy_signs(self) -> tuple[int, ...]:
         """The sign of each oscillation's energy, +1 or −1; 0 of a saddle and of a mode of rate zero, length n."""
         negative = [w.could_extract_minus_sign() if isinstance(w, sp.Expr) else w.real < 0 for w in self.frequencies]
-        return tuple(
-            0 if self._plain(c) == 1 else -1 if below else 1 for c, below in zip(self.weights, negative, strict=True)
-        )
+        signs = zip(self.weights, negative, strict=True)
+        return tuple(0 if self._plain(c) == 1 else -1 if below else 1 for c, below in signs)
 
     @cached_property
     def actions(self) -> dict[Exponents, Any]:
@@ -152,10 +151,8 @@ class NormalForm(Shown):
         dict[str, str]
             Name → value in words.
         """
-        rows = {
-            f"frequency {j + 1}": f"{w}" if self.field is not None else f"{w:.8g}"
-            for j, w in enumerate(self.frequencies)
-        }
+        exact = self.field is not None
+        rows = {f"frequency {j + 1}": f"{w}" if exact else f"{w:.8g}" for j, w in enumerate(self.frequencies)}
         rows |= {f"I^{e}": f"{c}" if self.field is not None else f"{c:.8g}" for e, c in list(self.actions.items())[:12]}
         resonant = {"resonances": ", ".join(map(str, self.resonances)) or "none"}
         return rows | resonant | {"known through": str(self.known_through), "error": scientific(self.error, 1)}
@@ -245,11 +242,10 @@ def birkhoff(
         resonant, _, _ = split(K.part(degree))  # drops the rounding errors of the removed terms
         K = total([*(term_d for d, term_d in K.parts.items() if d != degree), resonant])
     error = 0.0 if field is not None else _error(H.through(order) - H.part(1), K, generators, weights, order)
-    values = (
-        tuple(field.to_sympy(f) for f in frequencies)
-        if field is not None
-        else tuple(complex(f) if abs(f.imag) > 0 else float(f.real) for f in frequencies)
-    )
+    if field is not None:
+        values = tuple(field.to_sympy(f) for f in frequencies)
+    else:
+        values = tuple(complex(f) if abs(f.imag) > 0 else float(f.real) for f in frequencies)
     return NormalForm(values, K, weights, tuple(generators), vectors, order, error, field)
 
 

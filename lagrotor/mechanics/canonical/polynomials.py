@@ -95,9 +95,8 @@ class Polynomial:
     def substitute(self, values: Sequence[Polynomial], order: int, first: int = 0) -> Polynomial:
         """Substitute polynomials x_k = values[k], through an order, by Horner's rule variable by variable."""
         if first == self.variables:
-            return Polynomial(
-                np.zeros((len(self.coefficients), values[0].variables), dtype=np.int64), self.coefficients
-            )
+            constants = np.zeros((len(self.coefficients), values[0].variables), dtype=np.int64)
+            return Polynomial(constants, self.coefficients)
         powers, result = self.exponents[:, first], None
         for power in range(int(powers.max(initial=0)), -1, -1):
             term = self.where(powers == power).substitute(values, order, first + 1)
@@ -182,10 +181,8 @@ def poisson_bracket(f: Polynomial, g: Polynomial, weights: Coefficients, order: 
     n = len(weights)
     summands = [f.part(-1)]
     for j in range(n):
-        up, down = (
-            f.derivative(j).product(g.derivative(n + j), order),
-            f.derivative(n + j).product(g.derivative(j), order),
-        )
+        up = f.derivative(j).product(g.derivative(n + j), order)
+        down = f.derivative(n + j).product(g.derivative(j), order)
         summands += [(up - down).times(weights[j])]
     return total(summands)
 

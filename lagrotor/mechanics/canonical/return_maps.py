@@ -117,9 +117,8 @@ class ReturnMapForm(NormalForm):
             One number for each mode, between −½ and ½ on the orbit; nan for a hyperbolic pair.
         """
         at = [0.0] * len(self.frequencies) if actions is None else actions
-        return tuple(
-            a / (2 * pi) if c == -1j else np.nan for a, c in zip(self.frequencies_at(at), self.weights, strict=True)
-        )
+        rates = zip(self.frequencies_at(at), self.weights, strict=True)
+        return tuple(a / (2 * pi) if c == -1j else np.nan for a, c in rates)
 
     def place(self, z: Sequence[complex]) -> dict[sp.Symbol, float]:
         """Return the point on the section with given normal coordinates z and w = z̄ (oscillations).
@@ -182,13 +181,12 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
         if (near := np.abs(np.linalg.eigvals(M) - value).min()) < _NEAR:
             way = "name the momentum of a symmetry, or " if value == 1 else ""
             raise SingularError(
-                f"normal_form: a multiplier is {value} to {near:.1g}: {way}move a parameter or the energy off this value"
+                f"normal_form: a multiplier is {value} to {near:.1g}: {way}change a parameter or energy"
             )
     normal = normal_coordinates(-J @ (M - np.eye(n)) @ np.linalg.inv(M + np.eye(n)), J)  # Cayley: same vectors
     shares, weights = normal.frequencies, normal.weights
-    angles = np.array(
-        [2 * np.arctan(s.real) if c == -1j else np.log((1 + s) / (1 - s)) for s, c in zip(shares, weights, strict=True)]
-    )
+    modes = zip(shares, weights, strict=True)
+    angles = np.array([2 * np.arctan(s.real) if c == -1j else np.log((1 + s) / (1 - s)) for s, c in modes])
     rates = np.concatenate([weights * angles, -weights * angles])
     inverse = np.linalg.inv(normal.vectors)
     pair = np.diag(weights)
@@ -227,9 +225,8 @@ def _exponent(f: Sequence[Polynomial], K: Polynomial, rates: Coefficients, weigh
     summands = []
     for k in range(2 * m):
         homogeneous = f[k].part(d - 1)
-        remainder = homogeneous.times(np.exp(-(homogeneous.exponents @ rates))) - lie_transform(
-            variable(k, 2 * m), K, weights, d - 1
-        ).part(d - 1)
+        flow = lie_transform(variable(k, 2 * m), K, weights, d - 1).part(d - 1)
+        remainder = homogeneous.times(np.exp(-(homogeneous.exponents @ rates))) - flow
         conjugate, sign = (k + m, 1) if k < m else (k - m, -1)
         summands.append(remainder.product(variable(conjugate, 2 * m), d).times(sign / weights[k % m] / d))
     return total(summands)
@@ -275,9 +272,8 @@ class _Motion:
 
     def __init__(self, H: sp.Expr, x: Sequence[sp.Symbol], begin: float, units: Array) -> None:
         n = len(x) // 2
-        H = H.xreplace({s: sp.Float(u, 17) * s for s, u in zip(x, units, strict=True)}) / sp.Float(
-            units[0] * units[n], 17
-        )
+        scaled = H.xreplace({s: sp.Float(u, 17) * s for s, u in zip(x, units, strict=True)})
+        H = scaled / sp.Float(units[0] * units[n], 17)
         rates = (*gradient(H, x[n:]), *-gradient(H, x[:n]))
         self._rates, self._H = (compile_program(Program((*x, t), (), e), "numpy") for e in (rates, (H,)))
         _, drives = clock_parts((), rates, {*x})
@@ -388,9 +384,7 @@ class _Orbit:
             late = _combined(ahead, self._back(X, x))[0]
             wait = -late / _combined(ahead, self.motion.rate(X, self.motion.begin))[0]
             if not abs(wait.coefficients[0]) < _FAR * period:
-                raise InputError(
-                    f"normal_form: no return near t = {period:.6g} s: give a start on the orbit and its period"
-                )
+                raise InputError(f"normal_form: no return near t = {period:.6g} s: give a start and the period")
             period += wait.coefficients[0]
             X = self.motion.advance(X, wait, local)
         landing = _combined(S, self._back(X, x))
@@ -415,9 +409,7 @@ def return_map_form(
     """
     n, begin, driven = len(x) // 2, float(at.get(t, 0.0)), H.has(t)
     if n == 1 and not driven:
-        raise DomainError(
-            "normal_form: an orbit of one degree of freedom has no transverse motion: leave out the period"
-        )
+        raise DomainError("normal_form: an orbit of one degree of freedom has no normal form: leave out the period")
     start, units = np.array([float(at[s]) for s in x]), np.ones(2 * n)
     values = {s: sp.Float(at[s]) for s in (*x, t)}
     mobility = [derivative(derivative(H, s), s).xreplace(values) for s in x[n:]]

@@ -80,9 +80,8 @@ class LocalSeries:
         """Return f(inner), by Horner's rule in the polynomial of inner without its constant."""
         u, v = inner.xreplace(self.at), self.of(inner)
         v = v.where(v.exponents.sum(1) > 0)
-        *lower, result = (
-            self._number(_derivative(f, m).xreplace({_Z: u}) / sp.factorial(m)) for m in range(self.order + 1)
-        )
+        values = (_derivative(f, m).xreplace({_Z: u}) / sp.factorial(m) for m in range(self.order + 1))
+        *lower, result = map(self._number, values)
         for coefficient in reversed(lower):
             result = result.product(v, self.order) + coefficient
         return result
@@ -90,9 +89,7 @@ class LocalSeries:
     def _number(self, e: sp.Expr) -> Polynomial:
         at_point = e.xreplace(self.at)
         if at_point.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
-            raise DomainError(
-                f"normal_form: {e} is singular at {dict(self.at)}: use coordinates that are regular there"
-            )
+            raise DomainError(f"normal_form: {e} is singular at {dict(self.at)}: use coordinates regular there")
         some = next(iter(self.displacements.values()))
         return constant(self.value(at_point), some.variables, some.coefficients.dtype)
 
@@ -134,19 +131,12 @@ class JetSpace:
 @lru_cache(maxsize=16)
 def jet_space(variables: int, degree: int) -> JetSpace:
     """Return the space of series in so many variables through a degree."""
-    rows = [
-        np.bincount(np.array(chosen, dtype=int), minlength=variables)
-        for d in range(degree + 1)
-        for chosen in combinations_with_replacement(range(variables), d)
-    ]
+    choices = [choice for d in range(degree + 1) for choice in combinations_with_replacement(range(variables), d)]
+    rows = [np.bincount(np.array(choice, dtype=int), minlength=variables) for choice in choices]
     exponents = np.array(rows, dtype=np.int64).reshape(-1, variables)
     place = {tuple(e): k for k, e in enumerate(exponents.tolist())}
-    triples = sorted(
-        (place[tuple((a + b).tolist())], i, j)
-        for i, a in enumerate(exponents)
-        for j, b in enumerate(exponents)
-        if a.sum() + b.sum() <= degree
-    )
+    pairs = [(i, j, a + b) for i, a in enumerate(exponents) for j, b in enumerate(exponents)]
+    triples = sorted((place[tuple(e.tolist())], i, j) for i, j, e in pairs if e.sum() <= degree)
     out, first, second = np.array(triples).T
     return JetSpace(exponents, first, second, np.searchsorted(out, np.arange(len(exponents))))
 
@@ -185,11 +175,8 @@ class TruncatedSeries(NDArrayOperatorsMixin):
             scaled = rows[0][0] * rows[1] if not isinstance(a, TruncatedSeries) else rows[0] * rows[1][0]
             return TruncatedSeries(scaled if plain else self.space.product(*rows), self.space)
         if name == "divide":
-            return (
-                TruncatedSeries(rows[0] / b, self.space)
-                if not isinstance(b, TruncatedSeries)
-                else a * b._composed("power", -1.0)
-            )
+            plain = not isinstance(b, TruncatedSeries)
+            return TruncatedSeries(rows[0] / b, self.space) if plain else a * b._composed("power", -1.0)
         raise _not_analytic(name)
 
     def _power(self, n: float) -> TruncatedSeries:

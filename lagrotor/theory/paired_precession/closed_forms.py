@@ -147,9 +147,8 @@ def paired_momentum(order: int = 4) -> ClosedForm:
     def weighted_slope(first: FourierSeries, second: FourierSeries) -> FourierSeries:
         return first.derivative().times(heavy) + second.derivative().times(light)
 
-    turning = (
-        Y * weighted_slope(z, z2) - z * weighted_slope(Y, Y2) + Y2 * weighted_slope(z2, z) - z2 * weighted_slope(Y2, Y)
-    )
+    first = Y * weighted_slope(z, z2) - z * weighted_slope(Y, Y2)
+    turning = first + Y2 * weighted_slope(z2, z) - z2 * weighted_slope(Y2, Y)
     total = (orbit.frequency * turning).times(s) + x + x.half_period_later()  # x_2 = −x_1 half a period later
     if any(h for _, h in total.terms):
         raise SingularError("paired_momentum: the momentum varies along the orbit: the series is wrong")

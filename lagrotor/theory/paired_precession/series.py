@@ -190,9 +190,8 @@ def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain | None = None) -> Re
         squared = frequency * frequency
 
         def inertia(first: Series, second: Series) -> Series:
-            return squared * (
-                first.derivative().derivative().times(a_scaled) + second.derivative().derivative().times(b_scaled)
-            )
+            accelerations = first.derivative().derivative(), second.derivative().derivative()
+            return squared * (accelerations[0].times(a_scaled) + accelerations[1].times(b_scaled))
 
         return [
             inertia(x, x2) - frequency * (Y * zd - z * Yd) - unit * x + tension * (x.constant(length) + x2),

@@ -187,12 +187,7 @@ def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
             "there; take a smaller amplitude, or lagrotor.precession_orbit, which goes over to the exact orbit"
         )
     natural = natural_rate(scene)
-    return PrecessionOrbit(
-        scene,
-        amplitude,
-        copysign(natural * series.relative_frequency(amplitude), scene.spins[0]),
-        natural * (remainder.frequency + SERIES_ROUNDING),
-        remainder.axes + SERIES_ROUNDING,
-        f"series through r₀{superscript(order)}",
-        series.harmonics(amplitude),
-    )
+    frequency = copysign(natural * series.relative_frequency(amplitude), scene.spins[0])
+    errors = natural * (remainder.frequency + SERIES_ROUNDING), remainder.axes + SERIES_ROUNDING
+    method, harmonics = f"series through r₀{superscript(order)}", series.harmonics(amplitude)
+    return PrecessionOrbit(scene, amplitude, frequency, *errors, method, harmonics)
