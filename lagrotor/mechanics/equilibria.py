@@ -36,8 +36,8 @@ class Equilibrium:
     domain : tuple[Basic, ...], default ()
         Relations under which the values are real and no equation is singular.
     regular : bool, default True
-        True if the mass matrix is regular. Where it is singular, as at the pole of spherical coordinates, no force along a
-        coordinate need vanish at rest: use other coordinates.
+        True if the mass matrix is regular. Where it is singular, as at the pole of spherical coordinates, zero force along each
+        coordinate is necessary for rest but may not suffice: other coordinates decide.
     enclosure : mapping, default {}
         {coordinate: (lower, upper)}, rational bounds of the exact value, of an equilibrium in a box; `at` is then rounded.
 

@@ -26,7 +26,7 @@ Pairs = list[tuple[Waves, Waves]]
 
 
 class FourierSeries:
-    """The nonzero coefficients {(n, h): value} through eps**order: of eps^n cos(h Phi), for h < 0 of eps^n sin(|h| Phi)."""
+    """The series of the coefficients {(n, h): value} through eps**order, of eps^n cos(h Phi), for h < 0 of eps^n sin(|h| Phi)."""
 
     def __init__(self, terms: Mapping[Key, Coefficient], order: int) -> None:
         powers: dict[int, dict[int, Coefficient]] = defaultdict(dict)

@@ -137,7 +137,7 @@ class LinearSystem:
         distinct roots s²: positive coefficients and Hankel minors of the power sums. Without gyroscopic forces roots may
         coincide. Otherwise the even factors satisfy this, and the Routh–Hurwitz determinants of the others are positive.
 
-        Factors that are positive by the assumptions are divided out, and an eigenvalue common to independent modes counts once.
+        Factors that are positive by the assumptions are divided out, and an eigenvalue shared by independent modes counts once.
         Zero roots of neighbouring equilibria and of drifts at constant velocity are allowed; growth as t² gives False.
         """
         natural = all(map(is_identically_zero, (*self.gyroscopic, *(self.stiffness - self.stiffness.T))))

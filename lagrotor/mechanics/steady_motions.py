@@ -35,6 +35,8 @@ from lagrotor.mechanics.lagrangian import euler_lagrange, jacobian, t
 from lagrotor.mechanics.linear_modes import LinearSystem, is_identically_zero, reduced, stability_condition
 from lagrotor.mechanics.quasi_velocities import independent_rows
 
+Point = Mapping[Any, Any]
+
 
 def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
     """Return the symbols of y: coordinates, velocities, and turn_p, the small rotation of a ball joint about the axis of p."""
@@ -115,7 +117,7 @@ class StateEquations:
 
 
 def state_equations(
-    system: Equations, at: Mapping[Any, Any], inputs: Sequence[sp.Symbol] = (), outputs: Sequence[sp.Expr] = ()
+    system: Equations, at: Point, inputs: Sequence[sp.Symbol] = (), outputs: Sequence[sp.Expr] = ()
 ) -> StateEquations:
     """Linearise about a point (coordinates and velocities, the others zero) at which all accelerations vanish.
 
@@ -196,11 +198,7 @@ def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearS
 
 
 def _place(
-    system: Equations,
-    at: Mapping[Any, Any],
-    inputs: Sequence[sp.Symbol],
-    motion: Sequence[sp.Expr],
-    residual: Sequence[sp.Expr],
+    system: Equations, at: Point, inputs: Sequence[sp.Symbol], motion: Sequence[sp.Expr], residual: Sequence[sp.Expr]
 ) -> dict[sp.Symbol, sp.Expr]:
     """Return the point, zero where `at` names nothing. Raises InputError for wrong names, explicit time, violated constraints."""
     c, speeds, equations = system.c, system.speeds, [*motion, *system.residual]
@@ -230,7 +228,7 @@ def _place(
     return values
 
 
-def _values(at: Mapping[Any, Any], point: Mapping[Any, sp.Expr], matrix: sp.Matrix) -> sp.Matrix:
+def _values(at: Point, point: Point, matrix: sp.Matrix) -> sp.Matrix:
     """Return the matrix at the point, 0/0 reduced. Raises SingularError where it is singular, InputError where a force jumps."""
     numbers = {s: x for s, x in point.items() if not x.free_symbols}
 
@@ -253,11 +251,7 @@ def _values(at: Mapping[Any, Any], point: Mapping[Any, sp.Expr], matrix: sp.Matr
 
 
 def _check_steady(
-    system: Equations,
-    point: Mapping[Any, sp.Expr],
-    flow: Sequence[sp.Expr],
-    forces: Sequence[sp.Expr],
-    coefficients: Any,
+    system: Equations, point: Point, flow: Sequence[sp.Expr], forces: Sequence[sp.Expr], coefficients: Any
 ) -> None:
     """Raise InputError if forces or coefficients change along the motion; a ball joint rotates about a fixed axis."""
     time = sp.Dummy("tau", real=True)

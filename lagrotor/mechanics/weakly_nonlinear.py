@@ -164,11 +164,7 @@ def _frequency_column(
 
 
 def harmonic_solver(
-    columns: list[Column],
-    extra: Column | None,
-    fixed: int | None,
-    field: Domain,
-    value: Callable[[Any], Coefficient],
+    columns: list[Column], extra: Column | None, fixed: int | None, field: Domain, value: Callable[[Any], Coefficient]
 ) -> Solver:
     """Return the solver of one harmonic for the unknowns, and for the shift of a frequency where `extra` is its column.
 
@@ -448,11 +444,7 @@ class Oscillation:
 
 
 def oscillation(
-    system: Equations,
-    order: int,
-    small: sp.Symbol,
-    at: Any = 0,
-    amplitude: sp.Symbol | None = None,
+    system: Equations, order: int, small: sp.Symbol, at: Any = 0, amplitude: sp.Symbol | None = None
 ) -> Oscillation:
     """The Lindstedt–Poincaré series of the periodic motions about the equilibrium q = at, through small**order.
 
@@ -494,11 +486,7 @@ def oscillation(
 
 
 def _terms_about(
-    equilibrium: sp.Expr,
-    system: Equations,
-    order: int,
-    small: sp.Symbol,
-    amplitude: sp.Symbol | None,
+    equilibrium: sp.Expr, system: Equations, order: int, small: sp.Symbol, amplitude: sp.Symbol | None
 ) -> dict[tuple[int, ...], sp.Expr]:
     """Return the coefficients by powers of small, q, v and a; without an amplitude `small` measures the size of the motion."""
     (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a

@@ -258,9 +258,8 @@ def turns_back(scene: Scene) -> bool:
     margin = share * max(1.0, abs(motion.weight))
     endings = [replace(motion, weight=motion.weight + change)._until(_IN_LINE) for change in (0.0, margin, -margin)]
     time, lean, half = endings[0]
-    if motion._twist(motion.lean, motion.half) > FARTHEST_TWIST or (
-        time == inf and motion._twist(lean, half) > FARTHEST_TWIST
-    ):
+    twist_before = motion._twist(lean, half) if time == inf else 0.0
+    if max(motion._twist(motion.lean, motion.half), twist_before) > FARTHEST_TWIST:
         raise DomainError(
             "turns_back: the pair twists by more than 30° from the start or before x turns back: take a smaller shock, or run it "
             "with lagrotor.simulate"

@@ -35,7 +35,7 @@ class ClosedForm:
     arguments : tuple[Symbol, ...]
         Symbols of the arguments; units as in `lagrotor.pair.notation`.
     domain : tuple[Basic, ...]
-        Conditions that every argument must satisfy.
+        Conditions that the arguments must satisfy.
     assumptions : str
         Physical assumptions in words.
     source : str

@@ -80,7 +80,7 @@ def shock_toppling() -> ClosedForm:
     Section 5.2.1 of the paper; derivations/t6_shock_drift.py.
     """
     rate = _after_shock(averaged_hamiltonian().diff(P))
-    return _form("shock_toppling", "alpha'", rate, (P_X, p_y, att, G, a, b, k), (), 2)
+    return _form("shock_toppling", "alpha'", rate, (P_X, p_y, att, G, a, b, k), 2)
 
 
 @cache
@@ -102,7 +102,7 @@ def cancelling_impulse() -> ClosedForm:
     quadratic, linear, constant = sp.Poly(sp.numer(sp.together(shock_toppling().expressions[0])), p_y).all_coeffs()
     inside = sp.factor(1 - 4 * sp.cancel(quadratic * constant / linear**2))
     root = sp.factor(-2 * sp.cancel(constant / linear)) / (1 + sp.sqrt(inside))
-    return _form("cancelling_impulse", "p_y", root, (P_X, att, G, a, b, k), (sp.Ge(inside, 0),), 2)
+    return _form("cancelling_impulse", "p_y", root, (P_X, att, G, a, b, k), 2, sp.Ge(inside, 0))
 
 
 @cache
@@ -122,7 +122,7 @@ def shock_wander() -> ClosedForm:
     ----------
     Section 5.2.1 of the paper; derivations/t7_duration.py.
     """
-    return _form("shock_wander", "X'", _after_shock(slow_rates()[0]), (P_X, p_y, att, G, a, b, k), (), 3)
+    return _form("shock_wander", "X'", _after_shock(slow_rates()[0]), (P_X, p_y, att, G, a, b, k), 3)
 
 
 def _after_shock(e: sp.Expr) -> sp.Expr:
@@ -131,16 +131,11 @@ def _after_shock(e: sp.Expr) -> sp.Expr:
 
 
 def _form(
-    name: str,
-    output: str,
-    expression: sp.Expr,
-    arguments: tuple[sp.Symbol, ...],
-    domain: tuple[sp.Basic, ...],
-    order: int,
+    name: str, output: str, e: sp.Expr, arguments: tuple[sp.Symbol, ...], order: int, *condition: sp.Basic
 ) -> ClosedForm:
-    domain = (sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0), *domain)
+    domain = sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0), *condition
     assumptions = "opposite spins at rest upright, a shock on rotor 1"
-    return ClosedForm(name, (output,), (expression,), arguments, domain, assumptions, "5, 5.2.1", order, P_X)
+    return ClosedForm(name, (output,), (e,), arguments, domain, assumptions, "5, 5.2.1", order, P_X)
 
 
 def toppling_after_shock(scene: Scene) -> float:

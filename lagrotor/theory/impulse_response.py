@@ -27,7 +27,8 @@ _SPUN = (sp.Gt(a, sp.Abs(b)), sp.Gt(G_1**2 + G_2**2, 0))
 class ImpulseMatrices:
     """Matrices of the response H(s) = drift s + displacement (1 − cos Omega s) + swing sin(Omega s)/Omega, in (x, y_1, y_2).
 
-    All are (3, 3) but `null`, n, (3, 1). `mass`, `gyroscopic`: M and C. `frequency_squared`: Omega².
+    The shape is (3, 3), except of `null`, the null vector n of C, (3, 1). `mass`, `gyroscopic`: M and C. `frequency_squared`:
+    Omega².
     """
 
     mass: sp.Matrix

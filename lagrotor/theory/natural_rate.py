@@ -168,7 +168,5 @@ def natural_rate_limits(scene: Scene) -> dict[str, RateLimit]:
         "massless": (replace(scene, link=Link(length)), "a bar without mass: {}"),
         "dumbbell": (replace(scene, link=Link(length, mass, mass * length**2 / 4)), "K = m ℓ²/4: {}"),
     }
-    return {
-        name: RateLimit(natural_rate(limit), LIMIT_FORMULAS[name][0], says.format(LIMIT_FORMULAS[name][1]))
-        for name, (limit, says) in changed.items()
-    }
+    rows = [(name, *LIMIT_FORMULAS[name], *change) for name, change in changed.items()]
+    return {name: RateLimit(natural_rate(s), formula, says.format(ab)) for name, formula, ab, s, says in rows}

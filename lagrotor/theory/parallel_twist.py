@@ -6,9 +6,10 @@ r(t), x = r . e_x,
 
     d/dt ( (a − b)/2 (1 − x²) Delta' ) + b (|r'|² + x x'') Delta = 0,
 
-independent of G and ell / R. With beta = b/(a − b) it grows for b < 0, K > m ell²/4, the inertia of two point masses at the
-bar's ends. It drifts for b = 0. For b > 0 it is bounded on cones with pi² beta sin² theta <= 4 cos theta (Lyapunov's criterion;
-Magnus & Winkler, Hill's Equation, 1966, ch. V); on wider cones it may grow by resonance. Derived in derivations/t9_twist.py.
+independent of G and ell / R. It grows for b < 0: a bar with K > m ell²/4, more inertia than two point masses at its ends. It
+drifts for b = 0. For b > 0 it is bounded on cones with pi² beta sin² theta <= 4 cos theta, beta = b/(a − b) (Lyapunov's
+criterion; Magnus & Winkler, Hill's Equation, 1966, ch. V); on wider cones it may grow by resonance. Derived in
+derivations/t9_twist.py.
 """
 
 from dataclasses import replace
@@ -136,8 +137,7 @@ def parallel_scene(scene: Scene, angle: float, twist_rate: float = 0.0) -> Scene
 def twist_multiplier_growth(scene: Scene, angle: float) -> float:
     """Compute the growth rate of a small twist from Hill's equation, exact in the angle of the cone.
 
-    The equation, of period pi in the phase Phi, is integrated with an error of 5·10⁻⁶ of the precession rate for a rate below
-    that:
+    The equation has period pi in the phase Phi, and the error is at most 5·10⁻⁶ of the precession rate:
 
         ((1 − rho² cos² Phi) Delta')' + 2 b rho² sin² Phi / (a − b) Delta = 0.
 

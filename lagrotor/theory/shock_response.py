@@ -63,13 +63,7 @@ class ShockResponse(Shown):
     impulse_energy: float
 
     def summary(self) -> dict[str, str]:
-        """Summarise the response.
-
-        Returns
-        -------
-        dict[str, str]
-            Name → value in words; vectors are (x, y_1, y_2).
-        """
+        """Return the response as {name: value in words}; vectors are (x, y_1, y_2)."""
 
         def three(vector: Array) -> str:
             return ", ".join(f"{value + 0.0:.6g}" for value in vector)  # −0 is 0
@@ -108,37 +102,16 @@ class ShockResponse(Shown):
         return float(-(self.drift[1] + self.drift[2]) / 2)
 
     def after(self, t: ArrayLike) -> Array:
-        """Return the motion as if the whole pulse were over.
-
-        Parameters
-        ----------
-        t : array_like
-            Times in s, shape (n,).
-
-        Returns
-        -------
-        ndarray
-            The coordinates (x, y_1, y_2) in units of R, shape (n, 3).
-        """
+        """Return (x, y_1, y_2) in units of R at times t (n,) in s, as if the whole pulse were over, shape (n, 3)."""
         s = np.atleast_1d(np.asarray(t, float))[:, None] - self.shock.at
         phase = self.frequency * s
         return self.displacement + self.drift * s + self.cosine * np.cos(phase) + self.sine * np.sin(phase)
 
     def through(self, t: ArrayLike) -> Array:
-        """Return the motion before, in and after the pulse.
+        """Return (x, y_1, y_2) in units of R at times t (n,) in s, before, in and after the pulse, shape (n, 3).
 
         With E = (1 + erf(s/w))/2 the fraction of the impulse received, s in the drift becomes s E + w exp(−(s/w)²)/(2
         sqrt(pi)), and exp(i Omega s) in the oscillation becomes exp(i Omega s − (Omega w)²/4) (1 + erf(s/w + i Omega w/2))/2.
-
-        Parameters
-        ----------
-        t : array_like
-            Times in s, shape (n,).
-
-        Returns
-        -------
-        ndarray
-            The coordinates (x, y_1, y_2) in units of R, shape (n, 3).
         """
         from scipy.special import erfc, wofz
 

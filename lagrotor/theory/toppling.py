@@ -1,7 +1,8 @@
 """Toppling exactly: both axes parallel in the y-z plane, in uniform rotation about the joint line, and its stability.
 
-U = chi = 0, alpha = nu t solves the equations of motion of opposite spins at any angle and any rate nu, for any bar.
-As alpha is cyclic, the linearised motions have constant coefficients; in (U, Delta, alpha), Delta the twist,
+In the coordinates (U, chi, alpha) of `pair.notation`, U = chi = 0, alpha = nu t solves the equations of motion of opposite
+spins at any angle and any rate nu, for any bar. As alpha is cyclic, the linearised motions have constant coefficients; in (U,
+Delta, alpha), Delta the twist,
 
     L_2 = A U'² + D Delta'²/4 − A nu² U² + (G nu/k − b nu²) Delta²/2 − G U Delta' + A alpha'²,   A = a + b, D = a − b,
 
