@@ -223,8 +223,8 @@ def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> t
     if not isinstance(unknowns, Sequence):
         raise InputError(f"equilibria: unknowns = {unknowns!r} must be names of symbols, 'theta phi'")
     names = unknowns.replace(",", " ").split() if isinstance(unknowns, str) else unknowns
-    letters = (system.letters | {*system.c.q} | system.push.free_symbols) - {*system.c.v, *system.speeds, t}
-    by_name = {str(s): s for s in sorted(letters, key=str)}
+    symbols = (system.letters | {*system.c.q} | system.push.free_symbols) - {*system.c.v, *system.speeds, t}
+    by_name = {str(s): s for s in sorted(symbols, key=str)}
     if strangers := [str(name) for name in names if str(name) not in by_name]:
         raise InputError(f"equilibria: no {', '.join(strangers)} in the system: solve for some of {', '.join(by_name)}")
     return tuple(by_name[str(name)] for name in names) or system.c.q

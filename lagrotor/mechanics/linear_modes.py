@@ -40,13 +40,13 @@ class LinearSystem:
     Attributes
     ----------
     mass : Matrix
-        M, shape (d, d).
+        Mass matrix M, shape (d, d).
     gyroscopic : Matrix
-        C, shape (d, d), which includes friction.
+        Matrix C of gyroscopic forces and friction, shape (d, d).
     stiffness : Matrix
-        K, shape (d, d), which includes nonconservative forces.
+        Matrix K of conservative and nonconservative forces, shape (d, d).
     basis : Matrix
-        The small changes of all n coordinates by the independent ones, shape (n, d).
+        Change of all n coordinates per unit of each independent coordinate, shape (n, d).
 
     Examples
     --------

@@ -241,12 +241,12 @@ def _values(matrix: sp.Matrix) -> list[list[list[float]]]:
     """Return the matrix in numbers at the random states at which it has values."""
     unknown = matrix.atoms(sp.Derivative, sp.core.function.AppliedUndef)
     plain = matrix.xreplace({f: sp.Symbol(f"_f{i}", real=True) for i, f in enumerate(sorted(unknown, key=str))})
-    letters = sorted(plain.free_symbols, key=str)
-    function = sp.lambdify(letters, plain.tolist(), "math", cse=True, dummify=True)
+    symbols = sorted(plain.free_symbols, key=str)
+    function = sp.lambdify(symbols, plain.tolist(), "math", cse=True, dummify=True)
     values = []
-    for point in points(letters, _STATES):
+    for point in points(symbols, _STATES):
         with suppress(ArithmeticError, ValueError):
-            values.append([[float(e) for e in row] for row in function(*(float(point[s]) for s in letters))])
+            values.append([[float(e) for e in row] for row in function(*(float(point[s]) for s in symbols))])
     return values
 
 

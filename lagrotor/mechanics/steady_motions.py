@@ -134,8 +134,8 @@ def state_equations(
     units = [joint.unit_length for joint in system.ball_joints]
     configuration = [g for g in system.constraints if g not in units]
     residual = [system.residual[i].xreplace(velocity_of) for i in system.left]
-    letters = system.L.free_symbols.union(system.push.free_symbols, *(e.free_symbols for e in system.residual))
-    inputs = tuple({str(s): s for s in letters}.get(str(u), u) for u in inputs)
+    symbols = system.L.free_symbols.union(system.push.free_symbols, *(e.free_symbols for e in system.residual))
+    inputs = tuple({str(s): s for s in symbols}.get(str(u), u) for u in inputs)
     point = _place(system, at, inputs, [*F, *V], residual)
     evaluate = partial(_values, at, point)
     state, rates, lam = (*system.c.q, *system.speeds), system.speed_rates, [system.multipliers[i] for i in system.left]
@@ -203,12 +203,12 @@ def _place(
     """Return the point, zero where `at` names nothing. Raises InputError for wrong names, explicit time, violated constraints."""
     c, speeds, equations = system.c, system.speeds, [*motion, *system.residual]
     used = set[sp.Basic]().union(*(e.free_symbols for e in equations))
-    letters = {*c.q, *speeds} | system.L.free_symbols | system.push.free_symbols | used
-    if strangers := [str(u) for u in inputs if u not in letters or u in (*c.q, *c.v, *speeds, t)]:
+    symbols = {*c.q, *speeds} | system.L.free_symbols | system.push.free_symbols | used
+    if strangers := [str(u) for u in inputs if u not in symbols or u in (*c.q, *c.v, *speeds, t)]:
         raise InputError(f"linearise: inputs {', '.join(strangers)} are no symbols of forces or constraints")
-    letters = letters - {*c.v} | {*speeds}
-    point = by_symbol("linearise: at", at, letters)
-    if strangers := [str(s) for s in point if s not in letters]:
+    symbols = symbols - {*c.v} | {*speeds}
+    point = by_symbol("linearise: at", at, symbols)
+    if strangers := [str(s) for s in point if s not in symbols]:
         raise InputError(
             f"linearise: {', '.join(strangers)} in the point: it gives coordinates, velocities "
             f"({', '.join(map(str, speeds))}) and symbols of the system"

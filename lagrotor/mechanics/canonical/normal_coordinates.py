@@ -126,12 +126,12 @@ class ExactCoordinates:
     field: Any
 
 
-def exact_coordinates(A: sp.Matrix, bracket: sp.Matrix, letters: set[sp.Symbol]) -> ExactCoordinates:
-    """Return normal coordinates of ½ x·A x; letters: the parameters.
+def exact_coordinates(A: sp.Matrix, bracket: sp.Matrix, parameters: set[sp.Symbol]) -> ExactCoordinates:
+    """Return normal coordinates of ½ x·A x.
 
     Raises NotExactError for a frequency that is not rational, not real, or zero.
     """
-    field = QQ_I.frac_field(*sorted(letters, key=str)) if letters else QQ_I
+    field = QQ_I.frac_field(*sorted(parameters, key=str)) if parameters else QQ_I
     modes: list[tuple[sp.Expr, sp.Matrix, sp.Matrix]] = []
     for omega in _frequencies(bracket * A):
         for v in _orthogonal(_null_vectors(bracket * A + sp.I * omega * sp.eye(A.rows), field), A, field):

@@ -202,8 +202,8 @@ def birkhoff(
     frequencies = np.array([H.terms.get(e, zero) for e in pair], dtype=weights.dtype)
     rates = weights * frequencies
     plain = [w * frequencies[j] for j, w in enumerate(weights)] if field is None else [field.to_sympy(r) for r in rates]
-    letters = field is not None and any(r.free_symbols for r in plain)
-    least = 0.0 if letters else max(detuning, _EQUAL * max((abs(complex(r)) for r in plain), default=0.0))
+    has_parameters = field is not None and any(r.free_symbols for r in plain)
+    least = 0.0 if has_parameters else max(detuning, _EQUAL * max((abs(complex(r)) for r in plain), default=0.0))
 
     def split(f: Polynomial) -> tuple[Polynomial, Polynomial, Coefficients]:
         """Return the resonant terms of f, the removable ones, and their divisors D."""
@@ -211,7 +211,7 @@ def birkhoff(
         D = (steps.astype(weights.dtype) * rates).sum(1)
         if field is None:
             resonant = np.abs(D) <= least
-        elif letters or not detuning:
+        elif has_parameters or not detuning:
             resonant = ~D.astype(bool)
         else:
             resonant = np.array([abs(complex(field.to_sympy(d))) <= least for d in D], dtype=bool)
@@ -275,12 +275,12 @@ def normal_form_at(
     that is not diagonal.
     """
     check_form_order(order, detuning)
-    letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v, strict=True).free_symbols for v in at.values()))
+    parameters = H.free_symbols - {*x} | set().union(*(sp.sympify(v, strict=True).free_symbols for v in at.values()))
     try:
         return _exact(H, x, at, order, detuning)
     except NotExactError as error:
-        if letters:
-            names = ", ".join(sorted(map(str, letters)))
+        if parameters:
+            names = ", ".join(sorted(map(str, parameters)))
             raise InputError(f"{error}: give {names} values, {{symbol: number, …}}") from None
     plain = _expanded(H, x, at, sp.eye(len(x)), order, lambda e: complex(sp.N(e, 20)), complex)
     slope, curvature = (np.abs(plain.part(n).coefficients).max(initial=0.0) for n in (1, 2))
@@ -350,8 +350,8 @@ def _exact(
     if "undecided" in answers:
         raise NotExactError(f"normal_form: whether ∂H/∂x = {list(slope)} is zero at {dict(at)} is not decided")
     bracket = sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]]))
-    letters = H.free_symbols - {*x} | A.free_symbols
-    normal = exact_coordinates(A, bracket, letters)
+    parameters = H.free_symbols - {*x} | A.free_symbols
+    normal = exact_coordinates(A, bracket, parameters)
 
     def value(e: sp.Expr) -> Any:
         return element(normal.field, sp.sympify(e, strict=True))
