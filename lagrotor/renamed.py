@@ -28,7 +28,9 @@ NAMES = {
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
-KEYWORDS: dict[str, dict[str, str]] = {}
+KEYWORDS: dict[str, dict[str, str]] = {
+    "periodic_series": {"rest": "equilibrium", "begins_at": "mode_power"},
+}
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -41,6 +41,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Waves, constant_series, forget
 from lagrotor.mechanics.lagrangian import t
+from lagrotor.renamed import accept_old_keywords
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
 Column = dict[tuple[int, int], Coefficient]  # (equation, harmonic): value
@@ -69,6 +70,7 @@ class PeriodicSeries:
         return PeriodicSeries(tuple(still[:-1]), still[-1])
 
 
+@accept_old_keywords
 def periodic_series(
     residual: Residual,
     equilibrium: Sequence[Coefficient],
