@@ -24,8 +24,9 @@ NAMES = {
     "lagrotor.pair.scene_of": "lagrotor.pair.scene_document.scene_of",
     "lagrotor.pair.scene_toml": "lagrotor.pair.scene_document.scene_toml",
     "lagrotor.mechanics.FourierSeries": "lagrotor.mechanics.fourier.FourierSeries",
-    "lagrotor.mechanics.lindstedt_poincare": "lagrotor.mechanics.weakly_nonlinear.periodic_series",
     "lagrotor.mechanics.characteristic_exponents": "lagrotor.mechanics.weakly_nonlinear.characteristic_exponents",
+    "lagrotor.mechanics.lindstedt_poincare": "lagrotor.mechanics.weakly_nonlinear.periodic_series",
+    "lagrotor.theory.most_growth": "lagrotor.theory.paired_precession.stability.growth_bound",
     "lagrotor.mechanics.map_normal_form": "lagrotor.mechanics.canonical.return_maps.map_normal_form",
     "lagrotor.mechanics.project_position": "lagrotor.mechanics.constraints.project_position",
     "lagrotor.mechanics.project_velocity": "lagrotor.mechanics.constraints.project_velocity",
@@ -42,6 +43,10 @@ KEYWORDS: dict[str, dict[str, str]] = {
     "MovingFrame.place": {"seen": "frame"},
     "MovingFrame.velocity": {"seen": "frame"},
     "Pathway.spring": {"rest": "rest_length"},
+    "bare": {"seen": "points"},
+    "canvas": {"seen": "points"},
+    "distance_over_one_turn": {"most": "greatest"},
+    "periodic_series": {"rest": "equilibrium", "begins_at": "mode_power"},
 }
 
 P = ParamSpec("P")
