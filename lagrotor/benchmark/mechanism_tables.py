@@ -49,10 +49,10 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
 def beside_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
     """One row a mechanism and what it is made from, lagrotor beside sympy's method of the same; where that did not end within
     the `longest` processor time, s, the reason, and the least that the times can be."""
-    table, made = list[_Row](), {(row["mechanism"], row["tool"]): row for row in rows}
+    table, by_tool = list[_Row](), {(row["mechanism"], row["tool"]): row for row in rows}
     for name in dict.fromkeys(row["mechanism"] for row in rows):
         for source, method in zip(("bodies", "Lagrangian"), _METHODS, strict=True):
-            ours, theirs = made[name, f"lagrotor, {source}"], made[name, method]
+            ours, theirs = by_tool[name, f"lagrotor, {source}"], by_tool[name, method]
             reason = theirs["reason"]
             least = f"over {longest / ours['ready']:.0f}" if reason and ours["ready"] else "—"
             table.append(
@@ -92,27 +92,27 @@ def target_rows(
     measured: Sequence[Measured],
     decided: Sequence[Decided],
     operations: dict[MechanismKind, list[int]],
-    beside: Sequence[dict[str, Any]],
+    records: Sequence[dict[str, Any]],
 ) -> list[_Row]:
     """What is wanted of the tool, and what was measured; — where a tool was not there.
 
     operations: of one evaluation, on each of LINKS. beside: the rows of the record of bodies and Lagrangians.
     """
-    made = {(x.kind, x.n, x.tool): x for x in measured}
-    known, none = {(x["mechanism"], x["tool"]): x for x in beside}, {"ready": None, "rhs": None}
+    by_tool = {(x.kind, x.n, x.tool): x for x in measured}
+    recorded, none = {(x["mechanism"], x["tool"]): x for x in records}, {"ready": None, "rhs": None}
     table, nothing = list[_Row](), Measured("rods", 0, "")
     for kind, n in _AT.items():
         where = f"{n} {kind}"
-        fast, pydy = (made.get((kind, n, name), nothing) for name in ("lagrotor, fast", "PyDy, Cython"))
-        own, *others = (known.get((where, name), none) for name in (_OURS, *_METHODS))
+        fast, pydy = (by_tool.get((kind, n, name), nothing) for name in ("lagrotor, fast", "PyDy, Cython"))
+        ours, *others = (recorded.get((where, name), none) for name in (_OURS, *_METHODS))
         ready, rhs = (_least([x[what] for x in others]) for what in ("ready", "rhs"))
         table += [
-            (f"ready, {where}, over the faster of Kane's and Lagrange's method", "15", _ratio(ready, own["ready"])),
-            (f"right-hand side, {where}, over lambdify of the best of them", "4", _ratio(rhs, own["rhs"])),
+            (f"ready, {where}, over the faster of Kane's and Lagrange's method", "15", _ratio(ready, ours["ready"])),
+            (f"right-hand side, {where}, over lambdify of the best of them", "4", _ratio(rhs, ours["rhs"])),
             (f"right-hand side with the fast extra, {where}, over PyDy", "3", _ratio(pydy.rhs, fast.rhs)),
         ]
     for kind, numbers in LINKS.items():
-        ready_in = [known.get((mechanism_name(kind, n), _OURS), none)["ready"] for n in numbers]
+        ready_in = [recorded.get((mechanism_name(kind, n), _OURS), none)["ready"] for n in numbers]
         for what, values in (("operations", operations[kind]), ("time to be ready", ready_in)):
             doubled = [
                 f"{b / a:.2f}" if a and b else "—"
@@ -125,8 +125,8 @@ def target_rows(
     for what, answer in (("agree", "zero"), ("differ", "nonzero")):
         if pairs := [x for x in decided if x.answer == answer]:
             least = min(pairs, key=lambda x: x.times)
-            many = f"{_at_least(least)}{least.times:.0f}"
-            table.append((f"deciding that two formulations {what}, over simplify ({least.pair})", "20", many))
+            ratio = f"{_at_least(least)}{least.times:.0f}"
+            table.append((f"deciding that two formulations {what}, over simplify ({least.pair})", "20", ratio))
     return table
 
 

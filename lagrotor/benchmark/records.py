@@ -123,7 +123,7 @@ def _code(node: object) -> object:
         text = isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)  # such as a docstring
         fields = ((name, _code(value)) for name, value in ast.iter_fields(node) if value not in (None, []))
         return () if text else (type(node).__name__, *fields)
-    return tuple(part for part in map(_code, node) if part) if isinstance(node, list) else repr(node)
+    return tuple(item for item in map(_code, node) if item) if isinstance(node, list) else repr(node)
 
 
 def stamp(name: RecordName) -> dict[str, str]:
@@ -178,8 +178,8 @@ def recorded_bodies_and_lagrangians() -> dict[str, Any]:
     return _read(BODIES_AND_LAGRANGIANS, dict)
 
 
-def _read(file: Path, made: Callable[[Any], Record]) -> Record:
+def _read(file: Path, build: Callable[[Any], Record]) -> Record:
     try:
-        return made(json.loads(file.read_text(encoding="utf-8")))
+        return build(json.loads(file.read_text(encoding="utf-8")))
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise LagrotorError(f"{file} cannot be read ({error}): install lagrotor anew") from None

@@ -117,10 +117,10 @@ def reference(scene: Scene, t_eval: Array) -> Reference:
     Raises LagrotorError where the pair does not move, or where the two differ by more than _FLOOR.
     """
     runs = [(model, integrate_model(model, scene, t_eval, TIGHTEST)) for model in (minimal.MODEL, spheres.MODEL)]
-    one, other = (tips(scene, model.observe(scene, run.states).axes) for model, run in runs)
-    floor = float(np.linalg.norm(one - other, axis=-1).max())
-    check_work("the reference", min(run.evaluations for _, run in runs), one, floor, _FLOOR)
-    return Reference(one, floor)
+    first, second = (tips(scene, model.observe(scene, run.states).axes) for model, run in runs)
+    floor = float(np.linalg.norm(first - second, axis=-1).max())
+    check_work("the reference", min(run.evaluations for _, run in runs), first, floor, _FLOOR)
+    return Reference(first, floor)
 
 
 @dataclass(frozen=True)
@@ -242,11 +242,11 @@ def _points(
 
 def _sample(runner: Runner, setting: float) -> float:
     """Seconds a run, over as many as take SAMPLE, and at least one."""
-    began, runs, spent = _CLOCK(), 0, 0.0
-    while spent < SAMPLE.value:
+    began, runs, elapsed = _CLOCK(), 0, 0.0
+    while elapsed < SAMPLE.value:
         runner(setting)
-        runs, spent = runs + 1, _CLOCK() - began
-    return spent / runs
+        runs, elapsed = runs + 1, _CLOCK() - began
+    return elapsed / runs
 
 
 def failure_sentences(failures: Iterable[Failure]) -> list[str]:
@@ -259,11 +259,11 @@ def failure_sentences(failures: Iterable[Failure]) -> list[str]:
 
 def front(points: Iterable[ChartPoint], work: Work = "seconds") -> list[ChartPoint]:
     """The points that no other beats both in error and in work, from the cheapest to the most exact; traps left out."""
-    kept: list[ChartPoint] = []
+    best: list[ChartPoint] = []
     for point in sorted(points, key=lambda p: (getattr(p, work), p.error)):
-        if point.family != "trap" and (not kept or point.error < kept[-1].error):
-            kept.append(point)
-    return kept
+        if point.family != "trap" and (not best or point.error < best[-1].error):
+            best.append(point)
+    return best
 
 
 def work_at(points: Iterable[ChartPoint], error: float, work: Work = "seconds") -> float | None:
@@ -272,5 +272,5 @@ def work_at(points: Iterable[ChartPoint], error: float, work: Work = "seconds") 
     if not best or best[-1].error > error:
         return None
     with np.errstate(divide="ignore"):  # the closed form takes no evaluation
-        errors, spent = (np.log([getattr(p, name) for p in reversed(best)]) for name in ("error", work))
-    return float(np.exp(np.interp(np.log(error), errors, spent)))
+        errors, works = (np.log([getattr(p, name) for p in reversed(best)]) for name in ("error", work))
+    return float(np.exp(np.interp(np.log(error), errors, works)))

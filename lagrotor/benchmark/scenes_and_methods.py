@@ -136,10 +136,10 @@ def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: N
         tolerances = TOLERANCES[:: 5 if quick else 2 if name == "long" else 1]
         with warnings.catch_warnings():  # a solver that warns fails, or its error shows why
             warnings.simplefilter("ignore")
-            kept = {method: given for method, given in methods.items() if method not in left_out}
-            one = benchmark(name, case(quick), kept, tolerances, longest)
+            included = {method: entry for method, entry in methods.items() if method not in left_out}
+            chart = benchmark(name, case(quick), included, tolerances, longest)
         omitted = tuple(Failure(method, (), f"left out: {why}") for method, why in left_out.items())
-        charts.append(replace(one, failures=one.failures + omitted))
+        charts.append(replace(chart, failures=chart.failures + omitted))
     return charts
 
 

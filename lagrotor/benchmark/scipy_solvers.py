@@ -82,15 +82,15 @@ def ivp_engine(method: str) -> Solver:
                 raise StopError(s, f"{nfev - 1} evaluations by s = {s:.3g} s")
             return segment.rhs(s, y)
 
-        found = solve_ivp(
+        solution = solve_ivp(
             counted, (segment.left, segment.right), segment.start, method=method, t_eval=segment.t_eval,
             rtol=max(error, 2.3e-14), atol=error, max_step=segment.longest,
         )  # fmt: skip
-        if not found.success:
-            raise StopError(segment.right, found.message)
-        if not np.isfinite(found.y).all():
+        if not solution.success:
+            raise StopError(segment.right, solution.message)
+        if not np.isfinite(solution.y).all():
             raise StopError(segment.right, "a value is not finite")
-        return Stretch(found.y.T, found.y[:, -1], nfev)
+        return Stretch(solution.y.T, solution.y[:, -1], nfev)
 
     return run
 
@@ -116,8 +116,8 @@ def on_minimal(engine: Solver, sees_shock: bool = True) -> Prepare:
         )
 
         def run(tol: float) -> tuple[Array, int]:
-            found = engine(segment, tol)
-            return tips(scene, minimal.MODEL.observe(scene, found.states).axes), found.evaluations
+            stretch = engine(segment, tol)
+            return tips(scene, minimal.MODEL.observe(scene, stretch.states).axes), stretch.evaluations
 
         return run
 

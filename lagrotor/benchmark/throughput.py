@@ -69,5 +69,5 @@ def _check_ensemble(ensemble: Ensemble) -> None:
     for i in (0, len(ends) // 2, len(ends) - 1):
         run = simulate(ensemble.scenes[i], [0.0, _RUN], "spheres", 1e-11)
         errors.append(float(np.linalg.norm(ends[i] - run.axes[:, -1], axis=-1).max()))
-    turned = natural_rate(ensemble.scenes[0]) * _RUN  # rad
-    check_work("sweep", ensemble.evaluations.min(), ensemble.axes[:, 0], max(errors), ensemble.tol, turned)
+    angle = natural_rate(ensemble.scenes[0]) * _RUN  # rad
+    check_work("sweep", ensemble.evaluations.min(), ensemble.axes[:, 0], max(errors), ensemble.tol, angle)

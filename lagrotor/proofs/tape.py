@@ -1,6 +1,6 @@
-"""A generated program as a tape: elementary operations in order, each of the results before it, with exact constants.
+"""A generated program as a tape of elementary operations with exact constants.
 
-It is plain data, so that a certificate can hold it: (name, operand, …) with operands the places of earlier results.
+An operation is (name, operand, …); its operands are places of earlier results. A tape is plain data for a certificate.
 """
 
 from collections.abc import Sequence
@@ -22,14 +22,14 @@ OPERATIONS = {"add": 2, "subtract": 2, "multiply": 2, "divide": 2} | dict.fromke
 
 @dataclass(frozen=True)
 class Tape:
-    """operations: what is computed, in order; outputs: places of the results; arguments: their names, in order."""
+    """The names of the arguments, the operations in order, and the places of the outputs."""
 
     arguments: tuple[str, ...]
     operations: tuple[Operation, ...]
     outputs: tuple[int, ...]
 
     def data(self) -> dict[str, Any]:
-        """Return plain data, as a certificate holds it."""
+        """Return plain data for a certificate."""
         return {
             "arguments": list(self.arguments),
             "operations": [list(operation) for operation in self.operations],
@@ -38,7 +38,7 @@ class Tape:
 
 
 class Recorder:
-    """Operations as they are recorded, each once."""
+    """The operations of expressions, each recorded once."""
 
     def __init__(self, arguments: Sequence[str]) -> None:
         self.arguments = tuple(arguments)
@@ -47,7 +47,7 @@ class Recorder:
         self._known: dict[sp.Basic, int] = {}
 
     def keep(self, *operation: Any) -> int:
-        """The place of an operation's result."""
+        """Return the place of an operation's result."""
         if operation[0] in ("add", "multiply"):
             operation = (operation[0], *sorted(operation[1:]))
         place = self._places.get(operation)
@@ -57,17 +57,17 @@ class Recorder:
         return place
 
     def number(self, value: Any) -> int:
-        """A rational number, or pi."""
+        """Return the place of a rational number or of pi."""
         if value is sp.pi:
             return self.keep("number", "pi")
         return self.keep("number", str(rational(value, "a number in the equations")))
 
     def name(self, symbol: sp.Symbol, place: int) -> None:
-        """What a symbol stands for."""
+        """Set the place that a symbol denotes."""
         self._known[symbol] = place
 
     def record(self, e: sp.Expr) -> int:
-        """The place of an expression's value."""
+        """Return the place of an expression's value."""
         place = self._known.get(e)
         if place is None:
             place = self._known[e] = self._new(e)
@@ -139,7 +139,7 @@ class Recorder:
 
 
 def _hyperbolic(r: Recorder, x: int) -> tuple[int, int]:
-    """exp(x) and exp(−x)."""
+    """Return the places of exp(x) and exp(−x)."""
     e = r.keep("exp", x)
     return e, r.keep("divide", r.number(1), e)
 
@@ -172,7 +172,6 @@ _RULES: dict[Any, Any] = {
 
 
 def tape_of(program: Program) -> Tape:
-    """The program's operations."""
     recorder = Recorder([str(s) for s in program.arguments])
     for i, s in enumerate(program.arguments):
         recorder.name(s, recorder.keep("argument", i))
@@ -183,13 +182,12 @@ def tape_of(program: Program) -> Tape:
     return _needed(tuple(recorder.arguments), recorder.operations, places)
 
 
-def joined(first: Tape, others: Sequence[int]) -> Tape:
-    """The tape with some of its outputs alone."""
+def select_outputs(first: Tape, others: Sequence[int]) -> Tape:
     return _needed(first.arguments, first.operations, [first.outputs[i] for i in others])
 
 
-def paced(tape: Tape, states: int) -> Tape:
-    """The motion in s = t / pace, the pace an argument after the states: every output times the pace."""
+def with_pace(tape: Tape, states: int) -> Tape:
+    """Return the motion in s = t / pace: every output times the pace, a new argument after the states."""
     operations = [
         ("argument", on[0] + (on[0] >= states)) if name == "argument" else (name, *on) for name, *on in tape.operations
     ]
@@ -204,15 +202,15 @@ def paced(tape: Tape, states: int) -> Tape:
 
 
 def _needed(arguments: tuple[str, ...], operations: Sequence[Operation], outputs: Sequence[int]) -> Tape:
-    """Only the operations that an output needs."""
+    """Return the tape without operations that no output needs."""
     needed = set(outputs)
     for place in reversed(range(len(operations))):
         name, *operands = operations[place]
         if place in needed and name in OPERATIONS:
             needed.update(operands)
     order = {place: i for i, place in enumerate(sorted(needed))}
-    kept = []
+    rows = []
     for place in order:
         name, *operands = operations[place]
-        kept.append((name, *((order[p] for p in operands) if name in OPERATIONS else operands)))
-    return Tape(arguments, tuple(kept), tuple(order[p] for p in outputs))
+        rows.append((name, *((order[p] for p in operands) if name in OPERATIONS else operands)))
+    return Tape(arguments, tuple(rows), tuple(order[p] for p in outputs))

@@ -25,12 +25,12 @@ from lagrotor.proofs.balls import as_text, ball_data, exact, precision
 from lagrotor.proofs.checker.checking import second_derivatives
 from lagrotor.proofs.checker.expression_tapes import tape_of_words
 from lagrotor.proofs.checker.reversals import check_reversal
-from lagrotor.proofs.checker.tapes import demand_paced, read_tape
+from lagrotor.proofs.checker.tapes import demand_pace, read_tape
 from lagrotor.proofs.fields import ball, scene_field, values_at
 from lagrotor.proofs.lohner_frames import Accuracy, Start, steps_of
-from lagrotor.proofs.orbits.closed_orbits import closing, orbit_of, refined
+from lagrotor.proofs.orbits.closed_orbits import krawczyk_proof, orbit_of, refine_start
 from lagrotor.proofs.orbits.paired_orbits import A, B, guess, problem_of_pair
-from lagrotor.proofs.tape import paced, tape_of
+from lagrotor.proofs.tape import tape_of, with_pace
 from tests.proofs.gallery import HENON_HEILES, PENDULUM, THETA, moved, plain, spoiled
 
 ENCLOSURE = plain(enclose(PENDULUM, {}, [1], [0], 2))
@@ -89,7 +89,7 @@ def test_second_derivatives_are_those_of_sympy() -> None:
 def motion(*rates: Any, states: Any = (x, v)) -> dict[str, Any]:
     """x' = rates(x) in units of its pace."""
     return json.loads(
-        json.dumps(paced(tape_of(Program(states, (), tuple(map(sp.sympify, rates)))), len(states)).data())
+        json.dumps(with_pace(tape_of(Program(states, (), tuple(map(sp.sympify, rates)))), len(states)).data())
     )
 
 
@@ -164,7 +164,7 @@ def test_a_theorem_names_each_state_that_is_no_time_and_no_name_is_an_expression
 def test_the_pair_s_reversals_are_decided_on_its_tape_and_no_other_signs_are(link: Link) -> None:
     """All 64 rows of signs, against the rates at a random state in balls."""
     made = scene_field(Scene((10, -10), link=link))
-    tape = json.loads(json.dumps(paced(made.motion.tape, 6).data()))
+    tape = json.loads(json.dumps(with_pace(made.motion.tape, 6).data()))
     at = [arb(y) / 64 for y in (3, 11, -7, 5, 13, -9)]
     rates = values_at(made.motion.tape, at)
     alike = []
@@ -185,9 +185,11 @@ def test_an_amplitude_that_is_sought_is_not_the_one_that_is_claimed() -> None:
         curve = QuarterPeriod(scene)
         made = scene_field(curve.scene)
         problem = replace(problem_of_pair(made), free=(0, 5, 6))
-        middle, slope, _ = refined(problem, [exact(y) for y in guess(curve, 0.4, ball("0.4").atanh())], accuracy, "x")
+        middle, slope, _ = refine_start(
+            problem, [exact(y) for y in guess(curve, 0.4, ball("0.4").atanh())], accuracy, "x"
+        )
         start = Start(middle, [arb(0, 1e-9) if i in (0, 5, 6) else arb(0) for i in range(7)])
-        proof = closing(
+        proof = krawczyk_proof(
             problem, start, slope, tuple(steps_of(problem.motion, start, arb(1), accuracy)), 4, accuracy.bits
         )
         assert proof is not None
@@ -232,10 +234,10 @@ def changed(place: int, *operation: Any) -> Any:
 )
 def test_a_tape_is_read_as_it_is_meant(change: Any, says: str) -> None:
     tape = copy.deepcopy(ORBIT["motion"])
-    demand_paced(read_tape(tape))
+    demand_pace(read_tape(tape))
     change(tape)
     with pytest.raises(NotProved, match=says):
-        demand_paced(read_tape(tape))
+        demand_pace(read_tape(tape))
 
 
 ODD = (None, True, -1, 10**9, 1.5, float("nan"), "", "1p", "1p99999999", [], {}, [["1p0", "0p0"]], sp.S.One)
@@ -264,9 +266,9 @@ def test_a_certificate_in_which_an_entry_is_another_is_refused_in_words(certific
 
 
 SADDLE = equilibrium(PENDULUM, {}, [3.1])
-PLANAR = periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"])
+PLANAR = periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], fixed=["y"])
 PAIRED = precession(Scene((10, -10)), "0.2", 1e-12)
-QUIET = no_crossing(PENDULUM, {}, [1], [0], event=THETA + sp.Rational("1.001"), until=2)
+QUIET = no_crossing(PENDULUM, {}, [1], [0], event=THETA + sp.Rational("1.001"), t_end=2)
 MADE: dict[str, Any] = {
     **{"quiet": plain(QUIET), "mean": plain(MEANS), "rest": plain(SADDLE), "planar": plain(PLANAR)},
     **{"paired": plain(PAIRED), "enclosure": ENCLOSURE, "orbit": ORBIT},

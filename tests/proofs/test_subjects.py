@@ -34,9 +34,7 @@ THEOREMS: dict[str, Any] = {
     "constraint, time and forces": lambda: enclose(DRIVEN, {}, [0, 1], [1, 0], "0.1"),
     "rolling and friction": lambda: enclose(SLEIGH, {}, [1, 0], [1, 1], "0.1"),
     "rates in words": lambda: enclose(Program((x, v, K), (), (v, -K * sp.sin(x))), {K: 2}, [1], [0], "0.1"),
-    "a scene that is pushed": lambda: crossing(
-        SHOCKED, event=AXES.q[0] - sp.Rational(1, 1000), before="0.1", tol=1e-12
-    ),
+    "a scene that is pushed": lambda: crossing(SHOCKED, event=AXES.q[0] - sp.Rational(1, 1000), t_end="0.1", tol=1e-12),
     "a structure": lambda: enclose(CORNER, None, [(0.1, 0)] * 3, [(0, 0)] * 3, "0.02", 1e-12),
     "an equilibrium": lambda: equilibrium(System(C, PENDULUM.L), VALUES, [0.1]),
 }

@@ -45,24 +45,24 @@ def _great_circle(miss: float, t: Array) -> tuple[Array, Array]:
 def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[float, int]:
     """Error of the axes (rad) after passing the pole by `miss` rad, and nfev, by DOP853 with a local error of tol."""
     scene = passing(miss)
-    states, spent = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
-    seen = model.observe(scene, states).axes
-    error = float(np.abs(seen[:, -1] - _great_circle(miss, np.array([_PASS]))[0]).max())
-    check_work(f"a pass at {miss:g} rad by {model.name}", spent, seen, error, _PASS)
-    return error, spent
+    states, nfev = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
+    axes = model.observe(scene, states).axes
+    error = float(np.abs(axes[:, -1] - _great_circle(miss, np.array([_PASS]))[0]).max())
+    check_work(f"a pass at {miss:g} rad by {model.name}", nfev, axes, error, _PASS)
+    return error, nfev
 
 
 def euler_limits(quick: bool) -> list[Limit]:
     """Evaluations and lost digits of the Euler angles on paths that miss theta = 0."""
-    tol, wanted = 1e-12, 1e-10
+    tol, target = 1e-12, 1e-10
     far, near, nearest = 1e-2, 1e-3, 1e-5
-    spent = {miss: past_the_pole(miss, tol)[1] for miss in (far, near, nearest)}
-    cost = spent[near] + (spent[near] - spent[far]) * np.log(near / nearest) / np.log(far / near)
+    nfev = {miss: past_the_pole(miss, tol)[1] for miss in (far, near, nearest)}
+    cost = nfev[near] + (nfev[near] - nfev[far]) * np.log(near / nearest) / np.log(far / near)
 
     def lost(miss: float) -> bool:
-        return any(past_the_pole(miss * share, tol)[0] > wanted for share in (1.0, 1.1, 1.2))
+        return any(past_the_pole(miss * share, tol)[0] > target for share in (1.0, 1.1, 1.2))
 
-    found = threshold(lost, _EPS / wanted / 30, 30 * _EPS / wanted, 0.3 if quick else 0.03)
+    miss_limit = threshold(lost, _EPS / target / 30, 30 * _EPS / target, 0.3 if quick else 0.03)
     tool = "euler refuses a start within 1e-3 rad; auto never takes it"
     regular = past_the_pole(nearest, tol, minimal.MODEL)[1]
     return [
@@ -71,15 +71,15 @@ def euler_limits(quick: bool) -> list[Limit]:
             f"evaluations over 1 rad that misses the pole by {nearest:g} rad (minimal: {regular})",
             "N + c log(1/miss), N and c from 1e-2 and 1e-3",
             float(cost),
-            float(spent[nearest]),
+            float(nfev[nearest]),
             tool,
         ),
         Limit(
             "Euler angles near theta = 0: digits",
-            f"least miss (rad) with an error under {wanted:g}, the local error being {tol:g}",
+            f"least miss (rad) with an error under {target:g}, the local error being {tol:g}",
             "error = eps/(4 miss): psi' and phi', each 1/miss there and rounded, make up the spin",
-            _EPS / (4 * wanted),
-            found,
+            _EPS / (4 * target),
+            miss_limit,
             tool,
         ),
     ]
@@ -124,9 +124,9 @@ def passes(miss: float) -> bool:
 def fold_difference(tol: float) -> float:
     """Largest difference of the axes between minimal and spheres while a bar of 0.6 R folds over."""
     scene = scenes_from_states(Scene((3.0, -3.0), link=Link(0.6)), [[0.0, 0.3, 0.0, 0.2, 3.0, 0.1]])[0]
-    one, other = (simulate(scene, np.linspace(0, 1, 51), model, tol) for model in ("minimal", "spheres"))
-    difference = float(np.abs(one.axes - other.axes).max())
-    check_work("a bar that folds over", min(one.evaluations, other.evaluations), one.axes, difference, 1e-2)
+    first, second = (simulate(scene, np.linspace(0, 1, 51), model, tol) for model in ("minimal", "spheres"))
+    difference = float(np.abs(first.axes - second.axes).max())
+    check_work("a bar that folds over", min(first.evaluations, second.evaluations), first.axes, difference, 1e-2)
     return difference
 
 

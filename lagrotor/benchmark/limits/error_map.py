@@ -53,6 +53,6 @@ def usefulness(
         series = paired_series(order, *shape_of(base))
         for j, r0 in enumerate(amplitudes):
             phases = natural_rate(base) * series.relative_frequency(float(r0)) * times
-            off = exact[:, j] - series.axes(float(r0), phases)
-            errors[i, :, j] = np.linalg.norm(off, axis=-1).max((1, 2))
+            difference = exact[:, j] - series.axes(float(r0), phases)
+            errors[i, :, j] = np.linalg.norm(difference, axis=-1).max((1, 2))
     return Usefulness(np.asarray(amplitudes, float), np.asarray(departures, float), orders, errors)

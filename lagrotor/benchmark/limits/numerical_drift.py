@@ -29,22 +29,22 @@ def constraint_drift(scene: Scene, step: float, count: int, every: int, projecte
     """
     rate, y = spheres.MODEL.rate(scene, False), spheres.MODEL.start(scene)
     assert scene.link is not None and spheres.MODEL.projection is not None
-    project, off = spheres.MODEL.projection(scene), []
+    project, residuals = spheres.MODEL.projection(scene), []
     k = scene.k
     for number in range(1, count + 1):
-        one = np.array(rate(0.0, y))
-        two = np.array(rate(0.0, y + step / 2 * one))
-        three = np.array(rate(0.0, y + step / 2 * two))
-        four = np.array(rate(0.0, y + step * three))
-        y = y + step / 6 * (one + 2 * two + 2 * three + four)
+        k1 = np.array(rate(0.0, y))
+        k2 = np.array(rate(0.0, y + step / 2 * k1))
+        k3 = np.array(rate(0.0, y + step / 2 * k2))
+        k4 = np.array(rate(0.0, y + step * k3))
+        y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         if projected:
             y = np.array(project(y))
         if number % every == 0:
             r1, r2 = y[:3], y[3:6]
             bar = np.linalg.norm(np.array([k, 0, 0]) + r2 - r1) - k
-            off.append(max(abs(np.linalg.norm(r1) - 1), abs(np.linalg.norm(r2) - 1), abs(bar)))
+            residuals.append(max(abs(np.linalg.norm(r1) - 1), abs(np.linalg.norm(r2) - 1), abs(bar)))
     check_work("the drift of the constraints", 4 * count, np.array([[y, spheres.MODEL.start(scene)]]))
-    return np.array(off)
+    return np.array(residuals)
 
 
 def drift_limits(quick: bool) -> list[Limit]:
@@ -52,16 +52,16 @@ def drift_limits(quick: bool) -> list[Limit]:
     step, end, allowed = 0.005, 16.0, 1e-6
     steps = np.array([4, 2, 1]) * step
     ends = np.array([constraint_drift(DRIFTING, h, round(end / h), round(end / h))[0] for h in steps])
-    along = constraint_drift(DRIFTING, step, round(end / step), round(end / step) // 16)
+    drift = constraint_drift(DRIFTING, step, round(end / step), round(end / step) // 16)
     times = end * np.arange(1, 17) / 16
     leading = ends[0] / (end**2 * steps[0] ** 4)
     law = "g'' = 0, so an error h^5 a step in g' gives g ~ t² h⁴"
     regime = "drift of index-reduced equations"
     tool = "spheres is projected; minimal has no constraint"
-    kept = constraint_drift(DRIFTING, step, 200, 1, projected=True).max()
-    crossing = np.interp(np.log(allowed), np.log(along), np.log(times))
+    residual = constraint_drift(DRIFTING, step, 200, 1, projected=True).max()
+    crossing = np.interp(np.log(allowed), np.log(drift), np.log(times))
     return [
-        Limit(regime, "power of time, fourth-order steps", law, 2.0, measured_order(times, along), tool),
+        Limit(regime, "power of time, fourth-order steps", law, 2.0, measured_order(times, drift), tool),
         Limit(regime, "power of the step", law, 4.0, measured_order(steps, ends), tool),
         Limit(
             regime,
@@ -76,7 +76,7 @@ def drift_limits(quick: bool) -> list[Limit]:
             "most that is left after each projection (R)",
             "rounding: eps",
             float(np.finfo(float).eps),
-            float(kept),
+            float(residual),
             "projects by one Newton step",
         ),
     ]
@@ -103,17 +103,17 @@ def long_run(turns: int, solver: str, tol: float) -> LongRun:
     if solver == "simulate":
         run = simulate(orbit.scene, times, "minimal", tol)
     else:
-        states, spent = run_by(solver, MODEL.rate(orbit.scene, False), MODEL.start(orbit.scene), times, tol)
-        seen = MODEL.observe(orbit.scene, states)
+        states, nfev = run_by(solver, MODEL.rate(orbit.scene, False), MODEL.start(orbit.scene), times, tol)
+        motion = MODEL.observe(orbit.scene, states)
         run = Trajectory(
-            scene=orbit.scene, model="minimal", why=solver, t=times, axes=seen.axes, rates=seen.rates, momenta=seen.momenta,
-            errors=np.full(len(times), np.nan), evaluations=spent,
+            scene=orbit.scene, model="minimal", why=solver, t=times, axes=motion.axes, rates=motion.rates, momenta=motion.momenta,
+            errors=np.full(len(times), np.nan), evaluations=nfev,
         )  # fmt: skip
     spinning = (run.momenta[:, 0] ** 2).sum() / (2 * run.scene.rotor.I3)
     check_work(f"{turns} turns by {solver}", run.evaluations, run.rates, least=10 * turns)
     momentum = run.joint_line_momentum
-    off, ahead = run.axes - run.axes[:, :1], run.rates[:, :1]
-    phase = abs(orbit.frequency) * (off * ahead).sum((0, 2)) / (ahead**2).sum()
+    shift, ahead = run.axes - run.axes[:, :1], run.rates[:, :1]
+    phase = abs(orbit.frequency) * (shift * ahead).sum((0, 2)) / (ahead**2).sum()
     return LongRun(
         np.linspace(0, turns, 101),
         np.abs(run.energy / run.energy[0] - 1) * run.energy[0] / (run.energy[0] - spinning),

@@ -50,8 +50,8 @@ def _orbit(scene: Scene, r0: float) -> ExactOrbit:
 def next_term(scene: Scene, order: int) -> float:
     """Largest size over a turn of the coefficient of r0**(order + 1) in the axes."""
     phases, small = np.linspace(0, 2 * pi, 181), 0.5
-    more, less = (_series(scene, n).axes(small, phases) for n in (order + 1, order))
-    return float(np.linalg.norm(more - less, axis=-1).max()) / small ** (order + 1)
+    high, low = (_series(scene, n).axes(small, phases) for n in (order + 1, order))
+    return float(np.linalg.norm(high - low, axis=-1).max()) / small ** (order + 1)
 
 
 def amplitude_limits(quick: bool) -> list[Limit]:
@@ -59,17 +59,17 @@ def amplitude_limits(quick: bool) -> list[Limit]:
     from scipy.optimize import brentq
 
     rows = []
-    for order, wanted in ((1, 1e-2), (3, 1e-3), (5, 1e-4)) if quick else ((1, 1e-2), (3, 1e-3), (5, 1e-4), (9, 1e-6)):
-        predicted = (wanted / next_term(PAIR, order)) ** (1 / (order + 1))
+    for order, target in ((1, 1e-2), (3, 1e-3), (5, 1e-4)) if quick else ((1, 1e-2), (3, 1e-3), (5, 1e-4), (9, 1e-6)):
+        predicted = (target / next_term(PAIR, order)) ** (1 / (order + 1))
 
-        def beyond(x: float, order: int = order, wanted: float = wanted) -> float:
-            return log(series_error(PAIR, order, exp(x)) / wanted)
+        def beyond(x: float, order: int = order, target: float = target) -> float:
+            return log(series_error(PAIR, order, exp(x)) / target)
 
         near, far = log(predicted / 1.5), log(min(1.5 * predicted, 0.8))
         rows.append(
             Limit(
                 "amplitude of the closed form",
-                f"r0 at which order {order} is off by {wanted:g} R at equal phase",
+                f"r0 at which order {order} is off by {target:g} R at equal phase",
                 f"(error / c)^(1/{order + 1}), c the next coefficient",
                 predicted,
                 exp(brentq(beyond, near, far, xtol=0.02 if quick else 1e-4)),
@@ -104,8 +104,8 @@ def off_equal(share: float, r0: float) -> float:
 
 def spin_limits(quick: bool) -> list[Limit]:
     """Spins that are not quite opposite, and spins too slow to hold the pair up."""
-    wanted, tiny, r0 = 1e-2, 1e-5, 0.1
-    found = threshold(lambda share: off_opposite(share, r0) > wanted, 1e-4, 0.9, 0.05 if quick else 0.01)
+    target, tiny, r0 = 1e-2, 1e-5, 0.1
+    measured = threshold(lambda share: off_opposite(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01)
     push, bar = 1.0, Scene((1.0, 1.0))
     heavy = sum(bar.inertias)
 
@@ -119,18 +119,18 @@ def spin_limits(quick: bool) -> list[Limit]:
     return [
         Limit(
             "spins nearly opposite",
-            f"(G_1 + G_2)/G_1 that puts the pair {wanted:g} R off the closed orbit of r0 = {r0:g} in a turn",
+            f"(G_1 + G_2)/G_1 that puts the pair {target:g} R off the closed orbit of r0 = {r0:g} in a turn",
             f"error ~ (G_1 + G_2), its slope from {tiny:g}",
-            wanted * tiny / off_opposite(tiny, r0),
-            found,
+            target * tiny / off_opposite(tiny, r0),
+            measured,
             "refuses spins that are not exactly opposite",
         ),
         Limit(
             "spins nearly equal",
-            f"(G_1 − G_2)/G_1 that twists parallel axes {wanted:g} R apart in a turn, inclined by {r0:g}",
+            f"(G_1 − G_2)/G_1 that twists parallel axes {target:g} R apart in a turn, inclined by {r0:g}",
             f"error ~ (G_1 − G_2), its slope from {tiny:g}",
-            wanted * tiny / off_equal(tiny, r0),
-            threshold(lambda share: off_equal(share, r0) > wanted, 1e-4, 0.9, 0.05 if quick else 0.01),
+            target * tiny / off_equal(tiny, r0),
+            threshold(lambda share: off_equal(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01),
             "closed_form refuses spins that are not exactly equal or opposite",
         ),
         Limit(
@@ -167,6 +167,6 @@ def horizon_limits(quick: bool) -> list[Limit]:
 def _parting(scene: Scene, times: Array, apart: float, lost: float) -> float:
     """Time (s) at which the axes of `scene` and of its neighbour differ by `lost`."""
     start = MODEL.start(scene)
-    one, other = (_axes(scene, times, apart / 10, start=state) for state in (start, start + apart))
-    away = np.linalg.norm(one - other, axis=-1).max(0) > lost
+    first, second = (_axes(scene, times, apart / 10, start=state) for state in (start, start + apart))
+    away = np.linalg.norm(first - second, axis=-1).max(0) > lost
     return float(times[np.argmax(away)]) if away.any() else float("inf")

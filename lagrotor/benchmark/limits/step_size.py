@@ -43,9 +43,9 @@ def found_step_limit(system: RigidBodySystem, halvings: int = 7) -> float:
 
 def _bar_on_rotor(bar: Link) -> RigidBodySystem:
     """A rotor's tip joined to an end of the bar, and nothing else: the tip joint as if the others were cut."""
-    zero, one, x, z = np.zeros(3), np.eye(3), np.array([0.5, 0.0, 0.0]), np.array([0.0, 0.0, 0.5])
-    rotor = RigidBody(z, np.array([-z, z]), one, one, 1.0, zero, zero)
-    link = RigidBody(2 * z + x, np.array([-x, x]), bar.inertia * one, one, bar.mass, zero, zero)
+    zero, identity, x, z = np.zeros(3), np.eye(3), np.array([0.5, 0.0, 0.0]), np.array([0.0, 0.0, 0.5])
+    rotor = RigidBody(z, np.array([-z, z]), identity, identity, 1.0, zero, zero)
+    link = RigidBody(2 * z + x, np.array([-x, x]), bar.inertia * identity, identity, bar.mass, zero, zero)
     system = RigidBodySystem([rotor, link], STIFFNESS, DAMPING)
     system.link(1, 2, 2, 1)
     return system
@@ -94,7 +94,7 @@ def limits(quick: bool = False, step: Callable[[str], None] = lambda name: None)
     step: called with the name of each regime before it is measured.
     """
     rows = []
-    for name, tried in LIMITS.items():
+    for name, measure in LIMITS.items():
         step(name)
-        rows += tried(quick)
+        rows += measure(quick)
     return rows

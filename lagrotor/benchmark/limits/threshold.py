@@ -30,8 +30,8 @@ def threshold(fails: Callable[[float], bool], low: float, high: float, share: fl
     below = fails(low)
     if fails(high) == below:
         raise ValueError(f"threshold: no change between {low:g} and {high:g}")
-    left, right = log(low), log(high)
-    while right - left > share:
-        middle = (left + right) / 2
-        left, right = (middle, right) if fails(exp(middle)) == below else (left, middle)
-    return exp((left + right) / 2)
+    lower, upper = log(low), log(high)
+    while upper - lower > share:
+        middle = (lower + upper) / 2
+        lower, upper = (middle, upper) if fails(exp(middle)) == below else (lower, middle)
+    return exp((lower + upper) / 2)

@@ -1,4 +1,4 @@
-"""Points with rational values at which hypotheses hold, and the enclosure of a value there."""
+"""Rational points at which hypotheses hold, and enclosures of values there."""
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,15 +23,16 @@ def points_of(
     letters: Sequence[sp.Symbol],
     eliminated: Mapping[sp.Symbol, sp.Expr],
     hold: Sequence[Comparison],
-    most: int = 1,
+    limit: int = 1,
     fixed: Mapping[sp.Symbol, sp.Expr] = MappingProxyType({}),
     zeros: Sequence[sp.Expr] = (),
 ) -> Iterator[dict[sp.Symbol, sp.Expr]]:
-    """Points at which the equations that eliminated letters, and the conditions, hold; the same ones at each call.
+    """Yield up to `limit` points that satisfy the eliminated equations and the conditions, the same ones in each call.
 
-    fixed: values of letters that are not eliminated. zeros: what is to vanish besides, a polynomial in one of its letters.
+    fixed: values of symbols that are not eliminated; zeros: further expressions to vanish, each a polynomial in one of its
+    symbols.
     """
-    drawn, found = random.Random(1), 0
+    drawn, count = random.Random(1), 0
     for _ in range(_TRIES):
         free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in letters if x not in eliminated}
         free |= {x: value for x, value in fixed.items() if x in free}
@@ -43,13 +44,13 @@ def points_of(
         }
         if all(_holds(sign, value_at_point(e, point)) for sign, e in hold):
             yield point
-            found += 1
-            if found == most:
+            count += 1
+            if count == limit:
                 return
 
 
 def _solve(free: dict[sp.Symbol, sp.Expr], zeros: Sequence[sp.Expr], drawn: random.Random) -> bool:
-    """Change letters so that each equation holds at rational numbers; whether all then do."""
+    """Change symbols so that each equation holds at rational numbers; return True if all then do."""
     solved: list[tuple[sp.Symbol, sp.Expr]] = []
     for zero in zeros:
         for letter, value in solved:
@@ -61,8 +62,8 @@ def _solve(free: dict[sp.Symbol, sp.Expr], zeros: Sequence[sp.Expr], drawn: rand
             return False
         letter = drawn.choice(letters)
         if linear:
-            slope, rest = sp.Poly(over, letter).all_coeffs()
-            solved.append((letter, -rest / slope))
+            slope, constant = sp.Poly(over, letter).all_coeffs()
+            solved.append((letter, -constant / slope))
             continue
         others = {x: free[x] for x in letters if x != letter}
         if others:  # 3/5 and 4/5 are sides of a right triangle
@@ -83,7 +84,7 @@ def _holds(sign: str, value: Any) -> bool:
 
 
 def value_at_point(expression: sp.Expr, point: Mapping[sp.Symbol, sp.Expr]) -> Any:
-    """The real value at the point; None where there is none."""
+    """Return the real value at a point; None if there is none."""
     try:
         value = enclosed_at(sp.sympify(expression, strict=True), dict(point), _DIGITS)
     except NotExactError:
@@ -93,7 +94,7 @@ def value_at_point(expression: sp.Expr, point: Mapping[sp.Symbol, sp.Expr]) -> A
 
 
 def rational_bounds(value: Any) -> tuple[sp.Rational, sp.Rational]:
-    """Rationals of few digits below and above a value, with zero outside."""
+    """Return rationals with few digits below and above a value, both of its sign."""
     step = sp.Integer(10) ** (floor(log10(abs(float(value)))) - 2)
     low = step * (int(mp.floor(value / (mp.mpf(step.p) / step.q))) - 1)
     return low, low + 3 * step

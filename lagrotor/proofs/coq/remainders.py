@@ -1,9 +1,10 @@
-"""How far two sides agree in a small quantity: their difference as a power of it times an expression that stays finite at zero.
+"""The order to which two sides agree in a small quantity: their difference as a power of it times a factor that is finite at
+zero.
 
-Near zero cos b = 1 - u sin(b)^2 with u = 1/(1 + cos b), and of a root y of R, which is y_0 at zero, y = y_0 + (R - y_0^2) w with
-w = 1/(y + y_0). Put in as often as terms of too low an order hold u or w, where u = 1/2 + u^2 sin(b)^2/2 and
-w = 1/(2 y_0) - (R - y_0^2) w^2/(2 y_0), these identities leave a polynomial; its terms of low order must vanish. What is left is
-written with cosines and roots again, so that Coq checks an identity in which nothing was left out.
+Near zero cos b = 1 - u sin(b)^2 with u = 1/(1 + cos b). A root y of R with the value y_0 at zero is y = y_0 + (R - y_0^2) w
+with w = 1/(y + y_0). Terms of too low an order that contain u or w are expanded by u = 1/2 + u^2 sin(b)^2/2 and w = 1/(2
+y_0) - (R - y_0^2) w^2/(2 y_0). These identities give a polynomial; its terms of low order must vanish. The others are
+written in cosines and roots again, so that Coq checks an exact identity.
 """
 
 from dataclasses import dataclass
@@ -17,24 +18,24 @@ _MOST_TERMS = 4000
 
 
 @dataclass(frozen=True)
-class SeriesRest:
-    """difference = power * rest. at_zero: the rest where the small quantity is zero; None where it is a limit."""
+class SeriesRemainder:
+    """difference = power * factor; at_zero: the factor where the small quantity is zero, None if it is a limit."""
 
     power: sp.Expr
-    rest: sp.Expr
+    factor: sp.Expr
     at_zero: sp.Expr | None = None
 
 
 def value_at_zero(sides: Sides, expression: sp.Expr, small: sp.Symbol) -> sp.Expr:
-    """The value of an expression where the small quantity is zero, in functions of the other letters."""
+    """Return an expression where the small quantity is zero, in functions of the other symbols."""
     over, under = sides.in_generators(expression)
     return sp.cancel((over / under).xreplace(sides.meaning()).xreplace({small: sp.S.Zero}))
 
 
-def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -> SeriesRest:
-    """difference = small**order * rest, or the sine of small in its place.
+def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -> SeriesRemainder:
+    """Return difference = small**order * factor, or with the sine of small in its place.
 
-    Raises NotExactError where terms of lower order do not vanish, or a function has no such form.
+    Raises NotExactError if terms of lower order do not vanish, or a function has no such form.
     """
     over, under = sides.in_generators(difference)
     near = _Near(sides, small)
@@ -48,17 +49,22 @@ def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -
     if len(used) <= 1 and all(near.weights[x] == 1 for x in used):
         letter = next(iter(used), small)
         power = meaning.get(letter, letter)
-        rest = (sp.expand(polynomial / letter**order) / under).xreplace(meaning)
-        return SeriesRest(power**order, rest, rest.xreplace({small: sp.S.Zero}))
+        factor = (sp.expand(polynomial / letter**order) / under).xreplace(meaning)
+        return SeriesRemainder(power**order, factor, factor.xreplace({small: sp.S.Zero}))
     over_small = {x: sp.Dummy() for x in used if x is not small}
-    scaled = polynomial.xreplace({x: y * small ** near.weights[x] for x, y in over_small.items()})
-    back = {y: meaning[x] / small ** near.weights[x] for x, y in over_small.items()}
-    return SeriesRest(small**order, (sp.expand(scaled / small**order) / under).xreplace(meaning).xreplace(back))
+    scale_terms = polynomial.xreplace({x: y * small ** near.weights[x] for x, y in over_small.items()})
+    meanings = {y: meaning[x] / small ** near.weights[x] for x, y in over_small.items()}
+    return SeriesRemainder(
+        small**order, (sp.expand(scale_terms / small**order) / under).xreplace(meaning).xreplace(meanings)
+    )
 
 
 class _Near:
-    """The generators near zero. weights: those that are small, with their order; put: a cosine or root -> what it is in
-    small ones and letters of rules; rules: such a letter -> itself to the next order; meaning: all of them as functions."""
+    """The generators near zero.
+
+    weights: small symbol → its order; put: cosine or root → its value in small symbols and rule symbols; rules: rule symbol
+    → its expansion to the next order; meaning: symbol → function.
+    """
 
     def __init__(self, sides: Sides, small: sp.Symbol) -> None:
         self.small, self.meaning = small, sides.meaning()
@@ -86,25 +92,27 @@ class _Near:
     def _add_root(
         self, root: sp.Symbol, square: sp.Expr, at_zero: sp.Expr, earlier: list[tuple[sp.Symbol, sp.Expr]]
     ) -> None:
-        """A root beside the earlier one, or the number, from whose square its own differs by the highest order."""
+        """Expand a root about an earlier root, or a number, whose square differs from its own by the highest order."""
         if not at_zero.is_Rational or at_zero == 0:
             raise NotExactError(f"{self.meaning[root]} has no rational value where {self.small} is zero")
-        letter, known = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
-        beside, gap = max(((y, sp.expand(square - other)) for y, other in known), key=lambda row: self.least(row[1]))
-        self.put[root] = beside + gap * letter
-        self.meaning[letter] = 1 / (self.meaning[root] + self.meaning.get(beside, beside))
-        if beside is at_zero:
+        letter, bases = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
+        base, gap = max(
+            ((y, sp.expand(square - base_square)) for y, base_square in bases), key=lambda row: self.least(row[1])
+        )
+        self.put[root] = base + gap * letter
+        self.meaning[letter] = 1 / (self.meaning[root] + self.meaning.get(base, base))
+        if base is at_zero:
             self.rules[letter] = 1 / (2 * at_zero) - gap * letter**2 / (2 * at_zero)
         earlier.append((root, square))
 
     def small_letters(self, expression: sp.Expr) -> set[sp.Symbol]:
-        """The small letters that an expression holds once its cosines and roots are put in."""
-        found = expression.free_symbols
-        inner = (self.small_letters(self.put[letter]) for letter in found if letter in self.put)
-        return set(found & set(self.weights)).union(*inner)
+        """Return the small symbols of an expression after substitution of its cosines and roots."""
+        letters = expression.free_symbols
+        inner = (self.small_letters(self.put[letter]) for letter in letters if letter in self.put)
+        return set(letters & set(self.weights)).union(*inner)
 
     def least(self, expression: sp.Expr) -> int:
-        """The lowest order of a polynomial in the small letters; of zero more than any."""
+        """Return the lowest order of a polynomial in the small symbols; a large number for zero."""
         return min(map(self._order_of, sp.Add.make_args(expression))) if expression != 0 else 10**6
 
     def _order_of(self, term: sp.Expr) -> int:
@@ -112,7 +120,7 @@ class _Near:
         return sum(int(powers.get(letter, 0)) * weight for letter, weight in self.weights.items())
 
     def expanded(self, over: sp.Expr, order: int) -> sp.Expr:
-        """The polynomial with every cosine and root put in, and no term below the order."""
+        """Return the polynomial with every cosine and root substituted, and without terms below the order."""
         while over.free_symbols & set(self.put):
             over = _bounded(sp.expand(over.xreplace(self.put)))
         high = sp.S.Zero
@@ -125,8 +133,8 @@ class _Near:
         return sp.expand(high)
 
     def _next(self, term: sp.Expr) -> sp.Expr:
-        """A term of too low an order, one letter of a rule put in."""
-        letter = next((each for each in self.rules if each in term.free_symbols), None)
+        """Return a term of too low an order with one rule symbol expanded."""
+        letter = next((x for x in self.rules if x in term.free_symbols), None)
         return term if letter is None else term / letter * self.rules[letter]
 
 
