@@ -7,20 +7,10 @@ from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Measured
 from lagrotor.result_display import scientific
 
 _Row = tuple[str, ...]
-_RUN = f"run to {scientific(MECHANISM_ERROR)} rad (ms)"
-MECHANISM_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", _RUN, "by", "rhs differs by")
+_RUN, _DIFFERENCE = f"run to {scientific(MECHANISM_ERROR)} rad (ms)", "rhs differs by"
+MECHANISM_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", _RUN, "by", _DIFFERENCE)
 DECISION_HEAD = ("two formulations", "same_as (ms)", "they agree", "simplify (ms)", "they agree", "times")
-BESIDE_HEAD = (
-    "mechanism",
-    "from",
-    "ready (ms)",
-    "sympy (ms)",
-    "times",
-    "rhs (µs)",
-    "sympy (µs)",
-    "times",
-    "rhs differs by",
-)
+BESIDE_HEAD = ("mechanism", "from", "ready (ms)", "sympy (ms)", "times", "rhs (µs)", "sympy (µs)", "times", _DIFFERENCE)
 TARGET_HEAD = ("what", "wanted", "measured")
 _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _OURS, _METHODS = "lagrotor, bodies", ("KanesMethod", "LagrangesMethod")
@@ -119,9 +109,8 @@ def target_rows(
                 for m, n, a, b in zip(numbers, numbers[1:], values, values[1:], strict=False)
                 if n == 2 * m
             ]
-            table.append(
-                (f"{what}, twice the {kind}, from {numbers[-len(doubled) - 1]}", "at most 2.3", ", ".join(doubled))
-            )
+            head = f"{what}, twice the {kind}, from {numbers[-len(doubled) - 1]}"
+            table.append((head, "at most 2.3", ", ".join(doubled)))
     for what, answer in (("agree", "zero"), ("differ", "nonzero")):
         if pairs := [x for x in decided if x.answer == answer]:
             least = min(pairs, key=lambda x: x.times)

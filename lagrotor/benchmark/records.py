@@ -111,9 +111,8 @@ def code_digest(name: RecordName) -> str:
     digest = sha256()
     for folder in (Path(package.__path__[0]) for package in MEASURED_PACKAGES[name]):
         for file in sorted(folder.rglob("*.py")):
-            digest.update(
-                f"{file.relative_to(folder.parent).as_posix()} {_code(ast.parse(file.read_bytes()))}".encode()
-            )
+            name_in_package = file.relative_to(folder.parent).as_posix()
+            digest.update(f"{name_in_package} {_code(ast.parse(file.read_bytes()))}".encode())
     return digest.hexdigest()
 
 

@@ -44,9 +44,8 @@ def run_by(
 
     name, settings = SOLVERS[solver]
     limit = 0.0 if np.isinf(longest) else longest
-    going = ode(counted).set_integrator(
-        name, rtol=max(tol, LSODA_LEAST.value), atol=tol, nsteps=2_000_000_000, max_step=limit, **settings
-    )
+    settings = settings | {"rtol": max(tol, LSODA_LEAST.value), "atol": tol}
+    going = ode(counted).set_integrator(name, nsteps=2_000_000_000, max_step=limit, **settings)
     going.set_initial_value(start, t_eval[0])
     states = [start]
     for t in t_eval[1:]:

@@ -119,7 +119,6 @@ def format_ball(x: Ball, digits: int = 30) -> str:
     """Return a ball as text, [8.1234567 +/- 3e-8], or its ends if no digit is certain. The text contains the ball."""
     if x.rel_accuracy_bits() > 3 or abs(x) < 1e-6:
         return str(x.str(digits))
-    low, high = (
-        arb(end).str(3, radius=False) for end in (x.lower() - abs(x.lower()) * 0.01, x.upper() + abs(x.upper()) * 0.01)
-    )
+    ends = x.lower() - abs(x.lower()) * 0.01, x.upper() + abs(x.upper()) * 0.01
+    low, high = (arb(end).str(3, radius=False) for end in ends)
     return f"[{low}, {high}]"

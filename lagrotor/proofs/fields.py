@@ -28,7 +28,7 @@ from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, J, K, M, R, a, b, ell
 from lagrotor.pair.scene import Scene
 from lagrotor.proofs.balls import ZERO, Ball, Balls, arb, arb_mat, arb_poly, exact, fmpq, rational
 from lagrotor.proofs.matrices import identity, inside, times
-from lagrotor.proofs.statements import has_upright_length
+from lagrotor.proofs.statements import has_upright_size
 from lagrotor.proofs.tape import Tape, tape_of
 from lagrotor.proofs.taylor_step import Motion
 from lagrotor.proofs.truncated_series import Evaluation, TaylorModel, series_values
@@ -92,9 +92,8 @@ def system_subject(system: Equations, arguments: Sequence[str]) -> Subject:
     """Return the text of the Lagrangian and of all forces and constraints; letters: symbols that occur in the text alone."""
     terms = system.L, *system.acting
     letters = set().union(*(map(str, e.free_symbols) for e in terms))
-    data: dict[str, Any] = {
-        name: [str(e) for e in getattr(system, name)] for name in ("constraints", "rolling", "forces")
-    }
+    acting = ("constraints", "rolling", "forces")
+    data: dict[str, Any] = {name: [str(e) for e in getattr(system, name)] for name in acting}
     data |= {"L": str(system.L), "dissipation": str(system.dissipation), "letters": sorted(letters - {*arguments})}
     readable = _readable(terms, [*arguments, *data["letters"]])
     return {"Lagrangian": data} if readable else None
@@ -229,9 +228,8 @@ def _values(parameters: Sequence[sp.Symbol], values: Values) -> dict[sp.Symbol, 
 def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
     """Return the field of a Lagrangian system in (q, v[, t]); time starts at 0."""
     if system.velocities:
-        raise InputError(
-            f"proved: the system is written in {', '.join(map(str, system.speeds))}, velocities of its own: leave them out"
-        )
+        speeds = ", ".join(map(str, system.speeds))
+        raise InputError(f"proved: the system is written in {speeds}, velocities of its own: leave them out")
     system = with_rationals(system)
     n, timed = len(system.c.q), depends_on_time(system)
     stages, accelerations, _ = constrained_motion(system)
@@ -272,9 +270,8 @@ def scene_field(scene: Scene) -> Field:
     renamed = {name: sp.Symbol(f"seen_{name}", real=True) for name, _ in look.stages}
     observables = dict(zip((*AXES.q, *AXES.v), (e.xreplace(renamed) for e in look.outputs), strict=True))
     looked = tuple((renamed[name], e.xreplace(numbers | renamed)) for name, e in look.stages)
-    return Field(
-        whole, {}, (*scene_start(scene), *((ZERO,) if timed else ())), looked, observables, (), scene_subject(scene)
-    )
+    start = (*scene_start(scene), *((ZERO,) if timed else ()))
+    return Field(whole, {}, start, looked, observables, (), scene_subject(scene))
 
 
 def scene_numbers(scene: Scene) -> dict[sp.Symbol, sp.Rational]:
@@ -320,14 +317,8 @@ def scene_start(scene: Scene) -> tuple[Ball, ...]:
     return (*middle, (u_v[0] + u_v[1]) / 2, chi_v, (alpha_v[0] + alpha_v[1]) / 2)
 
 
-_OPERATIONS: dict[str, Callable[..., sp.Expr]] = {
-    "+": add,
-    "-": sub,
-    "*": mul,
-    "/": truediv,
-    "neg": neg,
-    "sqrt": sp.sqrt,
-}
+_ARITHMETIC = {"+": add, "-": sub, "*": mul, "/": truediv}
+_OPERATIONS: dict[str, Callable[..., sp.Expr]] = {**_ARITHMETIC, "neg": neg, "sqrt": sp.sqrt}
 
 
 def exact_number(x: Any) -> sp.Rational:
@@ -346,7 +337,7 @@ def exact_coefficients(s: Assembly) -> Coefficients:
 
 def _bar(s: Assembly, i: int, j: int, ell: float) -> sp.Expr:
     """Return the length of a bar; if it is the rounded distance of the upright tips, that distance exactly."""
-    if not has_upright_length(asdict(s), i, j, ell):
+    if not has_upright_size(asdict(s), i, j, ell):
         return exact_number(ell)
     ends = [[*map(exact_number, (*s.joints[k], s.rotor[k].length))] for k in (i, j)]
     return sp.sqrt(sum((x - y) ** 2 for x, y in zip(*ends, strict=True)))
@@ -362,10 +353,8 @@ def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
     c, letters = exact_coefficients(s), structure_coordinates(s)
     N, timed, tape = len(c.R), any(x != 0 for x in c.decay), list[Recorded]()
     of_time = {f"G_{i}": G * sp.exp(-k * t) for i, (G, k) in enumerate(zip(c.G, c.decay, strict=True)) if k}
-    r, v = (
-        [[Recorded(tape, str(x)) for x in components[3 * i : 3 * i + 3]] for i in range(N)]
-        for components in (letters.q, letters.v)
-    )
+    recorded = ([Recorded(tape, str(x)) for x in components] for components in (letters.q, letters.v))
+    r, v = ([row[3 * i : 3 * i + 3] for i in range(N)] for row in recorded)
     G = [Recorded(tape, f"G_{i}") if f"G_{i}" in of_time else G for i, G in enumerate(c.G)]
     accelerations = structure_accelerations(c, r, v, G, operation_recorder)
     leaves = {str(x): x for x in (*letters.q, *letters.v)} | of_time
@@ -419,10 +408,8 @@ def structure_field(s: Assembly, tilt: Any, rates: Any) -> Field:
             rate = [*rate, -(place[0] * rate[0] + place[1] * rate[1]) / place[2]]
         q += place
         w += rate
-    timed = (ZERO,) * (len(program.outputs) - 2 * n)
-    return start_on_constraints(
-        Field(program, {}, (*q, *w, *timed), constraints=constraints, subject=structure_subject(s))
-    )
+    start = (*q, *w, *(ZERO,) * (len(program.outputs) - 2 * n))
+    return start_on_constraints(Field(program, {}, start, constraints=constraints, subject=structure_subject(s)))
 
 
 def _axes(name: str, values: Any, N: int) -> list[Balls]:

@@ -97,12 +97,7 @@ class LohnerStep:
 
     def data(self) -> dict[str, Any]:
         """Return the step and its end node as plain data."""
-        return {
-            "h": ball_data(self.h),
-            "terms": self.n,
-            "slope_terms": self.slope_terms,
-            "node": self.end.data(),
-        }
+        return {"h": ball_data(self.h), "terms": self.n, "slope_terms": self.slope_terms, "node": self.end.data()}
 
 
 @dataclass(frozen=True)
@@ -254,9 +249,8 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
                 why = error if isinstance(error, RemainderError) else "the set is too wide for its frame"
                 h = min(h, float(duration)) * _SHORTER
                 if h < SHORTEST * longest:
-                    raise NotProved(
-                        f"the enclosure ends at t = {float(node.t):.6g}: {why}; shorten the time, or narrow the start"
-                    ) from None
+                    place = f"the enclosure ends at t = {float(node.t):.6g}"
+                    raise NotProved(f"{place}: {why}; shorten the time, or narrow the start") from None
         yield step
         if last:
             return

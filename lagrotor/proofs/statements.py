@@ -68,10 +68,8 @@ def _time(data: Sequence[str]) -> str:
 def _at_states(certificate: Certificate, states: Sequence[Any], sign: str, digits: int) -> str:
     """Return each state with its ball."""
     names = certificate["motion"]["arguments"]
-    return ", ".join(
-        f"{name} {sign} {format_ball(_read_ball(x), digits)}"
-        for name, x in zip(names[: len(states)], states, strict=True)
-    )
+    rows = zip(names[: len(states)], map(_read_ball, states), strict=True)
+    return ", ".join(f"{name} {sign} {format_ball(x, digits)}" for name, x in rows)
 
 
 def _enclosure(certificate: Certificate) -> str:
@@ -96,9 +94,8 @@ def _no_crossing(certificate: Certificate) -> str:
 
 
 def _means(certificate: Certificate) -> str:
-    rows = [
-        (x["of"], *map(_time, (x["since"], x["until"])), _read_ball(x["mean"])) for x in certificate["claim"]["means"]
-    ]
+    claims = certificate["claim"]["means"]
+    rows = [(x["of"], _time(x["since"]), _time(x["until"]), _read_ball(x["mean"])) for x in claims]
     means = " ".join(f"The mean of {e} from t = {a} to {b} s is in {format_ball(x, 8)}." for e, a, b, x in rows)
     return means + _definitions(certificate["claim"]["means"]) + _start_phrase(certificate)
 
@@ -107,19 +104,16 @@ def _start_phrase(certificate: Certificate) -> str:
     """Return the subject, the initial state and the parameters."""
     motion, start = certificate["motion"], certificate["start"]
     rows = [*zip(start["middle"], start["spread"], strict=True), *((x,) for x in motion["parameters"])]
-    values = [
-        (name, *map(sum, zip(*map(_read_fractions, row), strict=True)))
-        for name, row in zip(motion["arguments"], rows, strict=True)
-    ]
+    sums = [map(sum, zip(*map(_read_fractions, row), strict=True)) for row in rows]
+    values = [(name, *numbers) for name, numbers in zip(motion["arguments"], sums, strict=True)]
     size = len(motion["outputs"])
     rates = (list(motion["operations"][place]) for place in motion["outputs"])
     is_time = [row == ("t", 0, 0) and rate == ["number", "1"] for row, rate in zip(values, rates, strict=False)]
     states = [row for row, clock in zip(values, is_time, strict=False) if not clock]
     nonzero = [row for row in states if row[1:] != (0, 0)]
     few = len(states) - len(nonzero) > 2
-    phrases = [_value_phrase(*row) for row in (nonzero if few else states)] + [
-        f"all {'others' if nonzero else 'states'} 0"
-    ] * few
+    phrases = [_value_phrase(*row) for row in (nonzero if few else states)]
+    phrases += [f"all {'others' if nonzero else 'states'} 0"] * few
     parameters = _where_phrase([_value_phrase(*row) for row in values[size:]])
     return f" This is of {_subject(certificate)}, from t = 0 with {', '.join(phrases)}{parameters}."
 
@@ -185,7 +179,7 @@ def _structure(_: Certificate, data: Any) -> str:
     return f"the structure of {'; '.join(phrases)}"
 
 
-def has_upright_length(data: Any, i: int, j: int, length: float) -> bool:
+def has_upright_size(data: Any, i: int, j: int, length: float) -> bool:
     """Return True if a bar has the rounded distance of its tips when all axes are upright; then the exact distance is meant."""
     (x, y), (a, b) = data["joints"][i], data["joints"][j]
     return length == hypot(hypot(x - a, y - b), data["rotor"][i]["length"] - data["rotor"][j]["length"])
@@ -195,11 +189,8 @@ def _bar(data: Any, i: int, j: int, length: float) -> str:
     places = [(*data["joints"][k], data["rotor"][k]["length"]) for k in (i, j)]
     (*ends, exact_length) = ([Fraction(repr(float(x))) for x in row] for row in (*places, [length]))
     exactly = sum((x - y) ** 2 for x, y in zip(*ends, strict=True)) == exact_length[0] ** 2
-    return (
-        f"of {_number(length)} m"
-        if exactly or not has_upright_length(data, i, j, length)
-        else "as long as its tips are apart upright"
-    )
+    upright = has_upright_size(data, i, j, length) and not exactly
+    return "as long as its tips are apart upright" if upright else f"of {_number(length)} m"
 
 
 def _common(phrases: Sequence[str]) -> str:
@@ -255,15 +246,12 @@ def _periodic_orbit(certificate: Certificate) -> str:
     if "r0" in claim:
         return _precession(certificate)
     period = _read_ball(claim["period"])
-    premise = (
-        ""
-        if not certificate["reversals"][0] or _keeps_energy(certificate)
-        else _ones_phrase(certificate["ones"], claim["kind"])
-    )
-    return (
-        f"There is a periodic orbit of period {format_ball(period, 25)} s, frequency {format_ball(2 * arb.pi() / period, 25)} rad/s, "
-        f"from {_at_states(certificate, claim['start'], '=', 20)}; it is {claim['kind']}.{premise}{_subject_phrase(certificate)}"
-    )
+    of_system = certificate["reversals"][0] and not _keeps_energy(certificate)
+    premise = _ones_phrase(certificate["ones"], claim["kind"]) if of_system else ""
+    length, frequency = format_ball(period, 25), format_ball(2 * arb.pi() / period, 25)
+    start = _at_states(certificate, claim["start"], "=", 20)
+    orbit = f"There is a periodic orbit of period {length} s, frequency {frequency} rad/s, from {start}; it is {claim['kind']}."
+    return f"{orbit}{premise}{_subject_phrase(certificate)}"
 
 
 def _keeps_energy(certificate: Certificate) -> bool:

@@ -15,9 +15,8 @@ from lagrotor.proofs.balls import rational
 
 Operation = tuple[Any, ...]
 # name → how many operands; of "argument" and "number" the operand is an index and a text.
-OPERATIONS = {"add": 2, "subtract": 2, "multiply": 2, "divide": 2} | dict.fromkeys(
-    ("sqrt", "exp", "log", "sin", "cos", "asin", "atan"), 1
-)
+_FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "asin", "atan")
+OPERATIONS = {"add": 2, "subtract": 2, "multiply": 2, "divide": 2} | dict.fromkeys(_FUNCTIONS, 1)
 
 
 @dataclass(frozen=True)

@@ -100,10 +100,8 @@ class TaylorModel:
         s /= _left(1 - _norm(slope) / (n + 1))
         rise, turn = self.remainder.cosh() - 1, self.remainder.sinh()
         sine, cosine = sizes[0] + s, sizes[1] + s
-        return (
-            TaylorModel(pair[0], s + sine * rise + cosine * turn, n),
-            TaylorModel(pair[1], s + cosine * rise + sine * turn, n),
-        )
+        sine_model = TaylorModel(pair[0], s + sine * rise + cosine * turn, n)
+        return sine_model, TaylorModel(pair[1], s + cosine * rise + sine * turn, n)
 
     def by_slope(self, name: str, slope: "TaylorModel") -> "TaylorModel":
         """Return g(a + e) = g(a_0) + ∫ a' g'(a) ds + e ∫ g'(a + θ e) dθ."""

@@ -299,13 +299,13 @@ WRITTEN = (
 @pytest.mark.parametrize("expression", WRITTEN, ids=str)
 def test_what_is_written_is_what_is_evaluated(expression: sp.Expr) -> None:
     """The search's operations of an expression against those of its words, at a point."""
-    from lagrotor.proofs.checker.bounded_series import BoundedSeries, Dual, evaluate
+    from lagrotor.proofs.checker.bounded_series import Dual, Series, evaluate
     from lagrotor.proofs.checker.expression_tapes import tape_of_words
     from lagrotor.proofs.fields import system_field, values_at
 
     made, at = system_field(PENDULUM, {}, [1], [0]), [arb("0.3"), arb("-0.7")]
     tape = tape_of_words([{"of": str(expression)}], ["theta", "theta_dot"], None)
-    (found,) = evaluate(tape, [Dual(BoundedSeries([x], arb(0), 1)) for x in at])
+    (found,) = evaluate(tape, [Dual(Series([x], arb(0), 1)) for x in at])
     off = found.value.terms[0] - values_at(made.function([expression]), at)[0]
     assert off.contains(0) and float(off.rad()) < 1e-12
 

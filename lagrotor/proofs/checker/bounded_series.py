@@ -12,7 +12,7 @@ from lagrotor.proofs.checker.tapes import ZERO, demand, rational_of, results_of,
 Ball = Any
 
 
-class BoundedSeries:
+class Series:
     """A power series on 0 ≤ s ≤ 1: n terms, and a bound of the sum of the absolute values of all further ones; nan if it may
     diverge.
     """
@@ -29,66 +29,66 @@ class BoundedSeries:
         """Return a bound of the sum of all absolute values."""
         return self.total + self.remainder
 
-    def __add__(self, b: "BoundedSeries") -> "BoundedSeries":
-        return BoundedSeries(_longer(self.terms, b.terms, 1), self.remainder + b.remainder, self.n)
+    def __add__(self, b: "Series") -> "Series":
+        return Series(_longer(self.terms, b.terms, 1), self.remainder + b.remainder, self.n)
 
-    def __sub__(self, b: "BoundedSeries") -> "BoundedSeries":
-        return BoundedSeries(_longer(self.terms, b.terms, -1), self.remainder + b.remainder, self.n)
+    def __sub__(self, b: "Series") -> "Series":
+        return Series(_longer(self.terms, b.terms, -1), self.remainder + b.remainder, self.n)
 
-    def __mul__(self, b: "BoundedSeries") -> "BoundedSeries":
+    def __mul__(self, b: "Series") -> "Series":
         product = (arb_poly(self.terms) * arb_poly(b.terms)).coeffs()
         remainder = total(product[self.n :])
         if not b.remainder.is_zero():
             remainder += self.size() * b.remainder
         if not self.remainder.is_zero():
             remainder += b.total * self.remainder
-        return BoundedSeries(product, remainder, self.n)
+        return Series(product, remainder, self.n)
 
-    def number(self, value: Ball) -> "BoundedSeries":
-        return BoundedSeries([value], ZERO, self.n)
+    def number(self, value: Ball) -> "Series":
+        return Series([value], ZERO, self.n)
 
     def at_start(self) -> Ball:
         return self.terms[0] if self.terms else ZERO
 
-    def inverse(self) -> "BoundedSeries":
+    def inverse(self) -> "Series":
         """Return 1/a = q/(1 − r), r = 1 − a q."""
         demand(self.at_start() > 0 or self.at_start() < 0, "a denominator is not shown to be other than zero")
         q, _ = terms_of("divide", self.terms, self.n)
         size = total(q)
         r = _high(self.terms, q, self.n) + size * self.remainder
-        return BoundedSeries(q, size * r / below_one(r), self.n)
+        return Series(q, size * r / below_one(r), self.n)
 
-    def sqrt(self) -> "BoundedSeries":
+    def sqrt(self) -> "Series":
         """Return q + e, e = (a − q² − e²)/(2 q): |e| ≤ k d/(1 + √(1 − k² d)), k = |1/q|, d = |a − q²|."""
         demand(self.at_start() > 0, "a root's argument is not shown to be positive")
         q, _ = terms_of("sqrt", self.terms, self.n)
-        k = BoundedSeries(q, ZERO, self.n).inverse().size()
+        k = Series(q, ZERO, self.n).inverse().size()
         d = _high(q, q, self.n) + self.remainder
-        return BoundedSeries(q, k * d / (1 + below_one(k * k * d).sqrt()), self.n)
+        return Series(q, k * d / (1 + below_one(k * k * d).sqrt()), self.n)
 
-    def log(self) -> tuple["BoundedSeries", "BoundedSeries"]:
+    def log(self) -> tuple["Series", "Series"]:
         """Return log a_0 + ∫ a'/a, and 1/a."""
         demand(self.at_start() > 0, "a logarithm's argument is not shown to be positive")
         slope = self.inverse()
         return self._by_slope(slope, self.at_start().log()), slope
 
-    def exp(self) -> "BoundedSeries":
+    def exp(self) -> "Series":
         """Return q + e, e' = a' e + (a' q − q'); its size is at most exp(a_0 + |a − a_0|)."""
         (q, _), rate, n = terms_of("exp", self.terms, self.n), slopes_of(self.terms), self.n
         whole = (self.at_start() + total(self.terms[1:]) + self.remainder).exp()
         if not total(rate) / (n + 1) < 1:
-            return BoundedSeries(q, arb(whole.upper()), n)
+            return Series(q, arb(whole.upper()), n)
         e = _high(rate, q, n - 1) / n / below_one(total(rate) / (n + 1))
-        return BoundedSeries(q, arb(whole.upper()).min(e + (total(q) + e) * (self.remainder.exp() - 1)), n)
+        return Series(q, arb(whole.upper()).min(e + (total(q) + e) * (self.remainder.exp() - 1)), n)
 
-    def sin_cos(self) -> tuple["BoundedSeries", "BoundedSeries"]:
+    def sin_cos(self) -> tuple["Series", "Series"]:
         """Return sin(a) and cos(a): both errors solve a linear equation with the coefficient a'."""
         rate, pair, n = slopes_of(self.terms), terms_of("sin", self.terms, self.n), self.n
         e = sum((_high(rate, q, n - 1) for q in pair), ZERO) / n / below_one(total(rate) / (n + 1))
         remainder = e + (sum(map(total, pair), ZERO) + 2 * e) * (self.remainder.exp() - 1)
-        return BoundedSeries(pair[0], remainder, n), BoundedSeries(pair[1], remainder, n)
+        return Series(pair[0], remainder, n), Series(pair[1], remainder, n)
 
-    def arc(self, name: str) -> tuple["BoundedSeries", "BoundedSeries"]:
+    def arc(self, name: str) -> tuple["Series", "Series"]:
         """Return asin(a) or atan(a), and its derivative by a. Raises InputError for any other operation."""
         unit, square = self.number(arb(1)), self * self
         if name not in ("asin", "atan"):
@@ -96,13 +96,13 @@ class BoundedSeries:
         slope = (unit - square).sqrt().inverse() if name == "asin" else (unit + square).inverse()
         return self._by_slope(slope, getattr(self.at_start(), name)()), slope
 
-    def _by_slope(self, slope: "BoundedSeries", value: Ball) -> "BoundedSeries":
+    def _by_slope(self, slope: "Series", value: Ball) -> "Series":
         """Return g(a) from g'(a): g(a_0) + ∫ a' g'(a) ds, and the remainder of a times g'."""
         rate = slopes_of(self.terms)
         product = (arb_poly(rate) * arb_poly(slope.terms)).coeffs()
         terms = [value, *(x / (k + 1) for k, x in enumerate(product[: self.n - 1]))]
         high = total(product[self.n - 1 :]) + total(rate) * slope.remainder
-        return BoundedSeries(terms, high / self.n + self.remainder * slope.size(), self.n)
+        return Series(terms, high / self.n + self.remainder * slope.size(), self.n)
 
 
 def total(terms: Sequence[Ball]) -> Ball:
@@ -144,12 +144,10 @@ def sign_over(poly: Any, remainder: Ball, low: Ball, high: Ball, depth: int = 30
 class Dual:
     """A series and its derivatives by the initial coordinates; None if it does not depend on them."""
 
-    def __init__(self, value: BoundedSeries, by: list[BoundedSeries] | None = None) -> None:
+    def __init__(self, value: Series, by: list[Series] | None = None) -> None:
         self.value, self.by = value, by
 
-    def linear(
-        self, factor: BoundedSeries, b: "Dual | None" = None, second: BoundedSeries | None = None
-    ) -> list[BoundedSeries] | None:
+    def linear(self, factor: Series, b: "Dual | None" = None, second: Series | None = None) -> list[Series] | None:
         """Return factor · self' + second · b'."""
         first = None if self.by is None else [factor * x for x in self.by]
         if b is None or b.by is None or second is None:

@@ -7,7 +7,7 @@ from typing import Any
 from flint import arb, arb_mat, ctx, fmpz
 
 from lagrotor.errors import NotProved
-from lagrotor.proofs.checker.bounded_series import BoundedSeries, Dual, below_one, evaluate, total
+from lagrotor.proofs.checker.bounded_series import Dual, Series, below_one, evaluate, total
 from lagrotor.proofs.checker.tapes import ZERO, demand, is_place, motion_terms, read_tape
 
 Ball = Any
@@ -75,26 +75,20 @@ class Flow:
         self.size = len(data["arguments"]) - len(self.parameters)
         demand(0 < self.moving <= self.size, "the motion has no states")
 
-    def arguments(
-        self, rows: list[BoundedSeries], still: Sequence[Ball], by: list[list[BoundedSeries]] | None, n: int
-    ) -> list[Dual]:
+    def arguments(self, rows: list[Series], still: Sequence[Ball], by: list[list[Series]] | None, n: int) -> list[Dual]:
         """Return the series of all arguments; with `by`, the derivatives of the states, also their derivatives by the initial
         set.
         """
-        flat = [BoundedSeries([c], ZERO, n) for c in (*still, *self.parameters)]
+        flat = [Series([c], ZERO, n) for c in (*still, *self.parameters)]
         if by is None:
             return [Dual(x) for x in (*rows, *flat)]
-        unit_rows = [
-            [BoundedSeries([arb(int(i == j))], ZERO, n) for j in range(self.size)]
-            for i in range(self.moving, self.size)
-        ]
+        places = range(self.size)
+        unit_rows = [[Series([arb(int(i == j))], ZERO, n) for j in places] for i in places[self.moving :]]
         duals = [Dual(x, row) for x, row in zip(rows, by, strict=True)]
         duals += [Dual(x, row) for x, row in zip(flat, unit_rows, strict=False)]
         return duals + [Dual(x) for x in flat[len(still) :]]
 
-    def step(
-        self, start: list[Ball], h: Ball, n: int, coefficients: list[list[Ball]] | None = None
-    ) -> list[BoundedSeries]:
+    def step(self, start: list[Ball], h: Ball, n: int, coefficients: list[list[Ball]] | None = None) -> list[Series]:
         """Return the series of the states over one step, for all initial states in the balls; `coefficients` replace the
         computed terms.
         """
@@ -102,24 +96,22 @@ class Flow:
         terms = coefficients or motion_terms(self.tape, start[: self.moving], [*still, *self.parameters], h, n)
         rests = [ZERO] * len(terms)
         for _ in range(9):
-            rates = self._rates(
-                [BoundedSeries(row, bound, n) for row, bound in zip(terms, rests, strict=True)], still, n
-            )
+            rates = self._rates([Series(row, bound, n) for row, bound in zip(terms, rests, strict=True)], still, n)
             new = [remainder_bound(rate, h, n) for rate in rates]
             if within(new, rests):
-                return [BoundedSeries(row, bound, n) for row, bound in zip(terms, new, strict=True)]
+                return [Series(row, bound, n) for row, bound in zip(terms, new, strict=True)]
             least = max(new, key=lambda x: float(x.upper())) / 2**16
             rests = [arb((2 * x + least).upper()) for x in new]
         raise NotProved("check: the rest of the Taylor series is not bounded over a step")
 
-    def _rates(self, rows: list[BoundedSeries], still: Sequence[Ball], n: int) -> list[BoundedSeries]:
+    def _rates(self, rows: list[Series], still: Sequence[Ball], n: int) -> list[Series]:
         return [rate.value for rate in evaluate(self.tape, self.arguments(rows, still, None, n))]
 
-    def slopes(self, rows: list[BoundedSeries], still: Sequence[Ball], h: Ball, n: int) -> tuple[list[Any], Ball]:
+    def slopes(self, rows: list[Series], still: Sequence[Ball], h: Ball, n: int) -> tuple[list[Any], Ball]:
         """Return the terms of D, D' = h J D and D(0) = 1, and a remainder bound of each entry."""
         size, n_rows = self.size, self.moving
-        by = [[BoundedSeries([arb(int(i == j))], ZERO, n) for j in range(size)] for i in range(n_rows)]
-        zero = [BoundedSeries([], ZERO, n)] * size
+        by = [[Series([arb(int(i == j))], ZERO, n) for j in range(size)] for i in range(n_rows)]
+        zero = [Series([], ZERO, n)] * size
         gradients = [rate.by or zero for rate in evaluate(self.tape, self.arguments(rows, still, by, n))]
         gradients += [zero] * (size - n_rows)
         J = [arb_mat([[h * term(x, k) for x in row] for row in gradients]) for k in range(n)]
@@ -133,7 +125,7 @@ class Flow:
         demand(error.is_finite(), "the derivative's series does not converge over a step")
         return D, arb(error.upper())
 
-    def derivative(self, box: list[Ball], m: list[Ball], image: list[BoundedSeries], h: Ball, n: int) -> Any:
+    def derivative(self, box: list[Ball], m: list[Ball], image: list[Series], h: Ball, n: int) -> Any:
         """Enclose the derivative of the step over a box about m. Over a wide box, the mean-value theorem gives narrower terms."""
         still = box[self.moving :]
         rows = self.step(box, h, n)
@@ -160,12 +152,12 @@ def widest(values: Sequence[Ball]) -> Ball:
     return arb(max(values, key=lambda x: float(x.upper())).upper())
 
 
-def term(a: BoundedSeries, k: int) -> Ball:
+def term(a: Series, k: int) -> Ball:
     """Return the coefficient of s^k."""
     return a.terms[k] if k < len(a.terms) else ZERO
 
 
-def remainder_bound(rate: BoundedSeries, h: Ball, n: int) -> Ball:
+def remainder_bound(rate: Series, h: Ball, n: int) -> Ball:
     """Return a bound of h ∫ of the rate's terms from s^(n−1) on."""
     return arb((abs(h) * (abs(term(rate, n - 1)) / n + rate.remainder / (n + 1))).upper())
 
@@ -175,20 +167,15 @@ def within(new: Sequence[Ball], old: Sequence[Ball]) -> bool:
     return all(x <= y for x, y in zip(new, old, strict=True))
 
 
-def end_of(a: BoundedSeries) -> Ball:
+def end_of(a: Series) -> Ball:
     """Return the value at s = 1."""
     return sum(a.terms, ZERO) + arb(0, a.remainder.upper())
 
 
 def read_node(data: Any) -> tuple[Any, ...]:
     """Return m, Q, s, C, S."""
-    return (
-        [number(x) for x in data["m"]],
-        matrix(data["Q"]),
-        column(balls(data["s"])),
-        matrix(data["C"]),
-        matrix(data["S"], read_ball),
-    )
+    m, s = [number(x) for x in data["m"]], column(balls(data["s"]))
+    return m, matrix(data["Q"]), s, matrix(data["C"]), matrix(data["S"], read_ball)
 
 
 class VerifiedSteps:
@@ -201,13 +188,8 @@ class VerifiedSteps:
         demand(len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0, "the start has other states")
         demand(all(x.contains(0) for x in self.w), "the start's box does not hold its middle")
         m = [x.mid() for x in self.middle]
-        node = (
-            m,
-            unit(size),
-            column([x - y for x, y in zip(self.middle, m, strict=True)]),
-            unit(size),
-            arb_mat(size, size),
-        )
+        s = column([x - y for x, y in zip(self.middle, m, strict=True)])
+        node = (m, unit(size), s, unit(size), arb_mat(size, size))
         self.time = ZERO
         self.boxes: list[tuple[list[Ball], Ball, int]] = []  # of each step: its start over all w, its length, its terms
         for k, step in enumerate(certificate["steps"]):
@@ -220,9 +202,8 @@ class VerifiedSteps:
     def _step(self, node: Any, data: Any, k: int) -> Any:
         m, Q, s, C, S = node
         h, n, few = read_ball(data["h"]), data["terms"], data["slope_terms"]
-        demand(
-            h > 0 and all(is_place(x, MOST_TERMS) and x > 2 for x in (n, few)), f"step {k} has no length or no terms"
-        )
+        fits = h > 0 and all(is_place(x, MOST_TERMS) and x > 2 for x in (n, few))
+        demand(fits, f"step {k} has no length or no terms")
         moving = self.flow.moving
         image = self.flow.step(m, h, n)
         box = box_of(node, self.w)

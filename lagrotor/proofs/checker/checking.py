@@ -11,7 +11,7 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, ctx
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proofs.checker.bounded_series import BoundedSeries, Dual, evaluate, sign_over
+from lagrotor.proofs.checker.bounded_series import Dual, Series, evaluate, sign_over
 from lagrotor.proofs.checker.certified_sets import (
     MOST_BITS,
     Flow,
@@ -25,12 +25,7 @@ from lagrotor.proofs.checker.certified_sets import (
 )
 from lagrotor.proofs.checker.expression_tapes import tape_of_words
 from lagrotor.proofs.checker.orbit_checking import check_orbit
-from lagrotor.proofs.checker.subject_checking import (
-    LagrangianOfWords,
-    check_subject,
-    demand_equal,
-    second_derivatives,
-)
+from lagrotor.proofs.checker.subject_checking import LagrangianOfWords, check_subject, demand_equal, second_derivatives
 from lagrotor.proofs.checker.tapes import ZERO, demand, is_place
 from lagrotor.proofs.statements import theorem_of
 
@@ -74,9 +69,8 @@ def check(certificate: Any) -> str:
         certificate = plain(certificate)
         version, rule = certificate["version"], _RULES[certificate["kind"]]
     except (LookupError, TypeError, ValueError, RecursionError):
-        raise InputError(
-            "check: a certificate is the dictionary of `.certificate`, with a known version and kind"
-        ) from None
+        what = "check: a certificate is the dictionary of `.certificate`, with a known version and kind"
+        raise InputError(what) from None
     if type(version) is not int or version != 1:
         raise InputError(f"check: version {version} of certificates is unknown; this program reads 1")
     outer = ctx.prec
@@ -87,9 +81,8 @@ def check(certificate: Any) -> str:
         rule(certificate)
         words = theorem_of(certificate)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, RecursionError):
-        raise NotProved(
-            "check: the certificate cannot be followed: an entry is missing, is no number, or has another shape"
-        ) from None
+        what = "check: the certificate cannot be followed: an entry is missing, is no number, or has another shape"
+        raise NotProved(what) from None
     finally:
         ctx.prec = outer
     return words
@@ -118,10 +111,8 @@ def check_enclosure(certificate: Any) -> None:
     demand(carried.time.contains(read_ball(claim["t"])), "the steps do not end at the time that is claimed")
     claimed = balls(claim["states"])
     demand(0 < len(claimed) <= len(carried.box), "no states are claimed")
-    demand(
-        all(y.contains(x) for x, y in zip(carried.box, claimed, strict=False)),
-        "the states are not those that are claimed",
-    )
+    fits = all(y.contains(x) for x, y in zip(carried.box, claimed, strict=False))
+    demand(fits, "the states are not those that are claimed")
 
 
 def pieces_of(certificate: Any, carried: VerifiedSteps, named: Sequence[Any]) -> Any:
@@ -212,10 +203,8 @@ def check_equilibrium(certificate: Any) -> None:
     value = column([f.value.at_start() for f in at[n:]])
     slope = arb_mat([[x.at_start() for x in (f.by or [])[:n]] for f in J[n:]])
     states = [x + y for x, y in zip(middle, krawczyk(value, slope, A, box), strict=True)]
-    demand(
-        all(y.contains(x) for x, y in zip(states, balls(certificate["claim"]["q"]), strict=True)),
-        "the coordinates are others",
-    )
+    fits = all(y.contains(x) for x, y in zip(states, balls(certificate["claim"]["q"]), strict=True))
+    demand(fits, "the coordinates are others")
     claim = certificate["claim"]["stability"]
     kinds = ("stable", "asymptotically stable", "stable to first order", "unstable", "undecided")
     demand(claim in kinds, "the stability is unknown")
@@ -247,14 +236,14 @@ def check_stable(certificate: Any, J: Sequence[Dual], n: int, state: list[Ball])
 
 def linear(J: Sequence[Dual], n: int) -> Any:
     """Return the matrix of the linear motion in (q, v)."""
-    zero = BoundedSeries([ZERO], ZERO, 1)
+    zero = Series([ZERO], ZERO, 1)
     return arb_mat([[x.at_start() for x in (f.by or [zero] * 2 * n)] for f in J])
 
 
 def gradients(tape: Any, flow: Flow, state: list[Ball]) -> list[Dual]:
     """Return the outputs of the tape with their derivatives by the states."""
-    rows = [BoundedSeries([x], ZERO, 1) for x in state]
-    by = [[BoundedSeries([arb(int(i == j))], ZERO, 1) for j in range(len(state))] for i in range(len(state))]
+    rows = [Series([x], ZERO, 1) for x in state]
+    by = [[Series([arb(int(i == j))], ZERO, 1) for j in range(len(state))] for i in range(len(state))]
     return evaluate(tape, flow.arguments(rows, [], by, 1))
 
 

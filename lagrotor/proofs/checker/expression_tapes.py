@@ -55,9 +55,8 @@ class Words:
 
     def include(self, tape: Tape) -> list[int]:
         """Return the places of a tape's outputs; its arguments are matched by name."""
-        places = results_of(
-            tape, lambda i: self.names[tape["arguments"][i]], lambda x: self.keep("number", x), self.keep
-        )
+        names = tape["arguments"]
+        places = results_of(tape, lambda i: self.names[names[i]], lambda x: self.keep("number", x), self.keep)
         return [places[place] for place in tape["outputs"]]
 
     def keep(self, *operation: Any) -> int:
@@ -74,9 +73,8 @@ class Words:
         demand(len(text) <= _LONGEST, f"an expression has more than {_LONGEST} characters")
         order = sorted(self.names, key=len, reverse=True)
         pattern = "|".join(map(re.escape, order)) or r"(?!)"
-        marked = re.sub(
-            rf"(?<![\w\\}}])(?:{pattern})(?![\w{{}}'(])", lambda hit: f"{_INNER}{order.index(hit[0])}", text
-        )
+        word = rf"(?<![\w\\}}])(?:{pattern})(?![\w{{}}'(])"
+        marked = re.sub(word, lambda hit: f"{_INNER}{order.index(hit[0])}", text)
         places = {f"{_INNER}{i}": self.names[name] for i, name in enumerate(order)}
         try:
             if _INNER in text or not re.fullmatch(r"[\w +\-*/().]*", marked):

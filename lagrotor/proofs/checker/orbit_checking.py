@@ -47,10 +47,8 @@ def check_orbit(certificate: Any) -> None:
     turns = 1 if not first else 2 if first == last else 4
     claim = certificate["claim"]
     states = balls(claim["start"])
-    demand(
-        len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False)),
-        "the start is another",
-    )
+    fits = len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False))
+    demand(fits, "the start is another")
     demand(start[moving] > 0 and read_ball(claim["period"]).contains(turns * start[moving]), "the period is another")
     check_kind(certificate, carried, first, last)
     if "r0" in claim:
@@ -75,9 +73,8 @@ def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, c
     if not first:
         demand(sorted(conditions) == list(range(moving)), "the orbit is not followed to its start")
         return
-    demand(
-        sorted(conditions) == [i for i, s in enumerate(last) if s < 0], "the conditions are not those of the reversal"
-    )
+    ends = [i for i, s in enumerate(last) if s < 0]
+    demand(sorted(conditions) == ends, "the conditions are not those of the reversal")
     for i, s in enumerate(first):
         fixed = carried.middle[i].is_zero() and carried.w[i].is_zero()
         demand(s > 0 or (fixed and i not in free), "the start is not in the fixed set of the reversal")
@@ -100,10 +97,8 @@ def check_kind(certificate: Any, carried: VerifiedSteps, first: Any, last: Any) 
         unity = [z for z in values if z.contains(1)]
         others = [abs(z) for z in values if not z.contains(1)]
         fine = all(x < 1 for x in others) if claim["kind"] == "attracting" else all(x < 1 or x > 1 for x in others)
-        demand(
-            len(unity) == 1 and fine and claim["kind"] in ("attracting", "hyperbolic"),
-            "the multipliers are not shown to be apart from the unit circle",
-        )
+        fine = fine and len(unity) == 1 and claim["kind"] in ("attracting", "hyperbolic")
+        demand(fine, "the multipliers are not shown to be apart from the unit circle")
         return
     pair = pair_sum(D, first, last, ones)
     if claim["kind"] == "parabolic":
@@ -128,10 +123,8 @@ def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
     demand(size < 1, "the derivative cannot be inverted")
     bound = (size**2 / (1 - size)).upper()
     inverse = X * (unit(moving) + R + arb_mat(moving, moving, [arb(0, bound)] * moving**2))
-    reflect = [
-        arb_mat(moving, moving, [s[i] if i == j else 0 for i in range(moving) for j in range(moving)])
-        for s in (first, last)
-    ]
+    places = range(moving)
+    reflect = [arb_mat([[s[i] if i == j else 0 for j in places] for i in places]) for s in (first, last)]
     half = reflect[0] * inverse * reflect[1] * D
     M = half if first == last else half * half
     pair = sum((M[i, i] for i in range(moving)), ZERO) - ones

@@ -92,7 +92,7 @@ class Residues:
         self._logarithms: dict[int, Terms] = {}  # of what is positive: exponentials, and what has a logarithm or a root
         self._halves: dict[
             int, tuple[Terms, Residue, int]
-        ] = {}  # of products: one factor's logarithm, the other, its power
+        ] = {}  # of products: a factor's logarithm, the other, its power
         self._arguments: dict[int, Residue] = {}  # of logarithms, by their letter
         self.domain: set[tuple[str, int]] = set()  # what has to be positive, or from −1 to 1, for what is taken of it
 

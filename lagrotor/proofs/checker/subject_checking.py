@@ -12,7 +12,7 @@ from typing import Any
 from flint import arb, arb_mat, fmpz_mod_ctx, fmpz_mod_mat
 
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
-from lagrotor.proofs.checker.bounded_series import BoundedSeries, Dual, evaluate
+from lagrotor.proofs.checker.bounded_series import Dual, Series, evaluate
 from lagrotor.proofs.checker.certified_sets import balls, number, read_ball, term
 from lagrotor.proofs.checker.expression_tapes import Words
 from lagrotor.proofs.checker.reversals import points_of
@@ -71,9 +71,8 @@ def _check_start(certificate: Any, words: Words, constraints: Sequence[int]) -> 
         demand(len(constraints) == 0, "a rest or an orbit is not shown to keep constraints")
         return
     spread = balls(certificate["start"]["spread"])
-    residuals = _values(
-        words, constraints, [x + y for x, y in zip(_middle(certificate), spread, strict=True)], certificate
-    )
+    middle = _middle(certificate)
+    residuals = _values(words, constraints, [x + y for x, y in zip(middle, spread, strict=True)], certificate)
     demand(all(x.contains(0) for x in residuals), "the start is off the constraints")
 
 
@@ -89,9 +88,8 @@ def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate
     """Results at a start, whose letters are 1. Raises NotProved where one is not defined."""
     numbers = [*at, *balls(certificate["motion"]["parameters"])]
     arguments = [*numbers, *[arb(1)] * (len(words.arguments) - len(numbers))]
-    values = [
-        x.value.at_start() for x in evaluate(words.tape(places), [Dual(BoundedSeries([x], ZERO, 1)) for x in arguments])
-    ]
+    duals = [Dual(Series([x], ZERO, 1)) for x in arguments]
+    values = [x.value.at_start() for x in evaluate(words.tape(places), duals)]
     demand(all(x.is_finite() for x in values), "what is named is not defined at the start")
     return values
 
@@ -118,14 +116,11 @@ def _check_scene(certificate: Any, data: Any) -> None:
 
 
 def _check_structure(certificate: Any, data: Any) -> None:
-    demand(
-        3 * len(data["joints"]) <= len(certificate["motion"]["outputs"]),
-        "the structure has more rotors than the program",
-    )
+    fits = 3 * len(data["joints"]) <= len(certificate["motion"]["outputs"])
+    demand(fits, "the structure has more rotors than the program")
     kinds = {"rotor": Rotor, "link": Link, "braces": Brace}
-    program, constraints = structure_program(
-        Assembly(**data | {name: [kind(**x) for x in data[name]] for name, kind in kinds.items()})
-    )
+    rows = {name: [kind(**x) for x in data[name]] for name, kind in kinds.items()}
+    program, constraints = structure_program(Assembly(**data | rows))
     _check_generated(certificate, Field(program, {}, (), constraints=constraints))
 
 
@@ -198,10 +193,8 @@ class LagrangianOfWords:
         rows = [self.by(f, self.v) for f in self.residual]
         still = [words.slope(f, self.moving) for f in self.residual]
         clock = [unit] * self.timed
-        results, targets = (
-            [*self.rates[: self.n], *self.rates[2 * self.n :], *still],
-            [*self.v, *clock, *[zero] * len(still)],
-        )
+        results = [*self.rates[: self.n], *self.rates[2 * self.n :], *still]
+        targets = [*self.v, *clock, *[zero] * len(still)]
         demand_equal(words, results, targets, "the rates are not those of velocities under the constraints")
         n, k = self.n, len(rows)
         for values, p in residues(words, [*chain(*rows), *self.missing()]):
@@ -212,9 +205,8 @@ class LagrangianOfWords:
         whole += [row + [zero] * k for row in rows]
         places = [*chain(*whole), self.L, self.D, *self.forces]
         results = _values(words, places, _middle(self.certificate), self.certificate)
-        regular = (
-            arb_mat(n + k, n + k, results[: (n + k) ** 2]).det() != 0
-        )  # as a ball: letters modulo a prime may be dependent
+        # As a ball, since symbols can be dependent modulo a prime.
+        regular = arb_mat(n + k, n + k, results[: (n + k) ** 2]).det() != 0
         demand(regular, "the Lagrangian is not shown to give accelerations")
 
 
@@ -222,7 +214,7 @@ def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:
     """Return the second derivatives of an output by its first n arguments, from its series along each one and each pair."""
 
     def along(*directions: int) -> Ball:
-        rows = [Dual(BoundedSeries([x, arb(int(i in directions))], ZERO, 3)) for i, x in enumerate(at)]
+        rows = [Dual(Series([x, arb(int(i in directions))], ZERO, 3)) for i, x in enumerate(at)]
         return term(evaluate(tape, rows)[0].value, 2)
 
     alone = [along(i) for i in range(n)]

@@ -22,14 +22,7 @@ from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdicts import Answer, LineVerdict, Verdict
 from lagrotor.proofs.coq.cofactors import LetterEquation, elimination
-from lagrotor.proofs.coq.coq_terms import (
-    Comparison,
-    Terms,
-    comment,
-    comparison,
-    conditions_of_value,
-    declared_signs,
-)
+from lagrotor.proofs.coq.coq_terms import Comparison, Terms, comment, comparison, conditions_of_value, declared_signs
 from lagrotor.proofs.coq.equality_steps import Sides, in_one
 from lagrotor.proofs.coq.points import points_of, rational_bounds, value_at_point
 from lagrotor.proofs.coq.remainders import SeriesRemainder, remainder, value_at_zero
@@ -117,7 +110,7 @@ class Proposition:
     equations: tuple[tuple[str, sp.Expr, sp.Expr], ...] = ()
     region: tuple[sp.Basic, ...] = ()
     stands_for: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
-    within: sp.Rational | None = None
+    tolerance: sp.Rational | None = None
     small: sp.Symbol | None = None
     order: int | None = None
 
@@ -183,9 +176,9 @@ def _symbols_for_operators(sides: list[Any]) -> dict[sp.Expr, sp.Symbol]:
 
 def _unscaled(premise: Premise) -> Iterator[tuple[sp.Basic, Any]]:
     """Yield the rows of a premise; a symbol that it replaces is a new symbol on the right."""
-    scale_terms = {old: sp.Symbol(f"{old}_scaled", **old.assumptions0) for old in premise.put if old.is_Symbol}
+    scaled = {old: sp.Symbol(f"{old}_scaled", **old.assumptions0) for old in premise.put if old.is_Symbol}
     for old, new in premise.put.items():
-        yield old, sp.sympify(new, strict=True).xreplace(scale_terms)
+        yield old, sp.sympify(new, strict=True).xreplace(scaled)
 
 
 @dataclass(frozen=True)
@@ -288,9 +281,8 @@ def _hypotheses(p: Proposition, extra: Iterable[sp.Expr] = ()) -> _Hypotheses:
     if len({function for function, _ in functions}) < len(functions):
         raise NotExactError("a function is called with different numbers of arguments")
     signs = tuple(declared_signs(letters))
-    return _Hypotheses(
-        terms, letters, tuple(functions), p.stands_for, signs, p.equations, (*conditions_of_value(expressions), *region)
-    )
+    conditions = (*conditions_of_value(expressions), *region)
+    return _Hypotheses(terms, letters, tuple(functions), p.stands_for, signs, p.equations, conditions)
 
 
 def _as_comparison(condition: sp.Basic) -> Comparison:
@@ -306,7 +298,7 @@ def _equality_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
     """Return the theorem that both sides are equal, and with hypotheses the theorem that they hold somewhere."""
     h, sides = _prepare(p)
     pairs = list(p.pairs)
-    if p.within is not None:
+    if p.tolerance is not None:
         return _ratio_theorem(p, h, sides)
     tactics = [sides.equality(*pair) for pair in pairs]
     claims = [f"{h.terms.write(lhs)} = {h.terms.write(rhs)}" for lhs, rhs in pairs]
@@ -341,7 +333,7 @@ def _ratio_theorem(p: Proposition, h: "_Hypotheses", sides: Sides) -> tuple[tupl
     If the constant contains roots, both sides are nonnegative, and their squares have a rational ratio.
     """
     ratio = sp.cancel(sides.value(p.printed) / sides.value(p.derived))
-    write, bound = h.terms.write, f"<= {h.terms.write(p.within)}"
+    write, bound = h.terms.write, f"<= {h.terms.write(p.tolerance)}"
     if ratio.is_Rational:
         tactic = sides.equality(p.printed, ratio * p.derived)
         near = "apply Rabs_le; lra."
@@ -377,7 +369,7 @@ def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[s
     """Return the pairs whose difference vanishes through the order: the sides; for a number read off a run, the ratio and its
     limit.
     """
-    if p.within is None:
+    if p.tolerance is None:
         return list(p.pairs)
     inverse = sp.Pow(p.derived, -1, evaluate=False)
     ratio = sp.Mul(p.printed, inverse, evaluate=False)  # as it is printed, nothing cancelled
@@ -392,11 +384,9 @@ def _to_order(
     rests = [remainder(draft, lhs - rhs, small, order) for lhs, rhs in pairs]
     h, sides = _prepare(p, [e for pair in pairs for e in pair] + [row.factor for row in rests])
     write = h.terms.write
-    claims = [
-        f"{write(a)} - ({write(b)}) = {write(r.power)} * ({write(r.factor)})"
-        for (a, b), r in zip(pairs, rests, strict=True)
-    ]
-    tactics = [sides.equality(a - b, r.power * r.factor) for (a, b), r in zip(pairs, rests, strict=True)]
+    rows = [*zip(pairs, rests, strict=True)]
+    claims = [f"{write(a)} - ({write(b)}) = {write(r.power)} * ({write(r.factor)})" for (a, b), r in rows]
+    tactics = [sides.equality(a - b, r.power * r.factor) for (a, b), r in rows]
     for name, bound in _sines_over(small, rests):
         claims.append(f"Rabs ({write(name)}) <= Rabs ({write(bound)})")
         tactics.append("apply sine_is_small.")
@@ -416,8 +406,8 @@ def _order_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
     assert small is not None
     pairs = _differences(p, draft, small)
     h, sides, claims, tactics, _ = _to_order(p, small, (p.order or 0) + 1, pairs)
-    if p.within is not None:
-        claims.append(f"Rabs ({h.terms.write(pairs[0][1])} - 1) <= {h.terms.write(p.within)}")
+    if p.tolerance is not None:
+        claims.append(f"Rabs ({h.terms.write(pairs[0][1])} - 1) <= {h.terms.write(p.tolerance)}")
         tactics.append("interval.")
     head = f"{p.name}: {p.quantity}: {p.verdict}: through order {p.order} in {small}"
     return _theorem(p.name, head, h, sides, claims, tactics)
@@ -523,8 +513,8 @@ def _counterexample(name: str, p: Proposition) -> str:
         raise NotExactError("a point says nothing of a derivative or an integral")
     h = _hypotheses(p)
     hold, (values, unsolved) = [*h.signs, *h.defined], elimination(h.pairs)
-    pairs = [(lhs, rhs, lhs - rhs if p.within is None else lhs / rhs - 1) for lhs, rhs in p.pairs]
-    least = p.within or sp.S.Zero
+    pairs = [(lhs, rhs, lhs - rhs if p.tolerance is None else lhs / rhs - 1) for lhs, rhs in p.pairs]
+    least = p.tolerance or sp.S.Zero
     best: tuple[Any, dict[sp.Symbol, sp.Expr], tuple[sp.Expr, ...]] | None = None
     for point in points_of(h.letters, values, hold, 24, zeros=[*unsolved.values()]):
         for pair in pairs:
@@ -538,7 +528,7 @@ def _counterexample(name: str, p: Proposition) -> str:
     _, point, (lhs, rhs, difference) = best
     low, high = rational_bounds(value_at_point(difference, point))
     write = h.terms.write
-    text = f"{write(lhs)} - ({write(rhs)})" if p.within is None else f"({write(lhs)}) / ({write(rhs)}) - 1"
+    text = f"{write(lhs)} - ({write(rhs)})" if p.tolerance is None else f"({write(lhs)}) / ({write(rhs)}) - 1"
     rows = [proposition for _, proposition, _ in h.named]
     return _point_theorem(name, h, point, " /\\ ".join([*rows, f"\n  {write(low)} <= {text} <= {write(high)}"]))
 

@@ -62,10 +62,8 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
                 over = ring.monomial_div(p.LM, member.LM)
                 if over is not None:
                     factor = ring.term_new(over, p.LC / member.LC)
-                    p, row = (
-                        _bounded(p - factor * member),
-                        [a + factor * b for a, b in zip(row, combination, strict=True)],
-                    )
+                    p = _bounded(p - factor * member)
+                    row = [a + factor * b for a, b in zip(row, combination, strict=True)]
                     break
             else:
                 rest, p = rest + p.leading_term(), p - p.leading_term()
@@ -126,9 +124,8 @@ def _quotient(node: sp.Expr, ring: PolyRing, letters: dict[sp.Symbol, PolyElemen
     fractions = [_quotient(argument, ring, letters) for argument in (node.args if not node.is_Pow else node.args[:1])]
     if node.is_Add:
         common = tuple(map(max, *(powers for _, powers in fractions)))
-        raised = (
-            p * ring({tuple(a - b for a, b in zip(common, powers, strict=True)): sp.QQ(1)}) for p, powers in fractions
-        )
+        shifts = [tuple(a - b for a, b in zip(common, powers, strict=True)) for _, powers in fractions]
+        raised = (p * ring({shift: sp.QQ(1)}) for (p, _), shift in zip(fractions, shifts, strict=True))
         return _bounded(reduce(lambda a, b: a + b, raised)), common
     if node.is_Mul:
         return reduce(_times, fractions)

@@ -76,9 +76,8 @@ def read_certificates(folder: Path) -> list[CertifiedEquation]:
     try:
         rows = [_row(data) for data in json.loads(read_text(folder / CERTIFICATE_LIST))]
     except (ValueError, TypeError, KeyError, AttributeError):
-        raise InputError(
-            f"{folder / CERTIFICATE_LIST} cannot be read: write it again with lagrotor audit --certify"
-        ) from None
+        file = folder / CERTIFICATE_LIST
+        raise InputError(f"{file} cannot be read: write it again with lagrotor audit --certify") from None
     for row in rows:
         if row.file and (row.file != file_name(row.id) or not (folder / row.file).is_file()):
             raise InputError(f"{folder / CERTIFICATE_LIST} lists {row.file!r}, which is not there: write it again")
@@ -214,9 +213,8 @@ def _compile(folder: Path, name: str, text: str) -> str:
     if run.returncode == 0:
         return ""
     message = " ".join((run.stderr or run.stdout).split())
-    return (
-        re.sub(r'^File "[^"]*", (line \d+), characters [\d-]+: (?:Error: )?', r"\1: ", message)[:300] or "coqc failed"
-    )
+    place = r'^File "[^"]*", (line \d+), characters [\d-]+: (?:Error: )?'
+    return re.sub(place, r"\1: ", message)[:300] or "coqc failed"
 
 
 def foreign_word(text: str) -> str:

@@ -99,9 +99,7 @@ class Terms:
         if node.func in _FUNCTIONS:
             return f"{_FUNCTIONS[node.func]} {self._within(node.args[0], 4)}", 3
         if node.func in QUOTIENTS:
-            over, under = (
-                1 if function is None else function(*node.args, evaluate=False) for function in QUOTIENTS[node.func]
-            )
+            over, under = (1 if f is None else f(*node.args, evaluate=False) for f in QUOTIENTS[node.func])
             return f"{self._within(sp.sympify(over, strict=True), 2)} / {self._within(under, 3)}", 2
         raise NotExactError(f"{getattr(node, 'func', node)} has no term over the reals")
 

@@ -105,14 +105,12 @@ class Sides:
         The substitution of premises brings new terms, which are rewritten after it; the value of a symbol is not, since the
         premise substitutes it.
         """
-        rows = sorted(
-            ((kind == "whole", *row) for kind, steps in self._rewritten.items() for row in steps), reverse=True
-        )
+        steps = [(kind == "whole", *row) for kind, rows in self._rewritten.items() for row in rows]
+        rows = sorted(steps, reverse=True)
         letters = [name for _, _, name, letter in rows if letter]
         early, all_names = ([name for _, _, name, letter in rows if not (letter and late)] for late in (False, True))
-        first, second = (
-            f"rewrite {', '.join(f'?{name}' for name in names)}. " if names else "" for names in (early, all_names)
-        )
+        lists = (", ".join(f"?{name}" for name in names) for names in (early, all_names))
+        first, second = (f"rewrite {names}. " if names else "" for names in lists)
         cleared = f"clear {' '.join(letters)}. " if letters else ""
         unfolded = "".join(f"try unfold {name}. " for name in self._quotients)
         return first + (unfolded + cleared + self.substitution + second if self.eliminated or unfolded else "")
@@ -280,10 +278,8 @@ class Sides:
         root = f"sqrt ({write(base)})"
         self.steps.append(f"destruct (a_letter_for ({root} * ({write(under)}))) as [{name} {self._name('sum')}].")
         square = f"replace (({root} * ({write(under)})) ^ 2) with ({root} ^ 2 * ({write(under)}) ^ 2) by ring"
-        krawczyk_proof = (
-            f"intro zero_2. subst {name}. {square}. replace ({root} ^ 2) with ({write(base)}) by lra. same."
-        )
-        self._relate("root", letter**2 - sp.expand(base * under**2), tactics + krawczyk_proof)
+        conclusion = f"intro zero_2. subst {name}. {square}. replace ({root} ^ 2) with ({write(base)}) by lra. same."
+        self._relate("root", letter**2 - sp.expand(base * under**2), tactics + conclusion)
 
     def _absolute(self, node: sp.Expr) -> tuple[sp.Expr, str]:
         inner = sp.expand(self.value(node.args[0]))
@@ -330,9 +326,8 @@ class Sides:
                 self._rewritten["whole"].append((len(text), whole, base.is_Symbol))
         if not positive:
             for factor in sorted(names, key=self.terms.write):
-                proof = f"intro zero_1. apply {condition}. " + (
-                    f"rewrite {whole}, zero_1. unfold Rdiv. ring." if whole else "exact zero_1."
-                )
+                closing = f"rewrite {whole}, zero_1. unfold Rdiv. ring." if whole else "exact zero_1."
+                proof = f"intro zero_1. apply {condition}. {closing}"
                 self._assert(self._name("apart"), f"{self.terms.write(factor)} <> 0", proof)
         self._nonzero |= names
         self._values[key] = value
@@ -342,14 +337,11 @@ class Sides:
         polynomial_of = {letter: polynomial for polynomial, letter in self._factors.items()}
         for factor in sorted(factors, key=self.terms.write):
             text = self.terms.write(factor)
-            inner = (
-                f"replace {text} with ({self.terms.write(polynomial_of[factor])}) by congruence. "
-                if factor in polynomial_of
-                else ""
-            )
-            self._assert(
-                self._name("apart"), f"{text} <> 0", f"apply more_than_zero. {inner}{self.substitution}positive."
-            )
+            inner = ""
+            if factor in polynomial_of:
+                inner = f"replace {text} with ({self.terms.write(polynomial_of[factor])}) by congruence. "
+            tactics = f"apply more_than_zero. {inner}{self.substitution}positive."
+            self._assert(self._name("apart"), f"{text} <> 0", tactics)
 
     def _factor_powers(self, ring: PolyRing, polynomial: PolyElement) -> tuple[sp.Expr, list[tuple[sp.Symbol, int]]]:
         """Return a number, and powers of symbols for the irreducible factors."""
@@ -439,9 +431,8 @@ class Sides:
             elif key[0] == "root":
                 meanings[letter] = (sp.sqrt(key[1]) * _under(key[1])).xreplace(meanings)
             else:
-                meanings[letter] = (
-                    functions[key[0]](key[1].xreplace(meanings)) if key[0] in functions else key[1].xreplace(meanings)
-                )
+                inner = key[1].xreplace(meanings)
+                meanings[letter] = functions[key[0]](inner) if key[0] in functions else inner
         return meanings | {letter: polynomial.xreplace(meanings) for polynomial, letter in self._factors.items()}
 
     def small_pairs(self, small: sp.Symbol) -> dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]]:

@@ -39,9 +39,8 @@ def points_of(
         free = {x: abs(v) if x.is_nonnegative else -abs(v) if x.is_nonpositive else v for x, v in free.items()}
         if zeros and not _solve(free, zeros, drawn):
             continue
-        point = free | {
-            x: sp.sympify(value, strict=True).xreplace(free) for x, value in eliminated.items() if x in letters
-        }
+        values = {x: sp.sympify(value, strict=True) for x, value in eliminated.items() if x in letters}
+        point = free | {x: value.xreplace(free) for x, value in values.items()}
         if all(_holds(sign, value_at_point(e, point)) for sign, e in hold):
             yield point
             count += 1

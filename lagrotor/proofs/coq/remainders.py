@@ -52,11 +52,10 @@ def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -
         factor = (sp.expand(polynomial / letter**order) / under).xreplace(meaning)
         return SeriesRemainder(power**order, factor, factor.xreplace({small: sp.S.Zero}))
     over_small = {x: sp.Dummy() for x in used if x is not small}
-    scale_terms = polynomial.xreplace({x: y * small ** near.weights[x] for x, y in over_small.items()})
+    scaled = polynomial.xreplace({x: y * small ** near.weights[x] for x, y in over_small.items()})
     meanings = {y: meaning[x] / small ** near.weights[x] for x, y in over_small.items()}
-    return SeriesRemainder(
-        small**order, (sp.expand(scale_terms / small**order) / under).xreplace(meaning).xreplace(meanings)
-    )
+    factor = (sp.expand(scaled / small**order) / under).xreplace(meaning).xreplace(meanings)
+    return SeriesRemainder(small**order, factor)
 
 
 class _Near:
@@ -82,12 +81,8 @@ class _Near:
         earlier: list[tuple[sp.Symbol, sp.Expr]] = []
         for generator, square in sorted(sides.roots(), key=lambda row: str(row[0])):
             if small in self.meaning[generator].free_symbols:
-                self._add_root(
-                    generator,
-                    sp.expand(square.xreplace(self.put)),
-                    sp.sqrt(sp.expand(square.xreplace(at_zero))),
-                    earlier,
-                )
+                value = sp.sqrt(sp.expand(square.xreplace(at_zero)))
+                self._add_root(generator, sp.expand(square.xreplace(self.put)), value, earlier)
 
     def _add_root(
         self, root: sp.Symbol, square: sp.Expr, at_zero: sp.Expr, earlier: list[tuple[sp.Symbol, sp.Expr]]
@@ -96,9 +91,8 @@ class _Near:
         if not at_zero.is_Rational or at_zero == 0:
             raise NotExactError(f"{self.meaning[root]} has no rational value where {self.small} is zero")
         letter, bases = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
-        base, gap = max(
-            ((y, sp.expand(square - base_square)) for y, base_square in bases), key=lambda row: self.least(row[1])
-        )
+        gaps = [(y, sp.expand(square - base_square)) for y, base_square in bases]
+        base, gap = max(gaps, key=lambda row: self.least(row[1]))
         self.put[root] = base + gap * letter
         self.meaning[letter] = 1 / (self.meaning[root] + self.meaning.get(base, base))
         if base is at_zero:

@@ -99,9 +99,8 @@ def conservative_kind(matrix: Matrix, ones: int) -> tuple[Kind, Ball | None]:
     if pairs not in (0, 2):
         return "undecided", None
     if not fits_pairs(matrix, total, ones):
-        raise InputError(
-            f"periodic_orbit: the multipliers are not {ones} ones and a pair: the system has fewer integrals"
-        )
+        what = f"the multipliers are not {ones} ones and a pair: the system has fewer integrals"
+        raise InputError(f"periodic_orbit: {what}")
     if not pairs:
         return "parabolic", None
     return "elliptic" if abs(total) < 2 else "hyperbolic" if abs(total) > 2 else "undecided", total
@@ -260,9 +259,8 @@ def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: 
     for grow in (2**10, 2**16, 2**24):
         spread = [arb(0)] * len(middle)
         for i, x in zip(problem.free, sizes, strict=True):
-            spread[i] = arb(
-                0, (grow * (x + abs(middle[i]) * arb(2) ** (20 - accuracy.bits) + arb(2) ** -accuracy.bits)).upper()
-            )
+            unit = arb(2) ** -accuracy.bits
+            spread[i] = arb(0, (grow * (x + abs(middle[i]) * 2**20 * unit + unit)).upper())
         start = Start(middle, spread)
         steps = tuple(steps_of(problem.motion, start, arb(1), accuracy))
         proof = krawczyk_proof(problem, start, A, steps, ones, accuracy.bits)
@@ -270,18 +268,14 @@ def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: 
             if not proof.states()[-1] > 0:
                 raise NotProved(f"{where}: Newton's method leads to a period of zero: start nearer to the orbit")
             return proof
+    size = f"{float(max(sizes)):.1g}"
     raise NotProved(
-        f"{where}: Newton's method comes within {float(max(sizes)):.1g} of an orbit, but Krawczyk's test does not close there"
+        f"{where}: Newton's method comes within {size} of an orbit, but Krawczyk's test does not close there"
     )
 
 
 def krawczyk_proof(
-    problem: OrbitProblem,
-    start: Start,
-    A: Matrix,
-    steps: tuple[LohnerStep, ...],
-    ones: int,
-    bits: int,
+    problem: OrbitProblem, start: Start, A: Matrix, steps: tuple[LohnerStep, ...], ones: int, bits: int
 ) -> OrbitProof | None:
     """Return the proof if the Krawczyk test closes, else None."""
     last = steps[-1].end

@@ -97,11 +97,8 @@ class Crossing(Proved):
         dict[str, str]
             Name → text.
         """
-        return {
-            "expression": words(self.expression)["of"],
-            "theorem": self.theorem,
-            "steps": str(len(self.certificate["steps"])),
-        }
+        steps = str(len(self.certificate["steps"]))
+        return {"expression": words(self.expression)["of"], "theorem": self.theorem, "steps": steps}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -145,15 +142,13 @@ def prepare(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[An
     names = letters | constants | {str(s) for s in (*field.arguments, *(field.observables or ()))}
     for name, e in ((str(e.lhs), e) for e in named):
         if not name.isidentifier() or name in names or hasattr(sp.functions, name):
-            raise InputError(
-                f"proved: {e}: {name} must be a name of its own, of no state, parameter, constant or function"
-            )
+            what = "must be a name of its own, of no state, parameter, constant or function"
+            raise InputError(f"proved: {e}: {name} {what}")
         if any(str(equation.lhs) == name and equation.rhs != e.rhs for equation in named):
             raise InputError(f"proved: {name} has two meanings: give each expression a name of its own")
     if both := letters & constants:
-        raise InputError(
-            f"proved: {', '.join(sorted(both))} is a state or parameter and a constant: take another letter"
-        )
+        name = ", ".join(sorted(both))
+        raise InputError(f"proved: {name} is a state or parameter and a constant: take another symbol")
     return field, field.function(plain), Start(*field.start_set)
 
 
@@ -238,8 +233,9 @@ def crossing(
                 return Crossing(event, True, time, clear, certificate)
             clear = clear and not pending
             last_sign, since, pending = sign, step.node.t + step.h * high, False
+        name = words(event)["of"]
         raise NotProved(
-            f"{where}: {words(event)['of']} keeps its sign, or is not shown to change it, up to t = {format_ball(end, 10)}"
+            f"{where}: {name} keeps its sign, or is not shown to change it, up to t = {format_ball(end, 10)}"
         )
 
 

@@ -160,10 +160,8 @@ def locate(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Bal
         last_size = size
         middle = [exact(a - b) for a, b in zip(middle, move, strict=True)]
     for grow in (2, 16, 2**10, 2**20):
-        w = [
-            arb(0, (grow * (upper(x) + arb(2) ** -200 + abs(m) * arb(2) ** -60)).upper())
-            for x, m in zip(move, middle, strict=True)
-        ]
+        sizes = [upper(x) + arb(2) ** -200 + abs(m) * arb(2) ** -60 for x, m in zip(move, middle, strict=True)]
+        w = [arb(0, (grow * size).upper()) for size in sizes]
         box = [a + b for a, b in zip(middle, w, strict=True)]
         value = values_at(forces, [*middle, *still, *parameters])
         _, rows = values_at(forces, [*box, *still, *parameters], True)

@@ -127,9 +127,8 @@ def precession(scene: Scene, r0: Any, tol: float = TOL) -> Precession:
     """
     accuracy = accuracy_of(tol, "precession")
     if isinstance(r0, tuple | list):
-        raise InputError(
-            f"precession: r0 = {r0!r} must be one number; the precessions of an interval are not proved at once"
-        )
+        what = "must be one number; the precessions of an interval are not proved at once"
+        raise InputError(f"precession: r0 = {r0!r} {what}")
     with precision(accuracy.bits, accuracy.terms):
         amplitude = ball(r0, "precession: r0")
         if not 0 < amplitude < 1:
