@@ -26,7 +26,11 @@ NAMES = {
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
-KEYWORDS: dict[str, dict[str, str]] = {}
+KEYWORDS: dict[str, dict[str, str]] = {
+    "crossing": {"before": "t_end"},
+    "no_crossing": {"until": "t_end"},
+    "periodic_orbit": {"held": "fixed"},
+}
 
 P = ParamSpec("P")
 R = TypeVar("R")

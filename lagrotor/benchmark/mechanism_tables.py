@@ -1,4 +1,4 @@
-"""What was measured on the mechanisms, as tables, and beside the targets."""
+"""Tables of the measurements on mechanisms, also against the targets."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -23,7 +23,7 @@ def mechanism_name(kind: MechanismKind, n: int) -> str:
 
 
 def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
-    """One row a tool and mechanism; a tool that was left out has its reason."""
+    """Return one row for each tool and mechanism; a tool that was not run has its reason."""
     return [
         (
             mechanism_name(x.kind, x.n),
@@ -37,8 +37,7 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
 
 
 def beside_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
-    """One row a mechanism and what it is made from, lagrotor beside sympy's method of the same; where that did not end within
-    the `longest` processor time, s, the reason, and the least that the times can be."""
+    """Return one row for each mechanism and source, with sympy's method; `longest` is its limit in s of processor time."""
     table, by_tool = list[_Row](), {(row["mechanism"], row["tool"]): row for row in rows}
     for name in dict.fromkeys(row["mechanism"] for row in rows):
         for source, method in zip(("bodies", "Lagrangian"), _METHODS, strict=True):
@@ -64,7 +63,7 @@ def beside_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
 
 
 def decision_rows(decided: Sequence[Decided]) -> list[_Row]:
-    """One row a pair of formulations."""
+    """Return one row for each pair of formulations."""
     return [
         (
             x.pair,
@@ -84,9 +83,9 @@ def target_rows(
     operations: dict[MechanismKind, list[int]],
     records: Sequence[dict[str, Any]],
 ) -> list[_Row]:
-    """What is wanted of the tool, and what was measured; — where a tool was not there.
+    """Return the targets with the measured values; — without a tool.
 
-    operations: of one evaluation, on each of LINKS. beside: the rows of the record of bodies and Lagrangians.
+    operations: of one evaluation, for each of LINKS; records: the rows of the record of bodies and Lagrangians.
     """
     by_tool = {(x.kind, x.n, x.tool): x for x in measured}
     recorded, none = {(x["mechanism"], x["tool"]): x for x in records}, {"ready": None, "rhs": None}

@@ -1,4 +1,4 @@
-"""Speed against accuracy: every model, solver and tolerance on the same scenes, held to the same reference."""
+"""The benchmark's scenes and methods: every model, solver and tolerance against the same reference."""
 
 import warnings
 from collections.abc import Callable, Iterable
@@ -75,7 +75,7 @@ def _model(model: str, engine: str = "core") -> Prepare:
 
 
 def _springs(stiffer: float) -> Prepare:
-    """The paper's own method, its springs `stiffer` times as stiff at the same ratio of damping."""
+    """Return the paper's own method with springs `stiffer` times as stiff, at the same damping ratio."""
 
     def prepare(scene: Scene, t_eval: Array) -> Runner:
         system = paper_system(scene, stiffer * STIFFNESS, stiffer**0.5 * DAMPING)
@@ -125,7 +125,7 @@ _LEFT_OUT = {
 
 
 def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Benchmark]:
-    """All four cases; on the shock the plain calls, too. step: called with each name."""
+    """Run all four cases, and the plain solver calls on the shock; `step` is called with each name."""
     longest = (LONGEST_QUICK_RUN if quick else LONGEST_RUN).value
     charts = []
     for name, case in CASES.items():
@@ -149,7 +149,7 @@ OURS: dict[str, tuple[Family, ...]] = {"any model": ("closed", "core"), "core": 
 
 
 def ratios(chart: Benchmark, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
-    """Error → seconds of the best of OURS, and how many times longer core takes than fast; None where one does not reach it."""
+    """Return error → time in s of the best of OURS, and the ratio of core to fast; None if one does not reach the error."""
     points = {name: [p for p in chart.points if p.family in families] for name, families in OURS.items()}
     table = {}
     for error in errors:

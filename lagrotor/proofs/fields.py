@@ -136,7 +136,6 @@ class Field:
 
     @property
     def states(self) -> tuple[sp.Symbol, ...]:
-        """The symbols of the states, in order."""
         return self.program.arguments[: len(self.program.outputs)]
 
     @cached_property
@@ -248,9 +247,7 @@ def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
 
 
 def scene_field(scene: Scene) -> Field:
-    """Return the field of the pair in (U, chi, alpha, rates[, t]), the bar eliminated; a shock is in the equations at all
-    times.
-    """
+    """Return the field of the pair in (U, chi, alpha, rates[, t]), the bar eliminated; a shock acts at all times."""
     if scene.link is None:
         raise SingularError("proved: the scene has no bar to eliminate; take the two rotors as a Structure")
     exactly = scene_numbers(scene)

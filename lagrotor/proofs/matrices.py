@@ -48,10 +48,7 @@ def middle_inverse(slope: Matrix) -> Matrix:
 
 
 def inverse(matrix: Matrix) -> Matrix:
-    """Enclose the inverses of all matrices in a ball: X (1 + R + R² + …), X near the midpoint's inverse, R = 1 − M X.
-
-    Raises NotProved if the series is not proved to converge.
-    """
+    """Enclose all inverses of a matrix ball: X (1 + R + R² + …), R = 1 − M X. Raises NotProved if the series may diverge."""
     n, X = matrix.nrows(), middle_inverse(matrix)
     R = identity(n) - matrix * X
     size = matrix_norm(R)

@@ -1,4 +1,4 @@
-"""The error of the paired orbit's closed forms over amplitude and spin ratio: one ensemble, run exactly, beside each."""
+"""The error of the closed forms of the paired orbit over amplitude and spin ratio, against one exact ensemble."""
 
 from dataclasses import dataclass, replace
 from math import pi
@@ -20,10 +20,10 @@ _TIMES = 12
 
 @dataclass(frozen=True, eq=False)
 class Usefulness:
-    """Amplitudes r0 (n,), departures 1 + omega_2/omega_1 (m,) from opposite spins, orders, errors (orders, m, n) in R.
+    """Amplitudes r0 (n,), departures 1 + omega_2/omega_1 (m,) from opposite spins, orders, and errors (orders, m, n) in R.
 
-    error: largest distance over the first turn between the axes of the series, which holds for opposite spins, and of
-    the exact pair started alike.
+    error: the largest distance over the first turn between the axes of the series for opposite spins and of the exact pair
+    from the same start.
     """
 
     amplitudes: Array
@@ -35,9 +35,9 @@ class Usefulness:
 def usefulness(
     amplitudes: Array, departures: Array, orders: tuple[int, ...] = (1, 3, 5), spin: float = 10.0, tol: float = 1e-10
 ) -> Usefulness:
-    """Run every scene of the grid over one turn and hold each series to it, in time, with the series' own frequency.
+    """Compare each series, with its own frequency, to the exact run of every scene of the grid over one turn.
 
-    Raises InputError for amplitudes or departures that are not rows of numbers.
+    Raises InputError if amplitudes or departures are not rows of numbers.
     """
     if np.ndim(amplitudes) != 1 or np.ndim(departures) != 1 or not len(amplitudes) or not len(departures):
         raise InputError("usefulness: amplitudes and departures must be rows of numbers")

@@ -1,4 +1,4 @@
-"""A limit of a method: by a formula, and as measured."""
+"""A limit of a method, predicted and measured."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from math import exp, log
 
 @dataclass(frozen=True)
 class Limit:
-    """One row: the regime, the quantity (with its unit), the formula, its value, the measured value, what lagrotor does there."""
+    """One row: regime, quantity with its unit, formula, predicted and measured value, and lagrotor's way out."""
 
     regime: str
     what: str
@@ -23,9 +23,9 @@ class Limit:
 
 
 def threshold(fails: Callable[[float], bool], low: float, high: float, share: float = 0.01) -> float:
-    """The positive x between low and high at which `fails` changes, to a relative `share`, by halving in log x.
+    """Return the positive x between low and high at which `fails` changes, to a relative `share`, by bisection in log x.
 
-    Raises ValueError when it does not change between them.
+    Raises ValueError if it does not change between them.
     """
     below = fails(low)
     if fails(high) == below:

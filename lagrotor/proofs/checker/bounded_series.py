@@ -13,9 +13,7 @@ Ball = Any
 
 
 class Series:
-    """A power series on 0 ≤ s ≤ 1: n terms, and a bound of the sum of the absolute values of all further ones; nan if it may
-    diverge.
-    """
+    """A power series on 0 ≤ s ≤ 1: n terms, and a bound of the sum of all further absolute values; nan if it may diverge."""
 
     def __init__(self, terms: list[Ball], remainder: Ball, n: int) -> None:
         self.terms, self.remainder, self.n = terms[:n], remainder, n
@@ -128,9 +126,7 @@ def below_one(x: Ball) -> Ball:
 
 
 def sign_over(poly: Any, remainder: Ball, low: Ball, high: Ball, depth: int = 30) -> int:
-    """Return the sign of a polynomial with a remainder between two places, by the mean-value form and bisection; 0 without
-    proof.
-    """
+    """Return the sign of a polynomial with a remainder between two places, by bisection; 0 if it is not proved."""
     s, middle = low.union(high), (low + high) / 2
     value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, remainder.upper())
     if value > 0 or value < 0:

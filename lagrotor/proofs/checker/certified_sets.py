@@ -76,9 +76,7 @@ class Flow:
         demand(0 < self.moving <= self.size, "the motion has no states")
 
     def arguments(self, rows: list[Series], still: Sequence[Ball], by: list[list[Series]] | None, n: int) -> list[Dual]:
-        """Return the series of all arguments; with `by`, the derivatives of the states, also their derivatives by the initial
-        set.
-        """
+        """Return the series of all arguments; with `by`, the derivatives of the states, also all derivatives."""
         flat = [Series([c], ZERO, n) for c in (*still, *self.parameters)]
         if by is None:
             return [Dual(x) for x in (*rows, *flat)]
@@ -89,9 +87,7 @@ class Flow:
         return duals + [Dual(x) for x in flat[len(still) :]]
 
     def step(self, start: list[Ball], h: Ball, n: int, coefficients: list[list[Ball]] | None = None) -> list[Series]:
-        """Return the series of the states over one step, for all initial states in the balls; `coefficients` replace the
-        computed terms.
-        """
+        """Return the series of the states over one step from the balls; `coefficients` replace the computed terms."""
         still = start[self.moving :]
         terms = coefficients or motion_terms(self.tape, start[: self.moving], [*still, *self.parameters], h, n)
         rests = [ZERO] * len(terms)
@@ -148,12 +144,10 @@ def narrower(x: Ball, y: Ball) -> Ball:
 
 
 def widest(values: Sequence[Ball]) -> Ball:
-    """Return the largest of some bounds."""
     return arb(max(values, key=lambda x: float(x.upper())).upper())
 
 
 def term(a: Series, k: int) -> Ball:
-    """Return the coefficient of s^k."""
     return a.terms[k] if k < len(a.terms) else ZERO
 
 
@@ -173,7 +167,6 @@ def end_of(a: Series) -> Ball:
 
 
 def read_node(data: Any) -> tuple[Any, ...]:
-    """Return m, Q, s, C, S."""
     m, s = [number(x) for x in data["m"]], column(balls(data["s"]))
     return m, matrix(data["Q"]), s, matrix(data["C"]), matrix(data["S"], read_ball)
 

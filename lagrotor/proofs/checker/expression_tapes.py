@@ -34,10 +34,7 @@ def tape_of_words(named: Sequence[Any], arguments: Sequence[str], observed: Any)
 
 
 class Words:
-    """The recorded operations of expressions, each once.
-
-    names: the places of arguments and observables; constants: E and pi, unless they name an expression.
-    """
+    """The operations of expressions, each once; names: places of arguments and observables; constants: E and pi."""
 
     def __init__(self, arguments: Sequence[str], observed: Any) -> None:
         self.arguments = [*arguments]
@@ -67,9 +64,7 @@ class Words:
         return place
 
     def place(self, text: str) -> int:
-        """Return the place of an expression's value. Raises NotProved if the text cannot be read; the text is parsed, never
-        run.
-        """
+        """Return the place of an expression's value; the text is parsed, never run. Raises NotProved if it cannot be read."""
         demand(len(text) <= _LONGEST, f"an expression has more than {_LONGEST} characters")
         order = sorted(self.names, key=len, reverse=True)
         pattern = "|".join(map(re.escape, order)) or r"(?!)"
@@ -120,13 +115,10 @@ class Words:
         return self.keep("multiply", square, base) if power % 2 else square
 
     def over(self, above: int, below: int) -> int:
-        """Return the place of a quotient."""
         return self.keep("divide", above, below)
 
     def slope(self, place: int, direction: Mapping[int, int]) -> int:
-        """Return the derivative of a result along a direction, a mapping from argument to component; other components are
-        zero.
-        """
+        """Return the derivative of a result along a direction, argument → component; other components are zero."""
         zero, needed = self.keep("number", "0"), self.below([place])
         slopes = {at: direction.get(at, zero) for at in needed}
         for at in sorted(needed):

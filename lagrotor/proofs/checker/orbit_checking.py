@@ -66,9 +66,7 @@ def check_amplitude(certificate: Any, claimed: Any) -> None:
 
 
 def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, conditions: Any) -> None:
-    """Verify that the start lies in the fixed set of the first reversal, and that the conditions put the end into the last
-    one's.
-    """
+    """Verify that start and conditions are those of the fixed sets of the two reversals."""
     moving = carried.flow.moving
     if not first:
         demand(sorted(conditions) == list(range(moving)), "the orbit is not followed to its start")

@@ -79,10 +79,7 @@ def _prime(seed: str) -> int:
 
 
 class Residues:
-    """The results of a tape modulo a prime.
-
-    attempt: the number of the point, None if roots are indeterminates; signs: one bit for each root.
-    """
+    """The results of a tape modulo a prime; attempt: the number of the point, or None; signs: one bit for each root."""
 
     def __init__(self, tape: Tape, attempt: int | None, signs: int = 0) -> None:
         self.tape, self._digest = tape, sha512(f"{tape} {attempt}".encode()).hexdigest()

@@ -57,9 +57,7 @@ def read_tape(data: Any) -> Tape:
 def results_of(
     tape: Tape, argument: Callable[[int], Value], number: Callable[[str], Value], operation: Callable[..., Value]
 ) -> list[Value]:
-    """Return the results of a tape in an arithmetic, which evaluates an argument's place, a number, and an operation on
-    results.
-    """
+    """Return the results of a tape in an arithmetic: functions of an argument's place, a number, and an operation."""
     results: list[Value] = []
     for name, *on in tape["operations"]:
         if name == "argument":
@@ -82,7 +80,6 @@ def demand_pace(tape: Tape) -> None:
 
 
 def rational_of(text: str) -> Term:
-    """Return a number of a tape."""
     if text == "pi":
         return arb.pi()
     above, _, below = text.partition("/")

@@ -205,7 +205,7 @@ def certificate(verdict: Verdict, entry: Equation) -> tuple[str, tuple[Certified
 
 
 def certified_line(proposition: Proposition) -> CertifiedLine:
-    """Return one line with its theorems, or with the reason why it has none."""
+    """Return one line with its theorems or its reason."""
     about = proposition.name, proposition.quantity, proposition.verdict
     try:
         theorems, text = _theorems(proposition)
@@ -251,7 +251,6 @@ class _Hypotheses:
 
     @property
     def pairs(self) -> list[LetterEquation]:
-        """The equations of the premises."""
         return [(lhs, rhs) for _, lhs, rhs in self.equations]
 
     def binders(self) -> str:
@@ -319,9 +318,7 @@ def _kind_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
 
 
 def _prepare(p: Proposition, extra: Iterable[sp.Expr] = ()) -> tuple["_Hypotheses", Sides]:
-    """Return the hypotheses of a theorem about a line, under which `extra` expressions have values too, and both sides in
-    generators.
-    """
+    """Return the hypotheses under which a line and `extra` expressions have values, and both sides in generators."""
     expressions = [*(e for pair in p.pairs for e in pair), *extra]
     h = _hypotheses(p, extra)
     return h, Sides(h.terms, expressions, h.pairs, h.defined, p.small)
@@ -366,9 +363,7 @@ def _theorem(
 
 
 def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[sp.Expr, sp.Expr]]:
-    """Return the pairs whose difference vanishes through the order: the sides; for a number read off a run, the ratio and its
-    limit.
-    """
+    """Return the pairs whose difference vanishes through the order; for a number read off a run, the ratio and its limit."""
     if p.tolerance is None:
         return list(p.pairs)
     inverse = sp.Pow(p.derived, -1, evaluate=False)
@@ -414,9 +409,7 @@ def _order_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
 
 
 def _refuted_order_theorem(p: Proposition, order: int) -> tuple[tuple[str, ...], str]:
-    """Return the theorems that the sides differ by small**n times a finite factor, and that this factor is not zero at some
-    point.
-    """
+    """Return the theorems that the sides differ by small**n times a finite factor, and that it is nonzero at some point."""
     small = p.small
     assert small is not None
     p = replace(p, equations=_consistent_choices(p.equations)[0])

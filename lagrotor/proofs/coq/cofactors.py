@@ -19,8 +19,7 @@ _MOST_TERMS = 4000
 
 
 def elimination(equations: Sequence[LetterEquation]) -> tuple[dict[sp.Symbol, sp.Expr], dict[int, sp.Expr]]:
-    """Solve the equations with a symbol alone on one side: return symbol → value in the remaining symbols, and place (from 1)
-    → difference of the sides for the other equations.
+    """Return symbol → value for equations with a symbol alone on one side, and place (from 1) → difference for the others.
 
     Raises NotExactError for an equation that contradicts the earlier ones.
     """

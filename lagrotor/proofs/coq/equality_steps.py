@@ -102,8 +102,8 @@ class Sides:
     def _into_generators(self) -> str:
         """Return the tactics that write a goal in generators, the largest denominators and functions first.
 
-        The substitution of premises brings new terms, which are rewritten after it; the value of a symbol is not, since the
-        premise substitutes it.
+        Terms of a substituted premise are rewritten after it; the value of a symbol is not, since the premise substitutes
+        it.
         """
         steps = [(kind == "whole", *row) for kind, rows in self._rewritten.items() for row in rows]
         rows = sorted(steps, reverse=True)

@@ -29,8 +29,7 @@ def points_of(
 ) -> Iterator[dict[sp.Symbol, sp.Expr]]:
     """Yield up to `limit` points that satisfy the eliminated equations and the conditions, the same ones in each call.
 
-    fixed: values of symbols that are not eliminated; zeros: further expressions to vanish, each a polynomial in one of its
-    symbols.
+    fixed: values of symbols; zeros: further expressions to vanish, each a polynomial in one of its symbols.
     """
     drawn, count = random.Random(1), 0
     for _ in range(_TRIES):

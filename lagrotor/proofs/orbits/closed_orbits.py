@@ -40,6 +40,7 @@ from lagrotor.proofs.orbits.enclosure import accuracy_of, add_margin, time_ball
 from lagrotor.proofs.statements import Certificate, Proved
 from lagrotor.proofs.tape import with_pace
 from lagrotor.proofs.taylor_step import Motion
+from lagrotor.renamed import accept_old_keywords
 
 Signs = tuple[int, ...]
 Kind = Literal["elliptic", "hyperbolic", "attracting", "parabolic", "undecided"]
@@ -90,10 +91,7 @@ def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) ->
 
 
 def conservative_kind(matrix: Matrix, ones: int) -> tuple[Kind, Ball | None]:
-    """Return the kind of a conservative orbit with `ones` multipliers equal to 1, and μ + 1/μ of the other pair.
-
-    It is parabolic without another pair, undecided with more pairs.
-    """
+    """Return the kind of a conservative orbit with `ones` multipliers equal to 1, and μ + 1/μ of the one other pair."""
     pairs = matrix.nrows() - ones
     total = trace(matrix) - ones
     if pairs not in (0, 2):
@@ -120,9 +118,7 @@ def fits_pairs(matrix: Matrix, total: Ball, ones: int) -> bool:
 
 
 def general_kind(matrix: Matrix) -> Kind:
-    """Return 'attracting' if all multipliers but the one along the motion lie inside the unit circle, 'hyperbolic' if none is
-    on it.
-    """
+    """Return 'attracting' if all multipliers but the one along the motion lie inside the unit circle, 'hyperbolic' if off it."""
     try:
         multipliers: list[Any] = matrix.eig()
     except ValueError:  # not apart
@@ -195,9 +191,7 @@ class PeriodicOrbit(Proved):
 
 @dataclass(frozen=True, eq=False)
 class OrbitProof:
-    """The Krawczyk test that closed: the problem, the initial box, the preconditioner A, the steps, and the image K of the
-    box.
-    """
+    """A Krawczyk test that closed: initial box, preconditioner A, steps, and the image K of the box."""
 
     problem: OrbitProblem
     start: Start
@@ -308,6 +302,7 @@ def refine_start(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where
     raise NotProved(f"{where}: Newton's method finds no orbit near the start that is given")
 
 
+@accept_old_keywords
 def periodic_orbit(
     system: Any,
     values: Values | None = None,
@@ -387,7 +382,6 @@ def periodic_orbit(
 
 
 def orbit_of(proof: OrbitProof, field: Field) -> PeriodicOrbit:
-    """Return the periodic orbit of a proof."""
     states = proof.states()
     period = states[-1] * proof.problem.turns
     start = tuple(states[: len(field.states)])

@@ -15,6 +15,7 @@ from lagrotor.proofs.statements import Certificate, Proved
 from lagrotor.proofs.tape import Tape
 from lagrotor.proofs.taylor_step import Motion, bound_remainder, scale_terms, taylor
 from lagrotor.proofs.truncated_series import Evaluation, TaylorModel
+from lagrotor.renamed import accept_old_keywords
 
 Problem = tuple[Field, Tape, Start]
 _DEPTH = 12  # halvings of a step
@@ -153,9 +154,7 @@ def prepare(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[An
 
 
 def words(expression: sp.Basic) -> dict[str, str]:
-    """Return the name "of" of an expression and, if it is Eq(name, expression), the text that it "means"; decimals as
-    rationals.
-    """
+    """Return the text "of" an expression; for Eq(name, expression) the name, and the text that it "means"."""
     exact = in_rationals(expression)
     if isinstance(exact, sp.Eq):
         return {"of": str(exact.lhs), "means": str(exact.rhs)}
@@ -168,6 +167,7 @@ def observed_data(field: Field) -> dict[str, Any] | None:
     return field.function([*observables]).data() | {"names": [str(s) for s in observables]} if observables else None
 
 
+@accept_old_keywords
 def crossing(
     system: Any,
     values: Values | None = None,
@@ -239,6 +239,7 @@ def crossing(
         )
 
 
+@accept_old_keywords
 def no_crossing(
     system: Any,
     values: Values | None = None,

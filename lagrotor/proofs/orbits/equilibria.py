@@ -210,11 +210,7 @@ def stability_of(system: Equations, J: Matrix, energy: Matrix) -> tuple[Stabilit
 
 
 def on_axis(eigenvalues: Sequence[tuple[Ball, Ball]]) -> bool:
-    """Return True if all eigenvalues are proved to be imaginary and distinct.
-
-    The spectrum of a conservative system is symmetric about the imaginary axis, and the mirror image of an eigenvalue lies
-    in no other ball.
-    """
+    """Return True if all eigenvalues are imaginary and distinct: the mirror image of each lies in its own ball alone."""
     heights = [imaginary for _, imaginary in eigenvalues]
     apart = all(not x.overlaps(y) for i, x in enumerate(heights) for y in heights[:i])
     return apart and all(real.contains(0) for real, _ in eigenvalues)
