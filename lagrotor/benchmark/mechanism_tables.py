@@ -10,7 +10,7 @@ _Row = tuple[str, ...]
 _RUN, _DIFFERENCE = f"run to {scientific(MECHANISM_ERROR)} rad (ms)", "rhs differs by"
 MECHANISM_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", _RUN, "by", _DIFFERENCE)
 DECISION_HEAD = ("two formulations", "same_as (ms)", "they agree", "simplify (ms)", "they agree", "times")
-BESIDE_HEAD = ("mechanism", "from", "ready (ms)", "sympy (ms)", "times", "rhs (µs)", "sympy (µs)", "times", _DIFFERENCE)
+COMPARISON_HEAD = ("mechanism", "from", "ready (ms)", "sympy (ms)", "times", "rhs (µs)", "sympy (µs)", "times", _DIFFERENCE)
 TARGET_HEAD = ("what", "wanted", "measured")
 _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _OURS, _METHODS = "lagrotor, bodies", ("KanesMethod", "LagrangesMethod")
@@ -36,7 +36,7 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
     ]
 
 
-def beside_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
+def comparison_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
     """Return one row for each mechanism and source, with sympy's method; `longest` is its limit in s of processor time."""
     table, by_tool = list[_Row](), {(row["mechanism"], row["tool"]): row for row in rows}
     for name in dict.fromkeys(row["mechanism"] for row in rows):
@@ -63,18 +63,12 @@ def beside_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
 
 
 def decision_rows(decided: Sequence[Decided]) -> list[_Row]:
-    """Return one row for each pair of formulations."""
-    return [
-        (
-            x.pair,
-            _number(x.ours, 1e3),
-            _AGREE.get(x.answer, x.answer),
-            _number(x.theirs, 1e3),
-            _AGREE.get(x.their_answer, x.their_answer),
-            f"{_at_least(x)}{x.times:.0f}",
-        )
-        for x in decided
-    ]
+    rows = list[_Row]()
+    for x in decided:
+        ours, theirs = (_AGREE.get(answer, answer) for answer in (x.answer, x.their_answer))
+        times = f"{_at_least(x)}{x.times:.0f}"
+        rows.append((x.pair, _number(x.ours, 1e3), ours, _number(x.theirs, 1e3), theirs, times))
+    return rows
 
 
 def target_rows(
@@ -103,11 +97,8 @@ def target_rows(
     for kind, numbers in LINKS.items():
         ready_in = [recorded.get((mechanism_name(kind, n), _OURS), none)["ready"] for n in numbers]
         for what, values in (("operations", operations[kind]), ("time to be ready", ready_in)):
-            doubled = [
-                f"{b / a:.2f}" if a and b else "—"
-                for m, n, a, b in zip(numbers, numbers[1:], values, values[1:], strict=False)
-                if n == 2 * m
-            ]
+            steps = zip(numbers, numbers[1:], values, values[1:], strict=False)
+            doubled = [f"{b / a:.2f}" if a and b else "—" for m, n, a, b in steps if n == 2 * m]
             head = f"{what}, twice the {kind}, from {numbers[-len(doubled) - 1]}"
             table.append((head, "at most 2.3", ", ".join(doubled)))
     for what, answer in (("agree", "zero"), ("differ", "nonzero")):

@@ -21,10 +21,9 @@ from typing import Any, Literal, TypeVar
 from lagrotor import algebra, mechanics, models, numerics, pair, structures, theory
 from lagrotor.errors import LagrotorError
 
-SPEED, MECHANISMS, STRUCTURES, BODIES_AND_LAGRANGIANS = (
-    Path(__file__).with_name(f"recorded_{name}.json")
-    for name in ("speed", "mechanisms", "structures", "bodies_and_lagrangians")
-)
+_NAMES = ("speed", "mechanisms", "structures", "bodies_and_lagrangians")
+_FILES = [Path(__file__).with_name(f"recorded_{name}.json") for name in _NAMES]
+SPEED, MECHANISMS, STRUCTURES, BODIES_AND_LAGRANGIANS = _FILES
 RecordName = Literal["speed", "mechanisms", "structures", "bodies_and_lagrangians"]
 MEASURED_PACKAGES = {
     "speed": (models, numerics, pair, theory),
@@ -70,7 +69,6 @@ class Decided:
 
     @property
     def times(self) -> float:
-        """The ratio of simplify's time to same_as's."""
         return self.theirs / self.ours
 
 

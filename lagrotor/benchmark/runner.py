@@ -180,26 +180,26 @@ def benchmark(
     """
     truth, points, failures, setup = reference(case.scene, case.t_eval), list[ChartPoint](), list[Failure](), {}
     tolerances = tuple(tolerances)
-    for method, one in methods.items():
-        began, settings = time.perf_counter(), one.steps or tolerances
+    for method, entry in methods.items():
+        began, settings = time.perf_counter(), entry.steps or tolerances
         try:
-            runner = one.prepare(case.scene, case.t_eval)
+            runner = entry.prepare(case.scene, case.t_eval)
             with suppress(*_REFUSALS):  # it fails again, and is recorded, in its turn
                 runner(settings[0])
         except ImportError as absent:
-            failures.append(Failure(method, (), f"not installed ({absent.name}): pip install {one.install}"))
+            failures.append(Failure(method, (), f"not installed ({absent.name}): pip install {entry.install}"))
             continue
         except LagrotorError as refusal:
             failures.append(Failure(method, (), str(refusal)))
             continue
         setup[method] = time.perf_counter() - began
-        rows, reasons = _points(method, one, runner, settings, case.repeats, truth, longest)
+        rows, reasons = _points(method, entry, runner, settings, case.repeats, truth, longest)
         setup[method] += max([0.0, *(p.first - p.seconds for p in rows)])
         points += rows
         for reason in sorted(set(reasons.values())):
             at = tuple(setting for setting, why in reasons.items() if why == reason)
             failures.append(Failure(method, () if len(at) == len(settings) else at, reason))
-    failures.sort(key=lambda one: (one.method, one.reason))
+    failures.sort(key=lambda failure: (failure.method, failure.reason))
     return Benchmark(name, case.says, tuple(points), tuple(failures), setup, truth.floor)
 
 

@@ -109,7 +109,7 @@ _LEFT_OUT = {
         "euler": "slower than minimal, which goes as far",
         "springs, 100 times as stiff": "takes two seconds a run",
     }
-    | {name: "slower than minimal" for name, given in ENGINES.items() if given.family == "scipy"},
+    | {name: "slower than minimal" for name, engine in ENGINES.items() if engine.family == "scipy"},
     "long": dict.fromkeys(
         (
             "minimal, DOP853",

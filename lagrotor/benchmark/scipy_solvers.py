@@ -130,7 +130,5 @@ ENGINES: dict[str, Method] = {
     **{f"ode, {name}": Method("scipy", on_minimal(ode_engine(name))) for name in SOLVERS},
 }
 # Plain calls: a shock that comes after a rest is stepped over, but where a step happens to fall into it.
-TRAPS: dict[str, Method] = {
-    f"solve_ivp, {name}, one call": Method("trap", on_minimal(ivp_engine(name), sees_shock=False))
-    for name in ("RK23", *IVP, "DOP853")
-}
+_ONE_CALL = {name: on_minimal(ivp_engine(name), sees_shock=False) for name in ("RK23", *IVP, "DOP853")}
+TRAPS: dict[str, Method] = {f"solve_ivp, {name}, one call": Method("trap", run) for name, run in _ONE_CALL.items()}

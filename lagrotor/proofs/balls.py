@@ -91,7 +91,6 @@ def as_text(x: Ball) -> str:
 
 
 def of_text(text: str) -> Ball:
-    """Return the number of `as_text`."""
     mantissa, _, exponent = text.partition("p")
     bits = max(64, 4 * len(mantissa) + 8)
     with ctx.workprec(bits):
@@ -99,7 +98,6 @@ def of_text(text: str) -> Ball:
 
 
 def ball_data(x: Ball) -> list[str]:
-    """Return [midpoint, radius] as text."""
     return [as_text(exact(x)), as_text(x.rad())]
 
 

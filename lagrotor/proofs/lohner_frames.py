@@ -75,14 +75,8 @@ class Node:
         return [a + b for a, b in zip(self.middle, times(self.derivative, w), strict=True)]
 
     def data(self) -> dict[str, Any]:
-        """Return plain data for a certificate."""
-        return {
-            "m": exact_data(self.m),
-            "Q": matrix_data(self.Q),
-            "s": balls_data(self.s),
-            "C": matrix_data(self.C),
-            "S": [balls_data(row) for row in self.S.tolist()],
-        }
+        s, S = balls_data(self.s), [balls_data(row) for row in self.S.tolist()]
+        return {"m": exact_data(self.m), "Q": matrix_data(self.Q), "s": s, "C": matrix_data(self.C), "S": S}
 
 
 @dataclass(frozen=True)
@@ -96,7 +90,6 @@ class LohnerStep:
     end: Node
 
     def data(self) -> dict[str, Any]:
-        """Return the step and its end node as plain data."""
         return {"h": ball_data(self.h), "terms": self.n, "slope_terms": self.slope_terms, "node": self.end.data()}
 
 
@@ -124,17 +117,14 @@ class Accuracy:
 
     @property
     def terms(self) -> int:
-        """The number of Taylor terms."""
         return max(8, ceil(-1.15 * log10(self.tol)) + 4)
 
     @property
     def slope_terms(self) -> int:
-        """The number of Taylor terms of the derivative."""
         return max(8, ceil(_SLOPE_TERMS * self.terms))
 
     @property
     def bits(self) -> int:
-        """Arb's precision."""
         return ceil(-log10(self.tol) * 3.33) + 40
 
 
@@ -169,10 +159,8 @@ def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ba
     D, slopes = step_derivative(motion, evaluation, h, n)
     if max_of(shift) > _WIDE:
         shifts = [times(slope, shift) for slope in slopes]
-        wide = [
-            [narrower(c, a + shifts[k][i]) for k, (c, a) in enumerate(zip(row, exactly, strict=False))]
-            for i, (row, exactly) in enumerate(zip(wide, at, strict=True))
-        ]
+        for i, (row, exactly) in enumerate(zip(wide, at, strict=True)):
+            wide[i] = [narrower(c, a + shifts[k][i]) for k, (c, a) in enumerate(zip(row, exactly, strict=False))]
         _, evaluation = bound_remainder(motion, wide, box, h, n)
         D, _ = step_derivative(motion, evaluation, h, n)
         D = widen_radii(D)
@@ -277,11 +265,6 @@ def size_of(rows: Sequence[Balls]) -> float:
 
 def flow_data(about: Any, motion: Motion, start: Start, steps: Sequence[LohnerStep], bits: int) -> Certificate:
     """Return the entries that all certificates of a motion share."""
-    return {
-        "version": VERSION,
-        "bits": bits,
-        "about": about,
-        "motion": motion.data(),
-        "start": {"middle": balls_data(start.middle), "spread": balls_data(start.spread)},
-        "steps": [step.data() for step in steps],
-    }
+    initial = {"middle": balls_data(start.middle), "spread": balls_data(start.spread)}
+    data = {"version": VERSION, "bits": bits, "about": about, "motion": motion.data(), "start": initial}
+    return data | {"steps": [step.data() for step in steps]}

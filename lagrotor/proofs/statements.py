@@ -38,13 +38,11 @@ class Proved(Shown):
 
 
 def theorem_of(certificate: Certificate) -> str:
-    """Return the theorem of a certificate in words."""
     with precision(int(certificate.get("bits", 64)) + 64):
         return _WORDS[certificate["kind"]](certificate)
 
 
 def _read_ball(data: Sequence[str]) -> Ball:
-    """Return the ball [midpoint, radius]."""
     middle, wide = map(of_text, data)
     return middle + arb(0, wide.upper())
 
@@ -66,7 +64,6 @@ def _time(data: Sequence[str]) -> str:
 
 
 def _at_states(certificate: Certificate, states: Sequence[Any], sign: str, digits: int) -> str:
-    """Return each state with its ball."""
     names = certificate["motion"]["arguments"]
     rows = zip(names[: len(states)], map(_read_ball, states), strict=True)
     return ", ".join(f"{name} {sign} {format_ball(x, digits)}" for name, x in rows)
@@ -82,10 +79,8 @@ def _crossing(certificate: Certificate) -> str:
     claim = certificate["claim"]
     passes = "first passes" if claim["first"] else "passes"
     event = certificate["event"]
-    return (
-        f"{event['of']} {passes} zero at a time t in {format_ball(_read_ball(claim['time']), 15)} s.{_definitions([event])}"
-        f"{_start_phrase(certificate)}"
-    )
+    time = format_ball(_read_ball(claim["time"]), 15)
+    return f"{event['of']} {passes} zero at a time t in {time} s.{_definitions([event])}{_start_phrase(certificate)}"
 
 
 def _no_crossing(certificate: Certificate) -> str:
@@ -123,7 +118,6 @@ def _where_phrase(parameters: Sequence[str]) -> str:
 
 
 def _subject_phrase(certificate: Certificate) -> str:
-    """Return the subject and the parameters."""
     fixed = certificate["motion"]["parameters"]
     names = certificate["motion"]["arguments"][-len(fixed) :] if fixed else []
     parameters = [_value_phrase(name, *_read_fractions(x)) for name, x in zip(names, fixed, strict=True)]
@@ -172,10 +166,9 @@ def _structure(_: Certificate, data: Any) -> str:
     phrases += [f"gravity {_number(data['gravity'])} m/s²"] * bool(data["gravity"])
     for name, unit in (("load", "kg"), ("friction", "N m s/rad"), ("spin_friction", "N m s/rad")):
         phrases += [f"{name.replace('_', ' ')} {_row(data[name])} {unit}"] * any(data[name])
-    phrases += [
-        f"a brace from {x['tip']} to {x['to']} of {_number(x['stiffness'])} N/m, {_number(x['damping'])} N s/m"
-        for x in data["braces"]
-    ]
+    for x in data["braces"]:
+        sizes = f"{_number(x['stiffness'])} N/m, {_number(x['damping'])} N s/m"
+        phrases.append(f"a brace from {x['tip']} to {x['to']} of {sizes}")
     return f"the structure of {'; '.join(phrases)}"
 
 
@@ -194,7 +187,6 @@ def _bar(data: Any, i: int, j: int, length: float) -> str:
 
 
 def _common(phrases: Sequence[str]) -> str:
-    """Return the common phrase if all are alike, else all."""
     return phrases[0] if len({*phrases}) == 1 else "; ".join(phrases)
 
 
@@ -222,10 +214,9 @@ def _value_phrase(name: str, middle: Fraction, wide: Fraction) -> str:
     digits, low, high = 3, Decimal(1), Decimal(0)
     while low > high:
         digits *= 2
-        low, high = (
-            Context(prec=digits, rounding=way).divide(Decimal(end.numerator), Decimal(end.denominator))
-            for end, way in ((middle - wide, ROUND_CEILING), (middle + wide, ROUND_FLOOR))
-        )
+        ends = (middle - wide, ROUND_CEILING), (middle + wide, ROUND_FLOOR)
+        contexts = ((Context(prec=digits, rounding=way), end) for end, way in ends)
+        low, high = (context.divide(Decimal(end.numerator), Decimal(end.denominator)) for context, end in contexts)
     first, last = map(_plain, (low, high))
     return f"{name} = {first}" if wide <= abs(middle) / 2**36 else f"{name} in [{first}, {last}]"
 
@@ -274,10 +265,8 @@ def _precession(certificate: Certificate) -> str:
     stable = f", {claim['kind']}" if claim["kind"] != "undecided" else ""
     frequency = format_ball(2 * arb.pi() / _read_ball(claim["period"]), 22)
     who = _subject(certificate)
-    return (
-        f"{who[0].upper()}{who[1:]} has, at r0 = {_decimal(claim['r0'][0])}, a paired precession{stable}; "
-        f"it turns at {frequency} rad/s.{_ones_phrase(4, claim['kind'])}"
-    )
+    orbit = f"has, at r0 = {_decimal(claim['r0'][0])}, a paired precession{stable}; it turns at {frequency} rad/s"
+    return f"{who[0].upper()}{who[1:]} {orbit}.{_ones_phrase(4, claim['kind'])}"
 
 
 def _equilibrium(certificate: Certificate) -> str:

@@ -28,12 +28,8 @@ class Tape:
     outputs: tuple[int, ...]
 
     def data(self) -> dict[str, Any]:
-        """Return plain data for a certificate."""
-        return {
-            "arguments": list(self.arguments),
-            "operations": [list(operation) for operation in self.operations],
-            "outputs": list(self.outputs),
-        }
+        operations = [list(operation) for operation in self.operations]
+        return {"arguments": list(self.arguments), "operations": operations, "outputs": list(self.outputs)}
 
 
 class Recorder:
@@ -46,7 +42,6 @@ class Recorder:
         self._known: dict[sp.Basic, int] = {}
 
     def keep(self, *operation: Any) -> int:
-        """Return the place of an operation's result."""
         if operation[0] in ("add", "multiply"):
             operation = (operation[0], *sorted(operation[1:]))
         place = self._places.get(operation)
@@ -56,7 +51,6 @@ class Recorder:
         return place
 
     def number(self, value: Any) -> int:
-        """Return the place of a rational number or of pi."""
         if value is sp.pi:
             return self.keep("number", "pi")
         return self.keep("number", str(rational(value, "a number in the equations")))
@@ -138,7 +132,6 @@ class Recorder:
 
 
 def _hyperbolic(r: Recorder, x: int) -> tuple[int, int]:
-    """Return the places of exp(x) and exp(−x)."""
     e = r.keep("exp", x)
     return e, r.keep("divide", r.number(1), e)
 
@@ -187,9 +180,9 @@ def select_outputs(first: Tape, others: Sequence[int]) -> Tape:
 
 def with_pace(tape: Tape, states: int) -> Tape:
     """Return the motion in s = t / pace: every output times the pace, a new argument after the states."""
-    operations = [
-        ("argument", on[0] + (on[0] >= states)) if name == "argument" else (name, *on) for name, *on in tape.operations
-    ]
+    operations: list[Operation] = []
+    for name, *on in tape.operations:
+        operations.append(("argument", on[0] + (on[0] >= states)) if name == "argument" else (name, *on))
     operations.append(("argument", states))
     pace = len(operations) - 1
     outputs = []

@@ -48,7 +48,6 @@ class Motion:
 
     @property
     def moving(self) -> int:
-        """The number of states."""
         return len(self.tape.outputs)
 
     @property
@@ -57,7 +56,6 @@ class Motion:
         return len(self.tape.arguments) - len(self.parameters)
 
     def data(self) -> dict[str, Any]:
-        """Return the tape and its parameters as plain data."""
         return self.tape.data() | {"parameters": balls_data(self.parameters)}
 
 

@@ -141,7 +141,6 @@ def _poly(series: Any) -> Any:
 
 
 def _number(text: str) -> Ball:
-    """Return a constant of a tape: a rational number or pi."""
     if text == "pi":
         return arb.pi()
     above, _, below = text.partition("/")
@@ -207,7 +206,6 @@ class Evaluation:
         return self._function(place, name, on[0], a)
 
     def _inverse(self, operand: int) -> TaylorModel:
-        """Return 1/a, computed once for each operand."""
         if operand not in self._inverses:
             self._inverses[operand] = self.values[operand].inverse()
         return self._inverses[operand]

@@ -79,7 +79,7 @@ def amplitude_limits(quick: bool) -> list[Limit]:
     return rows
 
 
-def off_opposite(share: float, r0: float = 0.1) -> float:
+def opposite_spin_error(share: float, r0: float = 0.1) -> float:
     """Return the distance from the periodic orbit after a turn, spin 2 being −(1 − share) times spin 1."""
     first, *_ = PAIR.spins
     apart = _within_a_turn((first, -first * (1 - share)), r0) - _within_a_turn(PAIR.spins, r0)
@@ -88,13 +88,13 @@ def off_opposite(share: float, r0: float = 0.1) -> float:
 
 @lru_cache(maxsize=8)
 def _within_a_turn(spins: tuple[float, float], r0: float) -> Array:
-    """The axes (2, 24, 3) within a turn of the periodic orbit of r0, started on it with these spins."""
+    """Return the axes (2, 24, 3) over a turn from the start of the periodic orbit of r0, with these spins."""
     orbit = _orbit(PAIR, r0)
     times = _PHASES[1:] / abs(orbit.frequency)
     return _axes(replace(orbit.scene, spins=spins), times, 1e-12)
 
 
-def off_equal(share: float, r0: float) -> float:
+def equal_spin_error(share: float, r0: float) -> float:
     """Return the twist of a parallel pair within a turn, spin 2 being (1 − share) times spin 1."""
     start = parallel_scene(Scene((10.0, 10.0)), r0)
     times = 2 * pi / natural_rate(start) * np.arange(1, 65) / 64
@@ -105,7 +105,7 @@ def off_equal(share: float, r0: float) -> float:
 def spin_limits(quick: bool) -> list[Limit]:
     """Return the limits for spins that are nearly opposite, nearly equal, or small."""
     target, tiny, r0 = 1e-2, 1e-5, 0.1
-    measured = threshold(lambda share: off_opposite(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01)
+    measured = threshold(lambda share: opposite_spin_error(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01)
     push, bar = 1.0, Scene((1.0, 1.0))
     heavy = sum(bar.inertias)
 
@@ -121,7 +121,7 @@ def spin_limits(quick: bool) -> list[Limit]:
             "spins nearly opposite",
             f"(G_1 + G_2)/G_1 that puts the pair {target:g} R off the closed orbit of r0 = {r0:g} in a turn",
             f"error ~ (G_1 + G_2), its slope from {tiny:g}",
-            target * tiny / off_opposite(tiny, r0),
+            target * tiny / opposite_spin_error(tiny, r0),
             measured,
             "refuses spins that are not exactly opposite",
         ),
@@ -129,8 +129,8 @@ def spin_limits(quick: bool) -> list[Limit]:
             "spins nearly equal",
             f"(G_1 − G_2)/G_1 that twists parallel axes {target:g} R apart in a turn, inclined by {r0:g}",
             f"error ~ (G_1 − G_2), its slope from {tiny:g}",
-            target * tiny / off_equal(tiny, r0),
-            threshold(lambda share: off_equal(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01),
+            target * tiny / equal_spin_error(tiny, r0),
+            threshold(lambda share: equal_spin_error(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01),
             "closed_form refuses spins that are not exactly equal or opposite",
         ),
         Limit(

@@ -31,7 +31,7 @@ def step_grows(system: RigidBodySystem, dt: float) -> bool:
     return run.ending.early or bool(run.stretches.max() > 1e-5)
 
 
-def found_step_limit(system: RigidBodySystem, halvings: int = 7) -> float:
+def step_limit_by_bisection(system: RigidBodySystem, halvings: int = 7) -> float:
     """Return the longest stable step in s by bisection within 20 % of the predicted one, to 0.4 / 2**halvings of it."""
     predicted = step_limit(system).whole
     low, high = 0.8 * predicted, 1.2 * predicted
@@ -62,17 +62,12 @@ def step_limits(quick: bool) -> list[Limit]:
     }
     law = "4/(w D + sqrt((w D)² + 4 w S)), w the largest mobility"
     tool = "run_steps stops where the state blows up, and names the limit"
-    return [
-        Limit(
-            "explicit steps on stiff links",
-            f"longest stable step (s): {name}",
-            law,
-            step_limit(system).whole,
-            found_step_limit(system, 4 if quick else 7),
-            tool,
-        )
-        for name, system in systems.items()
-    ]
+    rows = []
+    for name, system in systems.items():
+        what, predicted = f"longest stable step (s): {name}", step_limit(system).whole
+        measured = step_limit_by_bisection(system, 4 if quick else 7)
+        rows.append(Limit("explicit steps on stiff links", what, law, predicted, measured, tool))
+    return rows
 
 
 LIMITS: dict[str, Callable[[bool], list[Limit]]] = {

@@ -18,7 +18,6 @@ class Limit:
 
     @property
     def ratio(self) -> float:
-        """Measured over predicted."""
         return self.measured / self.predicted
 
 

@@ -24,7 +24,6 @@ class Series:
         return total(self.terms)
 
     def size(self) -> Ball:
-        """Return a bound of the sum of all absolute values."""
         return self.total + self.remainder
 
     def __add__(self, b: "Series") -> "Series":
@@ -153,7 +152,6 @@ class Dual:
 
 
 def evaluate(tape: Any, arguments: Sequence[Dual]) -> list[Dual]:
-    """Return the outputs of a tape."""
     unit = arguments[0].value.number(arb(1))
     minus = unit.number(arb(-1))
 

@@ -29,7 +29,6 @@ def number(text: str) -> Ball:
 
 
 def read_ball(data: Any) -> Ball:
-    """Return the ball [midpoint, radius]."""
     middle, wide = (number(text) for text in data)
     demand(wide >= 0, "a radius is negative")
     return middle + arb(0, wide.upper())
@@ -76,7 +75,7 @@ class Flow:
         demand(0 < self.moving <= self.size, "the motion has no states")
 
     def arguments(self, rows: list[Series], still: Sequence[Ball], by: list[list[Series]] | None, n: int) -> list[Dual]:
-        """Return the series of all arguments; with `by`, the derivatives of the states, also all derivatives."""
+        """Return the series of all arguments, with derivatives if `by` has those of the states."""
         flat = [Series([c], ZERO, n) for c in (*still, *self.parameters)]
         if by is None:
             return [Dual(x) for x in (*rows, *flat)]
@@ -129,17 +128,15 @@ class Flow:
         shift = [x - y for x, y in zip(box, m, strict=True)]
         if any(abs(x).upper() > _WIDE for x in shift):
             shifts = [(X * column(shift)).entries() for X in D]
-            coefficients = [
-                [narrower(term(row, k), term(exactly, k) + shifts[k][i]) for k in range(n)]
-                for i, (row, exactly) in enumerate(zip(rows, image, strict=True))
-            ]
+            coefficients = []
+            for i, (row, exactly) in enumerate(zip(rows, image, strict=True)):
+                coefficients.append([narrower(term(row, k), term(exactly, k) + shifts[k][i]) for k in range(n)])
             D, error = self.slopes(self.step(box, h, n, coefficients), still, h, n)
         wide = [arb(0, error) if i < self.moving else ZERO for i in range(self.size) for _ in range(self.size)]
         return sum(D[1:], D[0]) + arb_mat(self.size, self.size, wide)
 
 
 def narrower(x: Ball, y: Ball) -> Ball:
-    """Return the narrower of two balls that contain the same number."""
     return min(x, y, key=lambda ball: float(ball.rad()))
 
 

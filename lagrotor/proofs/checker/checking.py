@@ -152,7 +152,6 @@ def check_crossing(certificate: Any) -> None:
 
 
 def within_step(s: Ball) -> Ball:
-    """Return the part of a ball between 0 and 1."""
     return s.max(ZERO).min(arb(1))
 
 
@@ -162,10 +161,8 @@ def check_no_crossing(certificate: Any) -> None:
     claimed = read_ball(certificate["claim"]["time"])
     demand(claimed > 0, "no time is claimed")
     demand(carried.time.contains(claimed) or carried.time >= claimed, "the steps end before the claimed time")
-    signs = {
-        sign_over(arb_poly(series.terms), series.remainder, ZERO, arb(1))
-        for _, _, (series,) in pieces_of(certificate, carried, [certificate["event"]])
-    }
+    pieces = pieces_of(certificate, carried, [certificate["event"]])
+    signs = {sign_over(arb_poly(f.terms), f.remainder, ZERO, arb(1)) for _, _, (f,) in pieces}
     demand(len(signs) == 1 and 0 not in signs, "the expression may pass zero")
 
 

@@ -57,7 +57,6 @@ class Words:
         return [places[place] for place in tape["outputs"]]
 
     def keep(self, *operation: Any) -> int:
-        """Return the place of an operation's result."""
         place = self._places.setdefault(operation, len(self.operations))
         if place == len(self.operations):
             self.operations.append(list(operation))

@@ -108,7 +108,6 @@ def check_kind(certificate: Any, carried: VerifiedSteps, first: Any, last: Any) 
 
 
 def kind_of(pair: Ball) -> str:
-    """Return the kind of an orbit by μ + 1/μ."""
     return "elliptic" if abs(pair) < 2 else "hyperbolic" if abs(pair) > 2 else "undecided"
 
 

@@ -156,7 +156,6 @@ class Residues:
         return Residue((a.value + sign * b.value) % self.p, a.degree + b.degree, _combine(a.terms, b.terms, sign))
 
     def _product(self, a: Residue, b: Residue, power: int) -> Residue:
-        """Return a b^power."""
         value, degree = a.value * pow(b.value, power, self.p) % self.p, a.degree + abs(power) * b.degree
         first, second = (self._logarithms.get(x.value) for x in (a, b))
         if first is not None and second is not None:
@@ -188,7 +187,6 @@ class Residues:
 
     @property
     def roots(self) -> int:
-        """The number of roots with two signs."""
         return len(self._roots)
 
     def _root(self, letter: int, a: Residue, power: Fraction) -> Residue | None:

@@ -85,7 +85,7 @@ def _middle(certificate: Any) -> list[Ball]:
 
 
 def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate: Any) -> list[Ball]:
-    """Results at a start, whose letters are 1. Raises NotProved where one is not defined."""
+    """Return results at a start; further symbols have the value 1. Raises NotProved if a result is undefined."""
     numbers = [*at, *balls(certificate["motion"]["parameters"])]
     arguments = [*numbers, *[arb(1)] * (len(words.arguments) - len(numbers))]
     duals = [Dual(Series([x], ZERO, 1)) for x in arguments]
@@ -125,7 +125,6 @@ def _check_structure(certificate: Any, data: Any) -> None:
 
 
 def _check_rates(certificate: Any, data: Any) -> None:
-    """Verify the rates against their text."""
     words = Words(certificate["motion"]["arguments"], None)
     demand(certificate.get("observed") is None, "what is observed has no meaning")
     rates = _rates(words, certificate)
@@ -166,7 +165,6 @@ class LagrangianOfWords:
         self.certificate = certificate
 
     def by(self, place: int, letters: Sequence[int]) -> list[int]:
-        """Return the derivatives of a result by some arguments."""
         unit = self.words.keep("number", "1")
         return [self.words.slope(place, {letter: unit}) for letter in letters]
 

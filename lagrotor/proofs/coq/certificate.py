@@ -205,7 +205,6 @@ def certificate(verdict: Verdict, entry: Equation) -> tuple[str, tuple[Certified
 
 
 def certified_line(proposition: Proposition) -> CertifiedLine:
-    """Return one line with its theorems or its reason."""
     about = proposition.name, proposition.quantity, proposition.verdict
     try:
         theorems, text = _theorems(proposition)

@@ -53,9 +53,9 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
     ring = target.ring.clone(order=sp.grevlex)
     basis: list[tuple[PolyElement, list[PolyElement]]] = []
 
-    def remainder(p: PolyElement, row: list[PolyElement]) -> tuple[PolyElement, list[PolyElement]]:
-        """Return the rest of p, and the row plus the cofactors of p − rest."""
-        rest = ring.zero
+    def reduce_by_basis(p: PolyElement, row: list[PolyElement]) -> tuple[PolyElement, list[PolyElement]]:
+        """Return the rest of p, and the row plus the cofactors of p − remainder."""
+        remainder = ring.zero
         while p:
             for member, combination in basis:
                 over = ring.monomial_div(p.LM, member.LM)
@@ -65,15 +65,15 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
                     row = [a + factor * b for a, b in zip(row, combination, strict=True)]
                     break
             else:
-                rest, p = rest + p.leading_term(), p - p.leading_term()
-        return rest, row
+                remainder, p = remainder + p.leading_term(), p - p.leading_term()
+        return remainder, row
 
     def add_member(p: PolyElement, row: list[PolyElement]) -> None:
         """Add the rest of p modulo the basis; `row` has the cofactors of p."""
-        rest, used = remainder(p, [ring.zero] * len(zeros))
-        if rest:
+        remainder, used = reduce_by_basis(p, [ring.zero] * len(zeros))
+        if remainder:
             pairs.extend((i, len(basis)) for i in range(len(basis)))
-            basis.append((rest, [a - b for a, b in zip(row, used, strict=True)]))
+            basis.append((remainder, [a - b for a, b in zip(row, used, strict=True)]))
         if len(basis) > _MOST_MEMBERS:
             raise NotExactError("the premises have too large a basis")
 
@@ -88,8 +88,8 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
             continue
         by_p, by_q = (ring.term_new(ring.monomial_div(common, g.LM), 1 / g.LC) for g in (p, q))
         add_member(by_p * p - by_q * q, [by_p * a - by_q * b for a, b in zip(of_p, of_q, strict=True)])
-    rest, row = remainder(target.set_ring(ring), [ring.zero] * len(zeros))
-    return [q.set_ring(target.ring) for q in row], rest.set_ring(target.ring)
+    remainder, row = reduce_by_basis(target.set_ring(ring), [ring.zero] * len(zeros))
+    return [q.set_ring(target.ring) for q in row], remainder.set_ring(target.ring)
 
 
 @dataclass(frozen=True)

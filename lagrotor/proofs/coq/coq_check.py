@@ -172,10 +172,8 @@ def _failures_of(files: Sequence[tuple[CertifiedEquation, str]]) -> list[dict[st
         together += f"\nModule {name}.\n{text.partition(PREAMBLE)[2]}\nEnd {name}.\n"
     with tempfile.TemporaryDirectory() as folder:
         accepted = len(sound) > 1 and not _compile(Path(folder), "together.v", together)
-    return [
-        {"": reason} if reason else {} if accepted or not text else _failures(row, text)
-        for (row, text), reason in zip(files, wrong, strict=True)
-    ]
+    rows = zip(files, wrong, strict=True)
+    return [{"": why} if why else {} if accepted or not text else _failures(row, text) for (row, text), why in rows]
 
 
 def _malformed(row: CertifiedEquation, text: str) -> str:

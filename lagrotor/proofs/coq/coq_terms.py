@@ -202,7 +202,6 @@ def declared_signs(letters: Iterable[sp.Symbol]) -> list[Comparison]:
 
 
 def comparison(terms: Terms, sign: str, e: sp.Expr) -> str:
-    """Return a condition as a proposition."""
     return f"{terms.write(e)} <> 0" if sign == "<>" else f"0 {sign} {terms.write(e)}"
 
 

@@ -87,7 +87,6 @@ class Sides:
         self.ideal.append(_Relation(name, zero, text))
 
     def _assert(self, name: str, proposition: str, tactics: str) -> None:
-        """Assert a proposition under a name, and prove it."""
         self.steps.append(f"assert ({name} : {proposition}). {{ {tactics} }}")
 
     def _name(self, kind: str) -> str:
@@ -455,11 +454,10 @@ def _under(radicand: sp.Expr) -> sp.Expr:
 
 def _leading(zero: sp.Expr, near: set[sp.Symbol]) -> sp.Symbol:
     """Return the generator that a relation is solved for: the sine of a pair, or the cosine if the sine is small."""
-    return next(
-        letter
-        for letter in sorted(zero.free_symbols, key=lambda x: (_rank(x) - (x in near) * 1.5, x.name))
-        if sp.Poly(zero, letter).degree() == (1 if letter.name.startswith("factor_") else 2)
-    )
+    for letter in sorted(zero.free_symbols, key=lambda x: (_rank(x) - (x in near) * 1.5, x.name)):
+        if sp.Poly(zero, letter).degree() == (1 if letter.name.startswith("factor_") else 2):
+            return letter
+    raise NotExactError(f"{zero} has no leading generator")
 
 
 def _rank(letter: sp.Symbol) -> int:

@@ -203,7 +203,6 @@ class OrbitProof:
 
     @property
     def derivative(self) -> Matrix:
-        """The derivative of the end by the initial displacement w."""
         return self.steps[-1].end.derivative
 
     def states(self) -> Balls:
@@ -262,10 +261,8 @@ def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: 
             if not proof.states()[-1] > 0:
                 raise NotProved(f"{where}: Newton's method leads to a period of zero: start nearer to the orbit")
             return proof
-    size = f"{float(max(sizes)):.1g}"
-    raise NotProved(
-        f"{where}: Newton's method comes within {size} of an orbit, but Krawczyk's test does not close there"
-    )
+    place = f"{where}: Newton's method comes within {float(max(sizes)):.1g} of an orbit"
+    raise NotProved(f"{place}, but Krawczyk's test does not close there")
 
 
 def krawczyk_proof(

@@ -41,7 +41,6 @@ class ExpressionOnStep:
         return 1 if value > 0 else -1 if value < 0 else 0
 
     def integral(self, low: Ball, high: Ball) -> Ball:
-        """Enclose the integral over s between two places."""
         whole = self.series.poly.integral()
         return whole(high) - whole(low) + (high - low) * arb(0, self.series.remainder.abs_upper())
 
@@ -233,10 +232,8 @@ def crossing(
                 return Crossing(event, True, time, clear, certificate)
             clear = clear and not pending
             last_sign, since, pending = sign, step.node.t + step.h * high, False
-        name = words(event)["of"]
-        raise NotProved(
-            f"{where}: {name} keeps its sign, or is not shown to change it, up to t = {format_ball(end, 10)}"
-        )
+        name, end_text = words(event)["of"], format_ball(end, 10)
+        raise NotProved(f"{where}: {name} keeps its sign, or is not shown to change it, up to t = {end_text}")
 
 
 @accept_old_keywords

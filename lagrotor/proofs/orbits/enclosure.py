@@ -95,10 +95,8 @@ class Enclosure(Shown):
         """The plain data that `check` verifies."""
         with precision(self.bits):
             flow = flow_data(self.field.subject, self.field.motion, self.start, self.steps, self.bits)
-            return flow | {
-                "kind": "enclosure",
-                "claim": {"t": ball_data(self.t), "states": balls_data([add_margin(x) for x in self.states])},
-            }
+            claim = {"t": ball_data(self.t), "states": balls_data([add_margin(x) for x in self.states])}
+            return flow | {"kind": "enclosure", "claim": claim}
 
     def summary(self) -> dict[str, str]:
         """Return the time, the states and the residual of the constraints.
