@@ -10,11 +10,21 @@ _Row = tuple[str, ...]
 _RUN, _DIFFERENCE = f"run to {scientific(MECHANISM_ERROR)} rad (ms)", "rhs differs by"
 MECHANISM_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", _RUN, "by", _DIFFERENCE)
 DECISION_HEAD = ("two formulations", "same_as (ms)", "they agree", "simplify (ms)", "they agree", "times")
-COMPARISON_HEAD = ("mechanism", "from", "ready (ms)", "sympy (ms)", "times", "rhs (µs)", "sympy (µs)", "times", _DIFFERENCE)
+COMPARISON_HEAD = (
+    "mechanism",
+    "from",
+    "ready (ms)",
+    "sympy (ms)",
+    "times",
+    "rhs (µs)",
+    "sympy (µs)",
+    "times",
+    _DIFFERENCE,
+)
 TARGET_HEAD = ("what", "wanted", "measured")
 _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _OURS, _METHODS = "lagrotor, bodies", ("KanesMethod", "LagrangesMethod")
-_AGREE = {"zero": "yes", "nonzero": "no"}  # a difference that is zero
+_AGREE = {"zero": "yes", "nonzero": "no"}  # the difference of two formulations → they agree
 
 
 def mechanism_name(kind: MechanismKind, n: int) -> str:

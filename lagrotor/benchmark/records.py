@@ -32,10 +32,10 @@ MEASURED_PACKAGES = {
     "bodies_and_lagrangians": (algebra, mechanics, numerics),
 }
 MechanismKind = Literal["rods", "gyroscopes"]
-LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # of the mechanisms
-MECHANISM_ERROR = 1e-8  # rad, at which runs of mechanisms are timed
-CHAIN_SIZES = (16, 64, 256)  # of the chains
-CHAIN_ERROR = 1e-6  # m, at which runs of chains are timed
+LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # numbers of links
+MECHANISM_ERROR = 1e-8  # rad, error of the timed runs of mechanisms
+CHAIN_SIZES = (16, 64, 256)  # rotors in a chain
+CHAIN_ERROR = 1e-6  # m, error of the timed runs of chains
 Record = TypeVar("Record")
 
 
@@ -116,7 +116,7 @@ def code_digest(name: RecordName) -> str:
 def _code(node: object) -> object:
     """Return the syntax tree as tuples. Empty fields are omitted, since Python versions differ in these."""
     if isinstance(node, ast.AST):
-        text = isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)  # such as a docstring
+        text = isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)  # a docstring
         fields = ((name, _code(value)) for name, value in ast.iter_fields(node) if value not in (None, []))
         return () if text else (type(node).__name__, *fields)
     return tuple(item for item in map(_code, node) if item) if isinstance(node, list) else repr(node)

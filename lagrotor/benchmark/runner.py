@@ -95,7 +95,7 @@ class Case:
     says: str
 
 
-# Processor time, which other work on the machine does not lengthen, where its resolution is fine enough.
+# Processor time does not depend on other processes; the wall clock is used if its resolution is too coarse.
 _CLOCK = time.process_time if time.get_clock_info("process_time").resolution < 1e-6 else time.perf_counter
 Work = Literal["seconds", "nfev"]
 _COMPILING = "closed", "fast"  # families whose first run may derive or compile
@@ -184,7 +184,7 @@ def benchmark(
         began, settings = time.perf_counter(), entry.steps or tolerances
         try:
             runner = entry.prepare(case.scene, case.t_eval)
-            with suppress(*_REFUSALS):  # it fails again, and is recorded, in its turn
+            with suppress(*_REFUSALS):  # the run below fails again and is recorded
                 runner(settings[0])
         except ImportError as absent:
             failures.append(Failure(method, (), f"not installed ({absent.name}): pip install {entry.install}"))

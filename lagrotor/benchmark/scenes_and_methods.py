@@ -50,7 +50,7 @@ def _ten_seconds(scene: Scene, quick: bool, says: str) -> Case:
     return Case(scene, _TEN, 1 if quick else 2, says)
 
 
-# Name → case; quick: fewer repeats, and 100 turns for 1,000. Each is made when it is needed: a paired start is a series.
+# Name → function of `quick`, which takes fewer repeats, and 100 turns for 1,000. A start on the orbit costs a series.
 CASES: dict[str, Callable[[bool], Case]] = {
     "displaced": lambda quick: _ten_seconds(
         _scene_on_orbit(Link()), quick, f"paired precession, r0 = {AMPLITUDE}, 10 s"
@@ -102,7 +102,7 @@ METHODS: dict[str, Method] = {
 }
 
 
-# Methods that are left out of quick runs, and of single cases, with the reason; they are listed with what failed.
+# Methods that quick runs or single cases omit, with the reason; they are listed with the failures.
 _ELSEWHERE = "takes seconds a run; see the displaced pair"
 _LEFT_OUT = {
     "quick": {
@@ -143,8 +143,7 @@ def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: N
     return charts
 
 
-# Families of the package's own methods by what they need: the closed forms too, integrations with the four core packages,
-# integrations with the fast extra.
+# Families of lagrotor's methods: all models, integrations with the core packages, integrations with the fast extra.
 OURS: dict[str, tuple[Family, ...]] = {"any model": ("closed", "core"), "core": ("core",), "fast": ("fast",)}
 
 

@@ -129,6 +129,6 @@ ENGINES: dict[str, Method] = {
     **{f"solve_ivp, {name}": Method("scipy", on_minimal(ivp_engine(name))) for name in IVP},
     **{f"ode, {name}": Method("scipy", on_minimal(ode_engine(name))) for name in SOLVERS},
 }
-# Plain calls: a shock that comes after a rest is stepped over, but where a step happens to fall into it.
+# Plain calls can step over a shock that follows a state of rest.
 _ONE_CALL = {name: on_minimal(ivp_engine(name), sees_shock=False) for name in ("RK23", *IVP, "DOP853")}
 TRAPS: dict[str, Method] = {f"solve_ivp, {name}, one call": Method("trap", run) for name, run in _ONE_CALL.items()}

@@ -47,7 +47,7 @@ def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughp
     chunk = max(1, min(CHUNK, n // 2))
     for engine in ("core", *(["fast"] if find_spec("heyoka") else [])):
         for tol in (1e-6, 1e-10):
-            # Compile now what is compiled once in a process.
+            # Compilation happens once in a process and is not part of the rate.
             sweep(scenes[:16], [0.0, 0.1], tol, chunk=4, executor=executor, engine=engine)
             seconds = []
             for _ in range(2):

@@ -39,7 +39,7 @@ from lagrotor.structures.exact.exact_motion import off_constraints, rates_of_con
 
 Values = Mapping[Any, Any]
 Subject = dict[str, Any] | None
-_EXPRESSION, _LONGEST = re.compile(r"^\d|[\s+*/().-]"), 20_000  # a name that is one; characters
+_EXPRESSION, _LONGEST = re.compile(r"^\d|[\s+*/().-]"), 20_000  # a symbol's name that is an expression; characters
 
 
 def ball(value: Any, where: str = "value") -> Ball:
@@ -105,9 +105,9 @@ def program_subject(program: Program) -> Subject:
     return {"rates": [str(e) for e in rates]} if readable else None
 
 
-def _readable(expressions: Sequence[sp.Expr], letters: Sequence[str]) -> bool:
+def _readable(expressions: Sequence[sp.Expr], names: Sequence[str]) -> bool:
     """Return True if the checker can read the text of the expressions."""
-    if any(_EXPRESSION.search(name) for name in letters) or any(len(str(e)) > _LONGEST for e in expressions):
+    if any(_EXPRESSION.search(name) for name in names) or any(len(str(e)) > _LONGEST for e in expressions):
         return False
     used: set[Any] = set().union(*(e.free_symbols for e in expressions))
     try:
@@ -173,7 +173,7 @@ class Field:
         for e in expressions:
             if unknown := sorted(map(str, sp.sympify(e, strict=True).free_symbols - symbols)):
                 names = ", ".join(map(str, (*self.states, *observables)))
-                raise InputError(f"proved: {e} has the unknown {', '.join(unknown)}; the motion has {names}")
+                raise InputError(f"proofs: {e} contains the unknown {', '.join(unknown)}; the motion has {names}")
         functions = [sp.sympify(e, strict=True).xreplace(dict(observables)) for e in expressions]
         return tape_of(Program(self.arguments, self.stages, tuple(functions), shared=True))
 
@@ -197,7 +197,7 @@ def field_of(system: Any, values: Values | None = None, q0: Any = None, v0: Any 
     """Return the field of a system with its initial set. Raises InputError if an argument does not fit the system."""
     if isinstance(system, Scene):
         if values or q0 is not None or v0 is not None:
-            raise InputError("proved: a Scene has its own values and start: give the time alone")
+            raise InputError("proofs: a Scene has its own values and start: give the time alone")
         return scene_field(system)
     if isinstance(system, Assembly):
         return structure_field(system, q0, v0)
@@ -207,20 +207,20 @@ def field_of(system: Any, values: Values | None = None, q0: Any = None, v0: Any 
         n = len(system.outputs)
         start = _numbers("start", [*(q0 if q0 is not None else ()), *(v0 if v0 is not None else ())], n)
         return Field(system, _values(system.arguments[n:], values or {}), start, subject=program_subject(system))
-    raise InputError(f"proved: {system!r} must be a System, a Scene, a Structure or a Program")
+    raise InputError(f"proofs: {system!r} must be a System, a Scene, a Structure or a Program")
 
 
 def _numbers(name: str, values: Any, n: int) -> tuple[Ball, ...]:
     entries = list(values) if values is not None else []
     if len(entries) != n:
-        raise InputError(f"proved: {name} must be {n} numbers or pairs (lowest, highest), not {len(entries)}")
+        raise InputError(f"proofs: {name} must be {n} numbers or pairs (lowest, highest), not {len(entries)}")
     return tuple(ball(x, f"{name}[{i}]") for i, x in enumerate(entries))
 
 
 def _values(parameters: Sequence[sp.Symbol], values: Values) -> dict[sp.Symbol, Ball]:
     by_name = {str(key): value for key, value in values.items()}
     if missing := [str(p) for p in parameters if str(p) not in by_name]:
-        raise InputError(f"proved: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each")
+        raise InputError(f"proofs: {', '.join(missing)} has no value: give values = {{symbol: number, …}}")
     return {p: ball(by_name[str(p)], str(p)) for p in parameters}
 
 
@@ -228,7 +228,7 @@ def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
     """Return the field of a Lagrangian system in (q, v[, t]); time starts at 0."""
     if system.velocities:
         speeds = ", ".join(map(str, system.speeds))
-        raise InputError(f"proved: the system is written in {speeds}, velocities of its own: leave them out")
+        raise InputError(f"proofs: the system is written in {speeds}, quasi-velocities: leave them out")
     system = with_rationals(system)
     n, timed = len(system.c.q), depends_on_time(system)
     stages, accelerations, _ = constrained_motion(system)
@@ -249,7 +249,7 @@ def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
 def scene_field(scene: Scene) -> Field:
     """Return the field of the pair in (U, chi, alpha, rates[, t]), the bar eliminated; a shock acts at all times."""
     if scene.link is None:
-        raise SingularError("proved: the scene has no bar to eliminate; take the two rotors as a Structure")
+        raise SingularError("proofs: the scene has no bar to eliminate; take the two rotors as a Structure")
     exactly = scene_numbers(scene)
     massive, body = exactly[b] != 0, scene.shock.body if scene.shock else 0
     ratio = scene_ratio(scene)
@@ -275,7 +275,7 @@ def scene_numbers(scene: Scene) -> dict[sp.Symbol, sp.Rational]:
     """Return a, b, k, G_1, G_2 of a scene with a bar, exactly."""
     rotor, link = scene.rotor, scene.link
     if link is None:
-        raise SingularError("proved: the scene has no bar")
+        raise SingularError("proofs: the scene has no bar")
     of = {M: rotor.mass, R: rotor.length, I1: rotor.I1, I3: rotor.I3, ell: link.length, m: link.mass, K: link.inertia}
     numbers = {s: exact_number(x) for s, x in of.items()}
     numbers[J] = J_OF.xreplace(numbers)
@@ -298,7 +298,7 @@ def scene_start(scene: Scene) -> tuple[Ball, ...]:
         (x, y, z), (p, q, w) = ([ball(c) for c in vector] for vector in (axis, rate))
         square = y * y + z * z
         if not z > 0:
-            raise SingularError(f"proved: axis {i + 1} is not above the ground: start where z > 0")
+            raise SingularError(f"proofs: axis {i + 1} is not above the ground: start where z > 0")
         u.append((x / (square + x * x).sqrt()).atanh())
         alpha.append((-y / z).atan())
         u_v.append(p / square)
@@ -327,7 +327,7 @@ def exact_number(x: Any) -> sp.Rational:
 def exact_coefficients(s: Assembly) -> Coefficients:
     """Return the coefficients of a structure in rational numbers. The length of a brace is a root."""
     if any(s.hinge):
-        raise InputError("proved: a hinge's moment θ/sin θ has no rigorous series here; leave the hinges out")
+        raise InputError("proofs: a hinge's moment θ/sin θ has no rigorous series here; leave the hinges out")
     ell = np.array([_bar(s, *bar) for bar in s.bars], dtype=object)
     return coefficients_in(s, np.vectorize(exact_number, otypes=[object]), ell, np.frompyfunc(sp.sqrt, 1, 1))
 
@@ -342,23 +342,23 @@ def _bar(s: Assembly, i: int, j: int, ell: float) -> sp.Expr:
 
 def structure_coordinates(s: Assembly) -> Coordinates:
     """Return coordinates x_0 y_0 z_0 x_1 …, the components of the axes; rotors are counted from 0."""
-    return coordinates(" ".join(f"{letter}_{i}" for i in range(len(s.joints)) for letter in "xyz"))
+    return coordinates(" ".join(f"{axis}_{i}" for i in range(len(s.joints)) for axis in "xyz"))
 
 
 def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
     """Return (r, r'[, t]) → (r', r''[, 1]), and the expressions that stay zero: |r_i|² − 1, |d|² − ell² and half their rates."""
-    c, letters = exact_coefficients(s), structure_coordinates(s)
+    c, axes = exact_coefficients(s), structure_coordinates(s)
     N, timed, tape = len(c.R), any(x != 0 for x in c.decay), list[Recorded]()
     of_time = {f"G_{i}": G * sp.exp(-k * t) for i, (G, k) in enumerate(zip(c.G, c.decay, strict=True)) if k}
-    recorded = ([Recorded(tape, str(x)) for x in components] for components in (letters.q, letters.v))
+    recorded = ([Recorded(tape, str(x)) for x in components] for components in (axes.q, axes.v))
     r, v = ([row[3 * i : 3 * i + 3] for i in range(N)] for row in recorded)
     G = [Recorded(tape, f"G_{i}") if f"G_{i}" in of_time else G for i, G in enumerate(c.G)]
     accelerations = structure_accelerations(c, r, v, G, operation_recorder)
-    leaves = {str(x): x for x in (*letters.q, *letters.v)} | of_time
+    leaves = {str(x): x for x in (*axes.q, *axes.v)} | of_time
     stages, rates = _stages(tape, leaves, accelerations)
-    arguments = (*letters.q, *letters.v, *((t,) if timed else ()))
-    outputs = (*letters.v, *rates, *((sp.S.One,) if timed else ()))
-    return Program(arguments, tuple(stages), outputs, shared=True), _constraints(c, letters)
+    arguments = (*axes.q, *axes.v, *((t,) if timed else ()))
+    outputs = (*axes.v, *rates, *((sp.S.One,) if timed else ()))
+    return Program(arguments, tuple(stages), outputs, shared=True), _constraints(c, axes)
 
 
 def _stages(
@@ -378,8 +378,8 @@ def _stages(
     return stages, [expression(x) for x in outputs]
 
 
-def _constraints(c: Coefficients, letters: Coordinates) -> tuple[sp.Expr, ...]:
-    r, v = (np.array(components, dtype=object).reshape(-1, 3) for components in (letters.q, letters.v))
+def _constraints(c: Coefficients, axes: Coordinates) -> tuple[sp.Expr, ...]:
+    r, v = (np.array(components, dtype=object).reshape(-1, 3) for components in (axes.q, axes.v))
     return (*off_constraints(c, r), *rates_of_constraints(c, r, v))
 
 
@@ -399,7 +399,7 @@ def structure_field(s: Assembly, tilt: Any, rates: Any) -> Field:
         if len(place) == 2:
             square = 1 - place[0] * place[0] - place[1] * place[1]
             if not square > 0:
-                raise InputError(f"proved: tilt of rotor {i} must be inside the unit circle")
+                raise InputError(f"proofs: tilt of rotor {i} must be inside the unit circle")
             place = [*place, square.sqrt()]
         if len(rate) == 2:
             rate = [*rate, -(place[0] * rate[0] + place[1] * rate[1]) / place[2]]
@@ -414,7 +414,7 @@ def _axes(name: str, values: Any, N: int) -> list[Balls]:
         return [[ZERO, ZERO] for _ in range(N)]
     rows = [list(row) for row in values]
     if len(rows) != N or {len(row) for row in rows} - {2, 3}:
-        raise InputError(f"proved: {name} must be {N} rows of two or three numbers")
+        raise InputError(f"proofs: {name} must be {N} rows of two or three numbers")
     return [[ball(x, name) for x in row] for row in rows]
 
 
@@ -445,7 +445,7 @@ def start_on_constraints(field: Field) -> Field:
     far = max(float(abs(x - y).upper()) for x, y in zip(middle, field.start, strict=True))
     if far > 1e-6 or not inside(narrow, w):
         raise ConstraintError(
-            f"proved: the start is off the constraints by {max(float(abs(x).upper()) for x in residual):.2g}, and no state on "
+            f"proofs: the start is off the constraints by {max(float(abs(x).upper()) for x in residual):.2g}, and no state on "
             "them is proved within 1e-6; system.consistent gives a start on them"
         )
     start = [x + d for x, d in zip(middle, times(B, narrow), strict=True)]

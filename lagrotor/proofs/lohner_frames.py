@@ -40,13 +40,13 @@ from lagrotor.proofs.statements import VERSION, Certificate
 from lagrotor.proofs.taylor_step import SLACK, Motion, bound_remainder, scale_terms, step_derivative, taylor
 from lagrotor.proofs.truncated_series import RemainderError
 
-SHORTEST = 1e-5  # of the whole time: a step below it ends the proof, as it means that the set has grown too wide
-MOST = 5_000  # steps
+SHORTEST = 1e-5  # of the whole time: a shorter step means that the set is too wide, and the proof fails
+MOST_STEPS = 5_000
 _SHORTER, _LONGER = 0.7, 1.2
-_WIDER, _WIDER_BY_ALL = 2**-9, 2**-28  # of a set's size and of the largest one's, added at each node
-_WIDE = 1e-7  # of a box, from which on its Taylor terms are worth the second evaluation
-_REST = 1e3  # over tol: what a step leaves out may be, with all that its bound adds
-_SLOPE_TERMS = 0.85  # of the series' terms, for derivatives: they multiply what is small already
+_WIDER, _WIDER_BY_ALL = 2**-9, 2**-28  # parts of a ball's size and of the largest ball's, added to its radius
+_WIDE = 1e-7  # half-width of a box above which a second evaluation of its Taylor terms pays
+_LARGEST_REMAINDER = 1e3  # over tol, since a bound exceeds the error
+_SLOPE_TERMS = 0.85  # part of the terms for derivatives, which multiply a small spread
 
 
 @dataclass(frozen=True)
@@ -137,12 +137,12 @@ def step_of(
     """
     n, slope_terms = accuracy.terms, accuracy.slope_terms
     rows = taylor(motion, node.m, n) if rows is None else rows
-    rests, _ = bound_remainder(motion, at := scale_terms(rows, h, n), node.m, h, n)
-    if not max_of(rests) < _REST * accuracy.tol * size_of(rows):
-        raise RemainderError("the rest of the Taylor series is large over the step")
-    least = max_of(rests) * arb(2) ** -16  # another program's bounds of small components are not as small
+    bounds, _ = bound_remainder(motion, at := scale_terms(rows, h, n), node.m, h, n)
+    if not max_of(bounds) < _LARGEST_REMAINDER * accuracy.tol * size_of(rows):
+        raise RemainderError("the remainder of the Taylor series is large over the step")
+    least = max_of(bounds) * arb(2) ** -16  # the checker's bounds of small components are larger
     image = [
-        sum(row, arb(0)) + arb(0, (SLACK * bound + least).abs_upper()) for row, bound in zip(at, rests, strict=True)
+        sum(row, arb(0)) + arb(0, (SLACK * bound + least).abs_upper()) for row, bound in zip(at, bounds, strict=True)
     ] + node.m[motion.moving :]
     D = derivative_over(motion, node.m, node.box(w), at, h, slope_terms)
     return LohnerStep(node, h, n, slope_terms, next_node(node, h, image, D, frame(D * node.Q, node)))
@@ -221,7 +221,7 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
     """Yield the steps from the initial set to the time t. Raises NotProved if no step is short enough."""
     node, w = start.node, start.spread
     limit = longest = float(exact(t))
-    for _ in range(MOST):
+    for _ in range(MOST_STEPS):
         duration = t - node.t
         try:
             rows = taylor(motion, node.m, accuracy.terms)
@@ -243,7 +243,7 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
         if last:
             return
         node, limit = step.end, h
-    raise NotProved(f"the enclosure ends at t = {float(node.t):.6g} after {MOST} steps; shorten the time")
+    raise NotProved(f"the enclosure ends at t = {float(node.t):.6g} after {MOST_STEPS} steps; shorten the time")
 
 
 def step_length(rows: list[Balls], tol: float) -> float:

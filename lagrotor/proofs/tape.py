@@ -14,7 +14,7 @@ from lagrotor.numerics.codegen import Program, reduce_common
 from lagrotor.proofs.balls import rational
 
 Operation = tuple[Any, ...]
-# name → how many operands; of "argument" and "number" the operand is an index and a text.
+# Name → number of operands. The operand of "argument" is an index, that of "number" a text.
 _FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "asin", "atan")
 OPERATIONS = {"add": 2, "subtract": 2, "multiply": 2, "divide": 2} | dict.fromkeys(_FUNCTIONS, 1)
 
@@ -80,7 +80,7 @@ class Recorder:
         rule = _RULES.get(type(e))
         if rule is None:
             raise InputError(
-                f"proved: {type(e).__name__} in the equations has no rigorous series here; rational functions, roots, exp, log, "
+                f"proofs: {type(e).__name__} in the equations has no rigorous series here; rational functions, roots, exp, log, "
                 "sin, cos, tan, asin, acos, atan, sinh, cosh and tanh have"
             )
         return rule(self, self.record(e.args[0]))

@@ -24,15 +24,16 @@ from lagrotor.proofs.balls import (
     balls_data,
     ctx,
     max_of,
+    precision,
     upper,
 )
 from lagrotor.proofs.matrices import identity, matrix_norm
 from lagrotor.proofs.tape import Tape
 from lagrotor.proofs.truncated_series import Evaluation, RemainderError, TaylorModel, series_values
 
-SLACK = 4  # on each bound of a rest, so that another program's bound of it is below, too
-SINGULAR = "a denominator, or a root's or logarithm's argument, in the equations is not shown to be other than zero"
-_TRIES = 4  # of a bound of the rest, each from the one before
+SLACK = 4  # factor on each remainder bound, so that the checker's bound is smaller
+SINGULAR = "a denominator, or a root's or logarithm's argument, in the equations is not proved to be nonzero"
+_TRIES = 4  # iterations of the Picard map for a remainder bound
 
 
 @dataclass(frozen=True)
@@ -63,10 +64,8 @@ def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
     """Return the first n Taylor coefficients in t of every state."""
     rows = [[x] for x in start[: motion.moving]]
     still = [*start[motion.moving :], *motion.parameters]
-    outer = ctx.cap
-    try:
-        for k in range(n - 1):
-            ctx.cap = k + 1
+    for k in range(n - 1):
+        with precision(ctx.prec, k + 1):
             try:
                 rates = series_values(motion.tape, [*(arb_series(row, k + 1) for row in rows), *still])
             except (ZeroDivisionError, ValueError):
@@ -74,8 +73,6 @@ def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
             for row, rate in zip(rows, rates, strict=True):
                 value = rate[k] if isinstance(rate, arb_series) else rate if k == 0 else ZERO
                 row.append(value / (k + 1))
-    finally:
-        ctx.cap = outer
     return rows
 
 
@@ -102,7 +99,7 @@ def bound_remainder(motion: Motion, rows: Sequence[Balls], start: Balls, h: Ball
         guess = [2 * r for r in bounds]
         if not max_of(guess) < 1:
             break
-    raise RemainderError("the rest of the Taylor series is not bounded over the step")
+    raise RemainderError("the remainder of the Taylor series is not bounded over the step")
 
 
 def step_derivative(motion: Motion, evaluation: Evaluation, h: Ball, n: int) -> tuple[Matrix, list[Matrix]]:

@@ -33,9 +33,6 @@ class TaylorModel:
             self._norm = _norm(self.poly) + self.remainder
         return self._norm
 
-    def constant(self, value: Ball) -> "TaylorModel":
-        return TaylorModel(arb_poly([value]), ZERO, self.n)
-
     def series(self) -> Any:
         """Return the polynomial as Arb's truncated series, whose functions have at most `ctx.cap` terms."""
         if ctx.cap < self.n:
@@ -74,7 +71,7 @@ class TaylorModel:
     def sqrt(self) -> "TaylorModel":
         """Return q + s, s = (a − q² − s²)/(2 q): a contraction of |s| ≤ σ, σ = k (d + σ²)/2 and k σ < 1, k = |1/q|."""
         if not _constant(self, "a root's argument") > 0:
-            raise RemainderError("a root's argument is not shown to be positive")
+            raise RemainderError("a root's argument is not proved to be positive")
         q = _poly(self.series().sqrt())
         k = TaylorModel(q, ZERO, self.n).inverse().norm
         d = beyond(q * q, self.n) + self.remainder
@@ -125,7 +122,7 @@ def _constant(a: TaylorModel, what: str) -> Ball:
     """Return the value at s = 0. Raises RemainderError if it can be zero."""
     value = a.poly[0]
     if not (value > 0 or value < 0):
-        raise RemainderError(f"{what} is not shown to be other than zero")
+        raise RemainderError(f"{what} is not proved to be nonzero")
     return value
 
 
@@ -174,7 +171,7 @@ class Evaluation:
     def __init__(self, tape: Tape, arguments: Sequence[TaylorModel]) -> None:
         self.tape, self._arguments = tape, arguments
         self.values: list[TaylorModel] = []
-        self._slopes: dict[int, TaylorModel] = {}  # of an operation of one operand, by that operand
+        self._slopes: dict[int, TaylorModel] = {}  # derivatives of unary operations
         self._twins: dict[int, tuple[TaylorModel, TaylorModel]] = {}
         self._inverses: dict[int, TaylorModel] = {}
         for place, (name, *on) in enumerate(tape.operations):
@@ -190,7 +187,7 @@ class Evaluation:
         return [self.values[place] for place in self.tape.outputs]
 
     def fixed(self, value: Ball) -> TaylorModel:
-        return self._arguments[0].constant(value)
+        return TaylorModel(arb_poly([value]), ZERO, self._arguments[0].n)
 
     def _value(self, place: int, name: str, on: list[int]) -> TaylorModel:
         a = self.values[on[0]]
@@ -227,7 +224,7 @@ class Evaluation:
             return value
         if name == "log":
             if not _constant(a, "a logarithm's argument") > 0:
-                raise RemainderError("a logarithm's argument is not shown to be positive")
+                raise RemainderError("a logarithm's argument is not proved to be positive")
             slope = self._inverse(operand)
         elif name == "asin":
             slope = (unit - a * a).sqrt().inverse()

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
-from lagrotor.benchmark.limits.step_size import step_limit_by_bisection, step_grows
+from lagrotor.benchmark.limits.step_size import step_grows, step_limit_by_bisection
 from lagrotor.errors import LagrotorWarning
 from lagrotor.models import (
     RigidBody,

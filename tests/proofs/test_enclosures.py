@@ -247,7 +247,7 @@ def test_errors_name_the_value_and_the_way_out() -> None:
         enclose(program, {}, [(2, 1), 0], t=1)
     with pytest.raises(InputError, match="tol = 2"):
         enclose(program, {}, [1, 0], t=1, tol=2)
-    with pytest.raises(InputError, match="k without a value"):
+    with pytest.raises(InputError, match="k has no value"):
         enclose(Program((x, v, k := sp.Symbol("k")), (), (v, -k * x)), {}, [1, 0], t=1)
     with pytest.raises(InputError, match="Abs in the equations has no rigorous series"):
         enclose(Program((x, v), (), (v, -sp.Abs(x))), {}, [1, 0], t=1)

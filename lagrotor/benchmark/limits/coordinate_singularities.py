@@ -20,7 +20,7 @@ from lagrotor.pair.scene import Link, Scene
 
 _EPS = float(np.finfo(float).eps)
 _TINIEST = float(np.finfo(float).smallest_subnormal)
-# Both axes lean by this, and sweep past the pole in 1 s.
+# Initial inclination (rad) of both axes, and the time (s) in which they pass the pole.
 _LEAN, _PASS = 0.5, 1.0
 
 
@@ -112,7 +112,7 @@ def joint_line_limits(quick: bool) -> list[Limit]:
 
 def passes(miss: float) -> bool:
     """Return True if spheres integrates a pair without spins past r_1 = r_2 = e_x at a distance of `miss` rad."""
-    swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s, there after a quarter turn
+    swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s: a quarter turn to e_x
     times, turn = np.array([0.0, 2.0]), np.array([cos(miss) * sin(2), sin(miss) * sin(2), cos(2)])
     try:
         run = integrate_model(spheres.MODEL, swing, times, 1e-8)

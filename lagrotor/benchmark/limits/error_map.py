@@ -14,7 +14,7 @@ from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
-USEFUL = 0.1  # of the amplitude: an error beyond it is no longer a correction
+USEFUL = 0.1  # largest error relative to the amplitude for which a series is a correction
 _TIMES = 12
 
 

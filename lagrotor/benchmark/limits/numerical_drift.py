@@ -17,7 +17,7 @@ from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 
-# A displaced start in large motion; a bar of which the paired precession is elliptic, so that errors only grow slowly.
+# A displaced start in large motion; a pair whose paired precession is elliptic, so that errors grow slowly.
 DRIFTING = Scene((10.0, -10.0), rates=((1.5, 1.0, 0.0), (1.5, -0.5, 0.0)))
 STEADY = Scene((10.0, -10.0), link=Link(1.0, 0.3, 0.02))
 

@@ -49,7 +49,7 @@ class Series:
 
     def inverse(self) -> "Series":
         """Return 1/a = q/(1 − r), r = 1 − a q."""
-        demand(self.at_start() > 0 or self.at_start() < 0, "a denominator is not shown to be other than zero")
+        demand(self.at_start() > 0 or self.at_start() < 0, "a denominator is not proved to be nonzero")
         q, _ = terms_of("divide", self.terms, self.n)
         size = total(q)
         r = _high(self.terms, q, self.n) + size * self.remainder
@@ -57,7 +57,7 @@ class Series:
 
     def sqrt(self) -> "Series":
         """Return q + e, e = (a − q² − e²)/(2 q): |e| ≤ k d/(1 + √(1 − k² d)), k = |1/q|, d = |a − q²|."""
-        demand(self.at_start() > 0, "a root's argument is not shown to be positive")
+        demand(self.at_start() > 0, "a root's argument is not proved to be positive")
         q, _ = terms_of("sqrt", self.terms, self.n)
         k = Series(q, ZERO, self.n).inverse().size()
         d = _high(q, q, self.n) + self.remainder
@@ -65,7 +65,7 @@ class Series:
 
     def log(self) -> tuple["Series", "Series"]:
         """Return log a_0 + ∫ a'/a, and 1/a."""
-        demand(self.at_start() > 0, "a logarithm's argument is not shown to be positive")
+        demand(self.at_start() > 0, "a logarithm's argument is not proved to be positive")
         slope = self.inverse()
         return self._by_slope(slope, self.at_start().log()), slope
 

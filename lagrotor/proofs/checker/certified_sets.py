@@ -12,9 +12,9 @@ from lagrotor.proofs.checker.tapes import ZERO, demand, is_place, motion_terms, 
 
 Ball = Any
 _EXACT = re.compile(r"-?[0-9a-f]+p-?\d+", re.ASCII)
-MOST_BITS = 100_000  # of a number
-MOST_TERMS = 10_000  # of a series
-_WIDE = 2.0**-24  # of a box, from which on its terms are taken twice
+MOST_BITS = 100_000  # in a number
+MOST_TERMS = 10_000  # in a series
+_WIDE = 2.0**-24  # half-width of a box above which its Taylor terms are computed twice
 
 
 def number(text: str) -> Ball:
@@ -89,18 +89,16 @@ class Flow:
         """Return the series of the states over one step from the balls; `coefficients` replace the computed terms."""
         still = start[self.moving :]
         terms = coefficients or motion_terms(self.tape, start[: self.moving], [*still, *self.parameters], h, n)
-        rests = [ZERO] * len(terms)
+        bounds = [ZERO] * len(terms)
         for _ in range(9):
-            rates = self._rates([Series(row, bound, n) for row, bound in zip(terms, rests, strict=True)], still, n)
-            new = [remainder_bound(rate, h, n) for rate in rates]
-            if within(new, rests):
+            rows = [Series(row, bound, n) for row, bound in zip(terms, bounds, strict=True)]
+            rates = evaluate(self.tape, self.arguments(rows, still, None, n))
+            new = [remainder_bound(rate.value, h, n) for rate in rates]
+            if within(new, bounds):
                 return [Series(row, bound, n) for row, bound in zip(terms, new, strict=True)]
             least = max(new, key=lambda x: float(x.upper())) / 2**16
-            rests = [arb((2 * x + least).upper()) for x in new]
-        raise NotProved("check: the rest of the Taylor series is not bounded over a step")
-
-    def _rates(self, rows: list[Series], still: Sequence[Ball], n: int) -> list[Series]:
-        return [rate.value for rate in evaluate(self.tape, self.arguments(rows, still, None, n))]
+            bounds = [arb((2 * x + least).upper()) for x in new]
+        raise NotProved("check: the remainder of the Taylor series is not bounded over a step")
 
     def slopes(self, rows: list[Series], still: Sequence[Ball], h: Ball, n: int) -> tuple[list[Any], Ball]:
         """Return the terms of D, D' = h J D and D(0) = 1, and a remainder bound of each entry."""
@@ -175,13 +173,16 @@ class VerifiedSteps:
         self.flow = Flow(certificate["motion"])
         start, size = certificate["start"], self.flow.size
         self.middle, self.w = balls(start["middle"]), balls(start["spread"])
-        demand(len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0, "the start has other states")
-        demand(all(x.contains(0) for x in self.w), "the start's box does not hold its middle")
+        demand(
+            len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0,
+            "the start does not fit the motion",
+        )
+        demand(all(x.contains(0) for x in self.w), "the start's box does not contain its middle")
         m = [x.mid() for x in self.middle]
         s = column([x - y for x, y in zip(self.middle, m, strict=True)])
         node = (m, unit(size), s, unit(size), arb_mat(size, size))
         self.time = ZERO
-        self.boxes: list[tuple[list[Ball], Ball, int]] = []  # of each step: its start over all w, its length, its terms
+        self.boxes: list[tuple[list[Ball], Ball, int]] = []  # box, length and terms of each step
         for k, step in enumerate(certificate["steps"]):
             node = self._step(node, step, k)
         m, Q, s, C, S = node
@@ -205,9 +206,9 @@ class VerifiedSteps:
         y = [*map(end_of, image), *m[moving:]]
         point = rotation * s + inverse * (column(y) - column(m1))
         slope = rotation * S + inverse * (D * C - C1)
-        demand(all(x.contains(0) for x in s1.entries()), f"node {k + 1} does not hold its middle")
-        demand(s1.contains(point), f"node {k + 1} does not hold the motion of the middle")
-        demand(S1.contains(slope), f"node {k + 1} does not hold the derivative")
+        demand(all(x.contains(0) for x in s1.entries()), f"node {k + 1} does not contain its middle")
+        demand(s1.contains(point), f"node {k + 1} does not contain the motion of the middle")
+        demand(S1.contains(slope), f"node {k + 1} does not contain the derivative")
         self.boxes.append((box, h, n))
         self.time += h
         return end

@@ -61,8 +61,7 @@ def check(certificate: Any) -> str:
     >>> from lagrotor.mechanics import System, coordinates
     >>> from lagrotor.proofs import enclose
     >>> c = coordinates("x")
-    >>> oscillator = System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2)
-    >>> check(enclose(oscillator, q0=[1], v0=[0], t=1, tol=1e-10).certificate)
+    >>> check(enclose(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), q0=[1], v0=[0], t=1, tol=1e-10).certificate)
     'At t = 1.00000000000000: x in [0.5403023...], x_dot in [-0.8414709...]. This is of the system with L = ...'
     """
     try:
@@ -75,7 +74,7 @@ def check(certificate: Any) -> str:
         raise InputError(f"check: version {version} of certificates is unknown; this program reads 1")
     outer = ctx.prec
     try:
-        demand(is_place(certificate["bits"], MOST_BITS), "the precision is no number of bits")
+        demand(is_place(certificate["bits"], MOST_BITS), "the precision is no valid number of bits")
         ctx.prec = certificate["bits"] + _MORE_BITS
         check_subject(certificate)
         rule(certificate)
@@ -108,11 +107,11 @@ def plain(data: Any) -> Any:
 def check_enclosure(certificate: Any) -> None:
     """Verify that the last box lies within the claimed states, at the claimed time."""
     carried, claim = VerifiedSteps(certificate), certificate["claim"]
-    demand(carried.time.contains(read_ball(claim["t"])), "the steps do not end at the time that is claimed")
+    demand(carried.time.contains(read_ball(claim["t"])), "the steps do not end at the claimed time")
     claimed = balls(claim["states"])
     demand(0 < len(claimed) <= len(carried.box), "no states are claimed")
     fits = all(y.contains(x) for x, y in zip(carried.box, claimed, strict=False))
-    demand(fits, "the states are not those that are claimed")
+    demand(fits, "the claimed states do not contain the enclosed ones")
 
 
 def pieces_of(certificate: Any, carried: VerifiedSteps, named: Sequence[Any]) -> Any:
@@ -136,7 +135,7 @@ def check_crossing(certificate: Any) -> None:
         signs = set()
         for at, h, (series,) in pieces:
             s = (moment - at) / h
-            if not (s < 0 or s > 1):  # a moment at a node may be in either step
+            if not (s < 0 or s > 1):  # a time at a node can be in either step
                 value = arb_poly(series.terms)(within_step(s)) + arb(0, series.remainder.upper())
                 signs.add(1 if value > 0 else -1 if value < 0 else 0)
         ends.append(signs)
@@ -181,7 +180,9 @@ def check_means(certificate: Any) -> None:
             whole = arb_poly(f.terms).integral()
             totals[i] += h * (whole(high) - whole(low) + arb(0, ((high - low) * f.remainder).abs_upper()))
     for x, total, (since, until) in zip(claims, totals, spans, strict=True):
-        demand(read_ball(x["mean"]).contains(total / (until - since)), "a mean is another")
+        demand(
+            read_ball(x["mean"]).contains(total / (until - since)), "a claimed mean does not contain the enclosed one"
+        )
 
 
 def check_equilibrium(certificate: Any) -> None:
@@ -191,8 +192,10 @@ def check_equilibrium(certificate: Any) -> None:
     rates = [flow.tape["operations"][place] for place in flow.tape["outputs"][:n]]
     demand(rates == [["argument", n + i] for i in range(n)], "the coordinates' rates are not the velocities")
     middle, box = [number(x) for x in certificate["middle"]], balls(certificate["box"])
-    demand(len(middle) == len(box) == n and flow.size == flow.moving == 2 * n, "the equilibrium has other coordinates")
-    demand(all(x.contains(0) for x in box), "the box does not hold its middle")
+    demand(
+        len(middle) == len(box) == n and flow.size == flow.moving == 2 * n, "the equilibrium does not fit the motion"
+    )
+    demand(all(x.contains(0) for x in box), "the box does not contain its middle")
     A = matrix(certificate["A"])
     wide = [x + y for x, y in zip(middle, box, strict=True)]
     at = gradients(flow.tape, flow, [*middle, *[ZERO] * n])
@@ -201,14 +204,14 @@ def check_equilibrium(certificate: Any) -> None:
     slope = arb_mat([[x.at_start() for x in (f.by or [])[:n]] for f in J[n:]])
     states = [x + y for x, y in zip(middle, krawczyk(value, slope, A, box), strict=True)]
     fits = all(y.contains(x) for x, y in zip(states, balls(certificate["claim"]["q"]), strict=True))
-    demand(fits, "the coordinates are others")
+    demand(fits, "the claimed coordinates do not contain the equilibrium")
     claim = certificate["claim"]["stability"]
     kinds = ("stable", "asymptotically stable", "stable to first order", "unstable", "undecided")
     demand(claim in kinds, "the stability is unknown")
     if claim == "unstable":
-        demand(any(z.real > 0 for z in linear(J, n).eig()), "no eigenvalue is shown to have a positive real part")
+        demand(any(z.real > 0 for z in linear(J, n).eig()), "no eigenvalue is proved to have a positive real part")
     elif claim == "asymptotically stable":
-        demand(all(z.real < 0 for z in linear(J, n).eig()), "an eigenvalue is not shown to have a negative real part")
+        demand(all(z.real < 0 for z in linear(J, n).eig()), "an eigenvalue is not proved to have a negative real part")
     elif claim != "undecided":
         check_stable(certificate, J, n, [*wide, *[ZERO] * n, *flow.parameters])
 
@@ -216,19 +219,19 @@ def check_equilibrium(certificate: Any) -> None:
 def check_stable(certificate: Any, J: Sequence[Dual], n: int, state: list[Ball]) -> None:
     """Verify a definite energy, or distinct imaginary eigenvalues, of a conservative system."""
     claim, about = certificate["claim"]["stability"], certificate["about"]
-    demand(about is not None and "Lagrangian" in about, "no Lagrangian is named whose energy is conserved")
+    demand(about is not None and "Lagrangian" in about, "the theorem names no Lagrangian with a conserved energy")
     system = LagrangianOfWords(certificate, about["Lagrangian"])
     demand(system.autonomous and about["Lagrangian"]["dissipation"] == "0", "the system is not conservative")
     if claim == "stable":
         energy = system.words.place(certificate["energy"])
-        demand_equal(system.words, [energy], [system.energy()], "the energy is another")
+        demand_equal(system.words, [energy], [system.energy()], "the energy is not that of the Lagrangian")
         H = second_derivatives(system.words.tape([energy]), [*state, *system.others], 2 * n)
         for k in range(1, 2 * n + 1):
-            demand(arb_mat([row[:k] for row in H[:k]]).det() > 0, "the energy is not shown to be definite")
+            demand(arb_mat([row[:k] for row in H[:k]]).det() > 0, "the energy is not proved to be definite")
     else:
         values = linear(J, n).eig()
         apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
-        demand(apart and all(z.real.contains(0) for z in values), "the eigenvalues are not shown to be imaginary")
+        demand(apart and all(z.real.contains(0) for z in values), "the eigenvalues are not proved to be imaginary")
 
 
 def linear(J: Sequence[Dual], n: int) -> Any:

@@ -12,8 +12,8 @@ from lagrotor.proofs.checker.tapes import Tape, demand, read_tape, results_of
 from lagrotor.proofs.tape import OPERATIONS
 
 _LONGEST = 20_000  # characters
-_LARGEST = 10_000  # whole exponent
-_INNER = "ⴰ"  # a letter that stands in no expression
+_LARGEST = 10_000  # integer exponent
+_INNER = "ⴰ"  # a character that occurs in no expression
 _EXACTLY: dict[Any, Any] = {ast.Add: add, ast.Sub: sub, ast.Mult: mul, ast.Div: truediv}
 _JOINED = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "divide"}
 
@@ -26,7 +26,7 @@ def tape_of_words(named: Sequence[Any], arguments: Sequence[str], observed: Any)
         if "means" in row:
             name = row["of"]
             free = name.isidentifier() and name not in words.names and name not in _FUNCTIONS
-            demand(free, f"the name of an expression is no name of its own: {name[:60]!r}")
+            demand(free, f"the name of an expression is taken or invalid: {name[:60]!r}")
             words.constants.pop(name, None)
             demand(meanings.setdefault(name, row["means"]) == row["means"], f"{name} has two meanings")
     places = [words.place(row.get("means", row["of"])) for row in named]
@@ -45,10 +45,10 @@ class Words:
         if observed:
             tape, names = read_tape(observed), observed["names"]
             fits = tape["arguments"] == list(arguments) and len({*names} - {*arguments}) == len(tape["outputs"])
-            demand(fits, "what is observed has other names")
+            demand(fits, "the observables have other names")
             self.names |= dict(zip(names, self.include(tape), strict=True))
         plain = not any(re.search(r"^\d|[\s+*/().-]", name) or name in {"pi", *_FUNCTIONS} for name in self.names)
-        demand(plain, "a name of a state or of what is observed is an expression itself")
+        demand(plain, "the name of a state or observable is an expression")
 
     def include(self, tape: Tape) -> list[int]:
         """Return the places of a tape's outputs; its arguments are matched by name."""
@@ -150,7 +150,7 @@ class Words:
         if name == "divide":
             return self.over(self.keep("subtract", by[0], self.keep("multiply", at, by[1])), on[1])
         (a,), unit = on, self.keep("number", "1")
-        if name == "sqrt":  # √a a'/(2 a): no identity of roots is needed to compare it
+        if name == "sqrt":  # √a a'/(2 a), comparable without an identity of roots
             return self.over(self.keep("multiply", at, by[0]), self.keep("add", a, a))
         if name in ("log", "asin", "atan"):
             square = self.keep("multiply", a, a)

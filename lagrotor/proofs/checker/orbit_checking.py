@@ -19,7 +19,7 @@ from lagrotor.proofs.checker.reversals import check_reversal
 from lagrotor.proofs.checker.tapes import ZERO, demand, demand_pace, is_place, rational_of
 
 Ball = Any
-_FREE = [4, 5, 6]  # of the pair: the rates of chi and alpha and the pace
+_FREE = [4, 5, 6]  # places of chi', alpha' and the pace of the pair
 
 
 def check_orbit(certificate: Any) -> None:
@@ -27,18 +27,17 @@ def check_orbit(certificate: Any) -> None:
     carried = VerifiedSteps(certificate)
     free, conditions = certificate["free"], certificate["conditions"]
     first, last = certificate["reversals"]
-    demand(bool(first) == bool(last), "there is one reversal, at one end alone")
+    demand(bool(first) == bool(last), "only one end has a reversal")
     size, moving = carried.flow.size, carried.flow.moving
     fits = size == moving + 1 and len(free) == len(conditions) == len({*free}) and moving in free
     demand(fits and all(is_place(i, size) for i in (*free, *conditions)), "the conditions do not fit the unknowns")
     demand_pace(carried.flow.tape)
     still = all(x.is_zero() for i, x in enumerate(carried.w) if i not in free)
-    demand(still, "the test is held at the middle of what is not sought")
+    demand(still, "a fixed state is an interval")
     demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps are not one unit of s")
     check_conditions(carried, first, last, free, conditions)
     A, D = matrix(certificate["A"]), carried.derivative
     returns = 0 if first else 1
-
     miss = column([carried.point[i] - returns * carried.middle[i] for i in conditions])
     slope = arb_mat([[D[i, j] - returns * int(i == j) for j in free] for i in conditions])
     start = list(carried.middle)
@@ -48,8 +47,11 @@ def check_orbit(certificate: Any) -> None:
     claim = certificate["claim"]
     states = balls(claim["start"])
     fits = len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False))
-    demand(fits, "the start is another")
-    demand(start[moving] > 0 and read_ball(claim["period"]).contains(turns * start[moving]), "the period is another")
+    demand(fits, "the claimed start does not contain the orbit's")
+    period = turns * start[moving]
+    demand(
+        period > 0 and read_ball(claim["period"]).contains(period), "the claimed period does not contain the orbit's"
+    )
     check_kind(certificate, carried, first, last)
     if "r0" in claim:
         check_amplitude(certificate, claim["r0"])
@@ -58,18 +60,19 @@ def check_orbit(certificate: Any) -> None:
 def check_amplitude(certificate: Any, claimed: Any) -> None:
     """Verify that the start of the one orbit has the claimed amplitude, for a scene and with the pair's reversals."""
     of_pair = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
-    demand("scene" in (certificate["about"] or {}) and of_pair, "it is no precession of the pair")
-    demand(certificate["ones"] == 4, "energy and momentum leave one pair of multipliers")
-    demand(certificate["free"] == _FREE, "the amplitude is not held")
+    demand("scene" in (certificate["about"] or {}) and of_pair, "the orbit is no precession of the pair")
+    demand(certificate["ones"] == 4, "a precession has four multipliers equal to 1")
+    demand(certificate["free"] == _FREE, "the amplitude is not fixed")
     U = read_ball(certificate["start"]["middle"][0])
-    demand(claimed == [claimed[0]] * 2 and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
+    fits = claimed == [claimed[0]] * 2 and U.contains(rational_of(claimed[0]).atanh())
+    demand(fits, "the claimed amplitude is not that of the start")
 
 
 def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, conditions: Any) -> None:
     """Verify that start and conditions are those of the fixed sets of the two reversals."""
     moving = carried.flow.moving
     if not first:
-        demand(sorted(conditions) == list(range(moving)), "the orbit is not followed to its start")
+        demand(sorted(conditions) == list(range(moving)), "the conditions do not close the orbit")
         return
     ends = [i for i, s in enumerate(last) if s < 0]
     demand(sorted(conditions) == ends, "the conditions are not those of the reversal")
@@ -83,7 +86,7 @@ def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, c
 def check_kind(certificate: Any, carried: VerifiedSteps, first: Any, last: Any) -> None:
     """Verify the stability: the trace of the monodromy matrix minus the ones against ±2, or all multipliers."""
     claim, moving = certificate["claim"], carried.flow.moving
-    demand(is_place(certificate["ones"], moving + 1), "the number of multipliers that are 1 is none")
+    demand(is_place(certificate["ones"], moving + 1), "the number of multipliers equal to 1 is invalid")
     demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
     if claim["kind"] == "undecided":
         return
@@ -96,15 +99,15 @@ def check_kind(certificate: Any, carried: VerifiedSteps, first: Any, last: Any) 
         others = [abs(z) for z in values if not z.contains(1)]
         fine = all(x < 1 for x in others) if claim["kind"] == "attracting" else all(x < 1 or x > 1 for x in others)
         fine = fine and len(unity) == 1 and claim["kind"] in ("attracting", "hyperbolic")
-        demand(fine, "the multipliers are not shown to be apart from the unit circle")
+        demand(fine, "the multipliers are not proved to be off the unit circle")
         return
     pair = pair_sum(D, first, last, ones)
     if claim["kind"] == "parabolic":
-        demand(moving == ones, "a pair of multipliers is left that need not be one")
+        demand(moving == ones, "a pair of multipliers can differ from 1")
         return
-    demand(moving - ones == 2, "more than one pair of multipliers is left")
-    demand(read_ball(claim["pair_sum"]).contains(pair), "the multipliers' sum is another")
-    demand(claim["kind"] == kind_of(pair), f"the orbit is not shown to be {claim['kind']}")
+    demand(moving - ones == 2, "more than one pair of multipliers can differ from 1")
+    demand(read_ball(claim["pair_sum"]).contains(pair), "the claimed sum of the multipliers does not contain theirs")
+    demand(claim["kind"] == kind_of(pair), f"the orbit is not proved to be {claim['kind']}")
 
 
 def kind_of(pair: Ball) -> str:
@@ -117,7 +120,7 @@ def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
     X = middle_inverse(D)
     R = unit(moving) - D * X
     size = max((total(row) for row in R.tolist()), key=lambda x: float(x.upper()))
-    demand(size < 1, "the derivative cannot be inverted")
+    demand(size < 1, "the derivative is not proved to be invertible")
     bound = (size**2 / (1 - size)).upper()
     inverse = X * (unit(moving) + R + arb_mat(moving, moving, [arb(0, bound)] * moving**2))
     places = range(moving)
@@ -127,5 +130,5 @@ def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
     pair = sum((M[i, i] for i in range(moving)), ZERO) - ones
     factor = arb_poly([1, -pair, 1]) if moving > ones else arb_poly([1])
     difference = M.charpoly() - arb_poly([-1, 1]) ** ones * factor
-    demand(all(x.contains(0) for x in difference.coeffs()), "the multipliers are not as many ones and a pair")
+    demand(all(x.contains(0) for x in difference.coeffs()), "the multipliers are not the stated ones and a pair")
     return pair

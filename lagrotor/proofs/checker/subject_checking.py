@@ -33,9 +33,9 @@ def check_subject(certificate: Any) -> None:
         demand(read_ball(certificate["start"]["spread"][place]).is_zero(), "t is not the time from 0 on")
     about = certificate["about"]
     if about is None:
-        demand(certificate.get("observed") is None, "what is observed has no meaning")
+        demand(certificate.get("observed") is None, "the observables are undefined")
         return
-    demand(type(about) is dict and len(about) == 1, "a theorem is about one thing")
+    demand(type(about) is dict and len(about) == 1, "a theorem has one subject")
     (kind,) = about
     _RULES[kind](certificate, about[kind])
 
@@ -68,12 +68,12 @@ def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what
 def _check_start(certificate: Any, words: Words, constraints: Sequence[int]) -> None:
     """Verify that the start can satisfy the constraints. An orbit or equilibrium may have none."""
     if certificate["kind"] in ("periodic orbit", "equilibrium"):
-        demand(len(constraints) == 0, "a rest or an orbit is not shown to keep constraints")
+        demand(len(constraints) == 0, "an equilibrium or orbit may have no constraints")
         return
     spread = balls(certificate["start"]["spread"])
     middle = _middle(certificate)
     residuals = _values(words, constraints, [x + y for x, y in zip(middle, spread, strict=True)], certificate)
-    demand(all(x.contains(0) for x in residuals), "the start is off the constraints")
+    demand(all(x.contains(0) for x in residuals), "the start violates the constraints")
 
 
 def _middle(certificate: Any) -> list[Ball]:
@@ -90,7 +90,7 @@ def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate
     arguments = [*numbers, *[arb(1)] * (len(words.arguments) - len(numbers))]
     duals = [Dual(Series([x], ZERO, 1)) for x in arguments]
     values = [x.value.at_start() for x in evaluate(words.tape(places), duals)]
-    demand(all(x.is_finite() for x in values), "what is named is not defined at the start")
+    demand(all(x.is_finite() for x in values), "the subject is undefined at the start")
     return values
 
 
@@ -98,16 +98,16 @@ def _check_generated(certificate: Any, field: Field) -> None:
     """Verify the program and the observables that are generated for a scene or structure."""
     arguments, observed = certificate["motion"]["arguments"], certificate.get("observed")
     words = Words(arguments, None)
-    rates, what = _rates(words, certificate), "the program is not that of what the theorem names"
+    rates, what = _rates(words, certificate), "the program is not that of the subject"
     demand(arguments[: len(rates)] == [str(s) for s in field.states], what)
     demand_equal(words, rates, words.include(read_tape(vars(field.motion.tape))), what)
     constraints = words.include(read_tape(vars(field.function(field.constraints))))
     _check_start(certificate, words, constraints)
     if observed is not None:
         observables = [*(field.observables or ())]
-        demand(observed["names"] == [str(s) for s in observables], "what is observed has other names")
+        demand(observed["names"] == [str(s) for s in observables], "the observables have other names")
         first, second = (words.include(read_tape(tape)) for tape in (observed, vars(field.function(observables))))
-        demand_equal(words, first, second, "what is observed is something else")
+        demand_equal(words, first, second, "the observables are not those of the subject")
 
 
 def _check_scene(certificate: Any, data: Any) -> None:
@@ -126,10 +126,10 @@ def _check_structure(certificate: Any, data: Any) -> None:
 
 def _check_rates(certificate: Any, data: Any) -> None:
     words = Words(certificate["motion"]["arguments"], None)
-    demand(certificate.get("observed") is None, "what is observed has no meaning")
+    demand(certificate.get("observed") is None, "the observables are undefined")
     rates = _rates(words, certificate)
     named = [words.place(text) for text in data]
-    demand_equal(words, rates, named, "the rates are others")
+    demand_equal(words, rates, named, "the rates are not those of the text")
     _values(words, named, _middle(certificate), certificate)
 
 
@@ -137,11 +137,11 @@ class LagrangianOfWords:
     """The certificate's program, and the text of a Lagrangian, of forces, dissipation and constraints."""
 
     def __init__(self, certificate: Any, data: Any) -> None:
-        arguments, letters = certificate["motion"]["arguments"], data["letters"]
-        demand(len({*arguments, *letters}) == len(arguments) + len(letters), "a letter has two meanings")
-        demand(all(map(is_name, letters)), "a letter has no name")
-        demand(certificate.get("observed") is None, "what is observed has no meaning")
-        self.words = words = Words([*arguments, *letters], None)
+        arguments, symbols = certificate["motion"]["arguments"], data["letters"]
+        demand(len({*arguments, *symbols}) == len(arguments) + len(symbols), "a symbol has two meanings")
+        demand(all(map(is_name, symbols)), "a symbol has no name")
+        demand(certificate.get("observed") is None, "the observables are undefined")
+        self.words = words = Words([*arguments, *symbols], None)
         self.rates = _rates(words, certificate)
         self.n, self.timed = divmod(len(self.rates), 2)
         zero, unit = (words.keep("number", x) for x in "01")
@@ -154,19 +154,19 @@ class LagrangianOfWords:
         constraints = [words.place(g) for g in data["constraints"]]
         residual = [words.slope(g, self.swept) for g in constraints]
         self.residual = residual + [words.place(f) for f in data["rolling"]]
-        self.others = [arb(1)] * len(letters)  # whatever they are, the rates are the same
+        self.others = [arb(1)] * len(symbols)  # the rates do not depend on these symbols
         self.autonomous = not clock and not self.residual and data["forces"] == []
         named = [*(f"{q}_dot" for q in arguments[: self.n]), *["t"] * self.timed]
         fits = arguments[self.n : len(self.rates)] == named and len(self.forces) == self.n
         demand(fits, "the states are not coordinates, their velocities and the time")
         free = words.below([*constraints, *self.residual]).isdisjoint(range(len(arguments), len(words.arguments)))
-        demand(free, "a constraint has letters without a value")
+        demand(free, "a constraint has symbols without a value")
         _check_start(certificate, words, [*constraints, *self.residual])
         self.certificate = certificate
 
-    def by(self, place: int, letters: Sequence[int]) -> list[int]:
+    def by(self, place: int, symbols: Sequence[int]) -> list[int]:
         unit = self.words.keep("number", "1")
-        return [self.words.slope(place, {letter: unit}) for letter in letters]
+        return [self.words.slope(place, {symbol: unit}) for symbol in symbols]
 
     def missing(self) -> list[int]:
         """Return d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v."""
@@ -205,7 +205,7 @@ class LagrangianOfWords:
         results = _values(words, places, _middle(self.certificate), self.certificate)
         # As a ball, since symbols can be dependent modulo a prime.
         regular = arb_mat(n + k, n + k, results[: (n + k) ** 2]).det() != 0
-        demand(regular, "the Lagrangian is not shown to give accelerations")
+        demand(regular, "the Lagrangian is not proved to determine the accelerations")
 
 
 def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:

@@ -17,7 +17,7 @@ Term = Any
 ZERO = arb(0)
 Tape = dict[str, Any]
 Value = TypeVar("Value")
-_NAME = re.compile(r"[^\s=,;:<>\[\]!?\"#]+")  # in which nothing else can be said
+_NAME = re.compile(r"[^\s=,;:<>\[\]!?\"#]+")  # one word
 _NUMBER = re.compile(r"pi|-?\d+(/\d+)?", re.ASCII)
 
 
@@ -49,8 +49,8 @@ def read_tape(data: Any) -> Tape:
             fine = len(on) == 1 and type(on[0]) is str and _NUMBER.fullmatch(on[0]) is not None
         else:
             fine = OPERATIONS.get(name) == len(on) and all(is_place(x, place) for x in on)
-        demand(fine, f"operation {place} of a tape is none: {str([name, *on])[:60]}")
-    demand(all(is_place(x, len(operations)) for x in outputs), "an output of a tape is no operation's")
+        demand(fine, f"operation {place} of a tape is malformed: {str([name, *on])[:60]}")
+    demand(all(is_place(x, len(operations)) for x in outputs), "an output of a tape is not the result of an operation")
     return {"arguments": arguments, "operations": operations, "outputs": outputs}
 
 
@@ -76,7 +76,7 @@ def demand_pace(tape: Tape) -> None:
     for place, (name, *on) in enumerate(operations):
         by_pace = sum(x in pace for x in on) if name in OPERATIONS else 0
         fine = name == "multiply" and by_pace == 1 if place in rates else not by_pace
-        demand(fine and not (name in OPERATIONS and rates & {*on}), "the motion is not one in units of its pace")
+        demand(fine and not (name in OPERATIONS and rates & {*on}), "the rates are not multiples of the pace")
 
 
 def rational_of(text: str) -> Term:

@@ -21,7 +21,7 @@ from lagrotor.errors import NotExactError
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdicts import Answer, LineVerdict, Verdict
-from lagrotor.proofs.coq.cofactors import LetterEquation, elimination
+from lagrotor.proofs.coq.cofactors import SymbolEquation, elimination
 from lagrotor.proofs.coq.coq_terms import Comparison, Terms, comment, comparison, conditions_of_value, declared_signs
 from lagrotor.proofs.coq.equality_steps import Sides, in_one
 from lagrotor.proofs.coq.points import points_of, rational_bounds, value_at_point
@@ -88,8 +88,9 @@ Ltac at_the_point := repeat apply conj; first [lra | field; lra | interval | app
 """
 
 
-# What the values that the text gives for a line are called among its premises.
+# The name of the text's values among the premises of a line.
 SCENE = "the text's values"
+Theorems = tuple[tuple[str, ...], str]  # names and text
 
 
 @dataclass(frozen=True)
@@ -137,23 +138,23 @@ def _proposition(name: str, line: LineVerdict, offered: tuple[Premise, ...]) -> 
         (premise.says, old, new)
         for premise in premises
         for old, new in _unscaled(premise)
-        if premise.small is None or old not in set_otherwise  # a letter that is zero need not be small
+        if premise.small is None or old not in set_otherwise  # a symbol that is zero need not be small
     ]
     where = [condition for premise in premises for condition in premise.where]
     rows += [(str(condition), condition.lhs, condition.rhs) for condition in where if isinstance(condition, sp.Eq)]
     rows += [(SCENE, old, new) for old, new in relation.scene.items()]
     rows = [(says, sp.sympify(old, strict=True), sp.sympify(new, strict=True)) for says, old, new in rows]
     expressions = [relation.printed, relation.derived, *where, *(side for _, *sides in rows for side in sides)]
-    letters = _symbols_for_operators(expressions)
+    symbols = _symbols_for_operators(expressions)
     return Proposition(
         name,
         relation.quantity,
         line.verdict,
-        relation.printed.xreplace(letters),
-        relation.derived.xreplace(letters),
-        tuple((says, old.xreplace(letters), new.xreplace(letters)) for says, old, new in rows),
-        tuple(condition.xreplace(letters) for condition in where if not isinstance(condition, sp.Eq)),
-        tuple((letter, node) for node, letter in letters.items()),
+        relation.printed.xreplace(symbols),
+        relation.derived.xreplace(symbols),
+        tuple((says, old.xreplace(symbols), new.xreplace(symbols)) for says, old, new in rows),
+        tuple(condition.xreplace(symbols) for condition in where if not isinstance(condition, sp.Eq)),
+        tuple((symbol, node) for node, symbol in symbols.items()),
         relation.within,
         line.small,
         line.order,
@@ -213,7 +214,7 @@ def certified_line(proposition: Proposition) -> CertifiedLine:
     return CertifiedLine(*about, theorems, text)
 
 
-def _theorems(p: Proposition) -> tuple[tuple[str, ...], str]:
+def _theorems(p: Proposition) -> Theorems:
     """Return the names of the theorems of one line, and their text. Raises NotExactError if there are none."""
     if p.verdict not in ("holds", "holds-if", "holds-to-order", "refuted"):
         raise NotExactError(f"{p.verdict} is no exact verdict")
@@ -231,7 +232,7 @@ class _Hypotheses:
     """The symbols and hypotheses of a theorem."""
 
     terms: Terms
-    letters: tuple[sp.Symbol, ...]
+    symbols: tuple[sp.Symbol, ...]
     functions: tuple[tuple[Any, int], ...]
     stands_for: tuple[tuple[sp.Symbol, sp.Expr], ...]
     signs: tuple[Comparison, ...]
@@ -249,16 +250,16 @@ class _Hypotheses:
             yield f"defined_{n}", comparison(self.terms, sign, e), ""
 
     @property
-    def pairs(self) -> list[LetterEquation]:
+    def pairs(self) -> list[SymbolEquation]:
         return [(lhs, rhs) for _, lhs, rhs in self.equations]
 
     def binders(self) -> str:
         """Return the symbols and hypotheses as binders of a theorem."""
         comments: set[str] = set()
-        rows = [f"({' '.join(self.terms.names[x] for x in self.letters)} : R)"] if self.letters else []
+        rows = [f"({' '.join(self.terms.names[x] for x in self.symbols)} : R)"] if self.symbols else []
         for function, arity in self.functions:
             rows.append(f"  ({self.terms.names[function]} : {'R -> ' * arity}R)")
-        rows += [f"  {comment(f'{letter} stands for {node}')}" for letter, node in self.stands_for]
+        rows += [f"  {comment(f'{symbol} stands for {node}')}" for symbol, node in self.stands_for]
         for name, text, words in self.named:
             rows.append(f"  ({name} : {text})" + (f" {comment(words)}" if words not in {"", *comments} else ""))
             comments.add(words)
@@ -274,13 +275,13 @@ def _hypotheses(p: Proposition, extra: Iterable[sp.Expr] = ()) -> _Hypotheses:
             if node.is_Float or node in (sp.I, sp.oo, -sp.oo, sp.zoo, sp.nan):
                 raise NotExactError(f"{node} is no real number that is exact")
     terms = Terms(expressions)
-    letters = tuple(sorted(set().union(*(e.free_symbols for e in expressions)), key=str))
+    symbols = tuple(sorted(set().union(*(e.free_symbols for e in expressions)), key=str))
     functions = sorted({(node.func, len(node.args)) for e in expressions for node in e.atoms(AppliedUndef)}, key=str)
     if len({function for function, _ in functions}) < len(functions):
         raise NotExactError("a function is called with different numbers of arguments")
-    signs = tuple(declared_signs(letters))
+    signs = tuple(declared_signs(symbols))
     conditions = (*conditions_of_value(expressions), *region)
-    return _Hypotheses(terms, letters, tuple(functions), p.stands_for, signs, p.equations, conditions)
+    return _Hypotheses(terms, symbols, tuple(functions), p.stands_for, signs, p.equations, conditions)
 
 
 def _as_comparison(condition: sp.Basic) -> Comparison:
@@ -292,7 +293,7 @@ def _as_comparison(condition: sp.Basic) -> Comparison:
     return signs[condition.func], rhs - lhs if condition.func in (sp.Le, sp.Lt) else lhs - rhs
 
 
-def _equality_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
+def _equality_theorem(p: Proposition) -> Theorems:
     """Return the theorem that both sides are equal, and with hypotheses the theorem that they hold somewhere."""
     h, sides = _prepare(p)
     pairs = list(p.pairs)
@@ -303,7 +304,7 @@ def _equality_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
     return _theorem(p.name, f"{p.name}: {p.quantity}: {p.verdict}", h, sides, claims, tactics)
 
 
-def _kind_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
+def _kind_theorem(p: Proposition) -> Theorems:
     """Return the theorem that a number is no vector, for a line with one of each."""
     sides = [list(side) if isinstance(side, sp.MatrixBase) else [side] for side in (p.printed, p.derived)]
     none = replace(p, printed=sp.S.Zero, derived=sp.S.Zero, equations=(), region=())
@@ -323,7 +324,7 @@ def _prepare(p: Proposition, extra: Iterable[sp.Expr] = ()) -> tuple["_Hypothese
     return h, Sides(h.terms, expressions, h.pairs, h.defined, p.small)
 
 
-def _ratio_theorem(p: Proposition, h: "_Hypotheses", sides: Sides) -> tuple[tuple[str, ...], str]:
+def _ratio_theorem(p: Proposition, h: "_Hypotheses", sides: Sides) -> Theorems:
     """Return the theorem that a number read off a run is a constant times the derived one, and that this constant is near one.
 
     If the constant contains roots, both sides are nonnegative, and their squares have a rational ratio.
@@ -349,9 +350,7 @@ def _ratio_theorem(p: Proposition, h: "_Hypotheses", sides: Sides) -> tuple[tupl
     return _theorem(p.name, f"{p.name}: {p.quantity}: {p.verdict}", h, sides, claims, [tactic, near])
 
 
-def _theorem(
-    name: str, head: str, h: "_Hypotheses", sides: Sides, claims: list[str], tactics: list[str]
-) -> tuple[tuple[str, ...], str]:
+def _theorem(name: str, head: str, h: "_Hypotheses", sides: Sides, claims: list[str], tactics: list[str]) -> Theorems:
     """Return the theorem that the hypotheses imply the claims, and the theorem that the hypotheses hold somewhere."""
     proof = [*sides.steps, *(f"split. {{ {tactic} }}" for tactic in tactics[:-1]), tactics[-1]]
     claim, steps = " /\\\n  ".join(claims), "\n  ".join(proof)
@@ -366,7 +365,7 @@ def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[s
     if p.tolerance is None:
         return list(p.pairs)
     inverse = sp.Pow(p.derived, -1, evaluate=False)
-    ratio = sp.Mul(p.printed, inverse, evaluate=False)  # as it is printed, nothing cancelled
+    ratio = sp.Mul(p.printed, inverse, evaluate=False)  # as printed, without cancellation
     return [(ratio, value_at_zero(sides, ratio, small))]
 
 
@@ -375,26 +374,26 @@ def _to_order(
 ) -> tuple["_Hypotheses", Sides, list[str], list[str], list[SeriesRemainder]]:
     """Return claims that pairs differ by a power of the small quantity times a finite factor, and their proofs."""
     draft = _prepare(p, [e for pair in pairs for e in pair])[1]
-    rests = [remainder(draft, lhs - rhs, small, order) for lhs, rhs in pairs]
-    h, sides = _prepare(p, [e for pair in pairs for e in pair] + [row.factor for row in rests])
+    remainders = [remainder(draft, lhs - rhs, small, order) for lhs, rhs in pairs]
+    h, sides = _prepare(p, [e for pair in pairs for e in pair] + [row.factor for row in remainders])
     write = h.terms.write
-    rows = [*zip(pairs, rests, strict=True)]
+    rows = [*zip(pairs, remainders, strict=True)]
     claims = [f"{write(a)} - ({write(b)}) = {write(r.power)} * ({write(r.factor)})" for (a, b), r in rows]
     tactics = [sides.equality(a - b, r.power * r.factor) for (a, b), r in rows]
-    for name, bound in _sines_over(small, rests):
+    for name, bound in _sines_over(small, remainders):
         claims.append(f"Rabs ({write(name)}) <= Rabs ({write(bound)})")
         tactics.append("apply sine_is_small.")
-    return h, sides, claims, tactics, rests
+    return h, sides, claims, tactics, remainders
 
 
-def _sines_over(small: sp.Symbol, rests: list[SeriesRemainder]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+def _sines_over(small: sp.Symbol, remainders: list[SeriesRemainder]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     """Yield the sines that are divided by the small symbol: |sin x| ≤ |x| keeps the quotient finite."""
-    for sine in sorted(set().union(*(r.factor.atoms(sp.sin) for r in rests if r.at_zero is None)), key=str):
+    for sine in sorted(set().union(*(r.factor.atoms(sp.sin) for r in remainders if r.at_zero is None)), key=str):
         if small in sine.free_symbols:
             yield sine, sine.args[0]
 
 
-def _order_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
+def _order_theorem(p: Proposition) -> Theorems:
     """Return the theorem that both sides differ by a power of the small quantity times a finite factor."""
     small, draft = p.small, _prepare(p)[1]
     assert small is not None
@@ -407,7 +406,7 @@ def _order_theorem(p: Proposition) -> tuple[tuple[str, ...], str]:
     return _theorem(p.name, head, h, sides, claims, tactics)
 
 
-def _refuted_order_theorem(p: Proposition, order: int) -> tuple[tuple[str, ...], str]:
+def _refuted_order_theorem(p: Proposition, order: int) -> Theorems:
     """Return the theorems that the sides differ by small**n times a finite factor, and that it is nonzero at some point."""
     small = p.small
     assert small is not None
@@ -419,7 +418,7 @@ def _refuted_order_theorem(p: Proposition, order: int) -> tuple[tuple[str, ...],
     write, name, where = h.terms.write, f"{p.name}_differs", f"{p.name}_refuted"
     head = f"{p.name}: {p.quantity}: refuted at order {order + 1} in {small}: how the sides differ, and a point where they do"
     _, text = _theorem(name, head, h, sides, claims, tactics)
-    for point in points_of(h.letters, sides.eliminated, [*h.signs, *h.defined], 24, zeros=[*sides.unsolved.values()]):
+    for point in points_of(h.symbols, sides.eliminated, [*h.signs, *h.defined], 24, zeros=[*sides.unsolved.values()]):
         value = value_at_point(remainder.at_zero, point)
         if value is not None and abs(value) > 1e-3:
             low, high = rational_bounds(value)
@@ -432,10 +431,10 @@ def _refuted_order_theorem(p: Proposition, order: int) -> tuple[tuple[str, ...],
 def _example_theorem(name: str, h: _Hypotheses, sides: Sides) -> str:
     """Return the theorem that the hypotheses of a line hold together at some point."""
     _check_enclosed([e for _, e in (*h.signs, *h.defined)] + [e for pair in h.pairs for e in pair])
-    near = [{sides.small: value} for value in (sp.S.Zero, sp.Rational(1, 100))] if sides.small else []  # of a series
+    near = [{sides.small: value} for value in (sp.S.Zero, sp.Rational(1, 100))] if sides.small else []  # for a series
     for fixed in (*near, {}):
         for point in points_of(
-            h.letters, sides.eliminated, [*h.signs, *h.defined], fixed=fixed, zeros=[*sides.unsolved.values()]
+            h.symbols, sides.eliminated, [*h.signs, *h.defined], fixed=fixed, zeros=[*sides.unsolved.values()]
         ):
             claim = " /\\ ".join(text for _, text, _ in h.named)
             return _point_theorem(f"{name}_has_a_case", h, point, claim)
@@ -447,19 +446,19 @@ def _check_enclosed(expressions: Iterable[sp.Expr]) -> None:
     for e in expressions:
         if function := next(iter(e.atoms(AppliedUndef, sp.asin, sp.acos)), None):
             raise NotExactError(f"{function} has no enclosure at a point in Coq")
-        if letter := next((x for x in e.free_symbols if x.is_integer), None):
-            raise NotExactError(f"{letter} is a whole number, and points are rational")
+        if symbol := next((x for x in e.free_symbols if x.is_integer), None):
+            raise NotExactError(f"{symbol} is a whole number, and points are rational")
 
 
 def _point_theorem(name: str, h: _Hypotheses, point: dict[sp.Symbol, sp.Expr], claim: str) -> str:
-    letters = [h.terms.names[x] for x in h.letters]
-    values = ", ".join(f"({h.terms.write(point[x])})" for x in h.letters)
-    bound = f"exists {' '.join(letters)} : R,\n  " if letters else ""
-    exists = f"exists {values}. " if letters else ""
+    symbols = [h.terms.names[x] for x in h.symbols]
+    values = ", ".join(f"({h.terms.write(point[x])})" for x in h.symbols)
+    bound = f"exists {' '.join(symbols)} : R,\n  " if symbols else ""
+    exists = f"exists {values}. " if symbols else ""
     return f"Theorem {name} : {bound}{claim}.\nProof. {exists}at_the_point. Qed."
 
 
-def _counterexamples(p: Proposition) -> tuple[tuple[str, ...], str]:
+def _counterexamples(p: Proposition) -> Theorems:
     """Return a counterexample for each largest consistent choice of premises."""
     choices = _consistent_choices(p.equations)
     names = [f"{p.name}_refuted" + (f"_{n}" if len(choices) > 1 else "") for n in range(1, len(choices) + 1)]
@@ -508,7 +507,7 @@ def _counterexample(name: str, p: Proposition) -> str:
     pairs = [(lhs, rhs, lhs - rhs if p.tolerance is None else lhs / rhs - 1) for lhs, rhs in p.pairs]
     least = p.tolerance or sp.S.Zero
     best: tuple[Any, dict[sp.Symbol, sp.Expr], tuple[sp.Expr, ...]] | None = None
-    for point in points_of(h.letters, values, hold, 24, zeros=[*unsolved.values()]):
+    for point in points_of(h.symbols, values, hold, 24, zeros=[*unsolved.values()]):
         for pair in pairs:
             value = value_at_point(pair[2], point)
             if value is not None and abs(value) > (best[0] if best else least):

@@ -13,12 +13,12 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from lagrotor.errors import NotExactError
 
-LetterEquation = tuple[sp.Expr, sp.Expr]
-# The most terms of a numerator.
+SymbolEquation = tuple[sp.Expr, sp.Expr]
+# The largest number of terms in a numerator.
 _MOST_TERMS = 4000
 
 
-def elimination(equations: Sequence[LetterEquation]) -> tuple[dict[sp.Symbol, sp.Expr], dict[int, sp.Expr]]:
+def elimination(equations: Sequence[SymbolEquation]) -> tuple[dict[sp.Symbol, sp.Expr], dict[int, sp.Expr]]:
     """Return symbol → value for equations with a symbol alone on one side, and place (from 1) → difference for the others.
 
     Raises NotExactError for an equation that contradicts the earlier ones.
@@ -27,9 +27,9 @@ def elimination(equations: Sequence[LetterEquation]) -> tuple[dict[sp.Symbol, sp
     others: dict[int, sp.Expr] = {}
     for place, (lhs, rhs) in enumerate(equations, 1):
         a, b = lhs.xreplace(values), rhs.xreplace(values)
-        for letter, value in ((a, b), (b, a)):
-            if sp.expand(a - b) != 0 and letter.is_Symbol and letter not in value.free_symbols:
-                values = {old: new.xreplace({letter: value}) for old, new in values.items()} | {letter: value}
+        for symbol, value in ((a, b), (b, a)):
+            if sp.expand(a - b) != 0 and symbol.is_Symbol and symbol not in value.free_symbols:
+                values = {old: new.xreplace({symbol: value}) for old, new in values.items()} | {symbol: value}
                 break
         else:
             others[place] = a - b
@@ -41,7 +41,7 @@ def elimination(equations: Sequence[LetterEquation]) -> tuple[dict[sp.Symbol, sp
     return values, left_over
 
 
-# Members of a basis beyond which no cofactors are sought.
+# The largest basis.
 _MOST_MEMBERS = 40
 
 
@@ -101,26 +101,26 @@ class Fraction:
     ring: PolyRing
 
 
-def one_fraction(value: sp.Expr, letters: Sequence[sp.Symbol]) -> Fraction:
+def one_fraction(value: sp.Expr, symbols: Sequence[sp.Symbol]) -> Fraction:
     """Return a value whose denominators are monomials as one fraction. Raises NotExactError if it is too large."""
-    ring = PolyRing(list(letters) or [sp.Dummy()], sp.QQ, sp.lex)
-    quotient = _quotient(value, ring, {letter: ring.gens[i] for i, letter in enumerate(letters)})
+    ring = PolyRing(list(symbols) or [sp.Dummy()], sp.QQ, sp.lex)
+    quotient = _quotient(value, ring, {symbol: ring.gens[i] for i, symbol in enumerate(symbols)})
     numerator, powers = quotient
-    under = sp.Mul(*(letter**n for letter, n in zip(letters, powers, strict=False) if n))
+    under = sp.Mul(*(symbol**n for symbol, n in zip(symbols, powers, strict=False) if n))
     return Fraction(numerator, under, ring)
 
 
 _Quotient = tuple[PolyElement, tuple[int, ...]]
 
 
-def _quotient(node: sp.Expr, ring: PolyRing, letters: dict[sp.Symbol, PolyElement]) -> _Quotient:
+def _quotient(node: sp.Expr, ring: PolyRing, symbols: dict[sp.Symbol, PolyElement]) -> _Quotient:
     """Return the numerator and the exponents of the denominator, a monomial."""
     none = (0,) * ring.ngens
     if node.is_Rational:
         return ring(sp.QQ(node.p, node.q)), none
     if node.is_Symbol:
-        return letters[node], none
-    fractions = [_quotient(argument, ring, letters) for argument in (node.args if not node.is_Pow else node.args[:1])]
+        return symbols[node], none
+    fractions = [_quotient(argument, ring, symbols) for argument in (node.args if not node.is_Pow else node.args[:1])]
     if node.is_Add:
         common = tuple(map(max, *(powers for _, powers in fractions)))
         shifts = [tuple(a - b for a, b in zip(common, powers, strict=True)) for _, powers in fractions]

@@ -89,15 +89,15 @@ def _row(data: dict[str, Any]) -> CertifiedEquation:
     return CertifiedEquation(str(data["id"]), str(data["verdict"]), str(data["file"]), tuple(lines))
 
 
-# The seconds after which a file counts as rejected.
+# Time limit for a file, s.
 _LONGEST = 300
-# Files are compiled together, in so many parts for each core.
+# Batches of files for each core.
 _BATCHES = 4
-# Words that a sentence begins with after the preamble: nothing is assumed, no notation is changed, and no name is taken but
-# those of lines, since a lemma `sin` would be another sine in all that follows.
+# The first words of sentences after the preamble. They exclude axioms, notations and lemmas: a lemma `sin` would replace the
+# sine in all later statements.
 _SENTENCES = frozenset(["Theorem", "Proof", "Qed"])
 _NAME = re.compile(r"(line|correction)_\d+(_\w+)?")
-# The end of a sentence; the next may begin with the marks of its place in a proof.
+# The end of a sentence; the next one can begin with bullets.
 _END = re.compile(r"(?:(?<!\.)|\.\.)\.(?:\s|\Z)|[{}]")
 _MARKS = " \t\r\n+-*"
 _TO_INSTALL = "install Debian's packages coq and libcoq-interval (apt-get install coq libcoq-interval)"
@@ -220,7 +220,7 @@ def foreign_word(text: str) -> str:
     head, preamble, plain = _without_comments(text).partition(PREAMBLE)
     if not preamble or head.strip():
         return "another beginning than the preamble of certificates"
-    if '"' in text:  # also in a comment, where Coq reads one
+    if '"' in text:  # Coq reads strings in comments, too
         return "a string"
     starts = (re.match(r"\w+|.", sentence.lstrip(_MARKS)) for sentence in _END.split(plain))
     words = [start[0] for start in starts if start and start[0] not in _SENTENCES and not start[0][0].islower()]

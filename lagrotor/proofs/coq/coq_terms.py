@@ -20,7 +20,7 @@ _FUNCTIONS: dict[Any, str] = {
     **{sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.sinh: "sinh", sp.cosh: "cosh", sp.tanh: "tanh"},
     **{sp.exp: "exp", sp.log: "ln", sp.atan: "atan", sp.asin: "asin", sp.acos: "acos", sp.Abs: "Rabs"},
 }
-# What a file of certificates says itself: no letter is called so. Coq's own words, and those of the standard library.
+# Reserved names: Coq's words, those of the standard library, and the lemmas of the preamble.
 _RESERVED = frozenset(
     """as at cofix do else end exists exists2 fix for forall fun if IF in let match mod return then where with using by
     Prop SProp Set Type R I O S Q Z N nat True False not or and PI sqrt Rpower pow IZR Rinv Rmult Rplus Rminus Rdiv Ropp
@@ -29,7 +29,7 @@ _RESERVED = frozenset(
     """.split()  # noqa: SIM905
 ) | set(_FUNCTIONS.values())
 _WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-# Coq's names of what the proofs bring in themselves: no letter is called so either.
+# Names that the proofs introduce; they are reserved, too.
 PROOF_NAMES = re.compile(r"(?:known|apart|root|sum|atom|whole|factor|radical|zero|over|sign|premise|defined)_\d+")
 Comparison = tuple[str, sp.Expr]  # ("<>" or "<=" or "<" zero, of an expression): 0 <> e, 0 <= e, 0 < e
 
@@ -45,23 +45,23 @@ class Terms:
         self.stands_for: dict[sp.Expr, sp.Symbol] = {}
         sides = [sp.sympify(e, strict=True) for e in expressions]
         nodes = {node for e in sides for node in sp.preorder_traversal(e)}
-        letters = {node for node in nodes if node.is_Symbol} | {n.func for n in nodes if isinstance(n, AppliedUndef)}
-        symbols: dict[str, Any] = {}
-        for letter in sorted(letters, key=lambda symbol: (_plain(symbol), str(symbol))):
-            if _plain(letter) in symbols:
-                raise NotExactError(f"two letters are called {_plain(letter)}")
-            if letter.is_Symbol and letter.is_extended_real is False:
-                raise NotExactError(f"{_plain(letter)} is no real number")
-            symbols[_plain(letter)] = letter
-            self.add(letter)
+        symbols = {node for node in nodes if node.is_Symbol} | {n.func for n in nodes if isinstance(n, AppliedUndef)}
+        by_name: dict[str, Any] = {}
+        for symbol in sorted(symbols, key=lambda x: (_plain(x), str(x))):
+            if _plain(symbol) in by_name:
+                raise NotExactError(f"two symbols are called {_plain(symbol)}")
+            if symbol.is_Symbol and symbol.is_extended_real is False:
+                raise NotExactError(f"{_plain(symbol)} is no real number")
+            by_name[_plain(symbol)] = symbol
+            self.add(symbol)
 
-    def add(self, letter: Any) -> str:
+    def add(self, symbol: Any) -> str:
         """Name a symbol, by its own name if Coq allows it."""
-        called = _plain(letter)
+        called = _plain(symbol)
         name = called if _WORD.fullmatch(called) else "x_" + re.sub(r"\W", "_", called, flags=re.ASCII)
         while name in _RESERVED or PROOF_NAMES.fullmatch(name) or name in self.names.values():
             name += "_"
-        self.names[letter] = name
+        self.names[symbol] = name
         return name
 
     def write(self, node: Any) -> str:
@@ -143,8 +143,8 @@ class Terms:
         return f"Rpower {self._within(base, 4)} {self._within(exponent, 4)}", 3
 
 
-def _plain(letter: Any) -> str:
-    return str(letter.name if hasattr(letter, "name") else letter.__name__)
+def _plain(symbol: Any) -> str:
+    return str(symbol.name if hasattr(symbol, "name") else symbol.__name__)
 
 
 def conditions_of_value(expressions: Iterable[Any]) -> list[Comparison]:
@@ -189,15 +189,15 @@ def _plainly(sign: str, e: sp.Expr) -> bool:
     return bool(plain and {"<>": e != 0, "<=": e >= 0, "<": e > 0}[sign])
 
 
-def declared_signs(letters: Iterable[sp.Symbol]) -> list[Comparison]:
+def declared_signs(symbols: Iterable[sp.Symbol]) -> list[Comparison]:
     """Return the declared signs of the symbols as comparisons."""
     signs: list[Comparison] = []
-    for letter in sorted(letters, key=str):
+    for symbol in sorted(symbols, key=str):
         declared = (
-            (letter.is_positive, "<", letter), (letter.is_negative, "<", -letter), (letter.is_nonnegative, "<=", letter),
-            (letter.is_nonpositive, "<=", -letter), (letter.is_nonzero, "<>", letter),
+            (symbol.is_positive, "<", symbol), (symbol.is_negative, "<", -symbol), (symbol.is_nonnegative, "<=", symbol),
+            (symbol.is_nonpositive, "<=", -symbol), (symbol.is_nonzero, "<>", symbol),
         )  # fmt: skip
-        signs += [(sign, e) for holds, sign, e in declared if holds][:1]  # the first says the most
+        signs += [(sign, e) for holds, sign, e in declared if holds][:1]  # the first is the strongest
     return signs
 
 

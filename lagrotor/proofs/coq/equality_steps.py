@@ -21,13 +21,13 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from lagrotor.algebra.power_series import QUOTIENTS
 from lagrotor.errors import NotExactError
-from lagrotor.proofs.coq.cofactors import Fraction, LetterEquation, cofactors_of, elimination, one_fraction
+from lagrotor.proofs.coq.cofactors import Fraction, SymbolEquation, cofactors_of, elimination, one_fraction
 from lagrotor.proofs.coq.coq_terms import Comparison, Terms
 
 _CIRCULAR, _EXPONENTIAL = (sp.sin, sp.cos), (sp.exp, sp.sinh, sp.cosh)
 _OPAQUE = (sp.log, sp.atan, sp.asin, sp.acos)
 _NOT_NEGATIVE = "first [assumption | lra | positive]"
-# The largest multiple of a base angle, the most terms of a denominator that is factored.
+# The largest multiple of a base angle; the largest number of terms of a denominator that is factored.
 _LARGEST_MULTIPLE, _MOST_FACTORED = 12, 60
 
 
@@ -51,7 +51,7 @@ class Sides:
         self,
         terms: Terms,
         expressions: Sequence[sp.Expr],
-        equations: Sequence[LetterEquation],
+        equations: Sequence[SymbolEquation],
         conditions: Sequence[Comparison],
         small: sp.Symbol | None = None,
     ) -> None:
@@ -96,7 +96,7 @@ class Sides:
     @property
     def substitution(self) -> str:
         """The tactic that substitutes the premises in the goal."""
-        return "".join(f"try subst {self.terms.names[letter]}. " for letter in self.eliminated)
+        return "".join(f"try subst {self.terms.names[symbol]}. " for symbol in self.eliminated)
 
     def _into_generators(self) -> str:
         """Return the tactics that write a goal in generators, the largest denominators and functions first.
@@ -106,11 +106,11 @@ class Sides:
         """
         steps = [(kind == "whole", *row) for kind, rows in self._rewritten.items() for row in rows]
         rows = sorted(steps, reverse=True)
-        letters = [name for _, _, name, letter in rows if letter]
-        early, all_names = ([name for _, _, name, letter in rows if not (letter and late)] for late in (False, True))
+        symbols = [name for _, _, name, symbol in rows if symbol]
+        early, all_names = ([name for _, _, name, symbol in rows if not (symbol and late)] for late in (False, True))
         lists = (", ".join(f"?{name}" for name in names) for names in (early, all_names))
         first, second = (f"rewrite {names}. " if names else "" for names in lists)
-        cleared = f"clear {' '.join(letters)}. " if letters else ""
+        cleared = f"clear {' '.join(symbols)}. " if symbols else ""
         unfolded = "".join(f"try unfold {name}. " for name in self._quotients)
         return first + (unfolded + cleared + self.substitution + second if self.eliminated or unfolded else "")
 
@@ -153,7 +153,7 @@ class Sides:
         if key not in self._generators:
             generator = sp.Dummy(text)
             self._generators[key] = generator
-            self.terms.names[generator] = f"({text})" if " " in text else text  # alone where it is raised to a power
+            self.terms.names[generator] = f"({text})" if " " in text else text  # in brackets for powers
         return self._generators[key]
 
     def _relate(self, kind: str, zero: sp.Expr, tactics: str) -> None:
@@ -257,9 +257,9 @@ class Sides:
         tactics = in_one(self._prove_value(base, node.base))
         if under.is_number:
             return self._generators[key], f"f_equal; {tactics}."
-        letter = self._generators[key]
-        proof = f"transitivity (sqrt ({write(base)})); [ f_equal; {tactics} | subst {write(letter)}; same ]."
-        return letter / under, proof
+        symbol = self._generators[key]
+        proof = f"transitivity (sqrt ({write(base)})); [ f_equal; {tactics} | subst {write(symbol)}; same ]."
+        return symbol / under, proof
 
     def _add_root(self, node: sp.Expr, base: sp.Expr) -> None:
         """Add the root of a radicand as a generator; for a quotient, a symbol for the root times the denominator."""
@@ -272,13 +272,13 @@ class Sides:
             self._relate("root", generator**2 - base, tactics + "lra.")
             return
         name = self._name("radical")
-        letter = self._generators["root", base] = sp.Dummy(name)
-        self.terms.names[letter] = name
+        symbol = self._generators["root", base] = sp.Dummy(name)
+        self.terms.names[symbol] = name
         root = f"sqrt ({write(base)})"
         self.steps.append(f"destruct (a_letter_for ({root} * ({write(under)}))) as [{name} {self._name('sum')}].")
         square = f"replace (({root} * ({write(under)})) ^ 2) with ({root} ^ 2 * ({write(under)}) ^ 2) by ring"
         conclusion = f"intro zero_2. subst {name}. {square}. replace ({root} ^ 2) with ({write(base)}) by lra. same."
-        self._relate("root", letter**2 - sp.expand(base * under**2), tactics + conclusion)
+        self._relate("root", symbol**2 - sp.expand(base * under**2), tactics + conclusion)
 
     def _absolute(self, node: sp.Expr) -> tuple[sp.Expr, str]:
         inner = sp.expand(self.value(node.args[0]))
@@ -333,7 +333,7 @@ class Sides:
         return value
 
     def _show_nonzero(self, factors: Iterable[sp.Symbol]) -> None:
-        polynomial_of = {letter: polynomial for polynomial, letter in self._factors.items()}
+        polynomial_of = {symbol: polynomial for polynomial, symbol in self._factors.items()}
         for factor in sorted(factors, key=self.terms.write):
             text = self.terms.write(factor)
             inner = ""
@@ -360,11 +360,11 @@ class Sides:
         """Return the symbol of a factor of a denominator."""
         if polynomial not in self._factors:
             name = self._name("factor")
-            letter = self._factors[polynomial] = sp.Dummy(name)
-            self.terms.names[letter] = name
+            symbol = self._factors[polynomial] = sp.Dummy(name)
+            self.terms.names[symbol] = name
             equation, text = self._name("sum"), self.terms.write(polynomial)
             self.steps.append(f"destruct (a_letter_for ({text})) as [{name} {equation}].")
-            self.relations.append(_Relation(equation, letter - polynomial, ""))
+            self.relations.append(_Relation(equation, symbol - polynomial, ""))
         return self._factors[polynomial]
 
     def _fraction(self, value: sp.Expr) -> Fraction:
@@ -376,10 +376,10 @@ class Sides:
         The last relations come first, since a root or factor contains earlier generators.
         """
         relations = (*self.relations, *self.ideal)
-        letters = set().union(*(v.free_symbols for v in values), *(r.zero.free_symbols for r in relations))
+        symbols = set().union(*(v.free_symbols for v in values), *(r.zero.free_symbols for r in relations))
         near = {cosine for cosine, _ in self.small_pairs(self.small).values()} if self.small else set()
         leading = [_leading(relation.zero, near) for relation in reversed(self.relations)]
-        others = sorted(letters - set(leading), key=lambda letter: (letter.name, str(letter)))
+        others = sorted(symbols - set(leading), key=lambda symbol: (symbol.name, str(symbol)))
         return [*dict.fromkeys(leading), *others]
 
     def _reduced(self, numerator: PolyElement) -> tuple[list[PolyElement], PolyElement]:
@@ -406,7 +406,7 @@ class Sides:
         write = self.terms.write
         total = " + ".join(f"({write(q.as_expr())}) * ({r.text})" for q, r in used) or "0"
         names = "".join(f"rewrite {r.name}; " for _, r in used)
-        factors = "".join(f"subst {self.terms.names[letter]}; " for letter in reversed(self._factors.values()))
+        factors = "".join(f"subst {self.terms.names[symbol]}; " for symbol in reversed(self._factors.values()))
         closed = f"first [{factors}same | field_simplify_eq; [ {factors}same | apart .. ]]"
         return f"apply (by_cofactors _ _ ({total}) ({write(difference.under)})); [ apart | {closed} | {names}ring ]."
 
@@ -424,15 +424,15 @@ class Sides:
         """Return generator → function, and factor of a denominator → its polynomial."""
         functions = {"cos": sp.cos, "sin": sp.sin, "exp": sp.exp, "abs": sp.Abs}
         meanings: dict[sp.Symbol, sp.Expr] = {}
-        for key, letter in self._generators.items():
+        for key, symbol in self._generators.items():
             if key is sp.pi:
-                meanings[letter] = sp.pi
+                meanings[symbol] = sp.pi
             elif key[0] == "root":
-                meanings[letter] = (sp.sqrt(key[1]) * _under(key[1])).xreplace(meanings)
+                meanings[symbol] = (sp.sqrt(key[1]) * _under(key[1])).xreplace(meanings)
             else:
                 inner = key[1].xreplace(meanings)
-                meanings[letter] = functions[key[0]](inner) if key[0] in functions else inner
-        return meanings | {letter: polynomial.xreplace(meanings) for polynomial, letter in self._factors.items()}
+                meanings[symbol] = functions[key[0]](inner) if key[0] in functions else inner
+        return meanings | {symbol: polynomial.xreplace(meanings) for polynomial, symbol in self._factors.items()}
 
     def small_pairs(self, small: sp.Symbol) -> dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]]:
         """Return base angle that vanishes with the small symbol → its cosine and sine."""
@@ -454,15 +454,15 @@ def _under(radicand: sp.Expr) -> sp.Expr:
 
 def _leading(zero: sp.Expr, near: set[sp.Symbol]) -> sp.Symbol:
     """Return the generator that a relation is solved for: the sine of a pair, or the cosine if the sine is small."""
-    for letter in sorted(zero.free_symbols, key=lambda x: (_rank(x) - (x in near) * 1.5, x.name)):
-        if sp.Poly(zero, letter).degree() == (1 if letter.name.startswith("factor_") else 2):
-            return letter
+    for symbol in sorted(zero.free_symbols, key=lambda x: (_rank(x) - (x in near) * 1.5, x.name)):
+        if sp.Poly(zero, symbol).degree() == (1 if symbol.name.startswith("factor_") else 2):
+            return symbol
     raise NotExactError(f"{zero} has no leading generator")
 
 
-def _rank(letter: sp.Symbol) -> int:
+def _rank(symbol: sp.Symbol) -> int:
     starts = ("factor_", "radical_", "sqrt", "Rabs", "sin ")
-    return next((i for i, start in enumerate(starts) if letter.name.startswith(start)), len(starts))
+    return next((i for i, start in enumerate(starts) if symbol.name.startswith(start)), len(starts))
 
 
 def _rates(argument: sp.Expr) -> dict[sp.Expr, sp.Rational]:

@@ -20,7 +20,7 @@ _TRIES, _DIGITS, _CLEAR = 200, 30, 1e-6
 
 
 def points_of(
-    letters: Sequence[sp.Symbol],
+    symbols: Sequence[sp.Symbol],
     eliminated: Mapping[sp.Symbol, sp.Expr],
     hold: Sequence[Comparison],
     limit: int = 1,
@@ -33,12 +33,12 @@ def points_of(
     """
     drawn, count = random.Random(1), 0
     for _ in range(_TRIES):
-        free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in letters if x not in eliminated}
+        free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in symbols if x not in eliminated}
         free |= {x: value for x, value in fixed.items() if x in free}
         free = {x: abs(v) if x.is_nonnegative else -abs(v) if x.is_nonpositive else v for x, v in free.items()}
         if zeros and not _solve(free, zeros, drawn):
             continue
-        values = {x: sp.sympify(value, strict=True) for x, value in eliminated.items() if x in letters}
+        values = {x: sp.sympify(value, strict=True) for x, value in eliminated.items() if x in symbols}
         point = free | {x: value.xreplace(free) for x, value in values.items()}
         if all(_holds(sign, value_at_point(e, point)) for sign, e in hold):
             yield point
@@ -51,27 +51,27 @@ def _solve(free: dict[sp.Symbol, sp.Expr], zeros: Sequence[sp.Expr], drawn: rand
     """Change symbols so that each equation holds at rational numbers; return True if all then do."""
     solved: list[tuple[sp.Symbol, sp.Expr]] = []
     for zero in zeros:
-        for letter, value in solved:
-            zero = zero.xreplace({letter: value})
+        for symbol, value in solved:
+            zero = zero.xreplace({symbol: value})
         over = sp.numer(sp.together(zero))
         linear = [x for x in over.free_symbols if over.is_polynomial(x) and sp.degree(over, x) == 1]
-        letters = sorted(linear or over.free_symbols, key=str)
-        if not letters:
+        symbols = sorted(linear or over.free_symbols, key=str)
+        if not symbols:
             return False
-        letter = drawn.choice(letters)
+        symbol = drawn.choice(symbols)
         if linear:
-            slope, constant = sp.Poly(over, letter).all_coeffs()
-            solved.append((letter, -constant / slope))
+            slope, constant = sp.Poly(over, symbol).all_coeffs()
+            solved.append((symbol, -constant / slope))
             continue
-        others = {x: free[x] for x in letters if x != letter}
-        if others:  # 3/5 and 4/5 are sides of a right triangle
+        others = {x: free[x] for x in symbols if x != symbol}
+        if others:  # cosines 3/5 and 5/13 have rational sines
             others[drawn.choice(list(others))] = drawn.choice((sp.Rational(3, 5), sp.Rational(5, 13), sp.S.One))
         over = sp.numer(sp.together(over.xreplace(others)))
-        if not over.is_polynomial(letter) or not (roots := sp.Poly(over, letter).ground_roots()):
+        if not over.is_polynomial(symbol) or not (roots := sp.Poly(over, symbol).ground_roots()):
             return False
-        solved += [(letter, drawn.choice(sorted(roots))), *others.items()]
-    for letter, value in reversed(solved):
-        free[letter] = value.xreplace(free)
+        solved += [(symbol, drawn.choice(sorted(roots))), *others.items()]
+    for symbol, value in reversed(solved):
+        free[symbol] = value.xreplace(free)
     return all(zero.xreplace(free) == 0 for zero in zeros)
 
 

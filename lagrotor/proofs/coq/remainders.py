@@ -39,7 +39,7 @@ def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -
     """
     over, under = sides.in_generators(difference)
     near = _Near(sides, small)
-    meaning, used = near.meaning, near.small_letters(over)
+    meaning, used = near.meaning, near.small_symbols(over)
     for function in (meaning.get(x, x) for x in over.free_symbols - {*near.put, *near.weights}):
         if small in function.free_symbols:
             raise NotExactError(f"{function} is a series in {small}")
@@ -47,9 +47,9 @@ def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -
         raise NotExactError(f"the difference is not finite where {small} is zero")
     polynomial = near.expanded(over, order)
     if len(used) <= 1 and all(near.weights[x] == 1 for x in used):
-        letter = next(iter(used), small)
-        power = meaning.get(letter, letter)
-        factor = (sp.expand(polynomial / letter**order) / under).xreplace(meaning)
+        symbol = next(iter(used), small)
+        power = meaning.get(symbol, symbol)
+        factor = (sp.expand(polynomial / symbol**order) / under).xreplace(meaning)
         return SeriesRemainder(power**order, factor, factor.xreplace({small: sp.S.Zero}))
     over_small = {x: sp.Dummy() for x in used if x is not small}
     scaled = polynomial.xreplace({x: y * small ** near.weights[x] for x, y in over_small.items()})
@@ -72,11 +72,11 @@ class _Near:
         self.rules: dict[sp.Symbol, sp.Expr] = {}
         at_zero: dict[sp.Symbol, sp.Expr] = {small: sp.S.Zero}
         for base, (cosine, sine) in sides.small_pairs(small).items():
-            letter = sp.Dummy("u")
+            symbol = sp.Dummy("u")
             self.weights[sine] = int(base.as_powers_dict()[small])
-            self.put[cosine] = 1 - sine**2 * letter
-            self.rules[letter] = sp.S.Half + sine**2 * letter**2 / 2
-            self.meaning[letter] = 1 / (1 + self.meaning[cosine])
+            self.put[cosine] = 1 - sine**2 * symbol
+            self.rules[symbol] = sp.S.Half + sine**2 * symbol**2 / 2
+            self.meaning[symbol] = 1 / (1 + self.meaning[cosine])
             at_zero |= {sine: sp.S.Zero, cosine: sp.S.One}
         earlier: list[tuple[sp.Symbol, sp.Expr]] = []
         for generator, square in sorted(sides.roots(), key=lambda row: str(row[0])):
@@ -90,20 +90,20 @@ class _Near:
         """Expand a root about an earlier root, or a number, whose square differs from its own by the highest order."""
         if not at_zero.is_Rational or at_zero == 0:
             raise NotExactError(f"{self.meaning[root]} has no rational value where {self.small} is zero")
-        letter, bases = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
+        symbol, bases = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
         gaps = [(y, sp.expand(square - base_square)) for y, base_square in bases]
         base, gap = max(gaps, key=lambda row: self.least(row[1]))
-        self.put[root] = base + gap * letter
-        self.meaning[letter] = 1 / (self.meaning[root] + self.meaning.get(base, base))
+        self.put[root] = base + gap * symbol
+        self.meaning[symbol] = 1 / (self.meaning[root] + self.meaning.get(base, base))
         if base is at_zero:
-            self.rules[letter] = 1 / (2 * at_zero) - gap * letter**2 / (2 * at_zero)
+            self.rules[symbol] = 1 / (2 * at_zero) - gap * symbol**2 / (2 * at_zero)
         earlier.append((root, square))
 
-    def small_letters(self, expression: sp.Expr) -> set[sp.Symbol]:
+    def small_symbols(self, expression: sp.Expr) -> set[sp.Symbol]:
         """Return the small symbols of an expression after substitution of its cosines and roots."""
-        letters = expression.free_symbols
-        inner = (self.small_letters(self.put[letter]) for letter in letters if letter in self.put)
-        return set(letters & set(self.weights)).union(*inner)
+        symbols = expression.free_symbols
+        inner = (self.small_symbols(self.put[symbol]) for symbol in symbols if symbol in self.put)
+        return set(symbols & set(self.weights)).union(*inner)
 
     def least(self, expression: sp.Expr) -> int:
         """Return the lowest order of a polynomial in the small symbols; a large number for zero."""
@@ -111,7 +111,7 @@ class _Near:
 
     def _order_of(self, term: sp.Expr) -> int:
         powers = term.as_powers_dict()
-        return sum(int(powers.get(letter, 0)) * weight for letter, weight in self.weights.items())
+        return sum(int(powers.get(symbol, 0)) * weight for symbol, weight in self.weights.items())
 
     def expanded(self, over: sp.Expr, order: int) -> sp.Expr:
         """Return the polynomial with every cosine and root substituted, and without terms below the order."""
@@ -128,8 +128,8 @@ class _Near:
 
     def _next(self, term: sp.Expr) -> sp.Expr:
         """Return a term of too low an order with one rule symbol expanded."""
-        letter = next((x for x in self.rules if x in term.free_symbols), None)
-        return term if letter is None else term / letter * self.rules[letter]
+        symbol = next((x for x in self.rules if x in term.free_symbols), None)
+        return term if symbol is None else term / symbol * self.rules[symbol]
 
 
 def _bounded(expression: sp.Expr) -> sp.Expr:

@@ -45,7 +45,7 @@ from lagrotor.renamed import accept_old_keywords
 Signs = tuple[int, ...]
 Kind = Literal["elliptic", "hyperbolic", "attracting", "parabolic", "undecided"]
 TOL = 1e-20
-_COARSE = 1e-12  # of the first Newton steps
+_COARSE = 1e-12  # tolerance of the first Newton steps
 _NEWTON = 12
 
 
@@ -79,10 +79,6 @@ class OrbitProblem:
         return arb_mat(rows)
 
 
-def trace(matrix: Matrix) -> Ball:
-    return sum((matrix[i, i] for i in range(matrix.nrows())), arb(0))
-
-
 def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) -> Matrix:
     """Return (A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end, m the order of A B."""
     A, B = diagonal(first), diagonal(last)
@@ -93,7 +89,7 @@ def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) ->
 def conservative_kind(matrix: Matrix, ones: int) -> tuple[Kind, Ball | None]:
     """Return the kind of a conservative orbit with `ones` multipliers equal to 1, and μ + 1/μ of the one other pair."""
     pairs = matrix.nrows() - ones
-    total = trace(matrix) - ones
+    total = sum((matrix[i, i] for i in range(matrix.nrows())), arb(0)) - ones
     if pairs not in (0, 2):
         return "undecided", None
     if not fits_pairs(matrix, total, ones):
@@ -121,7 +117,7 @@ def general_kind(matrix: Matrix) -> Kind:
     """Return 'attracting' if all multipliers but the one along the motion lie inside the unit circle, 'hyperbolic' if off it."""
     try:
         multipliers: list[Any] = matrix.eig()
-    except ValueError:  # not apart
+    except ValueError:  # not proved to be distinct
         return "undecided"
     others: Balls = [abs(z) for z in multipliers if not z.contains(1)]
     if len(others) != len(multipliers) - 1 or not all(s < 1 or s > 1 for s in others):
@@ -296,7 +292,7 @@ def refine_start(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where
         if last is not accuracy and (size < 1e-4 or size > 0.1 * last_size):
             last, size = accuracy, float("inf")
         last_size = size
-    raise NotProved(f"{where}: Newton's method finds no orbit near the start that is given")
+    raise NotProved(f"{where}: Newton's method finds no orbit near the given start")
 
 
 @accept_old_keywords
@@ -364,9 +360,9 @@ def periodic_orbit(
         field = field_of(system, values, q0, v0)
         n = len(field.states)
         if field.varying or field.stages or "t" in map(str, field.states):
-            raise InputError("periodic_orbit: values are numbers, and the time is not in the equations")
+            raise InputError("periodic_orbit: the values must be numbers; the equations have no explicit time")
         if field.constraints:
-            raise InputError("periodic_orbit: an orbit is not shown to keep constraints: take free coordinates")
+            raise InputError("periodic_orbit: an orbit is not proved to satisfy constraints: take free coordinates")
         first, last = reversals_of(system, field, reversals)
         problem = _problem_of(field, first, last, indices(field, fixed))
         start = [*field.start, length / problem.turns]
@@ -389,7 +385,7 @@ def indices(field: Field, fixed: Sequence[Any]) -> tuple[int, ...]:
     """Return the places of states given by symbol or name."""
     names = [str(s) for s in field.states]
     if missing := [str(s) for s in fixed if str(s) not in names]:
-        raise InputError(f"periodic_orbit: held = {', '.join(missing)}: the states are {', '.join(names)}")
+        raise InputError(f"periodic_orbit: fixed = {', '.join(missing)}: the states are {', '.join(names)}")
     return tuple(names.index(str(s)) for s in fixed)
 
 
@@ -401,7 +397,7 @@ def _problem_of(field: Field, first: Signs, last: Signs, fixed: tuple[int, ...])
     spare = len(free) + 1 - len(conditions)
     if spare < 0 or len(fixed) > spare or any(i not in free for i in fixed):
         raise InputError(
-            f"periodic_orbit: {len(free)} free states and the period for {len(conditions)} conditions: hold "
+            f"periodic_orbit: {len(free)} free states and the period for {len(conditions)} conditions: fix "
             f"{max(spare, 0)} states that the reversal leaves free"
         )
     chosen = [*fixed, *(i for i in free if i not in fixed)][:spare]
@@ -420,7 +416,7 @@ def reversals_of(system: Any, field: Field, reversals: Sequence[Sequence[int]]) 
     for row in rows:
         if not (isinstance(system, Equations) and reverses(system, row)):
             raise InputError(
-                f"periodic_orbit: time reversed under the signs {row} is not shown to be a motion of the system: the Lagrangian "
+                f"periodic_orbit: time reversed under the signs {row} is not proved to be a motion of the system: the Lagrangian "
                 "must be the same at q → S q, v → −S v"
             )
     return rows[0], rows[-1]

@@ -35,18 +35,14 @@ class ExpressionOnStep:
         slope = poly.derivative()
         return poly(at) + slope(s) * (s - at) + arb(0, self.series.remainder.abs_upper())
 
-    def sign(self, low: Ball, high: Ball) -> int:
-        """Return the sign between two places; 0 if the enclosure contains zero."""
-        value = self.over(low, high)
-        return 1 if value > 0 else -1 if value < 0 else 0
-
     def integral(self, low: Ball, high: Ball) -> Ball:
         whole = self.series.poly.integral()
         return whole(high) - whole(low) + (high - low) * arb(0, self.series.remainder.abs_upper())
 
     def signs(self, low: Ball, high: Ball, depth: int = _DEPTH) -> Iterator[tuple[Ball, Ball, int]]:
         """Bisect the step until each piece has a sign or the depth is used up, and yield the pieces in order."""
-        sign = self.sign(low, high)
+        value = self.over(low, high)
+        sign = 1 if value > 0 else -1 if value < 0 else 0
         if sign or not depth:
             yield low, high, sign
         else:
@@ -59,8 +55,8 @@ def expressions_on_step(motion: Motion, tape: Tape, step: LohnerStep, w: Balls) 
     """Return the outputs of a tape along one step, for all initial states."""
     box, n = step.node.box(w), step.n
     rows = scale_terms(taylor(motion, box, n), step.h, n)
-    rests, _ = bound_remainder(motion, rows, box, step.h, n)
-    moving = [TaylorModel(arb_poly(row), bound, n) for row, bound in zip(rows, rests, strict=True)]
+    bounds, _ = bound_remainder(motion, rows, box, step.h, n)
+    moving = [TaylorModel(arb_poly(row), bound, n) for row, bound in zip(rows, bounds, strict=True)]
     still = [TaylorModel(arb_poly([c]), arb(0), n) for c in (*box[motion.moving :], *motion.parameters)]
     return [ExpressionOnStep(series) for series in Evaluation(tape, [*moving, *still]).outputs]
 
@@ -135,20 +131,20 @@ def prepare(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[An
     plain = [e.rhs if isinstance(e, sp.Eq) and e.lhs.is_Symbol else e for e in expressions]
     for e in plain:
         if not isinstance(e, sp.Expr):
-            raise InputError(f"proved: {e!r} must be an expression of the states, a sympy expression")
+            raise InputError(f"proofs: {e!r} must be an expression of the states, a sympy expression")
     field = field_of(system, values, q0, v0)
     named = [e for e in expressions if isinstance(e, sp.Eq)]
-    letters, constants = ({str(s) for e in plain for s in e.atoms(kind)} for kind in (sp.Symbol, sp.NumberSymbol))
-    names = letters | constants | {str(s) for s in (*field.arguments, *(field.observables or ()))}
+    symbols, constants = ({str(s) for e in plain for s in e.atoms(kind)} for kind in (sp.Symbol, sp.NumberSymbol))
+    names = symbols | constants | {str(s) for s in (*field.arguments, *(field.observables or ()))}
     for name, e in ((str(e.lhs), e) for e in named):
         if not name.isidentifier() or name in names or hasattr(sp.functions, name):
             what = "must be a name of its own, of no state, parameter, constant or function"
-            raise InputError(f"proved: {e}: {name} {what}")
+            raise InputError(f"proofs: {e}: {name} {what}")
         if any(str(equation.lhs) == name and equation.rhs != e.rhs for equation in named):
-            raise InputError(f"proved: {name} has two meanings: give each expression a name of its own")
-    if both := letters & constants:
+            raise InputError(f"proofs: {name} has two meanings: give each expression a name of its own")
+    if both := symbols & constants:
         name = ", ".join(sorted(both))
-        raise InputError(f"proved: {name} is a state or parameter and a constant: take another symbol")
+        raise InputError(f"proofs: {name} is a state or parameter and a constant: take another symbol")
     return field, field.function(plain), Start(*field.start_set)
 
 
@@ -233,7 +229,7 @@ def crossing(
             clear = clear and not pending
             last_sign, since, pending = sign, step.node.t + step.h * high, False
         name, end_text = words(event)["of"], format_ball(end, 10)
-        raise NotProved(f"{where}: {name} keeps its sign, or is not shown to change it, up to t = {end_text}")
+        raise NotProved(f"{where}: {name} keeps its sign, or is not proved to change it, up to t = {end_text}")
 
 
 @accept_old_keywords
@@ -293,7 +289,7 @@ def no_crossing(
         for step, low, _, sign in _signs(problem, end, accuracy, steps):
             if not sign:
                 at = float((step.node.t + step.h * low).mid())
-                raise NotProved(f"{where}: {words(event)['of']} is not shown to stay off zero beyond t = {at:.10g}")
+                raise NotProved(f"{where}: {words(event)['of']} is not proved to be nonzero beyond t = {at:.10g}")
         claim = {"time": ball_data(end), "first": False}
         certificate = _certificate(problem, steps, accuracy.bits, "no crossing", words(event), claim)
         return Crossing(event, False, end, False, certificate)
@@ -360,8 +356,7 @@ def means(
     --------
     >>> from lagrotor.mechanics import System, coordinates
     >>> c = coordinates("x")
-    >>> oscillator = System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2)
-    >>> means(oscillator, q0=[1], v0=[0], spans=[(c.q[0] ** 2, 0, 3)], tol=1e-10).values[0]
+    >>> means(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), q0=[1], v0=[0], spans=[(c.q[0] ** 2, 0, 3)], tol=1e-10).values[0]
     [0.4767154 +/- 3.62e-8]
     """
     accuracy, where = accuracy_of(tol, "means"), "means"
@@ -384,7 +379,7 @@ def means(
                 if low < high:
                     totals[i] += step.h * integrands[i].integral(low, high)
         values_of = [total / (until - since) for total, (since, until) in zip(totals, ends, strict=True)]
-        claim = [  # sixteen times as wide: another program's bounds are others
+        claim = [  # 16 times the radius, since the checker's bounds differ
             words(e)
             | {
                 "since": ball_data(since),

@@ -53,16 +53,13 @@ class Enclosure(Shown):
     @property
     def q(self) -> tuple[Ball, ...]:
         """The coordinates, a ball each."""
-        return self.states[: self._half]
+        return self.states[: len(self.states) // 2]
 
     @property
     def v(self) -> tuple[Ball, ...]:
         """The velocities, a ball each."""
-        return self.states[self._half : 2 * self._half]
-
-    @property
-    def _half(self) -> int:
-        return len(self.states) // 2
+        n = len(self.states) // 2
+        return self.states[n : 2 * n]
 
     def value(self, expression: sp.Expr) -> Ball:
         """Enclose an expression of the states at the time t.
@@ -81,8 +78,7 @@ class Enclosure(Shown):
         --------
         >>> from lagrotor.mechanics import System, coordinates
         >>> c = coordinates("x")
-        >>> oscillator = System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2)
-        >>> enclose(oscillator, q0=[1], v0=[0], t=2).value(c.q[0] ** 2 + c.v[0] ** 2)
+        >>> enclose(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), q0=[1], v0=[0], t=2).value(c.q[0] ** 2 + c.v[0] ** 2)
         [1.00000000000000 +/- 3.75e-18]
         """
         with precision(self.bits):
@@ -170,8 +166,7 @@ def enclose(
     --------
     >>> from lagrotor.mechanics import System, coordinates
     >>> c = coordinates("x")
-    >>> oscillator = System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2)
-    >>> enclose(oscillator, q0=[(0.99, 1.01)], v0=[0], t=1, tol=1e-10).q[0]
+    >>> enclose(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), q0=[(0.99, 1.01)], v0=[0], t=1, tol=1e-10).q[0]
     [0.54 +/- 5.71e-3]
     """
     accuracy = accuracy_of(tol, "enclose")

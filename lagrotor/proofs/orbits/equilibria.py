@@ -114,7 +114,7 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
     if not isinstance(system, Equations):
         raise InputError(f"equilibrium: {system!r} must be a System")
     if system.multipliers or depends_on_time(system):
-        raise InputError("equilibrium: the system must have no constraints and no time: take free coordinates")
+        raise InputError("equilibrium: the system must have no constraints and no explicit time: take free coordinates")
     accuracy, system = accuracy_of(tol, "equilibrium"), with_rationals(system)
     n = len(system.c.q)
     with precision(accuracy.bits, accuracy.terms):

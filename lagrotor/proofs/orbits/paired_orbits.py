@@ -25,7 +25,7 @@ from lagrotor.proofs.taylor_step import Motion
 A, B = (1, -1, -1, -1, 1, 1), (-1, 1, -1, 1, -1, 1)
 FREE, CONDITIONS = (4, 5, 6), (0, 2, 4)
 TOL = 1e-20
-_ONES = 4  # of the energy and of the momentum about the joint line
+_ONES = 4  # multipliers equal to 1, by the energy and the momentum about the joint line
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -378,7 +378,7 @@ def test_no_letter_hides_a_word_of_the_terms_and_no_two_have_one_name() -> None:
     names = Terms(letters).names.values()
     assert len(set(names)) == len(letters) and not set(names) & set(FOREIGN)
     assert all(re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII) for name in names)
-    with pytest.raises(NotExactError, match="two letters are called g"):
+    with pytest.raises(NotExactError, match="two symbols are called g"):
         Terms([sp.Symbol("g") + sp.Symbol("g", positive=True)])
 
 
