@@ -173,10 +173,8 @@ class VerifiedSteps:
         self.flow = Flow(certificate["motion"])
         start, size = certificate["start"], self.flow.size
         self.middle, self.w = balls(start["middle"]), balls(start["spread"])
-        demand(
-            len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0,
-            "the start does not fit the motion",
-        )
+        fits = len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0
+        demand(fits, "the start does not fit the motion")
         demand(all(x.contains(0) for x in self.w), "the start's box does not contain its middle")
         m = [x.mid() for x in self.middle]
         s = column([x - y for x, y in zip(self.middle, m, strict=True)])

@@ -180,9 +180,8 @@ def check_means(certificate: Any) -> None:
             whole = arb_poly(f.terms).integral()
             totals[i] += h * (whole(high) - whole(low) + arb(0, ((high - low) * f.remainder).abs_upper()))
     for x, total, (since, until) in zip(claims, totals, spans, strict=True):
-        demand(
-            read_ball(x["mean"]).contains(total / (until - since)), "a claimed mean does not contain the enclosed one"
-        )
+        fits = read_ball(x["mean"]).contains(total / (until - since))
+        demand(fits, "a claimed mean does not contain the enclosed one")
 
 
 def check_equilibrium(certificate: Any) -> None:
@@ -192,9 +191,8 @@ def check_equilibrium(certificate: Any) -> None:
     rates = [flow.tape["operations"][place] for place in flow.tape["outputs"][:n]]
     demand(rates == [["argument", n + i] for i in range(n)], "the coordinates' rates are not the velocities")
     middle, box = [number(x) for x in certificate["middle"]], balls(certificate["box"])
-    demand(
-        len(middle) == len(box) == n and flow.size == flow.moving == 2 * n, "the equilibrium does not fit the motion"
-    )
+    fits = len(middle) == len(box) == n and flow.size == flow.moving == 2 * n
+    demand(fits, "the equilibrium does not fit the motion")
     demand(all(x.contains(0) for x in box), "the box does not contain its middle")
     A = matrix(certificate["A"])
     wide = [x + y for x, y in zip(middle, box, strict=True)]

@@ -155,9 +155,8 @@ class Words:
         if name in ("log", "asin", "atan"):
             square = self.keep("multiply", a, a)
             complement = self.keep("add" if name == "atan" else "subtract", unit, square)
-            return self.over(
-                by[0], a if name == "log" else complement if name == "atan" else self.keep("sqrt", complement)
-            )
+            root = self.keep("sqrt", complement) if name == "asin" else complement
+            return self.over(by[0], a if name == "log" else root)
         if name == "cos":
             return self.keep("subtract", self.keep("number", "0"), self.keep("multiply", self.keep("sin", a), by[0]))
         return self.keep("multiply", at if name == "exp" else self.keep("cos", a), by[0])
@@ -183,10 +182,8 @@ def _rational(node: ast.expr) -> Fraction | None:
     return None
 
 
-_CONSTANTS: dict[str, Any] = {
-    "pi": lambda w: w.keep("number", "pi"),
-    "E": lambda w: w.keep("exp", w.keep("number", "1")),
-}
+_ONE = ("number", "1")
+_CONSTANTS: dict[str, Any] = {"pi": lambda w: w.keep("number", "pi"), "E": lambda w: w.keep("exp", w.keep(*_ONE))}
 _FUNCTIONS: dict[str, Any] = {
     **{name: lambda w, x, name=name: w.keep(name, x) for name, count in OPERATIONS.items() if count == 1},
     "tan": lambda w, x: w.over(w.keep("sin", x), w.keep("cos", x)),

@@ -87,9 +87,8 @@ class Residues:
         self._signs = None if attempt is None else signs
         self._roots: dict[int, int] = {}  # of radicands, by the variable of the logarithm
         self._logarithms: dict[int, Terms] = {}  # of exponentials and of arguments of logarithms and roots
-        self._halves: dict[
-            int, tuple[Terms, Residue, int]
-        ] = {}  # of a product: one logarithm, the other factor, its power
+        # Of a product: the logarithm of one factor, the other factor, its power.
+        self._halves: dict[int, tuple[Terms, Residue, int]] = {}
         self._arguments: dict[int, Residue] = {}  # of logarithms, by variable
         self.domain: set[tuple[str, int]] = set()  # arguments that must be positive, or in [−1, 1]
 

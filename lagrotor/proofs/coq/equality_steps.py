@@ -80,9 +80,8 @@ class Sides:
         difference = self._fraction(self.value(lhs - rhs))
         zero, under = difference.numerator.as_expr(), difference.under
         name, text = self._name("ideal"), self.terms.write(zero)
-        tactics = (
-            f"apply (by_premise _ _ ({self.terms.write(under)}) _ premise_{place}). {self._into_generators()}same."
-        )
+        write, settled = self.terms.write, self._into_generators()
+        tactics = f"apply (by_premise _ _ ({write(under)}) _ premise_{place}). {settled}same."
         self._assert(name, f"{text} = 0", tactics)
         self.ideal.append(_Relation(name, zero, text))
 

@@ -18,6 +18,7 @@ from lagrotor.proofs.truncated_series import Evaluation, TaylorModel
 from lagrotor.renamed import accept_old_keywords
 
 Problem = tuple[Field, Tape, Start]
+Spans = Sequence[tuple[sp.Basic, Any, Any]]
 _DEPTH = 12  # halvings of a step
 
 
@@ -316,12 +317,7 @@ def _certificate(
 
 
 def means(
-    system: Any,
-    values: Values | None = None,
-    q0: Any = None,
-    v0: Any = None,
-    spans: Sequence[tuple[sp.Basic, Any, Any]] = (),
-    tol: float = TOL,
+    system: Any, values: Values | None = None, q0: Any = None, v0: Any = None, spans: Spans = (), tol: float = TOL
 ) -> Means:
     """Enclose time means (1/(t₂ − t₁)) ∫ e dt of expressions e of the states from t₁ to t₂.
 
