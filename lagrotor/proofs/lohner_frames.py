@@ -259,7 +259,6 @@ def step_length(rows: list[Balls], tol: float) -> float:
 
 
 def size_of(rows: Sequence[Balls]) -> float:
-    """Return the size of the state, at least 1."""
     return max(1.0, *(abs(float(row[0])) for row in rows))
 
 

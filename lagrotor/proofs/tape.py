@@ -60,7 +60,6 @@ class Recorder:
         self._known[symbol] = place
 
     def record(self, e: sp.Expr) -> int:
-        """Return the place of an expression's value."""
         place = self._known.get(e)
         if place is None:
             place = self._known[e] = self._new(e)

@@ -166,7 +166,6 @@ def check_no_crossing(certificate: Any) -> None:
 
 
 def check_means(certificate: Any) -> None:
-    """Verify the integrals of the expressions over the claimed spans, step by step."""
     carried, claims = VerifiedSteps(certificate), certificate["claim"]["means"]
     demand(len(claims) > 0, "no mean is claimed")
     spans = [(read_ball(x["since"]), read_ball(x["until"])) for x in claims]

@@ -87,7 +87,6 @@ def rational_of(text: str) -> Term:
 
 
 def slopes_of(a: list[Term]) -> list[Term]:
-    """Return the terms of the derivative."""
     return [k * x for k, x in enumerate(a)][1:]
 
 

@@ -65,7 +65,6 @@ class Terms:
         return name
 
     def write(self, node: Any) -> str:
-        """Return the term in Coq's scope of real numbers."""
         return self._within(node, 0)
 
     def alone(self, node: Any) -> str:

@@ -87,7 +87,13 @@ def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) ->
 
 
 def conservative_kind(matrix: Matrix, ones: int) -> tuple[Kind, Ball | None]:
-    """Return the kind of a conservative orbit with `ones` multipliers equal to 1, and μ + 1/μ of the one other pair."""
+    """Return the kind of a conservative orbit with `ones` multipliers equal to 1, and μ + 1/μ of the one other pair.
+
+    Examples
+    --------
+    >>> conservative_kind(arb_mat([[2, 0], [0, arb("0.5")]]), 0)
+    ('hyperbolic', 2.50000000000000)
+    """
     pairs = matrix.nrows() - ones
     total = sum((matrix[i, i] for i in range(matrix.nrows())), arb(0)) - ones
     if pairs not in (0, 2):

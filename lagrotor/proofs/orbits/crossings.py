@@ -150,7 +150,13 @@ def prepare(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[An
 
 
 def words(expression: sp.Basic) -> dict[str, str]:
-    """Return the text "of" an expression; for Eq(name, expression) the name, and the text that it "means"."""
+    """Return the text "of" an expression; for Eq(name, expression) the name, and the text that it "means".
+
+    Examples
+    --------
+    >>> words(0.5 * sp.Symbol("x"))
+    {'of': 'x/2'}
+    """
     exact = in_rationals(expression)
     if isinstance(exact, sp.Eq):
         return {"of": str(exact.lhs), "means": str(exact.rhs)}
