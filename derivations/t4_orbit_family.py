@@ -124,7 +124,7 @@ assert all(values[0] < 1 for values in curves.values())
 assert curves["massless, k = 1"][3] > curves["massless, k = 1"][2]
 Remark(
     "The family of orbits",
-    f"Ω/Ω_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}; estimated errors below {max(errors):.1e}. For k = 1 the "
+    f"Ω/Ω_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}; estimated errors at most {max(errors):.1e}. For k = 1 the "
     "frequency falls to a minimum and then rises; with a massless bar longer than √(3/2) R it rises from the start (s5_3b). "
     "The families continue to r_0 = 0.99 without a turning point (ends(), slow). They end at r_0 = 1, where the axes lie along "
     "the joint line.",
