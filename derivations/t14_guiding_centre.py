@@ -28,8 +28,8 @@ from lagrotor.theory.natural_frequency import natural_frequency
 # %% [markdown]
 # ## A charged particle
 #
-# Without the spins, the Lagrangian of t11 is exactly that of a particle in three dimensions with a mass matrix $M(q)$ and a vector
-# potential $g(q)$, the terms of $L$ linear in the velocities, without any other force:
+# With the spins eliminated, the Lagrangian of t11 is exactly that of a particle in three dimensions with a mass matrix $M(q)$ and
+# a vector potential $g(q)$, the coefficients of the velocities in $L$, without any other force:
 
 # %%
 (beta, h, alpha), v = LEANING.q, sp.Matrix(LEANING.v)
@@ -58,8 +58,8 @@ prove(f[0] * flux.diff(beta) + f[1] * flux.diff(h), 0, "along the field", names=
 # %% [markdown]
 # ## The swing about an equilibrium
 #
-# The pair at rest is in equilibrium at any position. A small velocity obeys $M\dot v=v\times f$. For any symmetric $M$ and any $f$
-# one root is zero, for a velocity along $f$, and the others are $\pm i\Omega$:
+# The pair at rest is in equilibrium at any position. A small velocity obeys $M\dot v=v\times f$. For any symmetric $M$ and any
+# $f$ one root is zero, for a velocity along $f$, and the others are $\pm i\Omega$:
 
 # %%
 m = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"m_{min(i, j)}{max(i, j)}"))

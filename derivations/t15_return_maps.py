@@ -179,8 +179,8 @@ for name, n in forms.items():
     assert np.abs(np.array(measured[name]) - (2, 4, 6)).max() < 0.1, measured
 Remark(
     "Normal forms about periodic orbits",
-    "The angle of a return of exact runs differs from the angle of the orbit, from this angle with the twist, and from the normal "
-    "form of sixth order. The differences are proportional to these powers of the size: "
+    "The angle of a return of exact runs differs from the angle of the orbit, from this angle with the twist, and from the "
+    "normal form of sixth order. The differences are proportional to these powers of the size: "
     + "; ".join(", ".join(f"{order:.2f}" for order in orders) + f" ({name})" for name, orders in measured.items())
     + ".",
 )
