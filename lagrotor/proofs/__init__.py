@@ -19,9 +19,9 @@ true.
 
 **Checker.** Each result has a `certificate`: plain data with subject, tape, initial set, steps and claim. `check` verifies
 it without any search, with its own series, bounds and derivatives. It shares the table of operations, the generated
-equations of scenes and structures, and the sentences of `statements`. It proves that the tape belongs to the subject (an
-identity modulo a 512-bit prime), that each set contains the image of the previous one, and that the claim follows. This
-second implementation is deliberate.
+equations of scenes and structures, and the sentences of `statements`. An identity modulo a 512-bit prime proves that the
+tape belongs to the subject. Each set must contain the image of the previous one, and the claim must follow. This second
+implementation is deliberate.
 
 **Coq certificates** are about printed equations. `coq/certificate` turns a verdict of `lagrotor.paper` into theorems over
 the reals. `coq/equality_steps` writes both sides in generators: cosines and sines of base angles, exponentials, roots.

@@ -1,9 +1,9 @@
 """Taylor models on 0 ≤ s ≤ 1: a polynomial of n terms and a remainder bound.
 
-A function is sum_{k<n} c_k s^k + e, where e has powers from n on, and the sum of the absolute values of its coefficients,
-the norm, is at most `remainder`. Since |f g| ≤ |f| |g|, each operation propagates the bound: the high terms of a product
-are summed; a quotient and a root are fixed points of contractions; exp, sin and cos solve their differential equations,
-where the integral of s^(n−1) brings the factor 1/n.
+A function is sum_{k<n} c_k s^k + e, where e has powers from n on. Its norm is the sum of the absolute values of its
+coefficients; the norm of e is at most `remainder`. Since |f g| ≤ |f| |g|, each operation propagates the bound. The high
+terms of a product are summed. A quotient and a root are fixed points of contractions. exp, sin and cos solve their
+differential equations, where the integral of s^(n−1) brings the factor 1/n.
 """
 
 from collections.abc import Sequence
@@ -66,7 +66,7 @@ class TaylorModel:
         q = _poly(self.series().inv())
         size = _norm(q)
         r = beyond(self.poly * q, self.n) + size * self.remainder
-        return TaylorModel(q, size * r / _left(1 - r), self.n)
+        return TaylorModel(q, size * r / _margin(1 - r), self.n)
 
     def sqrt(self) -> "TaylorModel":
         """Return q + s, s = (a − q² − s²)/(2 q): a contraction of |s| ≤ σ, σ = k (d + σ²)/2 and k σ < 1, k = |1/q|."""
@@ -75,7 +75,7 @@ class TaylorModel:
         q = _poly(self.series().sqrt())
         k = TaylorModel(q, ZERO, self.n).inverse().norm
         d = beyond(q * q, self.n) + self.remainder
-        return TaylorModel(q, k * d / (1 + _left(1 - k * k * d).sqrt()), self.n)
+        return TaylorModel(q, k * d / (1 + _margin(1 - k * k * d).sqrt()), self.n)
 
     def exp(self) -> "TaylorModel":
         """Return q + s, s' = a' s + (a' q − q'), times exp(e); the norm is at most exp(a_0 + |a − a_0|)."""
@@ -94,7 +94,7 @@ class TaylorModel:
         pair = [_poly(q) for q in self.series().sin_cos()]
         sizes = [_norm(q) for q in pair]
         s = max_of([beyond(slope * q, n - 1) for q in pair]) / n
-        s /= _left(1 - _norm(slope) / (n + 1))
+        s /= _margin(1 - _norm(slope) / (n + 1))
         rise, turn = self.remainder.cosh() - 1, self.remainder.sinh()
         sine, cosine = sizes[0] + s, sizes[1] + s
         sine_model = TaylorModel(pair[0], s + sine * rise + cosine * turn, n)
@@ -126,7 +126,7 @@ def _constant(a: TaylorModel, what: str) -> Ball:
     return value
 
 
-def _left(x: Ball) -> Ball:
+def _margin(x: Ball) -> Ball:
     """Return x, a contraction's margin. Raises RemainderError if it is not positive."""
     if not x > 0:
         raise RemainderError("the series does not converge over the step")

@@ -1,8 +1,8 @@
 """Proved periodic orbits: Newton's method approximates an orbit, and the Krawczyk test proves existence and local uniqueness.
 
-A reversal is a reflection of the states x ↦ A x, with signs ±1, under which the reversed motion is a motion. An orbit from
-the fixed set of A to the fixed set of a second reversal B closes after 2 m times that time, m the order of A B. Without a
-reversal the integration covers the whole orbit.
+A reversal is a reflection of the states x ↦ A x, with signs ±1, that maps time-reversed motions to motions. An orbit from
+the fixed set of A to that of a second reversal B takes a part 1/(2 m) of the period, m the order of A B. Without a reversal
+the integration covers the whole orbit.
 
 Floquet multipliers come from the enclosed monodromy matrix. Those of a conservative system come in pairs μ, 1/μ: a pair of
 ones for the energy, and one more for every further integral. If one other pair remains, its sum is the trace minus the
@@ -80,7 +80,7 @@ class OrbitProblem:
 
 
 def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) -> Matrix:
-    """Return (A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end, m the order of A B."""
+    """Return (A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end; m is the order of A B."""
     A, B = diagonal(first), diagonal(last)
     half = A * inverse(quarter) * B * quarter
     return half if first == last else half * half

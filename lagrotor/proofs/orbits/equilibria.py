@@ -1,8 +1,8 @@
 """Proved equilibria and their stability. Equilibria of a Routhian are the steady motions of the full system.
 
 An equilibrium is unstable if one eigenvalue of the linear motion has a positive real part, and asymptotically stable if all
-have negative ones (Lyapunov). For a conservative system it is stable if the energy is definite there (Lagrange, Dirichlet),
-and stable to first order if all eigenvalues are distinct and imaginary.
+have negative ones (Lyapunov). In a conservative system it is stable if the energy is definite there (Lagrange, Dirichlet).
+It is stable to first order if all eigenvalues are distinct and imaginary.
 """
 
 from collections.abc import Sequence

@@ -1,9 +1,9 @@
 """The proved paired precession of one amplitude.
 
-The spins are opposite. At Phi = 0 the axes are parallel in the x-z plane and cross it (chi = alpha = 0, U' = 0, U = artanh
-r_0). The motion is reversible under A = diag(1, −1, −1, −1, 1, 1) in (U, chi, alpha, rates), and for opposite spins also
-under B = diag(−1, 1, −1, 1, −1, 1). An orbit from the fixed set of A to the fixed set of B is a quarter of a period
-(lagrotor.models.orbits.floquet). Energy and the momentum about the joint line leave one pair of multipliers.
+The spins are opposite. At Phi = 0 the axes are parallel and cross the x-z plane: chi = alpha = 0, U' = 0, U = artanh r_0.
+The motion is reversible under A = diag(1, −1, −1, −1, 1, 1) in (U, chi, alpha, rates). For opposite spins it is also
+reversible under B = diag(−1, 1, −1, 1, −1, 1). An orbit from the fixed set of A to the fixed set of B is a quarter of a
+period (lagrotor.models.orbits.floquet). Energy and the momentum about the joint line leave one pair of multipliers.
 """
 
 from dataclasses import dataclass
