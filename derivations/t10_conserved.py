@@ -1,5 +1,5 @@
 # %% [markdown]
-# # What the pair conserves
+# # Conserved quantities of the pair
 #
 # **Objective.** Every conserved quantity by Noether's theorem, compared with the exact models; the completeness of the list.
 #

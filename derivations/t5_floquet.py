@@ -65,7 +65,8 @@ Formula(equations, "E")
 #
 # and $E_\eta=0$, in which $p$ and $q$, $A$ and $B$ are exchanged. The derivatives of $E$ are taken on the orbit; $j$ runs over
 # both axes and the multipliers. Since $p$ and $q$ are odd under $S$, the terms of rotor 2 are $x_2(\Phi)=x_1(\Phi+\pi)$,
-# $Y_2(\Phi)=-Y_1(\Phi+\pi)$, $z_2(\Phi)=-z_1(\Phi+\pi)$, the same for $\lambda_2$, and $\tau(\Phi+\pi)=-\tau(\Phi)$.
+# $Y_2(\Phi)=-Y_1(\Phi+\pi)$, $z_2(\Phi)=-z_1(\Phi+\pi)$, $\lambda_2(\Phi)=-\lambda_1(\Phi+\pi)$, and
+# $\tau(\Phi+\pi)=-\tau(\Phi)$.
 #
 # From $p=(1,0,0)$, $q=(0,1,0)$ and the orbit's first order, $x=r_0\cos\Phi$ and $Y_1=-Y_2=r_0\sin\Phi$, the coefficients of
 # $r_0$ are as follows. Each symbol is the first-order term of $p$ or of $q$, a dot is $d/d\Phi$, and $y$ stands for $Y$:

@@ -1,5 +1,5 @@
 # %% [markdown]
-# # How long the x direction stays stable after a shock
+# # Time of stability in x after a shock
 #
 # **Objective.** The initial rate of the mean of $x$ after a shock along $x$, by averaging; the times after which the mean of
 # $x$, and the $x$ of one axis, exceed a bound.
