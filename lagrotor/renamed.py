@@ -45,7 +45,10 @@ KEYWORDS: dict[str, dict[str, str]] = {
     "Pathway.spring": {"rest": "rest_length"},
     "bare": {"seen": "points"},
     "canvas": {"seen": "points"},
+    "crossing": {"before": "t_end"},
     "distance_over_one_turn": {"most": "greatest"},
+    "no_crossing": {"until": "t_end"},
+    "periodic_orbit": {"held": "fixed"},
     "periodic_series": {"rest": "equilibrium", "begins_at": "mode_power"},
 }
 
